@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/// Certified Hausdorff distances between triangle soups, after Tang, Lee, Kim, "Interactive Hausdorff Distance
+/// Computation for General Polygonal Models", ACM Trans. Graph. 28(3), 2009 ("the paper" below).
+///
+///     one-sided   h(A,B) = max over a in A of min over b in B of |a - b|
+///     symmetric   H(A,B) = max(h(A,B), h(B,A))
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "meshbound/bounds.h"
+#include "meshbound/bvh.h"
+
+namespace meshbound {
+
+/// Limits after which a computation ends with what it has proven so far.
+struct Budget {
+  double seconds = std::numeric_limits<double>::infinity();
+  std::uint64_t subdivisions = std::numeric_limits<std::uint64_t>::max();
+};
+
+struct DistanceOptions {
+  /// Wanted width of the interval, model units. Absent: 1e-6 of the bounding-box diagonal of the first model.
+  std::optional<double> error_bound;
+  /// When given, the upper bound is also refined until it is at most this wherever the truth allows it.
+  std::optional<double> tolerance;
+  Budget budget;
+  int threads = 0;                                ///< 0: as many as OpenMP has. Results are the same for every value.
+  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
+  std::function<void(double fraction)> progress;  ///< called from the calling thread, a few times a second at most
+};
+
+/// How a computation ended.
+enum class Outcome {
+  Converged,         ///< upper - lower <= error bound (and the tolerance, if any, is decided)
+  ExceedsTolerance,  ///< decision mode: a point further than the tolerance was found and the search ended there
+  BudgetExhausted,   ///< a budget ran out or it was cancelled; the bounds hold but are wider than wanted
+  PrecisionReached   ///< doubles cannot narrow the interval further; the bounds hold
+};
+
+/// What the search did. Percentages as in Table 2 of the paper.
+struct DistanceStats {
+  std::uint64_t triangles = 0;           ///< of the model that is searched ("A" of the one-sided distance)
+  std::uint64_t matched = 0;             ///< dropped because the other model has the identical triangle
+  std::uint64_t culled_by_node = 0;      ///< dropped with a whole tree node (paper, Alg. 1)
+  std::uint64_t culled_by_vertices = 0;  ///< dropped by the closest triangles of their vertices (paper, 4.4)
+  std::uint64_t walked = 0;              ///< needed the walk over the cells of the other model
+  std::uint64_t closest_point_queries = 0;
+  std::uint64_t nodes_visited = 0;     ///< tree nodes opened by those queries
+  std::uint64_t triangles_tested = 0;  ///< point-triangle distances evaluated by those queries
+  std::uint64_t subdivisions = 0;      ///< cuts of a piece into two
+  std::uint32_t deepest_subdivision = 0;
+  double culled_on_a_percent = 0;  ///< triangles of A never subdivided
+  double culled_on_b_percent = 0;  ///< mean share of B's triangles that a query did not touch
+  double seconds = 0;
+};
+
+struct OneSidedDistance {
+  Bounds bounds;
+  Witness witness;  ///< realises `bounds.lower` up to rounding
+  Outcome outcome = Outcome::Converged;
+  DistanceStats stats;
+};
+
+struct SymmetricDistance {
+  Bounds bounds;  ///< the maximum of both directions
+  OneSidedDistance a_to_b;
+  OneSidedDistance b_to_a;
+};
+
+struct ToleranceCheck {
+  Verdict verdict = Verdict::Undecided;
+  double tolerance = 0;
+  Bounds bounds;
+  OneSidedDistance a_to_b;
+  OneSidedDistance b_to_a;  ///< not searched (bounds [0, inf]) when a_to_b already exceeds
+};
+
+/// Throws `InvalidInput` for an error bound or tolerance that is negative or not a number, and for a pose that is not a
+/// rigid motion.
+[[nodiscard]] OneSidedDistance one_sided_distance(const PlacedModel& a, const PlacedModel& b,
+                                                  const DistanceOptions& options = {});
+[[nodiscard]] SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
+                                                   const DistanceOptions& options = {});
+
+/// Decides H(A,B) <= tolerance: stops at the first point known to be further, refines nothing below it.
+[[nodiscard]] ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                                             const DistanceOptions& options = {});
+[[nodiscard]] ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                                             const DistanceOptions& options = {});
+
+}  // namespace meshbound

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <filesystem>
+
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound {
+
+enum class FileFormat { Off, Obj, Ply, Stl };
+
+/// From the extension of `path`, upper or lower case. Throws `InvalidInput` when it is none of ours.
+[[nodiscard]] FileFormat format_of(const std::filesystem::path& path);
+
+/// A mesh as read, and what the reader had to do to make triangles of it.
+struct MeshFile {
+  TriangleMesh mesh;
+  std::size_t triangulated_polygons = 0;  ///< faces of more than three corners, split into triangles
+  std::size_t decoded_strips = 0;         ///< triangle strips (PLY `tristrips`)
+  std::size_t ignored_elements = 0;       ///< faces of fewer than three corners, lines and points
+};
+
+/// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double) or STL (ascii, binary; corners welded by
+/// exact coordinates). Polygons are split into fans from their first corner. Degenerate and duplicate triangles are
+/// kept. Throws `IoError` when the file cannot be read, `InvalidInput` with path, line or byte offset and defect when
+/// it is malformed, holds no faces, a non-finite used coordinate or an index out of range. O(size), one pass, never
+/// allocates more than the file can justify.
+[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path);
+
+struct WriteOptions {
+  bool ascii = false;             ///< PLY and STL: text instead of binary
+  bool single_precision = false;  ///< PLY: float coordinates (STL is always float, OFF and OBJ always 17 digits)
+};
+
+/// The mesh that `read_mesh` gives back after `write_mesh`, up to the order of vertices in STL: coordinates rounded to
+/// the precision of the file format. Throws `InvalidInput` when a coordinate leaves the range of float.
+[[nodiscard]] TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& mesh,
+                                       const WriteOptions& options = {});
+
+/// Writes to a temporary name in the same folder, then renames: `path` either keeps what it had or holds the whole
+/// mesh. Throws `IoError` (also when the disk is full), `InvalidInput` for an unknown extension.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
+
+}  // namespace meshbound

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound {
+
+/// A triangle soup in somebody else's memory: positions as float or double at any stride, indices of 16 or 32 bits.
+/// Copies nothing and owns nothing; the buffers must outlive the view. Cheap to copy, safe to read from many threads.
+class MeshView {
+ public:
+  MeshView(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor): a mesh is a view of itself
+
+  /// `stride` is the distance in bytes from one vertex to the next; `indices` holds three per triangle, tightly packed.
+  MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
+           std::size_t triangle_count);
+  MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
+           std::size_t triangle_count);
+  MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
+           std::size_t triangle_count);
+  MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
+           std::size_t triangle_count);
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+  [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
+  [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;
+  [[nodiscard]] Triangle triangle(std::size_t i) const;
+
+ private:
+  const std::byte* positions_ = nullptr;
+  const std::byte* indices_ = nullptr;
+  std::size_t vertex_count_ = 0;
+  std::size_t triangle_count_ = 0;
+  std::size_t stride_ = 0;
+  bool single_precision_ = false;
+  bool short_indices_ = false;
+};
+
+/// Copies a view into a mesh of its own.
+[[nodiscard]] TriangleMesh to_triangle_mesh(const MeshView& view);
+
+/// The largest magnitude a coordinate may have, in model units: 2^1000. Differences and sums of such coordinates
+/// cannot overflow, nor can any length computed after the power-of-two scaling of `Frame`.
+inline constexpr double largest_coordinate = 0x1p1000;
+
+/// Throws `InvalidInput` unless every vertex that a triangle uses is finite and at most `largest_coordinate` in
+/// magnitude, every index is in range, and there is at least one triangle. O(n).
+void validate(const MeshView& view);
+
+}  // namespace meshbound

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "meshbound/bounds.h"
+#include "meshbound/bvh.h"
+
+namespace meshbound {
+
+/// Decides for single triangles whether their whole surface lies within a tolerance of a fixed mesh: the backward half
+/// of the simplifier's check, and what a tool needs to test one edited face. Keeps scratch memory, so use one per
+/// thread; the tree itself may be shared. `bvh` must outlive this.
+class Proximity {
+ public:
+  explicit Proximity(const Bvh& bvh);
+  Proximity(Proximity&&) noexcept;
+  Proximity& operator=(Proximity&&) noexcept;
+  ~Proximity();
+
+  /// `Within` proves that every point of the triangle is at most `tolerance` from the mesh, `Exceeds` that one is
+  /// further (rounding included both ways). `Undecided` after `max_subdivisions` cuts or where doubles cannot tell.
+  /// `hint` is a triangle of the mesh to try first and returns the one that served last; any value below the number of
+  /// triangles is right, a good one is faster.
+  [[nodiscard]] Verdict triangle_within(const std::array<Eigen::Vector3d, 3>& triangle, double tolerance,
+                                        std::uint32_t& hint, std::uint64_t max_subdivisions = 10000);
+
+  /// Upper bound of the distance from `point` to the mesh, `hint` as above.
+  [[nodiscard]] double upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meshbound

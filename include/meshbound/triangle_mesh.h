@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meshbound {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// An indexed triangle soup. Nothing is assumed of it: it may be open, non-manifold, self-intersecting, of many
+/// components, with degenerate or duplicate triangles and with vertices that no triangle uses.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;  ///< model units
+  std::vector<Triangle> triangles;        ///< indices into `vertices`
+};
+
+}  // namespace meshbound

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/mesh_view.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "meshbound/error.h"
+
+namespace meshbound {
+namespace {
+
+template <class T>
+T load(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return value;
+}
+
+bool usable(const Eigen::Vector3d& p) {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()) &&
+         p.cwiseAbs().maxCoeff() <= largest_coordinate;
+}
+
+}  // namespace
+
+MeshView::MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
+                   std::size_t triangle_count)
+    : positions_(reinterpret_cast<const std::byte*>(positions)),
+      indices_(reinterpret_cast<const std::byte*>(indices)),
+      vertex_count_(vertex_count),
+      triangle_count_(triangle_count),
+      stride_(stride) {}
+
+MeshView::MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
+                   std::size_t triangle_count)
+    : MeshView(positions, vertex_count, stride, static_cast<const std::uint32_t*>(nullptr), triangle_count) {
+  indices_ = reinterpret_cast<const std::byte*>(indices);
+  short_indices_ = true;
+}
+
+MeshView::MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
+                   std::size_t triangle_count)
+    : MeshView(static_cast<const double*>(nullptr), vertex_count, stride, indices, triangle_count) {
+  positions_ = reinterpret_cast<const std::byte*>(positions);
+  single_precision_ = true;
+}
+
+MeshView::MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
+                   std::size_t triangle_count)
+    : MeshView(positions, vertex_count, stride, static_cast<const std::uint32_t*>(nullptr), triangle_count) {
+  indices_ = reinterpret_cast<const std::byte*>(indices);
+  short_indices_ = true;
+}
+
+MeshView::MeshView(const TriangleMesh& mesh)
+    : MeshView(reinterpret_cast<const double*>(mesh.vertices.data()), mesh.vertices.size(), sizeof(Eigen::Vector3d),
+               reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), mesh.triangles.size()) {}
+
+Eigen::Vector3d MeshView::vertex(std::size_t i) const {
+  const std::byte* at = positions_ + i * stride_;
+  if (!single_precision_) return load<Eigen::Vector3d>(at);
+  return {load<float>(at), load<float>(at + sizeof(float)), load<float>(at + 2 * sizeof(float))};
+}
+
+Triangle MeshView::triangle(std::size_t i) const {
+  if (!short_indices_) return load<Triangle>(indices_ + i * sizeof(Triangle));
+  const auto corners = load<std::array<std::uint16_t, 3>>(indices_ + i * 3 * sizeof(std::uint16_t));
+  return {corners[0], corners[1], corners[2]};
+}
+
+TriangleMesh to_triangle_mesh(const MeshView& view) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(view.vertex_count());
+  mesh.triangles.resize(view.triangle_count());
+  for (std::size_t i = 0; i < view.vertex_count(); ++i) mesh.vertices[i] = view.vertex(i);
+  for (std::size_t i = 0; i < view.triangle_count(); ++i) mesh.triangles[i] = view.triangle(i);
+  return mesh;
+}
+
+void validate(const MeshView& view) {
+  if (view.triangle_count() == 0) throw InvalidInput("the mesh has no triangles: nothing to measure");
+  for (std::size_t i = 0; i < view.triangle_count(); ++i) {
+    for (const std::uint32_t v : view.triangle(i)) {
+      if (v >= view.vertex_count())
+        throw InvalidInput("triangle " + std::to_string(i) + " refers to vertex " + std::to_string(v) +
+                           ", but there are only " + std::to_string(view.vertex_count()));
+      if (!usable(view.vertex(v)))
+        throw InvalidInput("vertex " + std::to_string(v) + " of triangle " + std::to_string(i) +
+                           " has a coordinate that is not finite or is beyond 2^1000; repair or rescale the mesh");
+    }
+  }
+}
+
+}  // namespace meshbound
