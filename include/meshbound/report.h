@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/// The JSON documents of the tools, one function per schema. The schemas are published in tools/schema/; keys are
+/// added, never renamed. Lengths are in model units. Doubles are written so that reading them back gives the same
+/// double; a value that is not finite is written as null (an upper bound nobody has proven yet, a percentage of a
+/// diagonal that is 0). Functions are pure and safe to call from any thread.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshbound/bounds.h"
+#include "meshbound/distance.h"
+#include "meshbound/mesh_summary.h"
+
+namespace meshbound {
+
+/// A mesh file that a report speaks of.
+struct MeshReport {
+  std::string path;
+  MeshSummary summary;
+};
+
+/// What `hausdorff_distance` says: schema "meshbound/distance/1".
+struct DistanceReport {
+  std::string verdict;                ///< "done" (measured as wanted), "within", "exceeds" or "undecided"
+  std::optional<double> error_bound;  ///< wanted width of the interval; absent when only a decision was asked for
+  std::optional<double> tolerance;    ///< of the decision, if one was asked for
+  MeshReport a;
+  MeshReport b;
+  Bounds bounds;
+  OneSidedDistance a_to_b;
+  std::optional<OneSidedDistance> b_to_a;        ///< absent when only one side was asked for
+  std::optional<double> transform_displacement;  ///< rounding of the transformed vertices of B, within the bounds
+  struct Seconds {
+    double read = 0, build = 0, query = 0, total = 0;
+  } seconds;
+  int threads = 1;
+};
+
+/// One level of detail that was written.
+struct LevelReport {
+  double tolerance = 0;
+  std::string path;
+  std::size_t faces = 0;
+  SymmetricDistance distance;  ///< a: the original, b: the level as written
+};
+
+/// What `simplify_with_bound` says: schema "meshbound/simplify/1".
+struct SimplifyReport {
+  Verdict verdict = Verdict::Undecided;
+  double tolerance = 0;
+  MeshReport original;
+  MeshReport simplified;       ///< as written
+  SymmetricDistance distance;  ///< a: the original, b: the simplified mesh as written
+  std::vector<LevelReport> levels;
+  struct Collapses {
+    std::uint64_t performed = 0, refused = 0;
+  } collapses;
+  struct Seconds {
+    double read = 0, simplify = 0, certify = 0, write = 0, total = 0;
+  } seconds;
+  int threads = 1;
+};
+
+/// "within", "exceeds" or "undecided".
+[[nodiscard]] std::string to_string(Verdict verdict);
+
+/// "converged", "exceeds_tolerance", "budget_exhausted" or "precision_reached".
+[[nodiscard]] std::string to_string(Outcome outcome);
+
+/// One JSON document, indented, with a newline at its end. Bytes of a path that are not UTF-8 become U+FFFD.
+[[nodiscard]] std::string to_json(const DistanceReport& report);
+[[nodiscard]] std::string to_json(const SimplifyReport& report);
+
+}  // namespace meshbound

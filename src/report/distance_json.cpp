@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/report.h"
+#include "report/json_parts.h"
+
+namespace meshbound {
+
+std::string to_json(const DistanceReport& from) {
+  using namespace report;
+  const double diagonal = from.a.summary.bbox_diagonal;
+  std::vector<const OneSidedDistance*> directions = {&from.a_to_b};
+  if (from.b_to_a) directions.push_back(&*from.b_to_a);
+
+  Json json = {{"schema", "meshbound/distance/1"}, {"verdict", from.verdict}};
+  json["error_bound"] = from.error_bound ? number(*from.error_bound) : Json(nullptr);
+  if (from.tolerance) json["tolerance"] = length(*from.tolerance, diagonal);
+  json["a"] = mesh(from.a);
+  json["b"] = mesh(from.b);
+  if (from.transform_displacement) json["b"]["transform_displacement"] = number(*from.transform_displacement);
+  json["distance"] = bounds(from.bounds);
+  json["distance"]["a_to_b"] = one_sided(from.a_to_b);
+  if (from.b_to_a) json["distance"]["b_to_a"] = one_sided(*from.b_to_a);
+  json["stats"] = stats(directions);
+  json["seconds"] = {{"read", number(from.seconds.read)},
+                     {"build", number(from.seconds.build)},
+                     {"query", number(from.seconds.query)},
+                     {"total", number(from.seconds.total)}};
+  json["threads"] = from.threads;
+  return text(json);
+}
+
+}  // namespace meshbound

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "report/json_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshbound::report {
+namespace {
+
+Json point(const Eigen::Vector3d& p) { return Json::array({number(p.x()), number(p.y()), number(p.z())}); }
+
+/// A search that ran has looked at a triangle; an untouched result still has the interval [0, inf].
+bool was_searched(const OneSidedDistance& distance) {
+  return std::isfinite(distance.bounds.upper) || distance.bounds.lower > 0 || distance.stats.closest_point_queries > 0;
+}
+
+}  // namespace
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json length(double absolute, double diagonal) {
+  return {{"absolute", number(absolute)}, {"percent_of_diagonal", number(absolute / diagonal * 100)}};
+}
+
+Json mesh(const MeshReport& mesh) {
+  return {{"path", mesh.path},
+          {"vertices", mesh.summary.vertices},
+          {"faces", mesh.summary.faces},
+          {"components", mesh.summary.components},
+          {"closed", mesh.summary.closed},
+          {"bbox_diagonal", number(mesh.summary.bbox_diagonal)}};
+}
+
+Json bounds(const Bounds& bounds) { return {{"lower", number(bounds.lower)}, {"upper", number(bounds.upper)}}; }
+
+Json witness(const Witness& witness) {
+  return {{"from", point(witness.from.position)},
+          {"to", point(witness.nearest.position)},
+          {"from_triangle", witness.from.triangle},
+          {"to_triangle", witness.nearest.triangle},
+          {"distance", number(witness.distance)}};
+}
+
+Json one_sided(const OneSidedDistance& distance) {
+  Json json = bounds(distance.bounds);
+  if (!was_searched(distance)) return json;
+  json["outcome"] = to_string(distance.outcome);
+  json["witness"] = witness(distance.witness);
+  return json;
+}
+
+Json stats(const std::vector<const OneSidedDistance*>& directions) {
+  DistanceStats sum;
+  double culled_triangles = 0;
+  double culled_queries = 0;
+  for (const OneSidedDistance* direction : directions) {
+    const DistanceStats& one = direction->stats;
+    sum.triangles += one.triangles;
+    sum.matched += one.matched;
+    sum.culled_by_node += one.culled_by_node;
+    sum.culled_by_vertices += one.culled_by_vertices;
+    sum.walked += one.walked;
+    sum.closest_point_queries += one.closest_point_queries;
+    sum.nodes_visited += one.nodes_visited;
+    sum.triangles_tested += one.triangles_tested;
+    sum.subdivisions += one.subdivisions;
+    sum.deepest_subdivision = std::max(sum.deepest_subdivision, one.deepest_subdivision);
+    culled_triangles += one.culled_on_a_percent * static_cast<double>(one.triangles);
+    culled_queries += one.culled_on_b_percent * static_cast<double>(one.closest_point_queries);
+  }
+  const auto mean = [](double weighted, std::uint64_t weight) {
+    return weight == 0 ? 0.0 : weighted / static_cast<double>(weight);
+  };
+  return {{"culled_on_a_percent", number(mean(culled_triangles, sum.triangles))},
+          {"culled_on_b_percent", number(mean(culled_queries, sum.closest_point_queries))},
+          {"closest_point_queries", sum.closest_point_queries},
+          {"subdivisions", sum.subdivisions},
+          {"triangles", sum.triangles},
+          {"matched", sum.matched},
+          {"culled_by_node", sum.culled_by_node},
+          {"culled_by_vertices", sum.culled_by_vertices},
+          {"walked", sum.walked},
+          {"nodes_visited", sum.nodes_visited},
+          {"triangles_tested", sum.triangles_tested},
+          {"deepest_subdivision", sum.deepest_subdivision}};
+}
+
+std::string text(const Json& document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+}  // namespace meshbound::report
+
+namespace meshbound {
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Within:
+      return "within";
+    case Verdict::Exceeds:
+      return "exceeds";
+    case Verdict::Undecided:
+      break;
+  }
+  return "undecided";
+}
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::Converged:
+      return "converged";
+    case Outcome::ExceedsTolerance:
+      return "exceeds_tolerance";
+    case Outcome::BudgetExhausted:
+      return "budget_exhausted";
+    case Outcome::PrecisionReached:
+      break;
+  }
+  return "precision_reached";
+}
+
+}  // namespace meshbound

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/// The objects that several reports have in common.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "meshbound/report.h"
+
+namespace meshbound::report {
+
+using Json = nlohmann::ordered_json;
+
+/// A JSON number, or null when `value` is infinite or not a number.
+[[nodiscard]] Json number(double value);
+
+/// {"absolute":..,"percent_of_diagonal":..}
+[[nodiscard]] Json length(double absolute, double diagonal);
+
+/// {"path":..,"vertices":..,"faces":..,"components":..,"closed":..,"bbox_diagonal":..}
+[[nodiscard]] Json mesh(const MeshReport& mesh);
+
+/// {"lower":..,"upper":..}
+[[nodiscard]] Json bounds(const Bounds& bounds);
+
+/// {"from":[x,y,z],"to":[x,y,z],"from_triangle":..,"to_triangle":..,"distance":..}
+[[nodiscard]] Json witness(const Witness& witness);
+
+/// Bounds, outcome and witness of one direction; no witness where nothing was searched.
+[[nodiscard]] Json one_sided(const OneSidedDistance& distance);
+
+/// Statistics over the directions that were searched: sums, and means weighted by what they count.
+[[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);
+
+/// The document as text, see `to_json`.
+[[nodiscard]] std::string text(const Json& document);
+
+}  // namespace meshbound::report

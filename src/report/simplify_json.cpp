@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/report.h"
+#include "report/json_parts.h"
+
+namespace meshbound {
+namespace {
+
+report::Json symmetric(const SymmetricDistance& distance) {
+  report::Json json = report::bounds(distance.bounds);
+  json["original_to_simplified"] = report::one_sided(distance.a_to_b);
+  json["simplified_to_original"] = report::one_sided(distance.b_to_a);
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const SimplifyReport& from) {
+  using namespace report;
+  Json json = {{"schema", "meshbound/simplify/1"}, {"verdict", to_string(from.verdict)}};
+  json["tolerance"] = length(from.tolerance, from.original.summary.bbox_diagonal);
+  json["original"] = mesh(from.original);
+  json["simplified"] = mesh(from.simplified);
+  json["distance"] = symmetric(from.distance);
+  json["levels"] = Json::array();
+  for (const LevelReport& level : from.levels) {
+    json["levels"].push_back({{"tolerance", number(level.tolerance)},
+                              {"path", level.path},
+                              {"faces", level.faces},
+                              {"distance", symmetric(level.distance)}});
+  }
+  json["collapses"] = {{"performed", from.collapses.performed}, {"refused", from.collapses.refused}};
+  json["stats"] = stats({&from.distance.a_to_b, &from.distance.b_to_a});
+  json["seconds"] = {{"read", number(from.seconds.read)},
+                     {"simplify", number(from.seconds.simplify)},
+                     {"certify", number(from.seconds.certify)},
+                     {"write", number(from.seconds.write)},
+                     {"total", number(from.seconds.total)}};
+  json["threads"] = from.threads;
+  return text(json);
+}
+
+}  // namespace meshbound
