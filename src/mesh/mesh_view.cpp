@@ -59,7 +59,8 @@ MeshView::MeshView(const TriangleMesh& mesh)
 
 Eigen::Vector3d MeshView::vertex(std::size_t i) const {
   const std::byte* at = positions_ + i * stride_;
-  if (!single_precision_) return load<Eigen::Vector3d>(at);
+  if (!single_precision_)
+    return {load<double>(at), load<double>(at + sizeof(double)), load<double>(at + 2 * sizeof(double))};
   return {load<float>(at), load<float>(at + sizeof(float)), load<float>(at + 2 * sizeof(float))};
 }
 

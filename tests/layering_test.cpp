@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// The rules of the source tree, read from the sources: each folder of src includes only itself and earlier ones, CGAL
+// and Boost stay in the GPL part, every file names its licence and none grows past a readable length.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders of src in dependency order. `cgal` is what is compiled against CGAL and may use everything before it.
+constexpr std::array<std::string_view, 8> layers = {"numeric",  "geometry", "mesh",   "bvh",
+                                                    "distance", "simplify", "report", "cgal"};
+constexpr std::size_t longest_file = 600;
+
+struct SourceFile {
+  std::string path;  ///< relative to the source root, with forward slashes
+  std::vector<std::string> lines;
+};
+
+bool starts_with(std::string_view text, std::string_view prefix) { return text.substr(0, prefix.size()) == prefix; }
+
+SourceFile load(const fs::path& root, const fs::path& path) {
+  SourceFile file{fs::relative(path, root).generic_string(), {}};
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) file.lines.push_back(line);
+  return file;
+}
+
+bool is_source(const fs::path& path) {
+  static const std::set<std::string> extensions = {".h", ".cpp", ".cmake", ".in", ".sh", ".js", ".py"};
+  return extensions.contains(path.extension().string()) || path.filename() == "CMakeLists.txt" ||
+         (path.extension().empty() && path.filename() != "LICENSE");
+}
+
+std::vector<SourceFile> sources(const fs::path& root) {
+  std::vector<SourceFile> files;
+  for (const char* folder : {"include", "src", "tools", "tests", "datasets", "cmake", "examples"}) {
+    if (!fs::is_directory(root / folder)) continue;
+    for (auto it = fs::recursive_directory_iterator(root / folder); it != fs::recursive_directory_iterator(); ++it) {
+      const std::string name = it->path().filename().string();
+      if (it->is_directory() && (name == "cache" || name == "corpus")) it.disable_recursion_pending();
+      if (it->is_regular_file() && is_source(it->path())) files.push_back(load(root, it->path()));
+    }
+  }
+  if (fs::exists(root / "CMakeLists.txt")) files.push_back(load(root, root / "CMakeLists.txt"));
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  return files;
+}
+
+/// What stands between the quotes or brackets of an #include, with its opening character; empty for other lines.
+std::string included(const std::string& line) {
+  const std::size_t start = line.find_first_not_of(' ');
+  if (start == std::string::npos || line.compare(start, 8, "#include") != 0) return {};
+  const std::size_t open = line.find_first_of("<\"", start);
+  if (open == std::string::npos) return {};
+  return line.substr(open, line.find_first_of(">\"", open + 1) - open);
+}
+
+/// Position of the folder of a path like `bvh/build.h` in `layers`; `layers.size()` when it is none of them.
+std::size_t layer_of(std::string_view path) {
+  const auto found = std::find(layers.begin(), layers.end(), path.substr(0, path.find('/')));
+  return static_cast<std::size_t>(found - layers.begin());
+}
+
+bool may_use_cgal(const SourceFile& file) {
+  for (const char* prefix : {"include/meshbound/cgal/", "src/cgal/", "tests/", "tools/"})
+    if (starts_with(file.path, prefix)) return true;
+  return false;
+}
+
+bool is_gpl(const SourceFile& file) {
+  return !file.lines.empty() && file.lines[0].find("GPL-3.0-or-later") != std::string::npos;
+}
+
+/// Why `file` may not contain this include; empty when it may.
+std::string include_violation(const SourceFile& file, const std::string& include) {
+  const bool gpl_header = starts_with(include, "<CGAL/") || starts_with(include, "<boost/") ||
+                          starts_with(include, "\"CGAL/") || include.find("meshbound/cgal/") == 1;
+  if (gpl_header && !may_use_cgal(file)) return "CGAL and Boost belong to the GPL part";
+  if (gpl_header && !is_gpl(file) && !starts_with(file.path, "tests/"))
+    return "a file that includes CGAL must carry the SPDX line of the GPL";
+  const bool quoted = starts_with(include, "\"");
+  if (starts_with(file.path, "include/") && quoted && include.find("meshbound/") != 1)
+    return "public headers include only public headers";
+  if (!starts_with(file.path, "src/") || !quoted || include.find("meshbound/") == 1) return {};
+  const std::size_t used = layer_of(std::string_view(include).substr(1));
+  const std::size_t own = layer_of(std::string_view(file.path).substr(4));
+  if (used == layers.size()) return "not a folder of src; write the path from src";
+  return used > own ? "a later folder" : "";
+}
+
+std::vector<std::string> violations(const fs::path& root) {
+  std::vector<std::string> found;
+  for (const SourceFile& file : sources(root)) {
+    const bool in_a_folder = starts_with(file.path, "src/") && file.path.find('/', 4) != std::string::npos;
+    if (in_a_folder && layer_of(std::string_view(file.path).substr(4)) == layers.size())
+      found.push_back(file.path + ": a folder of src that the dependency order does not name");
+    if (file.lines.size() > longest_file)
+      found.push_back(file.path + ": " + std::to_string(file.lines.size()) + " lines, more than " +
+                      std::to_string(longest_file));
+    const auto head = file.lines.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(2, file.lines.size()));
+    if (std::none_of(file.lines.begin(), head,
+                     [](const auto& line) { return line.find("SPDX-License-Identifier: ") != std::string::npos; }))
+      found.push_back(file.path + ": no SPDX line at the top");
+    for (const std::string& line : file.lines) {
+      const std::string include = included(line);
+      const std::string reason = include.empty() ? "" : include_violation(file, include);
+      if (!reason.empty()) found.push_back(file.path + ": includes " + include.substr(1) + ": " + reason);
+    }
+  }
+  return found;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+/// A source tree in a temporary folder, to see each rule broken.
+class Layering : public testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() / ("meshbound_layering_" + std::to_string(::getpid()));
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void write(const std::string& path, const std::string& text, const std::string& licence = "MIT") {
+    fs::create_directories((root_ / path).parent_path());
+    std::ofstream(root_ / path) << "// SPDX-License-Identifier: " << licence << '\n' << text << '\n';
+  }
+
+  fs::path root_;
+};
+
+TEST(SourceTree, FollowsItsOwnRules) {
+  ASSERT_GT(sources(MESHBOUND_SOURCE_DIR).size(), 10U) << "the source tree was not found";
+  EXPECT_EQ(joined(violations(MESHBOUND_SOURCE_DIR)), "");
+}
+
+TEST_F(Layering, AcceptsEarlierFoldersAndPublicHeaders) {
+  write("src/distance/walk.cpp", "#include <vector>\n#include \"bvh/tree.h\"\n#include \"meshbound/distance.h\"");
+  write("include/meshbound/cgal/monitor.h", "#include <CGAL/Surface_mesh.h>", "GPL-3.0-or-later");
+  write("tests/oracle_test.cpp", "#include <CGAL/Surface_mesh.h>");
+  EXPECT_EQ(joined(violations(root_)), "");
+}
+
+TEST_F(Layering, RefusesALaterFolder) {
+  write("src/bvh/tree.cpp", "#include \"distance/walk.h\"");
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesAnUnknownFolder) {
+  write("src/misc/things.cpp", "");
+  write("src/mesh/a.cpp", "#include \"b.h\"");
+  EXPECT_EQ(violations(root_).size(), 2U);
+}
+
+TEST_F(Layering, RefusesCgalInTheCore) {
+  write("src/mesh/a.cpp", "#include <CGAL/Surface_mesh.h>", "GPL-3.0-or-later");
+  write("include/meshbound/a.h", "#include <boost/optional.hpp>");
+  write("include/meshbound/b.h", "#include \"meshbound/cgal/monitor.h\"");
+  EXPECT_EQ(violations(root_).size(), 3U);
+}
+
+TEST_F(Layering, RefusesCgalUnderTheMitLicence) {
+  write("tools/simplify.cpp", "#include \"meshbound/cgal/monitor.h\"");
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesAPublicHeaderThatNeedsAPrivateOne) {
+  write("include/meshbound/a.h", "#include \"bvh/tree.h\"");
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesAFileWithoutALicence) {
+  std::ofstream(root_ / "CMakeLists.txt") << "project(x)\n";
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesAFileThatGrewTooLong) {
+  write("src/mesh/long.cpp", std::string(longest_file, '\n'));
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+}  // namespace
