@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "common/tool_main.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <new>
+
+namespace meshbound::tools {
+namespace {
+
+int complain(const CLI::App& app, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
+  return exit_bad_input;
+}
+
+}  // namespace
+
+ExitCode exit_code(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Within:
+      return exit_done;
+    case Verdict::Exceeds:
+      return exit_exceeds;
+    case Verdict::Undecided:
+      break;
+  }
+  return exit_undecided;
+}
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+  app.add_option("--threads", options.threads, "Threads to use (default: all)")->check(CLI::Range(1, 1024));
+  app.add_flag("--quiet", options.quiet, "No progress and no summary, only what was asked for and errors");
+  app.add_option_function<double>(
+         "--time-limit",
+         [&options](double seconds) {
+           options.time_limit = seconds;
+           options.has_time_limit = true;
+         },
+         "Seconds after which the tool ends with what it has proven (exit 3)")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()));
+  app.add_option_function<std::string>(
+         "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
+         "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
+      ->type_name("[FILE]")
+      ->expected(0, 1);
+  app.set_version_flag("--version", app.get_name() + " " MESHBOUND_VERSION);
+}
+
+int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    return complain(app, std::string(error.what()) + " (see --help)");
+  }
+  try {
+    return run();
+  } catch (const std::bad_alloc&) {
+    return complain(app, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(app, error.what());
+  }
+}
+
+}  // namespace meshbound::tools

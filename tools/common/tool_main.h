@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/// What all tools have in common: exit codes, options, and one line on stderr when something is wrong.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "meshbound/bounds.h"
+
+namespace meshbound::tools {
+
+enum ExitCode : int { exit_done = 0, exit_exceeds = 1, exit_bad_input = 2, exit_undecided = 3 };
+
+[[nodiscard]] ExitCode exit_code(Verdict verdict);
+
+struct CommonOptions {
+  int threads = 0;  ///< 0: as many as OpenMP has
+  bool quiet = false;
+  double time_limit = 0;  ///< seconds of the whole run; meaningful when `has_time_limit`
+  bool has_time_limit = false;
+  std::string json;  ///< file for the JSON document, "-" for stdout, empty for none
+};
+
+/// Adds --threads, --quiet, --time-limit, --json and --version.
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+/// Parses the command line and calls `run`, whose result is the exit code. A usage error or an exception becomes one
+/// line on stderr and `exit_bad_input`; --help and --version print on stdout and give `exit_done`.
+int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
+
+}  // namespace meshbound::tools
