@@ -184,7 +184,7 @@ TriangleMesh torus(double radius, double tube_radius, std::size_t around, std::s
 }
 
 TriangleMesh box(const Vector3d& size, const std::array<std::uint32_t, 3>& cells) {
-  require(is_length(size.minCoeff()) && std::isfinite(size.maxCoeff()), "box needs three positive lengths");
+  require(is_length(size.x()) && is_length(size.y()) && is_length(size.z()), "box needs three positive lengths");
   for (const std::uint32_t count : cells)
     require(count >= 1 && count < (1U << 20U), "box needs from 1 to 2^20 - 1 cells in each direction");
   TriangleMesh mesh;
