@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "bvh/bvh_data.h"
+
+namespace meshbound {
+
+/// The steps of building `Bvh::Data`; each fills the members named after it from those filled before.
+/// Every one gives the same result for any number of threads.
+
+/// Triangles by the Hilbert index of their centroids; ties by index, so the order is unique. `working` holds the
+/// working coordinates of the mesh's vertices, `box` bounds them.
+std::vector<std::uint32_t> hilbert_order(const MeshView& mesh, const std::vector<Vec3>& working, const Box& box,
+                                         int threads);
+
+void build_adjacency(Bvh::Data& data);
+void build_blocks(Bvh::Data& data, int threads);
+void build_nodes(Bvh::Data& data, int threads);
+
+/// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.
+Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);
+
+}  // namespace meshbound

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/// The tree: triangles in the order of a Hilbert curve, packed into full blocks of four, and 8-wide nodes stacked on
+/// runs of eight, so that children are found by arithmetic and the build is a sort. After Kamel and Faloutsos, "On
+/// Packing R-trees", CIKM 1993.
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/frame.h"
+#include "geometry/vec3.h"
+#include "meshbound/bvh.h"
+
+namespace meshbound {
+
+inline constexpr std::uint32_t block_width = 4;  ///< triangles of a leaf (the paper's bound, section 4.3)
+inline constexpr std::uint32_t node_width = 8;   ///< children of a node
+inline constexpr std::uint32_t no_slot = 0x7fffffff;
+
+/// Four triangles, lane by lane; the last block repeats its last triangle in unused lanes.
+struct alignas(32) TriangleBlock {
+  double a[3][block_width];
+  double ab[3][block_width];
+  double ac[3][block_width];
+};
+
+/// Boxes of up to eight children, rounded outward; unused ones are empty (lo = +inf, hi = -inf).
+struct alignas(32) BvhNode {
+  float lo[3][node_width];
+  float hi[3][node_width];
+};
+
+/// A box of double precision in the working frame.
+struct Box {
+  Vec3 lo{1e300, 1e300, 1e300};
+  Vec3 hi{-1e300, -1e300, -1e300};
+};
+
+/// What lies across an edge of a triangle. A hint for walking, never trusted for a bound.
+struct Neighbour {
+  std::uint32_t slot : 31 = no_slot;
+  std::uint32_t flipped : 1 = 0;  ///< runs along the edge the same way: its normal points to the other side
+};
+
+struct Bvh::Data {
+  Frame frame;
+  Eigen::AlignedBox3d bounding_box;  ///< model units
+  double diagonal = 0;               ///< of it, model units
+  Box working_box;
+
+  // By vertex, in the order of first use along the curve. Only vertices that triangles use.
+  std::vector<Vec3> vertices;
+  // By slot: the place of a triangle along the curve.
+  std::vector<Triangle> corners;
+  std::vector<std::array<Neighbour, 3>> neighbours;  ///< [k] across the edge from corner k to corner k + 1
+  std::vector<std::array<float, 3>> normals;         ///< unit, or 0 for zero area; a hint
+  std::vector<std::uint32_t> triangle_of_slot;
+  std::vector<TriangleBlock> blocks;
+  // By level: nodes[level_begin[l] + i] has the children 8 i ... 8 i + 7 of level l - 1; level 0 are the blocks.
+  std::vector<BvhNode> nodes;
+  std::vector<std::uint32_t> level_begin;
+
+  [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(corners.size()); }
+  [[nodiscard]] std::uint32_t levels() const { return static_cast<std::uint32_t>(level_begin.size()) - 1; }
+};
+
+}  // namespace meshbound

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+/// Closest-point queries. Compiled once per instruction set (numeric/isa.h).
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "bvh/bvh_data.h"
+#include "geometry/point_triangle.h"
+#include "numeric/simd.h"
+
+namespace meshbound {
+
+/// A triangle by slot and the squared distance to it (see `TriangleOffset::squared_distance`).
+struct Nearest {
+  double squared = std::numeric_limits<double>::infinity();
+  std::uint32_t slot = 0;
+};
+
+struct QueryCounters {
+  std::uint64_t queries = 0;
+  std::uint64_t nodes = 0;
+  std::uint64_t triangles = 0;
+};
+
+inline namespace MESHBOUND_ISA {
+
+inline CornerTriangle<double> triangle_at(const Bvh::Data& data, std::uint32_t slot) {
+  const TriangleBlock& b = data.blocks[slot / block_width];
+  const std::uint32_t i = slot % block_width;
+  return {
+      {b.a[0][i], b.a[1][i], b.a[2][i]}, {b.ab[0][i], b.ab[1][i], b.ab[2][i]}, {b.ac[0][i], b.ac[1][i], b.ac[2][i]}};
+}
+
+inline Double4 load4(const double* from) { return *reinterpret_cast<const Double4*>(from); }
+
+inline Vec<Double4> broadcast4(const Vec3& v) { return {broadcast4(v.x), broadcast4(v.y), broadcast4(v.z)}; }
+
+inline CornerTriangle<Double4> load4(const TriangleBlock& b) {
+  return {{load4(b.a[0]), load4(b.a[1]), load4(b.a[2])},
+          {load4(b.ab[0]), load4(b.ab[1]), load4(b.ab[2])},
+          {load4(b.ac[0]), load4(b.ac[1]), load4(b.ac[2])}};
+}
+
+/// A query point as an interval of floats, so that box distances never come out too large.
+struct FloatQuery {
+  explicit FloatQuery(const Vec3& p) {
+    const double coordinates[3] = {p.x, p.y, p.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto f = static_cast<float>(coordinates[axis]);
+      // One step of a float is at most 2^-23 of it; the least normal number covers the range below.
+      const float step = (f < 0 ? -f : f) * 0x1p-23F + std::numeric_limits<float>::min();
+      lo[axis] = broadcast8(f - step);
+      hi[axis] = broadcast8(f + step);
+    }
+  }
+  Float8 lo[3], hi[3];
+};
+
+/// Lower bounds of the squared distances to the eight boxes, but for 8 roundings of 2^-24 each (`prune_limit` allows
+/// for them). Empty boxes are at infinity.
+inline Float8 squared_box_distances(const BvhNode& node, const FloatQuery& q) {
+  Float8 sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float8 lo = *reinterpret_cast<const Float8*>(node.lo[axis]),
+                 hi = *reinterpret_cast<const Float8*>(node.hi[axis]);
+    const Float8 d = maximum(maximum(lo - q.hi[axis], q.lo[axis] - hi), Float8{});
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Boxes at this squared distance or more hold nothing nearer than `squared`.
+inline float prune_limit(double squared) {
+  const double limit = squared * (1 + 0x1p-20);
+  return limit < 0x1p126 ? static_cast<float>(limit) + std::numeric_limits<float>::min()
+                         : std::numeric_limits<float>::infinity();
+}
+
+/// Depth-first walk over the tree, nearest child first. `on_block(index)` tests a block of triangles and returns the
+/// limit from then on. The stack holds at most 7 siblings for each of at most 10 levels (8^10 > 2^30) and one root.
+template <class OnBlock>
+void visit_near(const Bvh::Data& data, const Vec3& p, float limit, QueryCounters& counters, OnBlock&& on_block) {
+  struct Entry {
+    float squared;
+    std::uint32_t level;
+    std::uint32_t index;
+  };
+  Entry stack[80];
+  int size = 0;
+  stack[size++] = {0, data.levels() - 1, 0};
+  const FloatQuery query(p);
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (!(entry.squared < limit)) continue;
+    if (entry.level == 0) {
+      limit = on_block(entry.index);
+      continue;
+    }
+    ++counters.nodes;
+    const BvhNode& node = data.nodes[data.level_begin[entry.level] + entry.index];
+    const Float8 squared = squared_box_distances(node, query);
+    const int first = size;
+    for (unsigned hits = lane_bits(squared < broadcast8(limit)); hits != 0; hits &= hits - 1) {
+      const int lane = std::countr_zero(hits);
+      const Entry child{squared[lane], entry.level - 1, entry.index * node_width + static_cast<std::uint32_t>(lane)};
+      int at = size++;
+      for (; at > first && stack[at - 1].squared < child.squared; --at) stack[at] = stack[at - 1];
+      stack[at] = child;
+    }
+  }
+}
+
+/// Improves `best` to the nearest triangle; returns as soon as one is within `enough_squared`.
+inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squared, Nearest& best,
+                         QueryCounters& counters) {
+  ++counters.queries;
+  if (best.squared <= enough_squared) return;
+  const Vec<Double4> p4 = broadcast4(p);
+  const std::uint32_t last = data.triangle_count() - 1;
+  visit_near(data, p, prune_limit(best.squared), counters, [&](std::uint32_t block) {
+    counters.triangles += block_width;
+    const Double4 squared = closest_on_triangle(load4(data.blocks[block]), p4).squared_distance;
+    for (std::uint32_t lane = 0; lane < block_width; ++lane) {
+      if (squared[lane] < best.squared) {
+        const std::uint32_t slot = block * block_width + lane;
+        best = {squared[lane], slot < last ? slot : last};
+      }
+    }
+    return best.squared <= enough_squared ? -1.0F : prune_limit(best.squared);
+  });
+}
+
+/// A proven lower bound (but for `dual_error`) of the distance of p to the whole mesh: every triangle is either in a
+/// box beyond `nearest_squared`, or separated from p by a plane. Where rounding spoils the plane (slivers), it is
+/// computed again in extended precision.
+inline double certified_distance(const Bvh::Data& data, const Vec3& p, double nearest_squared,
+                                 QueryCounters& counters) {
+  ++counters.queries;
+  double least = std::sqrt(nearest_squared);
+  const Vec<long double> fine_p{p.x, p.y, p.z};
+  const std::uint32_t last = data.triangle_count() - 1;
+  const float limit = prune_limit(nearest_squared);
+  visit_near(data, p, limit, counters, [&](std::uint32_t block) {
+    counters.triangles += block_width;
+    for (std::uint32_t lane = 0; lane < block_width && block * block_width + lane <= last; ++lane) {
+      const CornerTriangle<double> t = triangle_at(data, block * block_width + lane);
+      double separated = separation(t, p, closest_on_triangle(t, p).offset);
+      if (separated < least) {
+        const CornerTriangle<long double> fine{
+            {t.a.x, t.a.y, t.a.z}, {t.ab.x, t.ab.y, t.ab.z}, {t.ac.x, t.ac.y, t.ac.z}};
+        const Vec<long double> offset = closest_on_triangle(fine, fine_p).offset;
+        const Vec3 direction{static_cast<double>(offset.x), static_cast<double>(offset.y),
+                             static_cast<double>(offset.z)};
+        const double again = separation(t, p, direction);
+        separated = again > separated ? again : separated;
+      }
+      least = separated < least ? separated : least;
+    }
+    return limit;
+  });
+  return least;
+}
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound

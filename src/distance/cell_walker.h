@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+/// Voronoi subdivision taken to its end: a piece of A is cut along the cells of the triangles of B it crosses, each
+/// part walks on to the neighbour across the cut, and is bounded by that triangle alone. Compiled once per instruction
+/// set.
+///
+///     while a piece is left                               d(., t) is convex: the corners bound the piece
+///       if every corner is within the target of its candidate t: done
+///       cut it by the cell of t, pushed outward by a slack; what is outside goes to the neighbour, without a query
+///       every few steps query near the worst corner: raises the lower bound, finds a better candidate
+///       inside the cell and still too far: split by the bisector of two closest points
+///
+/// Sound for any soup: adjacency, cells and candidates choose the parts, the bound needs only that the parts cover the
+/// piece (`cut`) and the convexity. Paper, section 5.2, generalised.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bvh/nearest.h"
+#include "distance/goal.h"
+#include "distance/piece.h"
+
+namespace meshbound {
+
+/// Steps without a query: long enough to cross a fan, short enough not to get lost where adjacency misleads.
+inline constexpr std::uint32_t steps_between_queries = 8;
+/// Cuts after which a piece is only halved; see also `deepest_cut`.
+inline constexpr std::uint32_t halve_from_depth = 60;
+/// Corners from which a piece is halved, so that three cuts by a cell still fit.
+inline constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
+
+inline namespace MESHBOUND_ISA {
+
+class CellWalker {
+ public:
+  CellWalker(const Bvh::Data& target, const Goal& goal) : b_(target), goal_(goal) { set_lower({}); }
+
+  /// Starts from a proven lower bound (0 is one); forgets the upper bound.
+  void begin(const LowerBound& lower) {
+    set_lower(lower);
+    upper_squared_ = 0;
+  }
+
+  /// Covers one triangle of A, starting at triangle `slot` of B.
+  void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
+             std::uint64_t max_cuts) {
+    from_slot_ = from_slot;
+    cuts_left_ = max_cuts;
+    stack_.clear();
+    stack_.push_back(whole_triangle(a, b, c, slot));
+    while (!stack_.empty()) {
+      const Piece piece = stack_.back();
+      stack_.pop_back();
+      step(piece);
+    }
+  }
+
+  /// Offers a point of A at a computed squared distance to the nearest triangle: raises the lower bound if it proves
+  /// one.
+  void offer(const Vec3& p, const Nearest& nearest) {
+    if (nearest.squared <= offered_squared_) return;
+    const double certified = certified_distance(b_, p, nearest.squared, counters_.queries);
+    if (std::sqrt(nearest.squared) - certified <= goal_.slack) offered_squared_ = nearest.squared;
+    if (certified - goal_.slack > lower_.lower) set_lower({certified - goal_.slack, p, nearest.slot, from_slot_});
+  }
+
+  void set_from(std::uint32_t from_slot) { from_slot_ = from_slot; }
+  void accept(double squared) { upper_squared_ = std::max(upper_squared_, squared); }
+  [[nodiscard]] bool accepts(double squared) const { return squared <= accepted_squared_; }
+  [[nodiscard]] double accepted_squared() const { return accepted_squared_; }
+  [[nodiscard]] const LowerBound& lower() const { return lower_; }
+  [[nodiscard]] double upper_squared() const { return upper_squared_; }
+  [[nodiscard]] bool exceeds_tolerance() const { return lower_.lower > goal_.tolerance; }
+  [[nodiscard]] const Goal& goal() const { return goal_; }
+  WalkCounters& counters() { return counters_; }
+  [[nodiscard]] const WalkCounters& counters() const { return counters_; }
+  const Bvh::Data& target() const { return b_; }
+
+ private:
+  void set_lower(const LowerBound& lower) {
+    lower_ = lower;
+    const double accepted = goal_.accepted(lower.lower);
+    accepted_squared_ = accepted * accepted * (1 - 8 * 0x1p-53);
+    offered_squared_ = (lower.lower + goal_.slack) * (lower.lower + goal_.slack);
+  }
+
+  bool done_with(double squared) {
+    if (squared > accepted_squared_) return false;
+    accept(squared);
+    return true;
+  }
+
+  void give_up(double squared) {
+    accept(squared);
+    ++counters_.given_up;
+  }
+
+  void step(const Piece& piece) {
+    ++counters_.pieces;
+    const Farthest farthest = farthest_corner(piece, triangle_at(b_, piece.slot));
+    if (done_with(farthest.squared)) return;
+    counters_.deepest = std::max(counters_.deepest, piece.depth);
+    if (cuts_left_ == 0 || (goal_.decide_only && exceeds_tolerance())) return give_up(farthest.squared);
+    const bool due =
+        piece.age >= steps_between_queries || piece.depth >= halve_from_depth || piece.count > crowded_piece;
+    if (due)
+      query_and_walk(piece, farthest);
+    else if (!walk(piece))
+      push(piece, piece.slot, steps_between_queries);
+  }
+
+  void push(const Piece& piece, std::uint32_t slot, std::uint32_t age) {
+    stack_.push_back(piece);
+    stack_.back().slot = slot;
+    stack_.back().age = age;
+  }
+
+  bool cut_and_count(const Piece& piece, const PlaneSides& sides, Piece& inside, Piece& outside) {
+    if (!cut(piece, sides, inside, outside)) return false;
+    ++counters_.cuts;
+    if (cuts_left_ > 0) --cuts_left_;
+    return true;
+  }
+
+  /// The plane of B's cell across an edge: through the edge, along the bisector of both normals. False on a border or
+  /// where the edge has no direction.
+  bool cell_plane(std::uint32_t slot, const CornerTriangle<double>& t, int edge, Vec3& normal, double& offset) const {
+    const Neighbour neighbour = b_.neighbours[slot][edge];
+    if (neighbour.slot == no_slot) return false;
+    const auto& own = b_.normals[slot];
+    const auto& other = b_.normals[neighbour.slot];
+    const double sign = neighbour.flipped != 0 ? -1 : 1;
+    Vec3 bisector{own[0] + sign * other[0], own[1] + sign * other[1], own[2] + sign * other[2]};
+    // Nearly folded back: the sum is rounding noise, and the plane across the triangle's own edge serves.
+    if (squared_length(bisector) < 1e-3) bisector = {own[0], own[1], own[2]};
+    const Vec3 along = edge == 0 ? t.ab : edge == 1 ? t.ac - t.ab : Vec3{} - t.ac;
+    const Vec3 from = edge == 0 ? t.a : edge == 1 ? t.a + t.ab : t.a + t.ac;
+    normal = cross(along, bisector);
+    const double norm = length(normal);
+    if (!(norm > 0)) return false;
+    normal = (1 / norm) * normal;
+    offset = dot(normal, from);
+    return true;
+  }
+
+  /// How far the cell may be pushed outward so that most parts inside are still within the target. A part at height h
+  /// over the plane of t passes when it is within sqrt(target^2 - h^2) of t sideways; 0.6 of that leaves room for
+  /// corners of the cell, where two planes are pushed at once (measured: DESIGN 5.2).
+  [[nodiscard]] double outward_slack(const Piece& piece, const CornerTriangle<double>& t) const {
+    const auto& n = b_.normals[piece.slot];
+    const PlaneSides heights = sides_of(piece, {n[0], n[1], n[2]}, n[0] * t.a.x + n[1] * t.a.y + n[2] * t.a.z);
+    const double highest = std::max(heights.most, -heights.least), room = accepted_squared_ - highest * highest;
+    return room > 0 ? 0.6 * std::sqrt(room) : 0;
+  }
+
+  /// Cuts the piece by the cell of its candidate and sends the parts on. False when the piece lies inside the cell.
+  bool walk(const Piece& piece) {
+    constexpr double noise = 1e-13;  // corners this near to a plane lie on it: cutting there would give empty parts
+    const CornerTriangle<double> t = triangle_at(b_, piece.slot);
+    const double outward = outward_slack(piece, t);
+    Piece rest = piece;
+    bool changed = false;
+    for (int edge = 0; edge < 3; ++edge) {
+      Vec3 normal;
+      double offset = 0;
+      if (!cell_plane(piece.slot, t, edge, normal, offset)) continue;
+      const PlaneSides sides = sides_of(rest, normal, offset + outward);
+      if (sides.most <= noise) continue;
+      const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;
+      if (sides.least >= -noise) {
+        push(rest, across, piece.age + 1);
+        return true;
+      }
+      Piece inside, outside;
+      if (!cut_and_count(rest, sides, inside, outside)) continue;
+      push(outside, across, piece.age + 1);
+      rest = inside;
+      changed = true;
+    }
+    if (changed) push(rest, piece.slot, steps_between_queries);
+    return changed;
+  }
+
+  /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges.
+  static Vec3 probe_point(const Piece& piece, std::uint32_t worst) {
+    Vec3 sum;
+    for (std::uint32_t i = 0; i < piece.count; ++i) sum = sum + piece.corner(i);
+    const Vec3 corner = piece.corner(worst);
+    return corner + 0.25 * ((1.0 / piece.count) * sum - corner);
+  }
+
+  static double squared_radius(const Piece& piece, const Vec3& from) {
+    double radius = 0;
+    for (std::uint32_t i = 0; i < piece.count; ++i) radius = std::max(radius, squared_length(piece.corner(i) - from));
+    return radius;
+  }
+
+  void query_and_walk(const Piece& piece, const Farthest& farthest) {
+    const Vec3 probe = probe_point(piece, farthest.corner);
+    Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
+    find_nearest(b_, probe, 0, nearest, counters_.queries);
+    offer(probe, nearest);
+    const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
+    if (done_with(farthest.squared) || done_with(lipschitz * lipschitz)) return;
+    Piece next = piece;
+    ++next.depth;  // a round without a cut counts too, so that no piece walks in circles
+    next.age = 0;
+    double bound = std::min(farthest.squared, lipschitz * lipschitz);
+    if (nearest.slot != piece.slot) {
+      const double other = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
+      if (done_with(other)) return;
+      bound = std::min(bound, other);
+      next.slot = nearest.slot;
+    }
+    if (piece.depth >= deepest_cut) return give_up(bound);
+    if (piece.depth >= halve_from_depth || piece.count > crowded_piece) return halve(next, next.slot, next.slot, bound);
+    if (!walk(next)) resolve(next, farthest.corner, bound);
+  }
+
+  /// The piece is inside the cell of its candidate, yet a corner is too far from it: another sheet of B, or a vertex
+  /// where cells by edges are not the Voronoi cells, is nearer. Ask at every corner, and split between the two answers.
+  void resolve(const Piece& piece, std::uint32_t worst, double bound) {
+    ++counters_.resolved;
+    const CornerTriangle<double> t = triangle_at(b_, piece.slot);
+    const Vec3 here = piece.corner(worst) - closest_on_triangle(t, piece.corner(worst)).offset;
+    std::uint32_t other = piece.slot;
+    Vec3 there;
+    double apart = 0;
+    for (std::uint32_t i = 0; i < piece.count; ++i) {
+      const Vec3 corner = piece.corner(i);
+      Nearest nearest{closest_on_triangle(t, corner).squared_distance, piece.slot};
+      find_nearest(b_, corner, 0, nearest, counters_.queries);
+      offer(corner, nearest);
+      if (nearest.slot == piece.slot) continue;
+      const CornerTriangle<double> candidate = triangle_at(b_, nearest.slot);
+      const double squared = farthest_corner(piece, candidate).squared;
+      if (done_with(squared)) return;
+      bound = std::min(bound, squared);
+      const Vec3 point = corner - closest_on_triangle(candidate, corner).offset;
+      if (squared_length(point - here) > apart) {
+        apart = squared_length(point - here);
+        there = point;
+        other = nearest.slot;
+      }
+    }
+    if (done_with(bound)) return;
+    if (!split_between(piece, here, there, other)) halve(piece, piece.slot, other, bound);
+  }
+
+  bool split_between(const Piece& piece, const Vec3& here, const Vec3& there, std::uint32_t other) {
+    if (other == piece.slot) return false;
+    const Vec3 normal = there - here;
+    const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (here + there)));
+    if (!(sides.least < 0 && sides.most > 0)) return false;
+    Piece near, far;
+    if (!cut_and_count(piece, sides, near, far)) return false;
+    push(near, piece.slot, 1);
+    push(far, other, 1);
+    return true;
+  }
+
+  /// Last resort: cut across the longest diagonal; the parts shrink, so the Lipschitz bound ends it.
+  void halve(const Piece& piece, std::uint32_t near_slot, std::uint32_t far_slot, double bound) {
+    Vec3 from, to;
+    double longest = -1;
+    for (std::uint32_t i = 0; i < piece.count; ++i) {
+      for (std::uint32_t j = i + 1; j < piece.count; ++j) {
+        const double squared = squared_length(piece.corner(j) - piece.corner(i));
+        if (squared > longest) {
+          longest = squared;
+          from = piece.corner(i);
+          to = piece.corner(j);
+        }
+      }
+    }
+    const Vec3 normal = to - from;
+    const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
+    Piece near, far;
+    if (!(sides.least < 0 && sides.most > 0) || !cut_and_count(piece, sides, near, far)) return give_up(bound);
+    push(near, near_slot, steps_between_queries);
+    push(far, far_slot, steps_between_queries);
+  }
+
+  const Bvh::Data& b_;
+  Goal goal_;
+  LowerBound lower_;
+  double accepted_squared_ = 0;
+  double offered_squared_ = 0;
+  double upper_squared_ = 0;
+  std::uint32_t from_slot_ = 0;
+  std::uint64_t cuts_left_ = 0;
+  std::vector<Piece> stack_;
+  WalkCounters counters_;
+};
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound

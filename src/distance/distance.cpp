@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "distance/one_sided.h"
+#include "meshbound/error.h"
+
+namespace meshbound {
+namespace {
+
+/// Default error bound, as a fraction of the diagonal of the first model.
+constexpr double default_error_bound = 1e-6;
+
+double checked(double length, const char* name) {
+  if (!(length >= 0)) throw InvalidInput(std::string(name) + " must be a length of 0 or more");
+  return length;
+}
+
+double error_bound_of(const PlacedModel& a, const DistanceOptions& options) {
+  return checked(options.error_bound.value_or(default_error_bound * a.bvh->bounding_box_diagonal()), "the error bound");
+}
+
+double tolerance_of(const DistanceOptions& options) {
+  return checked(options.tolerance.value_or(std::numeric_limits<double>::infinity()), "the tolerance");
+}
+
+Verdict verdict_of(const Bounds& bounds, double tolerance) {
+  if (bounds.upper <= tolerance) return Verdict::Within;
+  return bounds.lower > tolerance ? Verdict::Exceeds : Verdict::Undecided;
+}
+
+OneSidedTask decision(const PlacedModel& a, const PlacedModel& b, double tolerance, const DistanceOptions& options) {
+  OneSidedTask task{.a = a, .b = b, .options = options};
+  task.tolerance = checked(tolerance, "the tolerance");
+  task.decide_only = true;
+  return task;
+}
+
+Bounds larger(const Bounds& x, const Bounds& y) { return {std::max(x.lower, y.lower), std::max(x.upper, y.upper)}; }
+
+}  // namespace
+
+OneSidedDistance one_sided_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
+  OneSidedTask task{.a = a, .b = b, .options = options};
+  task.error_bound = error_bound_of(a, options);
+  task.tolerance = tolerance_of(options);
+  return search_one_sided(task);
+}
+
+SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
+  OneSidedTask task{.a = a, .b = b, .options = options};
+  task.error_bound = error_bound_of(a, options);
+  task.tolerance = tolerance_of(options);
+  SymmetricDistance result;
+  result.a_to_b = search_one_sided(task);
+  OneSidedTask back{.a = b, .b = a, .options = options};
+  back.error_bound = task.error_bound;
+  back.tolerance = task.tolerance;
+  back.known_lower = result.a_to_b.bounds.lower;  // paper, section 6: the first result seeds the second
+  back.start = task.start;
+  result.b_to_a = search_one_sided(back);
+  result.bounds = larger(result.a_to_b.bounds, result.b_to_a.bounds);
+  return result;
+}
+
+ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                               const DistanceOptions& options) {
+  ToleranceCheck check;
+  check.tolerance = tolerance;
+  check.a_to_b = search_one_sided(decision(a, b, tolerance, options));
+  check.b_to_a.bounds = {};
+  check.bounds = check.a_to_b.bounds;
+  check.verdict = verdict_of(check.bounds, tolerance);
+  return check;
+}
+
+ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                               const DistanceOptions& options) {
+  ToleranceCheck check = check_one_sided(a, b, tolerance, options);
+  if (check.verdict == Verdict::Exceeds) {
+    check.bounds.upper = std::numeric_limits<double>::infinity();
+    return check;
+  }
+  OneSidedTask back = decision(b, a, tolerance, options);
+  check.b_to_a = search_one_sided(back);
+  check.bounds = larger(check.a_to_b.bounds, check.b_to_a.bounds);
+  check.verdict = verdict_of(check.bounds, tolerance);
+  return check;
+}
+
+}  // namespace meshbound

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "bvh/bvh_data.h"
+
+namespace meshbound {
+
+/// Clears `alive` for each triangle (slot) of A whose three corners are, bit for bit and in any order, those of a
+/// triangle of B. Both trees must have the same frame. Returns how many there were. O(n).
+std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive);
+
+/// A slot that uses a vertex. O(n).
+std::uint32_t slot_using_vertex(const Bvh::Data& data, std::uint32_t vertex);
+
+}  // namespace meshbound

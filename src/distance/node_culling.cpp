@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+/// Culling on A by whole nodes: paper, Algorithm 1, with Eq. 8-9 taken at the centre of a box.
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "bvh/build.h"
+#include "distance/one_sided_search.h"
+
+namespace meshbound {
+namespace {
+
+constexpr std::uint32_t sampled_blocks = 64;
+
+struct NodeOfA {
+  double bound_squared;  ///< of the distance of all its triangles to B
+  std::uint32_t level;
+  std::uint32_t index;
+
+  bool operator<(const NodeOfA& other) const {
+    if (bound_squared != other.bound_squared) return bound_squared < other.bound_squared;
+    return level != other.level ? level < other.level : index > other.index;
+  }
+};
+
+struct Ball {
+  Vec3 centre;
+  double radius;
+};
+
+Ball ball_around(const Box& box) { return {0.5 * (box.lo + box.hi), 0.5 * length(box.hi - box.lo)}; }
+
+/// Slots below a node: nodes are runs of the Hilbert order, so this is one range.
+std::pair<std::uint32_t, std::uint32_t> slots_below(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
+  const std::uint64_t size = std::uint64_t{block_width} << (3 * level);
+  const std::uint64_t n = data.triangle_count();
+  return {static_cast<std::uint32_t>(std::min(n, index * size)),
+          static_cast<std::uint32_t>(std::min(n, (index + 1) * size))};
+}
+
+/// All children of one node of A, tested against B.
+class NodeTest {
+ public:
+  NodeTest(const Bvh::Data& a, const Mapping& map, Searcher& searcher) : a_(a), map_(map), searcher_(searcher) {
+    scale_ = length(map.rows[0]) * (1 + 0x1p-40);
+  }
+
+  [[nodiscard]] double radius(std::uint32_t level, std::uint32_t index) const {
+    return scale_ * ball_around(node_box(a_, level, index)).radius;
+  }
+
+  /// Eq. 8: no point of a ball is further from B than its centre's distance plus its radius. Infinite where the ball is
+  /// larger than the target, which could not be met.
+  double bound_squared(std::uint32_t level, std::uint32_t index) {
+    const Ball ball = ball_around(node_box(a_, level, index));
+    const double reach = scale_ * ball.radius;
+    if (reach * reach >= searcher_.accepted_squared()) return std::numeric_limits<double>::infinity();
+    const Nearest nearest = searcher_.nearest(map_(ball.centre), hint_, 0);
+    hint_ = nearest.slot;
+    const double bound = std::sqrt(nearest.squared) + reach;
+    return bound * bound * (1 + 0x1p-40);
+  }
+
+  std::uint32_t hint() const { return hint_; }
+
+ private:
+  const Bvh::Data& a_;
+  const Mapping& map_;
+  Searcher& searcher_;
+  double scale_ = 1;
+  std::uint32_t hint_ = 0;
+};
+
+}  // namespace
+
+double OneSidedSearch::sampled_block_radius() const {
+  const auto n = static_cast<std::uint32_t>(a_.blocks.size());
+  const std::uint32_t samples = std::min(n, sampled_blocks);
+  double sum = 0;
+  for (std::uint32_t i = 0; i < samples; ++i)
+    sum += ball_around(node_box(a_, 0, static_cast<std::uint32_t>(std::uint64_t{i} * n / samples))).radius;
+  return length(map_.rows[0]) * sum / samples;
+}
+
+void OneSidedSearch::cull_nodes() {
+  if (decided() || stats_.matched == stats_.triangles) return;
+  Searcher& searcher = *searchers_.front();
+  searcher.begin(lower_);
+  // Where even blocks are larger than the target, every test would be a query spent for nothing.
+  if (sampled_block_radius() > 0.5 * std::sqrt(searcher.accepted_squared())) return;
+  NodeTest test(a_, map_, searcher);
+  std::priority_queue<NodeOfA> queue;
+  queue.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0});
+  while (!queue.empty() && !decided() && !out_of_budget()) {
+    const NodeOfA node = queue.top();
+    queue.pop();
+    if (node.bound_squared <= searcher.accepted_squared()) {
+      searcher.accept(node.bound_squared);
+      const auto [begin, end] = slots_below(a_, node.level, node.index);
+      const auto culled = std::count(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1});
+      std::fill(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{0});
+      stats_.culled_by_node += static_cast<std::uint64_t>(culled);
+      continue;
+    }
+    if (node.level == 0) {  // too far for its size: its vertices may raise the lower bound
+      for (const std::uint32_t v : a_.corners[node.index * block_width]) {
+        const Nearest nearest = searcher.nearest(vertex(v), test.hint(), searcher.accepted_squared());
+        if (nearest.squared > searcher.accepted_squared()) {
+          const double upper = searcher.upper_squared();
+          offer_vertex(v, nearest);
+          searcher.begin(lower_);
+          searcher.accept(upper);
+        }
+      }
+      continue;
+    }
+    for (std::uint32_t k = 0; k < node_width; ++k) {
+      const std::uint32_t child = node.index * node_width + k;
+      const auto [begin, end] = slots_below(a_, node.level - 1, child);
+      if (begin == end) break;
+      queue.push({test.bound_squared(node.level - 1, child), node.level - 1, child});
+    }
+  }
+  upper_squared_ = std::max(upper_squared_, searcher.upper_squared());
+}
+
+}  // namespace meshbound

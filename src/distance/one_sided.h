@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+
+#include "meshbound/distance.h"
+
+namespace meshbound {
+
+/// One direction of a measurement: what all directions and levels share.
+struct OneSidedTask {
+  const PlacedModel& a;
+  const PlacedModel& b;
+  double error_bound = 0;                                      ///< model units
+  double tolerance = std::numeric_limits<double>::infinity();  ///< model units; infinite: none
+  bool decide_only = false;
+  /// A lower bound already known of the quantity that is wanted (the other direction's, paper section 6): points nearer
+  /// than this need no bound of their own. The result's `lower` may then be below it, its `upper` is at most the
+  /// larger.
+  double known_lower = 0;
+  const DistanceOptions& options;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+};
+
+OneSidedDistance search_one_sided(const OneSidedTask& task);
+
+}  // namespace meshbound

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "distance/one_sided_search.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bvh/build.h"
+#include "distance/identical.h"
+#include "numeric/rounding.h"
+
+namespace meshbound {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t vertices_per_chunk = 256;   ///< hints are handed on inside a chunk, so not too few
+constexpr std::uint32_t triangles_per_chunk = 256;  ///< cheap bounds
+constexpr std::uint32_t walks_per_chunk = 8;        ///< walks differ much in cost
+constexpr std::uint32_t probes = 64;
+constexpr std::chrono::milliseconds between_progress{100};
+
+double scaled(double length, int exponent) { return next_up(std::ldexp(length, exponent)); }
+
+Goal make_goal(const OneSidedTask& task, const Mapping& map) {
+  const Frame& from = task.a.bvh->data().frame;
+  const Frame& to = task.b.bvh->data().frame;
+  Goal goal;
+  goal.error_bound = to.working_length_down(task.error_bound);
+  goal.tolerance = to.working_length_down(task.tolerance);
+  goal.decide_only = task.decide_only;
+  const double model_error = (from.error > 0 ? scaled(from.error, from.exponent - to.exponent) : 0) + to.error;
+  goal.slack = search_slack(map.magnitude, model_error + map.error);
+  return goal;
+}
+
+int thread_count(const OneSidedTask& task) {
+  return task.options.threads > 0 ? task.options.threads : omp_get_max_threads();
+}
+
+}  // namespace
+
+OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
+    : task_(task),
+      a_(task.a.bvh->data()),
+      b_(task.b.bvh->data()),
+      map_(map),
+      goal_(make_goal(task, map)),
+      alive_(a_.triangle_count(), 1),
+      cuts_left_(task.options.budget.subdivisions),
+      last_progress_(task.start) {
+  for (int i = 0; i < thread_count(task); ++i) searchers_.push_back(make_searcher(b_, goal_));
+  lower_.lower = b_.frame.working_length_down(task.known_lower);
+  stats_.triangles = a_.triangle_count();
+}
+
+bool OneSidedSearch::out_of_budget() {
+  if (exhausted_) return true;
+  const bool cancelled = task_.options.cancel != nullptr && task_.options.cancel->load(std::memory_order_relaxed);
+  const double seconds = std::chrono::duration<double>(Clock::now() - task_.start).count();
+  exhausted_ = cancelled || cuts_left_ == 0 || seconds >= task_.options.budget.seconds;
+  return exhausted_;
+}
+
+void OneSidedSearch::spend_cuts() {
+  std::uint64_t cuts = 0;
+  for (const auto& searcher : searchers_) cuts += searcher->counters().cuts;
+  const std::uint64_t budget = task_.options.budget.subdivisions;
+  cuts_left_ = cuts < budget ? budget - cuts : 0;
+}
+
+void OneSidedSearch::report_progress(double fraction) {
+  if (!task_.options.progress || Clock::now() - last_progress_ < between_progress) return;
+  last_progress_ = Clock::now();
+  task_.options.progress(fraction);
+}
+
+void OneSidedSearch::merge(const Found& found) {
+  if (found.lower.lower > lower_.lower) {
+    lower_ = found.lower;
+    own_lower_ = found.lower;
+  }
+  upper_squared_ = std::max(upper_squared_, found.upper_squared);
+}
+
+/// Runs work(searcher, chunk, found) for chunks 0 ... count - 1, in batches that grow from `batch` to `largest_batch`:
+/// the lower bound that a batch starts from is the one of all batches before it.
+template <class Work>
+void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::uint32_t largest_batch, double from,
+                                double to, Work&& work) {
+  std::vector<Found> found;
+  for (std::uint32_t begin = 0; begin < count && !decided(); batch = std::min(2 * batch, largest_batch)) {
+    const std::uint32_t size = std::min(batch, count - begin);
+    found.assign(size, {});
+    out_of_budget();
+#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(searchers_.size()))
+    for (std::uint32_t i = 0; i < size; ++i) {
+      Searcher& searcher = *searchers_[static_cast<std::size_t>(omp_get_thread_num())];
+      searcher.begin(lower_);
+      work(searcher, begin + i, found[i]);
+      found[i].lower = searcher.lower();
+      found[i].upper_squared = searcher.upper_squared();
+    }
+    std::uint32_t farthest = 0;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      merge(found[i]);
+      if (found[i].farthest_squared > found[farthest].farthest_squared) farthest = i;
+      open_.insert(open_.end(), found[i].open.begin(), found[i].open.end());
+    }
+    spend_cuts();
+    if (found[farthest].farthest_squared >= 0)
+      offer_vertex(found[farthest].farthest_vertex, nearest_[found[farthest].farthest_vertex]);
+    begin += size;
+    report_progress(from + (to - from) * begin / count);
+  }
+}
+
+/// Raises the lower bound by a vertex, if it is further than all before it.
+void OneSidedSearch::offer_vertex(std::uint32_t v, const Nearest& nearest) {
+  if (nearest.squared > farthest_nearest_.squared) {
+    farthest_nearest_ = nearest;
+    farthest_vertex_ = v;
+  }
+  Searcher& searcher = *searchers_.front();
+  searcher.begin(lower_);
+  searcher.offer(vertex(v), nearest, no_slot);
+  if (searcher.lower().lower > lower_.lower) {
+    lower_ = own_lower_ = searcher.lower();
+    lower_.from_slot = own_lower_.from_slot = slot_using_vertex(a_, v);
+  }
+}
+
+void OneSidedSearch::drop_identical() {
+  const bool exact = map_.is_identity && map_.error == 0 && a_.frame.error == 0 && b_.frame.error == 0;
+  if (exact) stats_.matched = drop_identical_triangles(a_, b_, alive_);
+}
+
+void OneSidedSearch::probe() {
+  if (stats_.matched == stats_.triangles) return;
+  const auto n = static_cast<std::uint32_t>(a_.vertices.size());
+  Searcher& searcher = *searchers_.front();
+  Nearest farthest{-1, 0};
+  std::uint32_t at = 0, hint = 0;
+  for (std::uint32_t i = 0; i < std::min(probes, n); ++i) {
+    const auto v = static_cast<std::uint32_t>(std::uint64_t{i} * n / std::min(probes, n));
+    const Nearest nearest = searcher.nearest(vertex(v), hint, 0);
+    hint = nearest.slot;
+    if (nearest.squared > farthest.squared) {
+      farthest = nearest;
+      at = v;
+    }
+  }
+  offer_vertex(at, farthest);
+}
+
+void OneSidedSearch::mark_wanted_vertices() {
+  if (std::find(alive_.begin(), alive_.end(), 0) == alive_.end()) return;
+  wanted_.assign(a_.vertices.size(), 0);
+  for (std::uint32_t slot = 0; slot < a_.triangle_count(); ++slot) {
+    if (alive_[slot] == 0) continue;
+    for (const std::uint32_t v : a_.corners[slot]) wanted_[v] = 1;
+  }
+}
+
+void OneSidedSearch::query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+  std::uint32_t hint = 0;
+  for (std::uint32_t v = begin; v < end; ++v) {
+    if (!vertex_is_wanted(v)) continue;
+    const double enough = exhausted_ ? std::numeric_limits<double>::infinity() : searcher.accepted_squared();
+    nearest_[v] = searcher.nearest(vertex(v), hint, enough);
+    hint = nearest_[v].slot;
+    if (!exhausted_ && nearest_[v].squared > found.farthest_squared) {
+      found.farthest_squared = nearest_[v].squared;
+      found.farthest_vertex = v;
+    }
+  }
+}
+
+void OneSidedSearch::query_vertices() {
+  if (decided()) return;
+  mark_wanted_vertices();
+  const auto n = static_cast<std::uint32_t>(a_.vertices.size());
+  nearest_.resize(n);
+  const std::uint32_t chunks = (n + vertices_per_chunk - 1) / vertices_per_chunk;
+  run_chunks(chunks, 4, 256, 0.0, 0.2, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+    const std::uint32_t begin = chunk * vertices_per_chunk;
+    query_chunk(searcher, begin, std::min(n, begin + vertices_per_chunk), found);
+  });
+}
+
+void OneSidedSearch::bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+  for (std::uint32_t slot = begin; slot < end; ++slot) {
+    if (alive_[slot] == 0) continue;
+    const Triangle& t = a_.corners[slot];
+    const Vec3 corner[3] = {vertex(t[0]), vertex(t[1]), vertex(t[2])};
+    double bound = std::numeric_limits<double>::infinity();
+    int worst = 0;
+    for (int k = 0; k < 3 && bound > searcher.accepted_squared(); ++k) {
+      if (nearest_[t[k]].squared > nearest_[t[worst]].squared) worst = k;
+      const std::uint32_t candidate = nearest_[t[k]].slot;
+      if (k > 0 && (candidate == nearest_[t[0]].slot || (k == 2 && candidate == nearest_[t[1]].slot))) continue;
+      bound = std::min(bound, searcher.farthest_squared(corner[0], corner[1], corner[2], candidate));
+    }
+    if (bound <= searcher.accepted_squared() || exhausted_)
+      searcher.accept(bound);
+    else
+      found.open.push_back({bound, slot, nearest_[t[worst]].slot});
+  }
+}
+
+void OneSidedSearch::bound_triangles() {
+  if (decided()) return;
+  const std::uint32_t n = a_.triangle_count(), chunks = (n + triangles_per_chunk - 1) / triangles_per_chunk;
+  run_chunks(chunks, 256, 256, 0.2, 0.3, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+    const std::uint32_t begin = chunk * triangles_per_chunk;
+    bound_chunk(searcher, begin, std::min(n, begin + triangles_per_chunk), found);
+  });
+}
+
+void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const Open& open = open_[i];
+    if (open.bound_squared <= searcher.accepted_squared() || exhausted_) {
+      searcher.accept(open.bound_squared);
+      continue;
+    }
+    const Triangle& t = a_.corners[open.slot];
+    searcher.cover(vertex(t[0]), vertex(t[1]), vertex(t[2]), open.slot, open.start, cuts_left_);
+  }
+}
+
+void OneSidedSearch::walk_rest() {
+  if (decided()) return;
+  std::sort(open_.begin(), open_.end(), [](const Open& x, const Open& y) {
+    return x.bound_squared != y.bound_squared ? x.bound_squared > y.bound_squared : x.slot < y.slot;
+  });
+  const auto n = static_cast<std::uint32_t>(open_.size());
+  stats_.walked = n;
+  const std::uint32_t chunks = (n + walks_per_chunk - 1) / walks_per_chunk;
+  run_chunks(chunks, 1, 512, 0.3, 1.0, [&](Searcher& searcher, std::uint32_t chunk, Found&) {
+    const std::uint32_t begin = chunk * walks_per_chunk;
+    walk_chunk(searcher, begin, std::min(n, begin + walks_per_chunk));
+  });
+}
+
+}  // namespace meshbound

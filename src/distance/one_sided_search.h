@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "distance/goal.h"
+#include "distance/one_sided.h"
+#include "distance/searcher.h"
+#include "geometry/mapping.h"
+
+namespace meshbound {
+
+/// The one-sided search, step by step as `search_one_sided` calls them. Works in B's frame. Every step that runs in
+/// parallel does so in fixed chunks that all start from the same lower bound and are merged in order, so the result
+/// does not depend on the number of threads.
+class OneSidedSearch {
+ public:
+  OneSidedSearch(const OneSidedTask& task, const Mapping& map);
+
+  void drop_identical();   ///< triangles that B has too: at distance 0 without arithmetic
+  void probe();            ///< a few vertices, for a first lower bound
+  void cull_nodes();       ///< paper, Alg. 1: whole nodes of A, best first
+  void query_vertices();   ///< closest triangles of the vertices that are left
+  void bound_triangles();  ///< paper, 4.4: triangles bounded by a closest triangle of one of their vertices
+  void walk_rest();        ///< cells of B for what is left, worst first
+  [[nodiscard]] OneSidedDistance result();
+
+ private:
+  /// A triangle of A that its vertices' closest triangles do not bound.
+  struct Open {
+    double bound_squared;
+    std::uint32_t slot;   ///< of A
+    std::uint32_t start;  ///< candidate of B
+  };
+  /// What a chunk of work found.
+  struct Found {
+    LowerBound lower;
+    double upper_squared = 0;
+    std::uint32_t farthest_vertex = 0;
+    double farthest_squared = -1;
+    std::vector<Open> open;
+  };
+
+  [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
+  [[nodiscard]] bool decided() const { return goal_.decide_only && own_lower_.lower > goal_.tolerance; }
+  bool out_of_budget();
+  void spend_cuts();
+  template <class Work>
+  void run_chunks(std::uint32_t count, std::uint32_t batch, std::uint32_t largest_batch, double from, double to,
+                  Work&& work);
+  void merge(const Found& found);
+  void offer_vertex(std::uint32_t v, const Nearest& nearest);
+  void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
+  void bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
+  void walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end);
+  [[nodiscard]] double sampled_block_radius() const;
+  [[nodiscard]] bool vertex_is_wanted(std::uint32_t v) const { return wanted_.empty() || wanted_[v] != 0; }
+  void mark_wanted_vertices();
+  void report_progress(double fraction);
+  [[nodiscard]] Witness witness_at(const LowerBound& lower) const;
+  LowerBound proven_witness();
+  [[nodiscard]] double farthest_apart() const;
+  void fill_stats();
+
+  const OneSidedTask& task_;
+  const Bvh::Data& a_;
+  const Bvh::Data& b_;
+  Mapping map_;
+  Goal goal_;
+  std::vector<std::unique_ptr<Searcher>> searchers_;  ///< one per thread
+  std::vector<std::uint8_t> alive_;                   ///< by A's slot
+  std::vector<Nearest> nearest_;                      ///< by A's vertex
+  std::vector<std::uint8_t> wanted_;                  ///< by A's vertex; empty: all are
+  std::vector<Open> open_;
+  LowerBound lower_;                   ///< starts at `known_lower`
+  LowerBound own_lower_;               ///< proven for this direction
+  std::uint32_t farthest_vertex_ = 0;  ///< met so far
+  Nearest farthest_nearest_{-1, 0};
+  double upper_squared_ = 0;
+  bool exhausted_ = false;
+  std::uint64_t cuts_left_ = 0;
+  DistanceStats stats_;
+  std::chrono::steady_clock::time_point last_progress_;
+};
+
+}  // namespace meshbound

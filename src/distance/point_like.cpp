@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "distance/point_like.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bvh/bvh_data.h"
+#include "distance/identical.h"
+#include "numeric/rounding.h"
+
+namespace meshbound {
+namespace {
+
+Eigen::Vector3d world(const PlacedModel& model, const Vec3& working) {
+  const Vec3 p = model.bvh->data().frame.to_model(working);
+  return model.pose * Eigen::Vector3d(p.x, p.y, p.z);
+}
+
+double safe_length(const Eigen::Vector3d& v) { return std::hypot(v.x(), v.y(), v.z()); }
+
+}  // namespace
+
+OneSidedDistance distance_to_point_like(const OneSidedTask& task) {
+  const Bvh::Data& a = task.a.bvh->data();
+  const Bvh::Data& b = task.b.bvh->data();
+  const Eigen::Vector3d centre = world(task.b, b.vertices[0]);
+  OneSidedDistance result;
+  std::uint32_t farthest = 0;
+  double distance = -1, reach = safe_length(centre);
+  for (std::uint32_t v = 0; v < a.vertices.size(); ++v) {
+    const Eigen::Vector3d p = world(task.a, a.vertices[v]);
+    reach = std::max(reach, safe_length(p));
+    if (const double d = safe_length(p - centre); d > distance) {
+      distance = d;
+      farthest = v;
+    }
+  }
+  // Two poses (6 roundings a coordinate each, 1e-9 of drift refused elsewhere), a difference and a hypot: 32 u of the
+  // largest length in sight; the diagonal of B bounds how far B reaches from one of its own vertices.
+  const double size_of_b = b.diagonal * (1 + 4 * unit_roundoff);
+  const double slack = 32 * unit_roundoff * reach + size_of_b;
+  result.bounds = {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)};
+  result.witness.from = {world(task.a, a.vertices[farthest]), a.triangle_of_slot[slot_using_vertex(a, farthest)]};
+  result.witness.nearest = {centre, b.triangle_of_slot[0]};
+  result.witness.distance = distance;
+  result.outcome = slack <= task.error_bound || result.bounds.upper <= task.tolerance ? Outcome::Converged
+                                                                                      : Outcome::PrecisionReached;
+  if (task.decide_only && result.bounds.lower > task.tolerance) result.outcome = Outcome::ExceedsTolerance;
+  result.stats.triangles = a.triangle_count();
+  result.stats.culled_on_a_percent = 100;
+  result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - task.start).count();
+  return result;
+}
+
+}  // namespace meshbound

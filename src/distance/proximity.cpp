@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/proximity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distance/point_like.h"
+#include "distance/searcher.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "numeric/rounding.h"
+
+namespace meshbound {
+namespace {
+
+double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+}  // namespace
+
+struct Proximity::Impl {
+  explicit Impl(const Bvh& model) : bvh(model), data(model.data()), slot_of_triangle(data.triangle_count()) {
+    for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
+      slot_of_triangle[data.triangle_of_slot[slot]] = slot;
+  }
+
+  /// A query point in the working frame; raises `magnitude` and `error` to cover it.
+  Vec3 load(const Eigen::Vector3d& point, double& magnitude, double& error) const {
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_coordinate)
+      throw InvalidInput("a query point has a coordinate that is not finite or is beyond 2^1000");
+    const Vec3 model{point.x(), point.y(), point.z()};
+    const Vec3 working = data.frame.to_working(model);
+    magnitude = std::max(magnitude, largest(working));
+    error = std::max(error, data.frame.rounding_of(model));
+    return working;
+  }
+
+  /// Reuses the searcher as long as the goal stays the same: its scratch memory is what makes this class worth keeping.
+  Searcher& searcher_for(double tolerance, double magnitude, double error) {
+    Goal goal;
+    goal.decide_only = true;
+    goal.tolerance = data.frame.working_length_down(tolerance);
+    // Powers of two, so that neighbouring triangles share one goal.
+    goal.slack = search_slack(std::exp2(std::ceil(std::log2(magnitude))), data.frame.error + error);
+    if (!searcher || goal.tolerance != current.tolerance || goal.slack != current.slack) {
+      searcher = make_searcher(data, goal);
+      current = goal;
+    }
+    searcher->begin({});
+    return *searcher;
+  }
+
+  const Bvh& bvh;
+  const Bvh::Data& data;
+  std::vector<std::uint32_t> slot_of_triangle;
+  std::unique_ptr<Searcher> searcher;
+  Goal current;
+};
+
+Proximity::Proximity(const Bvh& bvh) : impl_(std::make_unique<Impl>(bvh)) {}
+Proximity::Proximity(Proximity&&) noexcept = default;
+Proximity& Proximity::operator=(Proximity&&) noexcept = default;
+Proximity::~Proximity() = default;
+
+Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangle, double tolerance,
+                                   std::uint32_t& hint, std::uint64_t max_subdivisions) {
+  if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
+  double magnitude = 1, error = 0;
+  Vec3 p[3];
+  for (int k = 0; k < 3; ++k) p[k] = impl_->load(triangle[k], magnitude, error);
+  if (!(magnitude <= largest_magnitude)) {
+    const Bvh single(TriangleMesh{{triangle.begin(), triangle.end()}, {{0, 1, 2}}}, {.threads = 1});
+    DistanceOptions options;
+    options.threads = 1;
+    return check_one_sided(single, impl_->bvh, tolerance, options).verdict;
+  }
+  Searcher& searcher = impl_->searcher_for(tolerance, magnitude, error);
+  std::uint32_t slot = impl_->slot_of_triangle[hint];
+  for (const Vec3& corner : p) {
+    const Nearest nearest = searcher.nearest(corner, slot, searcher.accepted_squared());
+    slot = nearest.slot;
+    hint = impl_->data.triangle_of_slot[slot];
+    if (nearest.squared <= searcher.accepted_squared()) continue;
+    searcher.offer(corner, nearest, 0);
+    return searcher.lower().lower > impl_->current.tolerance ? Verdict::Exceeds : Verdict::Undecided;
+  }
+  searcher.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
+  if (searcher.lower().lower > impl_->current.tolerance) return Verdict::Exceeds;
+  return searcher.upper_squared() <= searcher.accepted_squared() ? Verdict::Within : Verdict::Undecided;
+}
+
+double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint) {
+  double magnitude = 1, error = 0;
+  const Vec3 p = impl_->load(point, magnitude, error);
+  if (!(magnitude <= largest_magnitude)) return closest_point(impl_->bvh, point).distance.upper;
+  Searcher& searcher = impl_->searcher_for(impl_->data.frame.length_down(impl_->current.tolerance), magnitude, error);
+  const Nearest nearest = searcher.nearest(p, impl_->slot_of_triangle[hint], 0);
+  hint = impl_->data.triangle_of_slot[nearest.slot];
+  const double upper = next_up(std::sqrt(nearest.squared) * (1 + 4 * unit_roundoff)) + impl_->current.slack;
+  return impl_->data.frame.length_up(upper);
+}
+
+}  // namespace meshbound

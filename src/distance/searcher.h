@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory>
+
+#include "bvh/bvh_data.h"
+#include "bvh/nearest.h"
+#include "distance/goal.h"
+
+namespace meshbound {
+
+/// One thread's search against one tree: the inner loops behind one interface, so that the instruction set is chosen
+/// once, at run time. Points are in the working frame of the tree. Not thread-safe; the tree may be shared.
+class Searcher {
+ public:
+  virtual ~Searcher() = default;
+
+  /// Starts a new batch from a proven lower bound; the upper bound starts at 0.
+  virtual void begin(const LowerBound& lower) = 0;
+
+  /// The nearest triangle, or the first one found within `enough_squared`; starts with `hint`.
+  virtual Nearest nearest(const Vec3& p, std::uint32_t hint, double enough_squared) = 0;
+
+  /// Offers a point of triangle `from_slot` of A, at a computed distance: raises the lower bound if it proves one.
+  virtual void offer(const Vec3& p, const Nearest& nearest, std::uint32_t from_slot) = 0;
+
+  /// Largest squared distance of three points to the triangle at `slot` (the paper's Eq. 5 for one triangle of B).
+  virtual double farthest_squared(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t slot) = 0;
+
+  /// Covers a whole triangle of A starting from a candidate, with at most `max_cuts` cuts.
+  virtual void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
+                     std::uint64_t max_cuts) = 0;
+
+  virtual void accept(double squared) = 0;
+  [[nodiscard]] virtual double accepted_squared() const = 0;
+  [[nodiscard]] virtual const LowerBound& lower() const = 0;
+  [[nodiscard]] virtual double upper_squared() const = 0;
+  [[nodiscard]] virtual const WalkCounters& counters() const = 0;
+};
+
+/// The fastest searcher this machine runs. All of them give the same results to the last bit.
+std::unique_ptr<Searcher> make_searcher(const Bvh::Data& target, const Goal& goal);
+
+/// The rounding slack of a search (see numeric/rounding.h): `magnitude` bounds all coordinates, `model_error` is what
+/// the coordinates themselves may be off.
+double search_slack(double magnitude, double model_error);
+
+}  // namespace meshbound

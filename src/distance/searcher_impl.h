@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "distance/cell_walker.h"
+#include "distance/searcher.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+class SearcherImpl final : public Searcher {
+ public:
+  SearcherImpl(const Bvh::Data& target, const Goal& goal) : walker_(target, goal) {}
+
+  void begin(const LowerBound& lower) override { walker_.begin(lower); }
+
+  Nearest nearest(const Vec3& p, std::uint32_t hint, double enough_squared) override {
+    Nearest best{closest_on_triangle(triangle_at(walker_.target(), hint), p).squared_distance, hint};
+    find_nearest(walker_.target(), p, enough_squared, best, walker_.counters().queries);
+    return best;
+  }
+
+  void offer(const Vec3& p, const Nearest& nearest, std::uint32_t from_slot) override {
+    walker_.set_from(from_slot);
+    walker_.offer(p, nearest);
+  }
+
+  double farthest_squared(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t slot) override {
+    return farthest_corner(whole_triangle(a, b, c, slot), triangle_at(walker_.target(), slot)).squared;
+  }
+
+  void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
+             std::uint64_t max_cuts) override {
+    walker_.cover(a, b, c, from_slot, slot, max_cuts);
+  }
+
+  void accept(double squared) override { walker_.accept(squared); }
+  [[nodiscard]] double accepted_squared() const override { return walker_.accepted_squared(); }
+  [[nodiscard]] const LowerBound& lower() const override { return walker_.lower(); }
+  [[nodiscard]] double upper_squared() const override { return walker_.upper_squared(); }
+  [[nodiscard]] const WalkCounters& counters() const override { return walker_.counters(); }
+
+ private:
+  CellWalker walker_;
+};
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound

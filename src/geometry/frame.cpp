@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/rounding.h"
+
+namespace meshbound {
+namespace {
+
+/// A model further from the origin than this many of its sizes is moved: below it the bits lost to the offset are few.
+constexpr double far_offset = 8;
+
+/// For a model that is a single point: smaller than any other model in its neighbourhood.
+constexpr int point_exponent = -1020;
+
+double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+Vec3 scaled(const Vec3& v, int exponent) {
+  return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+}
+
+/// What x - c loses to rounding: the exact residual of Knuth's two-sum.
+double difference_residual(double x, double c) {
+  const double d = x - c, back = d + c;
+  return std::fabs((x - back) + ((back - d) - c));
+}
+
+/// Multiples of a power of two no smaller than the size: c has few bits, so x - c is exact for |x - c| <= |x|.
+double coarse_center(double lo, double hi, double size) {
+  const double middle = lo / 2 + hi / 2;
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  const double grid = std::ldexp(1.0, std::max(exponent, -1000));
+  return std::fabs(middle) / grid < 0x1p52 ? std::round(middle / grid) * grid : middle;
+}
+
+}  // namespace
+
+Vec3 Frame::to_working(const Vec3& p) const { return scaled(p - center, -exponent); }
+
+Vec3 Frame::to_model(const Vec3& w) const { return scaled(w, exponent) + center; }
+
+double Frame::rounding_of(const Vec3& p) const {
+  const double residual =
+      difference_residual(p.x, center.x) + difference_residual(p.y, center.y) + difference_residual(p.z, center.z);
+  return residual > 0 ? next_up(std::ldexp(next_up(residual), -exponent)) : 0;
+}
+
+double Frame::length_up(double working) const {
+  const double model = std::ldexp(working, exponent);
+  return std::ldexp(model, -exponent) >= working ? model : next_up(model);
+}
+
+double Frame::length_down(double working) const {
+  const double model = std::ldexp(working, exponent);
+  return std::ldexp(model, -exponent) <= working ? model : next_down(model);
+}
+
+double Frame::working_length_down(double model) const {
+  const double working = std::ldexp(model, -exponent);
+  return std::ldexp(working, exponent) <= model ? working : next_down(working);
+}
+
+Frame frame_for_box(const Vec3& lo, const Vec3& hi) {
+  Frame frame;
+  const double size = largest(hi - lo), reach = std::max(largest(lo), largest(hi));
+  if (reach > far_offset * size) {
+    frame.center = size > 0 ? Vec3{coarse_center(lo.x, hi.x, size), coarse_center(lo.y, hi.y, size),
+                                   coarse_center(lo.z, hi.z, size)}
+                            : lo;
+  }
+  const double radius = std::max(largest(lo - frame.center), largest(hi - frame.center));
+  frame.exponent = point_exponent;
+  if (radius > 0) std::frexp(radius, &frame.exponent);
+  return frame;
+}
+
+}  // namespace meshbound

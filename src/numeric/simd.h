@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+/// Short vectors by the compiler's vector extension: one source for AVX2 and for any other machine.
+#pragma once
+#include <cstdint>
+
+#include "numeric/isa.h"
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+using Double4 = double __attribute__((vector_size(32)));
+using Mask4 = std::int64_t __attribute__((vector_size(32)));
+using Float8 = float __attribute__((vector_size(32)));
+using Mask8 = std::int32_t __attribute__((vector_size(32)));
+
+inline Double4 broadcast4(double x) { return Double4{x, x, x, x}; }
+inline Float8 broadcast8(float x) { return Float8{x, x, x, x, x, x, x, x}; }
+
+inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
+inline long double select(bool mask, long double yes, long double no) { return mask ? yes : no; }
+inline Double4 select(Mask4 mask, Double4 yes, Double4 no) { return mask ? yes : no; }
+
+inline Float8 maximum(Float8 a, Float8 b) {
+#if defined(__AVX2__)
+  return _mm256_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+inline Double4 maximum(Double4 a, Double4 b) {
+#if defined(__AVX2__)
+  return _mm256_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+inline double horizontal_maximum(Double4 a) {
+  const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
+  return low > high ? low : high;
+}
+
+/// Bit i is set where lane i of the mask is.
+inline unsigned lane_bits(Mask8 mask) {
+#if defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= (mask[i] != 0 ? 1U : 0U) << i;
+  return bits;
+#endif
+}
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound
