@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh_source.h"
+#include "meshbound/io.h"
+
+namespace meshbound {
+
+/// Where a position in a file is told to the user: text by line, binary by byte.
+enum class Position { Line, Byte };
+
+/// Collects what a reader finds into triangles, and refuses at the end what no bound can be given for. Indices must
+/// have been checked against the vertex count by the reader, which knows where in the file they stand.
+class MeshAssembler {
+ public:
+  MeshAssembler(const MeshSource& source, Position position) : source_(source), position_(position) {}
+
+  void reserve(std::size_t vertices, std::size_t triangles);
+
+  /// `offset` is the byte in the file where the vertex stands.
+  void add_vertex(const Eigen::Vector3d& p, std::size_t offset) {
+    if (!usable(p)) suspects_.push_back({file_.mesh.vertices.size(), offset});
+    file_.mesh.vertices.push_back(p);
+  }
+
+  /// A fan from the first corner; fewer than three corners are counted as ignored.
+  void add_polygon(std::span<const std::uint32_t> corners);
+
+  /// A triangle strip of 32-bit indices, -1 starting a new one; every second triangle is turned over, so that all face
+  /// the same way. Triangles that repeat a corner only carry the strip from one part to the next and are dropped.
+  void add_strips(std::span<const std::int64_t> corners);
+
+  void ignore_element() { ++file_.ignored_elements; }
+
+  [[nodiscard]] std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
+
+  /// The mesh. Throws `InvalidInput` when there are no triangles or one uses a coordinate that is not finite or beyond
+  /// `largest_coordinate`. Leaves the assembler empty.
+  [[nodiscard]] MeshFile finish();
+
+ private:
+  struct Suspect {
+    std::size_t vertex;
+    std::size_t offset;
+  };
+
+  static bool usable(const Eigen::Vector3d& p);
+  void add_strip(std::span<const std::int64_t> corners);
+  void refuse_used_suspects() const;
+  [[noreturn]] void fail(std::size_t offset, const std::string& defect) const;
+
+  const MeshSource& source_;
+  Position position_;
+  MeshFile file_;
+  std::vector<Suspect> suspects_;  // vertices with an unusable coordinate: harmless until a triangle uses them
+};
+
+}  // namespace meshbound

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace meshbound {
+
+/// The bytes of a mesh file and its name, for messages. Positions are byte offsets from the start of the file.
+struct MeshSource {
+  std::filesystem::path path;
+  std::string_view bytes;
+  std::size_t begin = 0;  ///< where the content starts: after a byte order mark
+
+  /// Throw `InvalidInput` naming the file, the line (counted only now, so that parsing need not) or byte, and `defect`.
+  [[noreturn]] void fail_at_line(std::size_t offset, const std::string& defect) const;
+  [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& defect) const;
+  [[noreturn]] void fail(const std::string& defect) const;
+};
+
+/// Whether text starts as UTF-16 does: a byte order mark, or a first character of which one byte is zero.
+[[nodiscard]] bool is_utf16(std::string_view bytes);
+
+/// `text` in quotes, short enough for a message and with unprintable characters replaced.
+[[nodiscard]] std::string quote(std::string_view text);
+
+}  // namespace meshbound

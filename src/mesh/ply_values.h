@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "mesh/mesh_source.h"
+#include "mesh/ply_header.h"
+#include "mesh/text_cursor.h"
+
+namespace meshbound {
+
+/// The values after the header of an ascii PLY, one element a line. Same interface as `BinaryPlyValues`.
+class AsciiPlyValues {
+ public:
+  static constexpr bool is_text = true;
+
+  AsciiPlyValues(const MeshSource& source, std::size_t begin) : cursor_(source) { cursor_.seek(begin); }
+
+  [[nodiscard]] std::size_t offset() const { return cursor_.offset(); }
+  [[nodiscard]] std::size_t remaining() const { return cursor_.remaining(); }
+
+  /// The fewest bytes a value takes: a digit and what separates it from the next.
+  static std::size_t smallest(PlyType) { return 2; }
+
+  double real(PlyType) {
+    start_word();
+    return cursor_.number("a value");
+  }
+
+  std::int64_t integer(PlyType type) {
+    start_word();
+    if (type != PlyType::Float32 && type != PlyType::Float64) return cursor_.integer("an integer");
+    const double value = cursor_.number("an integer");
+    if (!(std::abs(value) <= 0x1p53) || value != std::floor(value)) fail("a count or an index is not a whole number");
+    return static_cast<std::int64_t>(value);
+  }
+
+  void skip(PlyType, std::uint64_t count) {
+    for (; count > 0; --count) {
+      start_word();
+      cursor_.word();
+    }
+  }
+
+  void end_element() {
+    if (cursor_.find_word_in_line()) fail("the line holds more values than the header declares");
+    cursor_.skip_line();
+  }
+
+  /// Only blank lines are left.
+  [[nodiscard]] bool at_end() { return !cursor_.find_word(); }
+
+  [[noreturn]] void fail(const std::string& defect) const { cursor_.fail(defect); }
+
+ private:
+  void start_word() {
+    if (!cursor_.find_word()) fail("the file ends before the last element that its header declares");
+  }
+
+  TextCursor cursor_;
+};
+
+/// The values after the header of a binary PLY, in either byte order; checked against the end of the file.
+class BinaryPlyValues {
+ public:
+  static constexpr bool is_text = false;
+
+  BinaryPlyValues(const MeshSource& source, std::size_t begin, std::endian order)
+      : source_(source),
+        at_(source.bytes.data() + begin),
+        end_(source.bytes.data() + source.bytes.size()),
+        swap_(order != std::endian::native) {}
+
+  [[nodiscard]] std::size_t offset() const { return static_cast<std::size_t>(at_ - source_.bytes.data()); }
+  [[nodiscard]] std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
+  static std::size_t smallest(PlyType type) { return size_of(type); }
+
+  double real(PlyType type) {
+    switch (type) {
+      case PlyType::Float32:
+        return load<float>();
+      case PlyType::Float64:
+        return load<double>();
+      default:
+        return static_cast<double>(integer(type));
+    }
+  }
+
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::Int8:
+        return load<std::int8_t>();
+      case PlyType::UInt8:
+        return load<std::uint8_t>();
+      case PlyType::Int16:
+        return load<std::int16_t>();
+      case PlyType::UInt16:
+        return load<std::uint16_t>();
+      case PlyType::Int32:
+        return load<std::int32_t>();
+      case PlyType::UInt32:
+        return load<std::uint32_t>();
+      default:
+        break;
+    }
+    const double value = real(type);
+    if (!(std::abs(value) <= 0x1p53) || value != std::floor(value)) fail("a count or an index is not a whole number");
+    return static_cast<std::int64_t>(value);
+  }
+
+  void skip(PlyType type, std::uint64_t count) {
+    if (count > remaining() / size_of(type)) fail_truncated();
+    at_ += count * size_of(type);
+  }
+
+  void end_element() {}
+
+  /// Line ends after the data are the work of text tools.
+  [[nodiscard]] bool at_end() const {
+    return std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r'; });
+  }
+
+  [[noreturn]] void fail(const std::string& defect) const { source_.fail_at_byte(offset(), defect); }
+
+ private:
+  template <class T>
+  T load() {
+    if (remaining() < sizeof(T)) fail_truncated();
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, at_, sizeof(T));
+    if (swap_) std::reverse(bytes, bytes + sizeof(T));
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+
+  [[noreturn]] void fail_truncated() const { fail("the file ends before the last element that its header declares"); }
+
+  const MeshSource& source_;
+  const char* at_;
+  const char* end_;
+  bool swap_;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/mapped_file.h"
+#include "mesh/readers.h"
+#include "meshbound/io.h"
+
+namespace meshbound {
+MeshFile read_mesh(const std::filesystem::path& path) {
+  const FileFormat format = format_of(path);
+  const MappedFile file(path);
+  MeshSource source{path, file.bytes()};
+  if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
+  // The header of a binary STL may hold any bytes; its reader recognises text for itself.
+  if (format == FileFormat::Stl) return read_stl(source);
+
+  if (is_utf16(source.bytes)) source.fail_at_byte(0, "the text is UTF-16; save it as ASCII or UTF-8");
+  if (source.bytes.starts_with("\xEF\xBB\xBF")) source.begin = 3;
+  switch (format) {
+    case FileFormat::Off:
+      return read_off(source);
+    case FileFormat::Obj:
+      return read_obj(source);
+    default:
+      return read_ply(source);
+  }
+}
+
+}  // namespace meshbound

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Wavefront OBJ (http://paulbourke.net/dataformats/obj/): v and f are read, groups, materials, normals and texture
+// coordinates are stepped over.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_assembler.h"
+#include "mesh/readers.h"
+#include "mesh/text_cursor.h"
+
+namespace meshbound {
+namespace {
+
+/// Geometry that is no polygon: reported as ignored.
+constexpr std::array<std::string_view, 5> other_geometry = {"l", "p", "curv", "curv2", "surf"};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const MeshSource& source) : source_(source), cursor_(source), assembler_(source, Position::Line) {}
+
+  MeshFile read() {
+    while (cursor_.find_word()) read_statement();
+    if (largest_reference_ > assembler_.vertex_count())
+      source_.fail_at_line(largest_reference_offset_,
+                           "a face refers to vertex " + std::to_string(largest_reference_) + ", but there are only " +
+                               std::to_string(assembler_.vertex_count()) + " (counted from 1)");
+    return assembler_.finish();
+  }
+
+ private:
+  void read_statement() {
+    const std::size_t offset = cursor_.offset();
+    const std::string_view keyword = cursor_.word();
+    if (keyword == "v") {
+      read_vertex(offset);
+    } else if (keyword == "f" || keyword == "fo") {  // fo: the face statement of old versions
+      read_face();
+    } else {
+      if (!is_letter(keyword.front()))
+        source_.fail_at_line(offset, quote(keyword) + " does not start a statement of OBJ");
+      if (std::find(other_geometry.begin(), other_geometry.end(), keyword) != other_geometry.end())
+        assembler_.ignore_element();
+      while (cursor_.find_word_in_line()) cursor_.word();  // word by word: the statement may span joined lines
+    }
+  }
+
+  void read_vertex(std::size_t offset) {
+    const double x = read_coordinate();
+    const double y = read_coordinate();
+    const double z = read_coordinate();
+    while (cursor_.find_word_in_line()) cursor_.number("a weight or a colour");
+    if (assembler_.vertex_count() == std::numeric_limits<std::uint32_t>::max())
+      cursor_.fail("more than 2^32-1 vertices");
+    assembler_.add_vertex({x, y, z}, offset);
+  }
+
+  double read_coordinate() {
+    if (!cursor_.find_word_in_line()) cursor_.fail_expected("a vertex coordinate");
+    return cursor_.number("a vertex coordinate");
+  }
+
+  void read_face() {
+    corners_.clear();
+    while (cursor_.find_word_in_line()) {
+      corners_.push_back(read_corner());
+      skip_texture_and_normal();
+    }
+    assembler_.add_polygon(corners_);
+  }
+
+  /// Positive indices count from 1 and may refer to vertices further down, negative ones count back from here.
+  std::uint32_t read_corner() {
+    const std::size_t offset = cursor_.offset();
+    const std::int64_t index = cursor_.leading_integer("a vertex index");
+    const auto count = static_cast<std::int64_t>(assembler_.vertex_count());
+    if (index == 0) cursor_.fail("a face refers to vertex 0, but OBJ counts vertices from 1");
+    if (index < -count || index > std::numeric_limits<std::uint32_t>::max())
+      cursor_.fail("a face refers to vertex " + std::to_string(index) + ", but there are only " +
+                   std::to_string(count) + " so far");
+    if (index > count && static_cast<std::size_t>(index) > largest_reference_) {
+      largest_reference_ = static_cast<std::size_t>(index);
+      largest_reference_offset_ = offset;
+    }
+    return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
+  }
+
+  /// a/b, a/b/c or a//c: only the form is checked.
+  void skip_texture_and_normal() {
+    for (int i = 0; i < 2 && cursor_.starts_with('/'); ++i) {
+      cursor_.advance();
+      if (!cursor_.at_word_end() && !cursor_.starts_with('/')) cursor_.leading_integer("a texture or normal index");
+    }
+    if (!cursor_.at_word_end()) cursor_.fail_expected("a face corner of the form v, v/vt, v//vn or v/vt/vn");
+  }
+
+  static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+  const MeshSource& source_;
+  TextCursor cursor_;
+  MeshAssembler assembler_;
+  std::vector<std::uint32_t> corners_;
+  std::size_t largest_reference_ = 0;  // to a vertex not yet read, counted from 1
+  std::size_t largest_reference_offset_ = 0;
+};
+
+}  // namespace
+
+MeshFile read_obj(const MeshSource& source) { return ObjReader(source).read(); }
+
+}  // namespace meshbound

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), as it is found in the wild: counts
+// glued to the keyword ("OFF8 6 12", ModelNet), a missing edge count, colours after a vertex without a C in the
+// keyword. A vertex may be spread over lines but shares its last line with no other, nor does a face.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_assembler.h"
+#include "mesh/readers.h"
+#include "mesh/text_cursor.h"
+
+namespace meshbound {
+namespace {
+
+struct Counts {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+};
+
+/// Reads [ST][C][N][4][n]OFF; what ST, C and N announce stands behind the coordinates and is skipped.
+void read_keyword(TextCursor& cursor) {
+  if (!cursor.find_word()) cursor.fail("the file holds no OFF keyword");
+  const std::string_view word = cursor.peek_word();
+  std::string_view rest = word;
+  for (const std::string_view prefix : {"ST", "C", "N"})
+    if (rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
+  if (rest.starts_with("4OFF") || rest.starts_with("nOFF") || rest.starts_with("4nOFF"))
+    cursor.fail("vertices of " + quote(word) + " are not points in three dimensions");
+  if (!rest.starts_with("OFF") && !rest.starts_with("off"))
+    cursor.fail("expected the keyword OFF, but found " + quote(word));
+  cursor.seek(cursor.offset() + word.size() - rest.size() + 3);
+  if (cursor.find_word_in_line() && cursor.peek_word() == "BINARY")
+    cursor.fail("binary OFF is not supported; convert it to text, PLY or STL");
+}
+
+std::size_t read_count(TextCursor& cursor, const char* what) {
+  if (!cursor.find_word()) cursor.fail_expected(what);
+  const std::int64_t count = cursor.integer(what);
+  if (count < 0) cursor.fail(std::string("expected ") + what + ", but it is negative");
+  return static_cast<std::size_t>(count);
+}
+
+/// Steps over numbers that are no concern of ours (colours, normals, texture coordinates), to the next line.
+void skip_numbers_in_line(TextCursor& cursor) {
+  while (cursor.find_word_in_line()) cursor.number("a number");
+  cursor.skip_line();
+}
+
+/// Some writers leave the edge count out: it is there when it follows on the same line or stands alone on the next.
+void skip_edge_count(TextCursor& cursor) {
+  if (!cursor.find_word_in_line()) {
+    if (!cursor.find_word()) return;
+    const std::size_t next_line = cursor.offset();
+    cursor.word();
+    const bool alone = !cursor.find_word_in_line();
+    cursor.seek(next_line);
+    if (!alone) return;
+  }
+  cursor.integer("the number of edges");
+  if (cursor.find_word_in_line()) cursor.fail("expected the end of the line after the three counts");
+}
+
+Counts read_counts(TextCursor& cursor) {
+  Counts counts;
+  counts.vertices = read_count(cursor, "the number of vertices");
+  counts.faces = read_count(cursor, "the number of faces");
+  const std::size_t after = cursor.offset();
+  skip_edge_count(cursor);
+  // "0 0 0\n" and "0\n" are the shortest vertex and face there are.
+  const std::size_t room = cursor.remaining() + 1;
+  if (counts.vertices > room / 6 || counts.faces > room / 2) {
+    cursor.seek(after);
+    cursor.fail("the header declares " + std::to_string(counts.vertices) + " vertices and " +
+                std::to_string(counts.faces) + " faces, more than the rest of the file (" + std::to_string(room - 1) +
+                " bytes) can hold");
+  }
+  if (counts.vertices > std::numeric_limits<std::uint32_t>::max()) cursor.fail("more than 2^32-1 vertices");
+  return counts;
+}
+
+double read_coordinate(TextCursor& cursor) {
+  if (!cursor.find_word()) cursor.fail_expected("a vertex coordinate");
+  return cursor.number("a vertex coordinate");
+}
+
+void read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::uint32_t>& corners) {
+  corners.clear();
+  const std::size_t size = read_count(cursor, "the number of corners of a face");
+  if (size > cursor.remaining() / 2 + 1)
+    cursor.fail("a face declares " + std::to_string(size) + " corners, more than the rest of the file can hold");
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!cursor.find_word()) cursor.fail_expected("a vertex index");
+    const std::int64_t index = cursor.integer("a vertex index");
+    if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+      cursor.fail("a face refers to vertex " + std::to_string(index) + ", but there are only " +
+                  std::to_string(vertex_count) + " (counted from 0)");
+    corners.push_back(static_cast<std::uint32_t>(index));
+  }
+  skip_numbers_in_line(cursor);
+}
+
+}  // namespace
+
+MeshFile read_off(const MeshSource& source) {
+  TextCursor cursor(source);
+  MeshAssembler assembler(source, Position::Line);
+  read_keyword(cursor);
+  const Counts counts = read_counts(cursor);
+  constexpr std::size_t shortest_triangle = 8;  // bytes: "3 0 1 2\n"
+  assembler.reserve(counts.vertices, std::min(counts.faces, cursor.remaining() / shortest_triangle + 1));
+  for (std::size_t i = 0; i < counts.vertices; ++i) {
+    const double x = read_coordinate(cursor);
+    const std::size_t offset = cursor.offset();
+    const double y = read_coordinate(cursor);
+    const double z = read_coordinate(cursor);
+    assembler.add_vertex({x, y, z}, offset);
+    skip_numbers_in_line(cursor);
+  }
+  std::vector<std::uint32_t> corners;
+  for (std::size_t i = 0; i < counts.faces; ++i) {
+    read_face(cursor, counts.vertices, corners);
+    assembler.add_polygon(corners);
+  }
+  if (cursor.find_word())
+    cursor.fail("the file goes on after the " + std::to_string(counts.faces) + " faces that its header declares");
+  return assembler.finish();
+}
+
+}  // namespace meshbound

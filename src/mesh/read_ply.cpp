@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// PLY (http://paulbourke.net/dataformats/ply/): vertices, faces and the triangle strips of the Stanford repository;
+// every other element and property is stepped over.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_assembler.h"
+#include "mesh/ply_header.h"
+#include "mesh/ply_values.h"
+#include "mesh/readers.h"
+
+namespace meshbound {
+namespace {
+
+/// What a property of an element is to us: a coordinate 0, 1 or 2, the corners of a face, or nothing.
+enum Role : int { X = 0, Y = 1, Z = 2, Corners, Nothing };
+
+bool lists_corners(const PlyProperty& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; }
+
+template <class Values>
+class PlyReader {
+ public:
+  PlyReader(const MeshSource& source, const PlyHeader& header, Values values)
+      : source_(source),
+        header_(header),
+        values_(values),
+        assembler_(source, Values::is_text ? Position::Line : Position::Byte) {}
+
+  MeshFile read() {
+    reserve();
+    for (const PlyElement& element : header_.elements) {
+      refuse_count_beyond_file(element);
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face") {
+        read_lists(element, false);
+      } else if (element.name == "tristrips") {
+        read_lists(element, true);
+      } else {
+        skip_element(element);
+      }
+    }
+    if (!values_.at_end()) values_.fail("the file goes on after the last element that its header declares");
+    return assembler_.finish();
+  }
+
+ private:
+  void reserve() {
+    std::size_t faces = 0;
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") {
+        if (vertex_count_ != 0) source_.fail_at_line(element.declared_at, "a second element 'vertex'");
+        vertex_roles_ = vertex_roles(element);
+        refuse_count_beyond_file(element);
+        vertex_count_ = element.count;
+      }
+      if (element.name == "face") faces = element.count;
+    }
+    if (vertex_count_ > std::numeric_limits<std::uint32_t>::max()) values_.fail("more than 2^32-1 vertices");
+    const std::size_t smallest_triangle = 4 * Values::smallest(PlyType::UInt8);  // bytes: its size and three corners
+    assembler_.reserve(vertex_count_, std::min(faces, values_.remaining() / smallest_triangle));
+  }
+
+  /// Before anything is allocated or looped over: a count must fit into what the file still holds. In a text the last
+  /// value may lack its separator.
+  void refuse_count_beyond_file(const PlyElement& element) const {
+    std::size_t smallest = 0;
+    for (const PlyProperty& p : element.properties) smallest += Values::smallest(p.is_list ? p.count_type : p.type);
+    if (smallest != 0 && element.count > (values_.remaining() + 1) / smallest)
+      source_.fail_at_line(element.declared_at, "the header declares " + std::to_string(element.count) + " elements " +
+                                                    quote(element.name) + ", more than the rest of the file (" +
+                                                    std::to_string(values_.remaining()) + " bytes) can hold");
+  }
+
+  void read_vertices(const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::size_t offset = values_.offset();
+      Eigen::Vector3d p;
+      for (std::size_t k = 0; k < vertex_roles_.size(); ++k) {
+        if (vertex_roles_[k] == Nothing) {
+          skip_property(element.properties[k]);
+        } else {
+          p[vertex_roles_[k]] = values_.real(element.properties[k].type);
+          if (Values::is_text) offset = values_.offset();
+        }
+      }
+      values_.end_element();
+      assembler_.add_vertex(p, offset);
+    }
+  }
+
+  std::vector<Role> vertex_roles(const PlyElement& element) const {
+    static constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
+    std::vector<Role> roles(element.properties.size(), Nothing);
+    for (int axis = X; axis <= Z; ++axis) {
+      const std::string_view name = axes[static_cast<std::size_t>(axis)];
+      const auto is_axis = [&](const PlyProperty& p) { return p.name == name; };
+      const auto at = std::find_if(element.properties.begin(), element.properties.end(), is_axis);
+      if (at == element.properties.end() || at->is_list ||
+          std::find_if(at + 1, element.properties.end(), is_axis) != element.properties.end())
+        source_.fail_at_line(element.declared_at, "vertices need exactly one number " + quote(name) + " each");
+      roles[static_cast<std::size_t>(at - element.properties.begin())] = static_cast<Role>(axis);
+    }
+    return roles;
+  }
+
+  void read_lists(const PlyElement& element, bool strips) {
+    const std::size_t found =
+        static_cast<std::size_t>(std::count_if(element.properties.begin(), element.properties.end(), lists_corners));
+    const auto list = std::find_if(element.properties.begin(), element.properties.end(), lists_corners);
+    if (element.count > 0 && (found != 1 || !list->is_list))
+      source_.fail_at_line(element.declared_at, "element " + quote(element.name) +
+                                                    " needs exactly one list 'vertex_indices' or 'vertex_index'");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& p : element.properties) {
+        if (!lists_corners(p)) {
+          skip_property(p);
+        } else if (strips) {
+          read_strip(p);
+        } else {
+          read_face(p);
+        }
+      }
+      values_.end_element();
+    }
+  }
+
+  void read_face(const PlyProperty& list) {
+    corners_.clear();
+    for (std::uint64_t n = list_size(list); n > 0; --n) {
+      const std::int64_t index = values_.integer(list.type);
+      if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_) fail_index(index);
+      corners_.push_back(static_cast<std::uint32_t>(index));
+    }
+    assembler_.add_polygon(corners_);
+  }
+
+  void read_strip(const PlyProperty& list) {
+    strip_.clear();
+    for (std::uint64_t n = list_size(list); n > 0; --n) {
+      const std::int64_t index = values_.integer(list.type);
+      if (index < -1 || (index >= 0 && static_cast<std::uint64_t>(index) >= vertex_count_)) fail_index(index);
+      strip_.push_back(index);
+    }
+    assembler_.add_strips(strip_);
+  }
+
+  std::uint64_t list_size(const PlyProperty& list) {
+    const std::int64_t size = values_.integer(list.count_type);
+    if (size < 0) values_.fail("the length of a list is negative");
+    if (static_cast<std::uint64_t>(size) > (values_.remaining() + 1) / Values::smallest(list.type))
+      values_.fail("a list declares " + std::to_string(size) + " items, more than the rest of the file can hold");
+    return static_cast<std::uint64_t>(size);
+  }
+
+  void skip_property(const PlyProperty& p) { values_.skip(p.type, p.is_list ? list_size(p) : 1); }
+
+  void skip_element(const PlyElement& element) {
+    if (element.properties.empty()) return;  // takes no bytes, however many there are
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& p : element.properties) skip_property(p);
+      values_.end_element();
+    }
+  }
+
+  [[noreturn]] void fail_index(std::int64_t index) const {
+    values_.fail("a face refers to vertex " + std::to_string(index) + ", but there are only " +
+                 std::to_string(vertex_count_) + " (counted from 0)");
+  }
+
+  const MeshSource& source_;
+  const PlyHeader& header_;
+  Values values_;
+  MeshAssembler assembler_;
+  std::size_t vertex_count_ = 0;
+  std::vector<Role> vertex_roles_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<std::int64_t> strip_;
+};
+
+}  // namespace
+
+MeshFile read_ply(const MeshSource& source) {
+  const PlyHeader header = read_ply_header(source);
+  if (header.format == PlyFormat::Ascii) return PlyReader(source, header, AsciiPlyValues(source, header.end)).read();
+  const std::endian order = header.format == PlyFormat::LittleEndian ? std::endian::little : std::endian::big;
+  return PlyReader(source, header, BinaryPlyValues(source, header.end, order)).read();
+}
+
+}  // namespace meshbound

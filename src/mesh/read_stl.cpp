@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// STL (http://www.fabbers.com/tech/STL_Format): text with any number of solids, or an 80-byte header, a count and 50
+// bytes a triangle. The size tells them apart: binary headers that start with "solid" are common.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_assembler.h"
+#include "mesh/readers.h"
+#include "mesh/text_cursor.h"
+#include "mesh/weld.h"
+
+namespace meshbound {
+namespace {
+
+constexpr std::size_t count_offset = 80;  // bytes
+constexpr std::size_t records_offset = 84;
+constexpr std::size_t record_size = 50;     // normal, three corners, two bytes of attributes
+constexpr std::size_t corners_offset = 12;  // in a record
+
+bool equal_ignoring_case(std::string_view word, std::string_view lower_case) {
+  return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; });
+}
+
+/// The vertices of a soup of corners, welded as they arrive.
+class WeldedCorners {
+ public:
+  explicit WeldedCorners(MeshAssembler& assembler) : assembler_(assembler) {}
+
+  std::uint32_t add(const Eigen::Vector3d& p, std::size_t offset) {
+    const std::uint32_t index = welder_.index_of(p);
+    if (index == assembler_.vertex_count()) assembler_.add_vertex(p, offset);
+    return index;
+  }
+
+ private:
+  MeshAssembler& assembler_;
+  Welder welder_;
+};
+
+class StlTextReader {
+ public:
+  explicit StlTextReader(const MeshSource& source)
+      : cursor_(source), assembler_(source, Position::Line), corners_(assembler_) {}
+
+  MeshFile read() {
+    bool in_solid = false;
+    while (cursor_.find_word()) {
+      const std::string_view word = cursor_.peek_word();
+      if (equal_ignoring_case(word, in_solid ? "endsolid" : "solid")) {
+        in_solid = !in_solid;
+        cursor_.skip_line();  // the rest is a name: any words
+      } else if (in_solid && equal_ignoring_case(word, "facet")) {
+        read_facet();
+      } else {
+        cursor_.fail_expected(in_solid ? "'facet' or 'endsolid'" : "'solid'");
+      }
+    }
+    if (in_solid) cursor_.fail("the file ends before 'endsolid'");
+    return assembler_.finish();
+  }
+
+ private:
+  void read_facet() {
+    expect("facet");
+    expect("normal");
+    for (int i = 0; i < 3; ++i) next_word("a normal");  // not used, and some writers print "-nan(ind)"
+    expect("outer");
+    expect("loop");
+    polygon_.clear();
+    while (!equal_ignoring_case(next_word("'vertex' or 'endloop'"), "endloop")) {
+      cursor_.seek(word_);
+      expect("vertex");
+      const double x = read_coordinate();
+      const double y = read_coordinate();
+      const double z = read_coordinate();
+      polygon_.push_back(corners_.add({x, y, z}, word_));
+    }
+    expect("endfacet");
+    assembler_.add_polygon(polygon_);
+  }
+
+  double read_coordinate() {
+    if (!cursor_.find_word()) cursor_.fail_expected("a vertex coordinate");
+    return cursor_.number("a vertex coordinate");
+  }
+
+  std::string_view next_word(const char* what) {
+    if (!cursor_.find_word()) cursor_.fail_expected(what);
+    word_ = cursor_.offset();
+    return cursor_.word();
+  }
+
+  void expect(const char* keyword) {
+    if (equal_ignoring_case(next_word(keyword), keyword)) return;
+    cursor_.seek(word_);
+    cursor_.fail_expected(keyword);
+  }
+
+  TextCursor cursor_;
+  MeshAssembler assembler_;
+  WeldedCorners corners_;
+  std::vector<std::uint32_t> polygon_;
+  std::size_t word_ = 0;  // where the last word starts
+};
+
+template <class T>
+T load_little_endian(const char* from) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, from, sizeof(T));
+  if constexpr (std::endian::native != std::endian::little) std::reverse(bytes, bytes + sizeof(T));
+  return std::bit_cast<T>(bytes);
+}
+
+std::size_t declared_triangles(const MeshSource& source) {
+  return load_little_endian<std::uint32_t>(source.bytes.data() + count_offset);
+}
+
+/// Whether the size is what the count asks for. Less than a record may follow: it cannot hide a triangle. In a text
+/// the bytes of the count are characters, which asks for 25 GB at least.
+bool is_binary(const MeshSource& source) {
+  if (source.bytes.size() < records_offset) return false;
+  return (source.bytes.size() - records_offset) / record_size == declared_triangles(source);
+}
+
+MeshFile read_binary(const MeshSource& source) {
+  MeshAssembler assembler(source, Position::Byte);
+  WeldedCorners corners(assembler);
+  const std::size_t count = declared_triangles(source);
+  assembler.reserve(count / 2, count);  // a closed surface has half as many vertices as triangles
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<std::uint32_t, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t offset = records_offset + i * record_size + corners_offset + k * 3 * sizeof(float);
+      const char* const at = source.bytes.data() + offset;
+      const Eigen::Vector3d p(load_little_endian<float>(at), load_little_endian<float>(at + sizeof(float)),
+                              load_little_endian<float>(at + 2 * sizeof(float)));
+      if (assembler.vertex_count() == std::numeric_limits<std::uint32_t>::max())
+        source.fail_at_byte(offset, "more than 2^32-1 vertices");
+      triangle[k] = corners.add(p, offset);
+    }
+    assembler.add_polygon(triangle);
+  }
+  return assembler.finish();
+}
+
+bool starts_with_solid(const MeshSource& source) {
+  TextCursor cursor(source);
+  return cursor.find_word() && equal_ignoring_case(cursor.peek_word(), "solid");
+}
+
+}  // namespace
+
+MeshFile read_stl(const MeshSource& source) {
+  if (is_binary(source)) return read_binary(source);
+  if (is_utf16(source.bytes)) source.fail_at_byte(0, "the text is UTF-16; save it as ASCII or UTF-8");
+  MeshSource text = source;
+  if (text.bytes.starts_with("\xEF\xBB\xBF")) text.begin = 3;
+  const bool has_zero_byte = source.bytes.substr(0, records_offset).find('\0') != std::string_view::npos;
+  if (starts_with_solid(text) && !has_zero_byte) return StlTextReader(text).read();
+  if (source.bytes.size() < records_offset)
+    source.fail_at_byte(source.bytes.size(),
+                        "the file is neither text that starts with 'solid' nor long enough for the " +
+                            std::to_string(records_offset) + " bytes that a binary STL starts with");
+  const std::size_t count = declared_triangles(source);
+  source.fail_at_byte(count_offset, "the header declares " + std::to_string(count) + " triangles, which take " +
+                                        std::to_string(records_offset + count * record_size) +
+                                        " bytes, but the file has " + std::to_string(source.bytes.size()));
+}
+
+}  // namespace meshbound

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "mesh/weld.h"
+#include "mesh/writers.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/mesh_view.h"
+
+namespace meshbound {
+namespace {
+
+bool stores_floats(FileFormat format, const WriteOptions& options) {
+  return format == FileFormat::Stl || (format == FileFormat::Ply && options.single_precision);
+}
+
+void refuse_beyond_float(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    for (const double x : mesh.vertices[i])
+      if (std::isfinite(x) && !std::isfinite(static_cast<float>(x)))
+        throw InvalidInput(path.string() + ": vertex " + std::to_string(i) +
+                           " has a coordinate beyond the range of float; write doubles (OFF, OBJ, PLY) or rescale");
+  }
+}
+
+void refuse_unwritable(const std::filesystem::path& path, FileFormat format, const TriangleMesh& mesh,
+                       const WriteOptions& options) {
+  try {
+    validate(mesh);
+  } catch (const InvalidInput& defect) {
+    throw InvalidInput(path.string() + ": not written: " + defect.what());
+  }
+  if (stores_floats(format, options)) refuse_beyond_float(path, mesh);
+  if (format == FileFormat::Stl && !options.ascii && mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
+    throw InvalidInput(path.string() + ": a binary STL holds at most 2^32-1 triangles; write PLY");
+}
+
+/// The vertices that triangles use, welded in the order the triangles reach them: what the reader of STL does.
+TriangleMesh welded(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  result.triangles.reserve(mesh.triangles.size());
+  Welder welder;
+  for (const Triangle& t : mesh.triangles) {
+    Triangle& corners = result.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = mesh.vertices[t[k]];
+      corners[k] = welder.index_of(p);
+      if (corners[k] == result.vertices.size()) result.vertices.push_back(p);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  const FileFormat format = format_of(path);
+  refuse_unwritable(path, format, mesh, options);
+  TriangleMesh result = mesh;
+  if (stores_floats(format, options))
+    for (Eigen::Vector3d& p : result.vertices) p = rounded_to_float(p);
+  return format == FileFormat::Stl ? welded(result) : result;
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  const FileFormat format = format_of(path);
+  refuse_unwritable(path, format, mesh, options);
+  AtomicFile file(path);
+  switch (format) {
+    case FileFormat::Off:
+      write_off(file, mesh);
+      break;
+    case FileFormat::Obj:
+      write_obj(file, mesh);
+      break;
+    case FileFormat::Ply:
+      write_ply(file, mesh, options);
+      break;
+    case FileFormat::Stl:
+      write_stl(file, mesh, options);
+      break;
+  }
+  file.commit();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstring>
+
+#include "mesh/atomic_file.h"
+#include "meshbound/io.h"
+
+namespace meshbound {
+
+// One writer per format, for a mesh that `write_mesh` has found to be valid and within the range of the format.
+void write_off(AtomicFile& file, const TriangleMesh& mesh);
+void write_obj(AtomicFile& file, const TriangleMesh& mesh);
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
+void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
+
+/// Writes the shortest decimal that reads back as the same double (at most 17 digits), or an integer, and `after`.
+template <class Number>
+void put(AtomicFile& file, Number value, char after) {
+  constexpr std::size_t longest = 32;  // characters: sign, 17 digits, point, exponent
+  char* const from = file.room(longest);
+  char* const to = std::to_chars(from, from + longest - 1, value).ptr;
+  *to = after;
+  file.use(to + 1);
+}
+
+inline void put(AtomicFile& file, const Eigen::Vector3d& p, char after) {
+  put(file, p.x(), ' ');
+  put(file, p.y(), ' ');
+  put(file, p.z(), after);
+}
+
+template <class T>
+void put_little_endian(AtomicFile& file, T value) {
+  char* const to = file.room(sizeof(T));
+  std::memcpy(to, &value, sizeof(T));
+  if constexpr (std::endian::native != std::endian::little) std::reverse(to, to + sizeof(T));
+  file.use(to + sizeof(T));
+}
+
+/// `p` as float would hold it.
+[[nodiscard]] inline Eigen::Vector3d rounded_to_float(const Eigen::Vector3d& p) {
+  return p.cast<float>().cast<double>();
+}
+
+}  // namespace meshbound
