@@ -122,25 +122,37 @@ class CellWalker {
     return true;
   }
 
-  /// The plane of B's cell across an edge: through the edge, along the bisector of both normals. False on a border or
-  /// where the edge has no direction.
-  bool cell_plane(std::uint32_t slot, const CornerTriangle<double>& t, int edge, Vec3& normal, double& offset) const {
-    const Neighbour neighbour = b_.neighbours[slot][edge];
-    if (neighbour.slot == no_slot) return false;
+  /// The planes of a cell: lane k runs through the edge from corner k to k + 1, along the bisector of the normals on both
+  /// sides, with its unit normal pointing outward (0 where the edge has no direction). Lane 3 is unused.
+  struct CellPlanes {
+    Vec<Double4> normal;
+    Double4 offset;
+  };
+
+  [[nodiscard]] CellPlanes planes_of(std::uint32_t slot, const CornerTriangle<double>& t) const {
     const auto& own = b_.normals[slot];
-    const auto& other = b_.normals[neighbour.slot];
-    const double sign = neighbour.flipped != 0 ? -1 : 1;
-    Vec3 bisector{own[0] + sign * other[0], own[1] + sign * other[1], own[2] + sign * other[2]};
-    // Nearly folded back: the sum is rounding noise, and the plane across the triangle's own edge serves.
-    if (squared_length(bisector) < 1e-3) bisector = {own[0], own[1], own[2]};
-    const Vec3 along = edge == 0 ? t.ab : edge == 1 ? t.ac - t.ab : Vec3{} - t.ac;
-    const Vec3 from = edge == 0 ? t.a : edge == 1 ? t.a + t.ab : t.a + t.ac;
-    normal = cross(along, bisector);
-    const double norm = length(normal);
-    if (!(norm > 0)) return false;
-    normal = (1 / norm) * normal;
-    offset = dot(normal, from);
-    return true;
+    Vec<Double4> bisector{broadcast4(own[0]), broadcast4(own[1]), broadcast4(own[2])};
+    for (int edge = 0; edge < 3; ++edge) {
+      const Neighbour neighbour = b_.neighbours[slot][edge];
+      if (neighbour.slot == no_slot) continue;
+      const auto& other = b_.normals[neighbour.slot];
+      const double sign = neighbour.flipped != 0 ? -1 : 1;
+      const Vec3 sum{own[0] + sign * other[0], own[1] + sign * other[1], own[2] + sign * other[2]};
+      // Nearly folded back: the sum is rounding noise, and the plane across the triangle's own edge serves.
+      if (squared_length(sum) < 1e-3) continue;
+      bisector.x[edge] = sum.x;
+      bisector.y[edge] = sum.y;
+      bisector.z[edge] = sum.z;
+    }
+    const Vec3 bc = t.ac - t.ab, b = t.a + t.ab, c = t.a + t.ac;
+    const Vec<Double4> along{{t.ab.x, bc.x, -t.ac.x, 0}, {t.ab.y, bc.y, -t.ac.y, 0}, {t.ab.z, bc.z, -t.ac.z, 0}};
+    const Vec<Double4> from{{t.a.x, b.x, c.x, 0}, {t.a.y, b.y, c.y, 0}, {t.a.z, b.z, c.z, 0}};
+    CellPlanes planes;
+    planes.normal = cross(along, bisector);
+    const Double4 norm = square_root(squared_length(planes.normal));
+    planes.normal = select(norm > 0.0, 1.0 / norm, Double4{}) * planes.normal;
+    planes.offset = dot(planes.normal, from);
+    return planes;
   }
 
   /// How far the cell may be pushed outward so that most parts inside are still within the target. A part at height h
@@ -158,15 +170,15 @@ class CellWalker {
     constexpr double noise = 1e-13;  // corners this near to a plane lie on it: cutting there would give empty parts
     const CornerTriangle<double> t = triangle_at(b_, piece.slot);
     const double outward = outward_slack(piece, t);
+    const CellPlanes planes = planes_of(piece.slot, t);
     Piece rest = piece;
     bool changed = false;
     for (int edge = 0; edge < 3; ++edge) {
-      Vec3 normal;
-      double offset = 0;
-      if (!cell_plane(piece.slot, t, edge, normal, offset)) continue;
-      const PlaneSides sides = sides_of(rest, normal, offset + outward);
-      if (sides.most <= noise) continue;
       const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;
+      if (across == no_slot) continue;
+      const Vec3 normal{planes.normal.x[edge], planes.normal.y[edge], planes.normal.z[edge]};
+      const PlaneSides sides = sides_of(rest, normal, planes.offset[edge] + outward);
+      if (sides.most <= noise) continue;
       if (sides.least >= -noise) {
         push(rest, across, piece.age + 1);
         return true;

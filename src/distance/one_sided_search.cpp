@@ -226,7 +226,10 @@ void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::ui
       continue;
     }
     const Triangle& t = a_.corners[open.slot];
-    searcher.cover(vertex(t[0]), vertex(t[1]), vertex(t[2]), open.slot, open.start, cuts_left_);
+    const Vec3 a = vertex(t[0]), b = vertex(t[1]), c = vertex(t[2]);
+    // The centroid breaks the ties of corners, which many triangles of B share.
+    const Nearest start = searcher.nearest((1.0 / 3) * (a + b + c), open.start, searcher.accepted_squared());
+    searcher.cover(a, b, c, open.slot, start.slot, cuts_left_);
   }
 }
 

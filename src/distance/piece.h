@@ -13,11 +13,27 @@ inline namespace MESHBOUND_ISA {
 /// tried for it. Corners are stored lane by lane; unused lanes up to the next multiple of four repeat the last corner.
 struct alignas(32) Piece {
   static constexpr std::uint32_t capacity = 12;
-  double x[capacity], y[capacity], z[capacity];
   std::uint32_t count = 0;
   std::uint32_t slot = 0;   ///< candidate triangle of B
   std::uint32_t depth = 0;  ///< cuts that led here
   std::uint32_t age = 0;    ///< steps walked since a query chose or confirmed a candidate
+  alignas(32) double x[capacity], y[capacity], z[capacity];
+
+  Piece() {}  // NOLINT: corners beyond `count` stay as they are, pieces are made by the million
+  Piece(const Piece& other) { *this = other; }
+  /// Copies only the lanes in use: most pieces have three or four corners.
+  Piece& operator=(const Piece& other) {
+    count = other.count;
+    slot = other.slot;
+    depth = other.depth;
+    age = other.age;
+    for (std::uint32_t first = 0; first < count; first += 4) {
+      *reinterpret_cast<Double4*>(x + first) = *reinterpret_cast<const Double4*>(other.x + first);
+      *reinterpret_cast<Double4*>(y + first) = *reinterpret_cast<const Double4*>(other.y + first);
+      *reinterpret_cast<Double4*>(z + first) = *reinterpret_cast<const Double4*>(other.z + first);
+    }
+    return *this;
+  }
 
   [[nodiscard]] Vec3 corner(std::uint32_t i) const { return {x[i], y[i], z[i]}; }
 
@@ -84,13 +100,15 @@ struct PlaneSides {
 inline PlaneSides sides_of(const Piece& piece, const Vec3& normal, double offset) {
   PlaneSides sides;
   const Vec<Double4> n{broadcast4(normal.x), broadcast4(normal.y), broadcast4(normal.z)};
-  for (std::uint32_t first = 0; first < piece.count; first += 4)
-    *reinterpret_cast<Double4*>(sides.value + first) = dot(n, corners4(piece, first)) - broadcast4(offset);
-  sides.least = sides.most = sides.value[0];
-  for (std::uint32_t i = 1; i < piece.count; ++i) {
-    if (sides.value[i] < sides.least) sides.least = sides.value[i];
-    if (sides.value[i] > sides.most) sides.most = sides.value[i];
+  Double4 least = broadcast4(std::numeric_limits<double>::infinity()), most = -least;
+  for (std::uint32_t first = 0; first < piece.count; first += 4) {
+    const Double4 value = dot(n, corners4(piece, first)) - broadcast4(offset);
+    *reinterpret_cast<Double4*>(sides.value + first) = value;
+    least = minimum(least, value);  // lanes beyond the count repeat a corner
+    most = maximum(most, value);
   }
+  sides.least = -horizontal_maximum(-least);
+  sides.most = horizontal_maximum(most);
   return sides;
 }
 

@@ -40,6 +40,22 @@ inline Double4 maximum(Double4 a, Double4 b) {
 #endif
 }
 
+inline Double4 minimum(Double4 a, Double4 b) {
+#if defined(__AVX2__)
+  return _mm256_min_pd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+inline Double4 square_root(Double4 a) {
+#if defined(__AVX2__)
+  return _mm256_sqrt_pd(a);
+#else
+  return Double4{__builtin_sqrt(a[0]), __builtin_sqrt(a[1]), __builtin_sqrt(a[2]), __builtin_sqrt(a[3])};
+#endif
+}
+
 inline double horizontal_maximum(Double4 a) {
   const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
   return low > high ? low : high;
