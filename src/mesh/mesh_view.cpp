@@ -17,9 +17,16 @@ T load(const std::byte* from) {
   return value;
 }
 
+/// False for NaN, as every comparison with it is.
 bool usable(const Eigen::Vector3d& p) {
-  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()) &&
-         p.cwiseAbs().maxCoeff() <= largest_coordinate;
+  return std::abs(p.x()) <= largest_coordinate && std::abs(p.y()) <= largest_coordinate &&
+         std::abs(p.z()) <= largest_coordinate;
+}
+
+bool all_usable(const MeshView& view) {
+  bool all = true;
+  for (std::size_t i = 0; i < view.vertex_count(); ++i) all = all && usable(view.vertex(i));
+  return all;
 }
 
 }  // namespace
@@ -81,12 +88,14 @@ TriangleMesh to_triangle_mesh(const MeshView& view) {
 
 void validate(const MeshView& view) {
   if (view.triangle_count() == 0) throw InvalidInput("the mesh has no triangles: nothing to measure");
+  // Vertices once, not once a corner: only where one is unusable does it matter whether a triangle uses it.
+  const bool check_corners = !all_usable(view);
   for (std::size_t i = 0; i < view.triangle_count(); ++i) {
     for (const std::uint32_t v : view.triangle(i)) {
       if (v >= view.vertex_count())
         throw InvalidInput("triangle " + std::to_string(i) + " refers to vertex " + std::to_string(v) +
                            ", but there are only " + std::to_string(view.vertex_count()));
-      if (!usable(view.vertex(v)))
+      if (check_corners && !usable(view.vertex(v)))
         throw InvalidInput("vertex " + std::to_string(v) + " of triangle " + std::to_string(i) +
                            " has a coordinate that is not finite or is beyond 2^1000; repair or rescale the mesh");
     }

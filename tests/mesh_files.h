@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Small mesh files typed inline, written to a folder that goes away with the test.
+#pragma once
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+
+namespace meshbound::test {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static std::atomic<int> counter{0};
+    path_ = std::filesystem::temp_directory_path() /
+            ("meshbound-test-" + std::to_string(::getpid()) + "-" + std::to_string(counter++));
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline void write_file(const std::filesystem::path& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+inline std::string content_of(const std::filesystem::path& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+/// What the reader makes of a file `name` with this content.
+inline MeshFile read_content(const std::string& name, const std::string& content) {
+  const TemporaryFolder folder;
+  write_file(folder / name, content);
+  return read_mesh(folder / name);
+}
+
+/// The one line with which the reader refuses the content; it must name the file. Empty, and a failure, when it is
+/// read.
+inline std::string refusal(const std::string& name, const std::string& content) {
+  try {
+    const MeshFile file = read_content(name, content);
+    ADD_FAILURE() << "read " << file.mesh.triangles.size() << " triangles from " << content.substr(0, 200);
+  } catch (const InvalidInput& error) {
+    const std::string line = error.what();
+    EXPECT_NE(line.find(name + ": "), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    return line;
+  }
+  return {};
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Shows the text when it does not contain the part.
+#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(::meshbound::test::contains((text), (part))) << (text)
+
+}  // namespace meshbound::test
