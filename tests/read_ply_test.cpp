@@ -195,7 +195,9 @@ TEST(ReadPly, RefusesElementsWithoutWhatWeNeed) {
   EXPECT_CONTAINS(
       refused(ascii + "element vertex 1\n" + xyz + "element face 1\nproperty int flags\nend_header\n0 0 0\n1\n"),
       "vertex_indices");
-  EXPECT_CONTAINS(refused(ascii + "element vertex 1\n" + xyz + "element vertex 1\n" + xyz + "end_header\n"), "second");
+  EXPECT_CONTAINS(
+      refused(ascii + "element vertex 1\n" + xyz + "element vertex 1\n" + xyz + "end_header\n0 0 0\n0 0 0\n"),
+      "line 7: a second");
   EXPECT_CONTAINS(refused(ascii + "element vertex 4000000000\nelement face 1\n" + corners + "end_header\n1 0\n"),
                   "'x'");
 }
@@ -232,7 +234,7 @@ TEST(ReadPly, RefusesIndicesThatAreNotWhole) {
                              "element face 1\nproperty list uchar float vertex_indices\nend_header\n0 0 0\n";
   EXPECT_EQ(read(header + "3 0 0 0\n").mesh.triangles.size(), 1u);
   for (const std::string bad : {"0.5", "nan", "1e300"})
-    EXPECT_CONTAINS(refused(header + "3 0 0 " + bad + "\n"), "line 10");
+    EXPECT_CONTAINS(refused(header + "3 0 0 " + bad + "\n"), "line 11");
 }
 
 TEST(ReadPly, RefusesLinesThatHoldMoreThanDeclaredAndFilesThatGoOn) {
