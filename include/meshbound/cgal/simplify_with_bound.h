@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "meshbound/cgal/surface_mesh.h"
+#include "meshbound/deviation_tracker.h"
+#include "meshbound/distance.h"
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound::cgal {
+
+enum class CollapseCost { GarlandHeckbert, LindstromTurk };
+
+/// What happens at a collapse that would exceed the tolerance.
+enum class OnExceed {
+  Skip,  ///< it is refused, and decimation goes on until no collapse fits: far fewer faces at the same bound
+  Stop   ///< decimation ends there, once the global engine has confirmed that the distance would exceed
+};
+
+/// Why decimation ended.
+enum class EndedBy { NothingFits, Target, Tolerance, TimeLimit, Cancelled };
+
+struct SimplifyOptions {
+  /// Bound of the symmetric Hausdorff distance to the original, model units. Must be given.
+  double tolerance = std::numeric_limits<double>::quiet_NaN();
+  std::optional<std::size_t> target_faces;  ///< decimation ends at this many faces if the tolerance allows it
+  std::optional<double> target_ratio;       ///< the same as a share of the original's faces, 0 to 1
+  OnExceed on_exceed = OnExceed::Skip;
+  /// Smaller tolerances at which the mesh is handed out as well, in any order. One run with growing tolerance makes all,
+  /// each bounded against the original itself. Targets apply to `tolerance` only.
+  std::vector<double> levels;
+  CollapseCost cost = CollapseCost::GarlandHeckbert;
+  bool preserve_boundary = false;  ///< edges with one face stay as they are
+  /// The caller will move vertices by at most this afterwards (a file format of single precision), model units: room
+  /// for it is kept within the tolerance.
+  double output_rounding = 0;
+  /// Measure what comes out, against the original, and say so in `distance`. Without, the caller must do that.
+  bool measure = true;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
+  int threads = 0;                                              ///< of the measurement; 0: as many as OpenMP has
+  const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
+  std::function<void(double fraction)> progress;  ///< called from the calling thread; a guess
+};
+
+struct SimplifiedLevel {
+  double tolerance = 0;
+  TriangleMesh mesh;
+  EndedBy ended_by = EndedBy::NothingFits;
+  /// Of the original (a) and `mesh` (b), with the verdict on `tolerance`, when it was measured.
+  std::optional<SymmetricDistance> distance;
+  Verdict verdict = Verdict::Undecided;
+  std::uint64_t collapses_performed = 0;  ///< since the beginning of the run
+  std::uint64_t collapses_refused = 0;
+};
+
+struct SimplifyResult {
+  std::vector<SimplifiedLevel> levels;  ///< ascending; the last is the one of `SimplifyOptions::tolerance`
+  std::size_t dropped_triangles = 0;    ///< duplicates and degenerate ones that lie on others
+  std::size_t kept_triangles = 0;       ///< degenerate ones that lie on no other: part of every level as they are
+  bool split = false;                   ///< the input was not an oriented 2-manifold and was cut into one
+  bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
+  TrackerStats stats;
+  struct Seconds {
+    double prepare = 0, simplify = 0, measure = 0;
+  } seconds;
+
+  [[nodiscard]] const SimplifiedLevel& last() const { return levels.back(); }
+};
+
+/// Simplifies a triangle soup by edge collapses while its symmetric Hausdorff distance to the original stays within the
+/// tolerance. Each collapse is proven both ways by a `DeviationMonitor`; that proof steers, and the verdict of each level
+/// is a fresh measurement of its mesh (`options.measure`). Decimation needs a 2-manifold, so it works on a
+/// `manifold_copy`; the bound is always against the soup as it came in. Single-threaded and deterministic but for
+/// `time_limit` and `cancel`.
+///
+/// Throws `InvalidInput` for options out of range, for input that `validate` refuses, and when no manifold copy exists.
+[[nodiscard]] SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options);
+
+/// The same for any triangulated face graph of CGAL.
+template <class FaceGraph>
+  requires(!std::is_same_v<FaceGraph, TriangleMesh>)
+[[nodiscard]] SimplifyResult simplify_with_bound(const FaceGraph& original, const SimplifyOptions& options) {
+  return simplify_with_bound(to_triangle_mesh(original), options);
+}
+
+}  // namespace meshbound::cgal

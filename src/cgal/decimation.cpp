@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cgal/decimation.h"
+
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <algorithm>
+
+#include "meshbound/mesh_summary.h"
+
+namespace meshbound::cgal {
+namespace {
+
+/// A pass over all edges that removes a smaller share of the faces than this is the last one: what it gains no longer
+/// pays for looking at every edge again.
+constexpr double least_gain_of_pass = 0.01;
+
+/// Clock and callbacks are looked at once in this many collapses.
+constexpr std::uint64_t checks_between_looks = 64;
+
+TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
+  TriangleMesh result;
+  result.triangles = mesh.triangles;
+  result.vertices.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3d& p : mesh.vertices) result.vertices.push_back(frame.to_frame(p));
+  return result;
+}
+
+}  // namespace
+
+class Decimation::Filter {
+ public:
+  explicit Filter(Decimation& owner) : owner_(&owner), filter_(owner.monitor_->filter()) {}
+
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
+    const OptionalPoint admitted = filter_(profile, placement);
+    if (!admitted && owner_->options_.on_exceed == OnExceed::Stop && owner_->monitor_->last_refusal_by_bound() &&
+        owner_->truly_exceeds())
+      owner_->ended_by_ = EndedBy::Tolerance;
+    return admitted;
+  }
+
+ private:
+  Decimation* owner_;
+  Monitor::Filter filter_;
+};
+
+Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options)
+    : original_(original),
+      options_(options),
+      frame_(used_bounding_box(original)),
+      framed_original_(mapped(original, frame_)),
+      copy_(manifold_copy(framed_original_)) {
+  start_points_.reserve(copy_.mesh.number_of_vertices());
+  for (const auto v : copy_.mesh.vertices()) start_points_.push_back(copy_.mesh.point(v));
+  monitor_.emplace(copy_.mesh, framed_original_, copy_.triangle_of_face, 0.0, get(CGAL::vertex_point, copy_.mesh));
+  monitor_->normal_guard = NormalGuard();
+  monitor_->preserve_boundary = options.preserve_boundary;
+  monitor_->should_stop = [this](std::size_t faces) { return must_stop(faces); };
+  policies_.emplace(copy_.mesh, options.cost, BorderConstraint{&copy_.mesh, options.preserve_boundary});
+}
+
+EndedBy Decimation::run(double tolerance, std::size_t target_faces, double seconds) {
+  // Room for the ways into and out of the frame, of the original and of the result, and for the output format.
+  const double room = 4 * frame_.rounding() + frame_.length_to_frame(options_.output_rounding);
+  frame_tolerance_ = frame_.length_to_frame(tolerance);
+  target_faces_ = target_faces;
+  seconds_ = seconds;
+  began_ = Clock::now();
+  ended_by_.reset();
+  below_rounding_ = !(frame_tolerance_ > 2 * room);
+  if (below_rounding_) return EndedBy::NothingFits;
+  monitor_->grow_tolerance(frame_tolerance_ - room);
+  for (;;) {
+    const std::size_t before = monitor_->faces();
+    pass();
+    if (ended_by_) return *ended_by_;
+    const std::size_t removed = before - monitor_->faces();
+    if (static_cast<double>(removed) < least_gain_of_pass * static_cast<double>(before)) return EndedBy::NothingFits;
+    monitor_->begin_pass();
+  }
+}
+
+void Decimation::pass() {
+  const BorderConstraint constraint{&copy_.mesh, options_.preserve_boundary};
+  SMS::edge_collapse(copy_.mesh, monitor_->stop_predicate(),
+                     CGAL::parameters::get_cost(*policies_)
+                         .get_placement(monitor_->placement(*policies_))
+                         .filter(Filter(*this))
+                         .visitor(monitor_->visitor())
+                         .edge_is_constrained_map(constraint));
+}
+
+bool Decimation::must_stop(std::size_t faces) {
+  if (ended_by_) return true;
+  if (faces <= target_faces_) {
+    ended_by_ = EndedBy::Target;
+    return true;
+  }
+  if (stop_checks_++ % checks_between_looks != 0) return false;
+  if (options_.cancel != nullptr && options_.cancel->load()) ended_by_ = EndedBy::Cancelled;
+  else if (std::chrono::duration<double>(Clock::now() - began_).count() > seconds_) ended_by_ = EndedBy::TimeLimit;
+  show_progress(faces);
+  return ended_by_.has_value();
+}
+
+void Decimation::show_progress(std::size_t faces) {
+  if (!options_.progress) return;
+  // Most runs end at a small share of the faces and spend their time on the way there.
+  options_.progress(1 - static_cast<double>(faces) / static_cast<double>(original_.triangles.size()));
+}
+
+/// The collapse that the monitor has just refused, on a copy: does the whole mesh leave the tolerance by it? The local
+/// proof may fail where the bound still holds, with the help of faces that are far along the surface.
+bool Decimation::truly_exceeds() {
+  const Bvh changed(after_refused_collapse());
+  DistanceOptions options;
+  options.threads = options_.threads;
+  options.cancel = options_.cancel;
+  return check_symmetric(monitor_->original_bvh(), changed, frame_tolerance_, options).verdict != Verdict::Within;
+}
+
+TriangleMesh Decimation::after_refused_collapse() const {
+  TriangleMesh soup;
+  const auto add = [&](const std::array<Eigen::Vector3d, 3>& corners) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    soup.vertices.insert(soup.vertices.end(), corners.begin(), corners.end());
+    soup.triangles.push_back({first, first + 1, first + 2});
+  };
+  monitor_->for_each_face_after_refused([&](const std::array<Eigen::Vector3d, 3>& corners) { add(corners); });
+  for (const std::uint32_t t : monitor_->uncovered()) {
+    const Triangle& corners = framed_original_.triangles[t];
+    add({framed_original_.vertices[corners[0]], framed_original_.vertices[corners[1]],
+         framed_original_.vertices[corners[2]]});
+  }
+  return soup;
+}
+
+TriangleMesh Decimation::current_mesh() const {
+  TriangleMesh result;
+  constexpr std::uint32_t unused = 0xffffffff;
+  std::vector<std::uint32_t> index(start_points_.size(), unused);
+  for (const auto v : copy_.mesh.vertices()) {
+    index[v] = static_cast<std::uint32_t>(result.vertices.size());
+    const Kernel::Point_3& p = copy_.mesh.point(v);
+    // A vertex that never moved keeps the coordinates it came with, to the bit.
+    const bool moved = p != start_points_[v];
+    result.vertices.push_back(moved ? frame_.to_model({p.x(), p.y(), p.z()})
+                                    : original_.vertices[copy_.vertex_of_vertex[v]]);
+  }
+  for (const auto f : copy_.mesh.faces()) {
+    const auto h = copy_.mesh.halfedge(f);
+    result.triangles.push_back({index[copy_.mesh.source(h)], index[copy_.mesh.target(h)],
+                                index[copy_.mesh.target(copy_.mesh.next(h))]});
+  }
+  for (const std::uint32_t t : monitor_->uncovered()) {
+    Triangle corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = static_cast<std::uint32_t>(result.vertices.size());
+      result.vertices.push_back(original_.vertices[original_.triangles[t][i]]);
+    }
+    result.triangles.push_back(corners);
+  }
+  return result;
+}
+
+void Decimation::describe(SimplifyResult& result) const {
+  result.kept_triangles = monitor_->uncovered().size();
+  result.dropped_triangles = copy_.dropped_triangles - result.kept_triangles;
+  result.split = copy_.split;
+  result.tolerance_below_rounding = below_rounding_;
+  result.stats = monitor_->tracker().stats();
+}
+
+}  // namespace meshbound::cgal

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshbound/cgal/simplify_with_bound.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "cgal/decimation.h"
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/mesh_view.h"
+
+namespace meshbound::cgal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void check_options(const SimplifyOptions& options) {
+  const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
+  if (!is_length(options.tolerance)) throw InvalidInput("the tolerance must be given: a length in model units, 0 or more");
+  for (const double level : options.levels) {
+    if (!is_length(level)) throw InvalidInput("a level must be a length in model units, 0 or more");
+    if (level > options.tolerance) throw InvalidInput("a level is larger than the tolerance; the tolerance is the last level");
+  }
+  if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
+    throw InvalidInput("the target ratio must lie between 0 and 1");
+  if (!is_length(options.output_rounding)) throw InvalidInput("the output rounding must be a length, 0 or more");
+  if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
+}
+
+/// Ascending, each once, ending with the tolerance.
+std::vector<double> tolerances(const SimplifyOptions& options) {
+  std::vector<double> all = options.levels;
+  all.push_back(options.tolerance);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Faces to end at in the last level; 0 when no target is given.
+std::size_t target(const TriangleMesh& original, const SimplifyOptions& options) {
+  std::size_t faces = options.target_faces.value_or(0);
+  if (options.target_ratio) {
+    const double share = *options.target_ratio * static_cast<double>(original.triangles.size());
+    faces = std::max(faces, static_cast<std::size_t>(std::floor(share)));
+  }
+  return faces;
+}
+
+void measure(SimplifyResult& result, const TriangleMesh& original, const SimplifyOptions& options) {
+  const auto start = Clock::now();
+  const BvhOptions tree{options.threads};
+  const Bvh original_tree(original, tree);
+  for (SimplifiedLevel& level : result.levels) {
+    DistanceOptions distance;
+    distance.tolerance = level.tolerance;
+    distance.threads = options.threads;
+    distance.cancel = options.cancel;
+    level.distance = symmetric_distance(original_tree, Bvh(level.mesh, tree), distance);
+    const Bounds& bounds = level.distance->bounds;
+    level.verdict = bounds.upper <= level.tolerance  ? Verdict::Within
+                    : bounds.lower > level.tolerance ? Verdict::Exceeds
+                                                     : Verdict::Undecided;
+  }
+  result.seconds.measure = seconds_since(start);
+}
+
+}  // namespace
+
+SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options) {
+  const auto start = Clock::now();
+  check_options(options);
+  validate(original);
+  SimplifyResult result;
+  Decimation decimation(original, options);
+  result.seconds.prepare = seconds_since(start);
+
+  const std::vector<double> levels = tolerances(options);
+  for (const double tolerance : levels) {
+    const bool is_last = tolerance == levels.back();
+    SimplifiedLevel& level = result.levels.emplace_back();
+    level.tolerance = tolerance;
+    level.ended_by = decimation.run(tolerance, is_last ? target(original, options) : 0,
+                                    options.time_limit - seconds_since(start));
+    level.mesh = decimation.current_mesh();
+    level.collapses_performed = decimation.monitor().counts().performed;
+    level.collapses_refused = decimation.monitor().counts().refused;
+    if (options.progress) options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
+  }
+  decimation.describe(result);
+  result.seconds.simplify = seconds_since(start) - result.seconds.prepare;
+  if (options.measure) measure(result, original, options);
+  return result;
+}
+
+}  // namespace meshbound::cgal

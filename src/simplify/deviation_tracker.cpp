@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/deviation_tracker.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "meshbound/error.h"
+#include "meshbound/proximity.h"
+#include "numeric/rounding.h"
+#include "simplify/cover_assignment.h"
+#include "simplify/degree_cover.h"
+#include "simplify/forward_cover.h"
+
+namespace meshbound {
+namespace {
+
+/// Cuts spent on one added face before it counts as too far: an edit that needs more is refused, the next is cheaper.
+constexpr std::uint64_t most_cuts_of_added_face = 300;
+
+using Corners = std::array<Vec3, 3>;
+
+Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+std::vector<Vec3> vertices_of(const MeshView& mesh) {
+  std::vector<Vec3> vertices(mesh.vertex_count());
+  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = to_vec3(mesh.vertex(i));
+  return vertices;
+}
+
+std::vector<Triangle> triangles_of(const MeshView& mesh) {
+  std::vector<Triangle> triangles(mesh.triangle_count());
+  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = mesh.triangle(i);
+  return triangles;
+}
+
+/// Marks for sets of ids that are emptied in O(1).
+class MarkedIds {
+ public:
+  void reserve(std::size_t id) {
+    if (id >= stamps_.size()) stamps_.resize(id + 1, 0);
+  }
+  void clear() { ++current_; }
+  /// False when it was in already.
+  bool insert(std::uint32_t id) {
+    if (stamps_[id] == current_) return false;
+    stamps_[id] = current_;
+    return true;
+  }
+  [[nodiscard]] bool contains(std::uint32_t id) const { return stamps_[id] == current_; }
+
+ private:
+  std::vector<std::uint32_t> stamps_;
+  std::uint32_t current_ = 1;
+};
+
+}  // namespace
+
+struct DeviationTracker::Impl {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  Proximity proximity;
+  double tolerance = 0;
+  double working_tolerance = 0;  ///< what is proven, see `set_tolerance`
+  double magnitude = 0;          ///< largest coordinate seen
+
+  CoverAssignment cover;
+  std::vector<Corners> corners;        ///< of current faces, by id
+  std::vector<std::uint32_t> nearest;  ///< original triangle near each current face: hint of the backward check
+
+  ForwardCover forward;
+  DegreeCover degree;
+  MarkedIds removed_marks, kept_marks, affected_marks, ring_marks;
+
+  struct Pending {
+    bool admitted = false;
+    std::vector<TrackedFace> added;              ///< those that differ from the current face of their id
+    std::vector<std::uint32_t> nearest;          ///< original triangle near each of `added`
+    std::vector<std::uint32_t> affected;         ///< original triangles that lost a face
+    std::vector<CoverAssignment::Ids> covers;    ///< new cover of each of `affected`; grows, never shrinks
+  } pending;
+  std::vector<std::uint32_t> ring;
+  bool ring_known = false;
+
+  Refusal refusal = Refusal::None;
+  std::uint32_t uncovered = SurfaceChange::no_triangle;
+  TrackerStats stats;
+
+  Impl(const MeshView& original, const Bvh& bvh)
+      : vertices(vertices_of(original)),
+        triangles(triangles_of(original)),
+        proximity(bvh),
+        cover(triangles.size()),
+        forward(vertices, triangles),
+        degree(vertices, triangles) {
+    for (const Triangle& t : triangles) {
+      for (const std::uint32_t v : t) {
+        const Vec3 p = vertices[v];
+        magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      }
+    }
+    affected_marks.reserve(triangles.size());
+  }
+  void set_tolerance(double value);
+  void put_face(std::uint32_t id, const Corners& at, std::uint32_t near);
+
+  void select(const SurfaceChange& change);
+  [[nodiscard]] Refusal examine(const SurfaceChange& change);
+  [[nodiscard]] bool moved_vertex_near(const SurfaceChange& change);
+  [[nodiscard]] Refusal cover_affected(const SurfaceChange& change);
+  [[nodiscard]] bool cover_one(std::size_t i, const SurfaceChange& change);
+  void find_ring(const SurfaceChange& change);
+  [[nodiscard]] bool added_faces_near();
+};
+
+void DeviationTracker::Impl::set_tolerance(double value) {
+  tolerance = value;
+  // New vertices lie within the tolerance of old ones. The slack of a distance, and of the cuts above a piece:
+  const double size = magnitude + value;
+  const double slack = CandidateFaces::rounding_slack(size) + ForwardCover::deepest_cut * cut_error * size;
+  working_tolerance = value * tracking_share * (1 - 2 * CandidateFaces::plane_slack) - slack;
+}
+
+void DeviationTracker::Impl::put_face(std::uint32_t id, const Corners& at, std::uint32_t near) {
+  if (id >= corners.size()) {
+    corners.resize(std::size_t{id} + 1);
+    nearest.resize(std::size_t{id} + 1, 0);
+  }
+  cover.reserve_face(id);
+  for (MarkedIds* marks : {&removed_marks, &kept_marks, &ring_marks}) marks->reserve(id);
+  corners[id] = at;
+  nearest[id] = near;
+}
+
+/// Which faces really change, and which original triangles lose a face of their cover by that. Faces that keep id and
+/// corners, as around the fixed end of an edge that collapses onto it, keep their proofs.
+void DeviationTracker::Impl::select(const SurfaceChange& change) {
+  const auto make_room = [&](std::uint32_t id) {
+    for (MarkedIds* marks : {&removed_marks, &kept_marks, &ring_marks}) marks->reserve(id);
+  };
+  removed_marks.clear();
+  for (const std::uint32_t face : change.removed) {
+    make_room(face);
+    removed_marks.insert(face);
+  }
+  pending.admitted = false;
+  pending.added.clear();
+  kept_marks.clear();
+  for (const TrackedFace& face : change.added) {
+    make_room(face.id);
+    const bool unchanged = face.id < corners.size() && removed_marks.contains(face.id) &&
+                           same(corners[face.id][0], to_vec3(face.corners[0])) &&
+                           same(corners[face.id][1], to_vec3(face.corners[1])) &&
+                           same(corners[face.id][2], to_vec3(face.corners[2]));
+    if (unchanged)
+      kept_marks.insert(face.id);
+    else
+      pending.added.push_back(face);
+  }
+  affected_marks.clear();
+  pending.affected.clear();
+  for (const std::uint32_t face : change.removed) {
+    if (kept_marks.contains(face)) continue;
+    for (const std::uint32_t t : cover.originals_of(face)) {
+      if (affected_marks.insert(t)) pending.affected.push_back(t);
+    }
+  }
+  if (pending.covers.size() < pending.affected.size()) pending.covers.resize(pending.affected.size());
+}
+
+bool DeviationTracker::Impl::moved_vertex_near(const SurfaceChange& change) {
+  if (!change.moved_vertex || pending.added.empty()) return true;
+  std::uint32_t hint = pending.affected.empty() ? 0 : pending.affected.front();
+  return proximity.upper_distance(*change.moved_vertex, hint) <= working_tolerance;
+}
+
+Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
+  select(change);
+  if (pending.added.empty() && pending.affected.empty()) return Refusal::None;
+  if (!(working_tolerance > 0)) return Refusal::ToleranceBelowRounding;
+  if (pending.added.size() > most_added_faces) return Refusal::TooManyFaces;
+  if (!moved_vertex_near(change)) return Refusal::MovedVertexTooFar;
+  const Refusal forward_refusal = cover_affected(change);
+  if (forward_refusal != Refusal::None) return forward_refusal;
+  return added_faces_near() ? Refusal::None : Refusal::NewFaceTooFar;
+}
+
+Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
+  forward.begin(working_tolerance);
+  for (const TrackedFace& face : pending.added)
+    forward.add({to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])}, face.id);
+  forward.close_added();
+  pending.nearest.clear();
+  for (const TrackedFace& face : pending.added)
+    pending.nearest.push_back(face.id < nearest.size() ? nearest[face.id] : 0);
+  ring_known = false;
+  const auto fails = [&](std::size_t i) {
+    if (cover_one(i, change)) return false;
+    uncovered = pending.affected[i];
+    return true;
+  };
+  std::size_t first = pending.affected.size();
+  if (change.try_first < triangles.size() && affected_marks.contains(change.try_first)) {
+    first = static_cast<std::size_t>(std::find(pending.affected.begin(), pending.affected.end(), change.try_first) -
+                                     pending.affected.begin());
+    if (fails(first)) return Refusal::OriginalUncovered;
+  }
+  for (std::size_t i = 0; i < pending.affected.size(); ++i) {
+    if (i != first && fails(i)) return Refusal::OriginalUncovered;
+  }
+  return Refusal::None;
+}
+
+/// Candidates beyond the added faces: those that the affected covers use already, then those around the change.
+void DeviationTracker::Impl::find_ring(const SurfaceChange& change) {
+  ring_known = true;
+  ++stats.ring_searches;
+  ring.clear();
+  if (change.ring) change.ring(ring);
+  ring_marks.clear();
+  for (const TrackedFace& face : pending.added) ring_marks.insert(face.id);
+  const auto offer = [&](std::uint32_t face) {
+    const bool current = !removed_marks.contains(face) || kept_marks.contains(face);
+    if (current && ring_marks.insert(face)) forward.add(corners[face], face);
+  };
+  for (const std::uint32_t t : pending.affected) {
+    for (const std::uint32_t face : cover.faces_of(t)) offer(face);
+  }
+  for (const std::uint32_t face : ring) offer(face);
+}
+
+bool DeviationTracker::Impl::cover_one(std::size_t i, const SurfaceChange& change) {
+  const std::uint32_t t = pending.affected[i];
+  ++stats.originals_tested;
+  const CoverAssignment::Ids& old = cover.faces_of(t);
+  FaceMask preferred = 0;
+  for (int k = 0; k < forward.added(); ++k) {
+    if (std::find(old.begin(), old.end(), forward.face(k)) != old.end()) preferred |= FaceMask{1} << k;
+  }
+  FaceMask used = forward.cover(t, false, preferred);
+  if (used == 0) {
+    if (!ring_known) find_ring(change);
+    if (forward.size() > forward.added()) used = forward.cover(t, true, preferred);
+  }
+  CoverAssignment::Ids& ids = pending.covers[i];
+  ids.clear();
+  for (FaceMask rest = used; rest != 0; rest &= rest - 1) {
+    const int k = std::countr_zero(rest);
+    ids.push_back(forward.face(k));
+    if (k < forward.added()) pending.nearest[static_cast<std::size_t>(k)] = t;
+  }
+  return used != 0;
+}
+
+bool DeviationTracker::Impl::added_faces_near() {
+  for (std::size_t k = 0; k < pending.added.size(); ++k) {
+    const auto& at = pending.added[k].corners;
+    std::uint32_t& hint = pending.nearest[k];
+    ++stats.faces_tested;
+    const Corners face{to_vec3(at[0]), to_vec3(at[1]), to_vec3(at[2])};
+    if (degree.covers(face, working_tolerance, magnitude, hint)) {
+      ++stats.faces_by_degree;
+      continue;
+    }
+    if (proximity.triangle_within(at, working_tolerance, hint, most_cuts_of_added_face) != Verdict::Within) return false;
+  }
+  return true;
+}
+
+DeviationTracker::DeviationTracker(const MeshView& original, const Bvh& bvh, double tolerance)
+    : impl_(std::make_unique<Impl>(original, bvh)) {
+  if (!(tolerance >= 0) || !std::isfinite(tolerance)) throw InvalidInput("the tolerance must be a length, 0 or more");
+  if (bvh.triangle_count() != original.triangle_count())
+    throw InvalidInput("the tree and the original it is said to be of have different numbers of triangles");
+  impl_->set_tolerance(tolerance);
+}
+DeviationTracker::DeviationTracker(DeviationTracker&&) noexcept = default;
+DeviationTracker& DeviationTracker::operator=(DeviationTracker&&) noexcept = default;
+DeviationTracker::~DeviationTracker() = default;
+
+void DeviationTracker::start(std::uint32_t id, std::uint32_t triangle) {
+  const Triangle& t = impl_->triangles[triangle];
+  impl_->put_face(id, {impl_->vertices[t[0]], impl_->vertices[t[1]], impl_->vertices[t[2]]}, triangle);
+  CoverAssignment::Ids itself{id};
+  impl_->cover.assign(triangle, itself);
+}
+
+std::vector<std::uint32_t> DeviationTracker::cover_the_rest() {
+  std::vector<std::uint32_t> rest;
+  for (std::uint32_t t = 0; t < impl_->triangles.size(); ++t) {
+    if (impl_->cover.faces_of(t).empty()) rest.push_back(t);
+  }
+  if (rest.empty()) return rest;
+  std::vector<std::vector<std::uint32_t>> faces_at(impl_->vertices.size());
+  MarkedIds wanted;
+  wanted.reserve(impl_->vertices.size());
+  wanted.clear();
+  for (const std::uint32_t t : rest) {
+    for (const std::uint32_t v : impl_->triangles[t]) wanted.insert(v);
+  }
+  for (std::uint32_t t = 0; t < impl_->triangles.size(); ++t) {
+    for (const std::uint32_t v : impl_->triangles[t]) {
+      if (!impl_->cover.faces_of(t).empty() && wanted.contains(v)) faces_at[v].push_back(impl_->cover.faces_of(t)[0]);
+    }
+  }
+  std::vector<std::uint32_t> uncovered;
+  for (const std::uint32_t t : rest) {
+    impl_->forward.begin(std::max(impl_->working_tolerance, 0.0));
+    impl_->ring_marks.clear();
+    for (const std::uint32_t v : impl_->triangles[t]) {
+      for (const std::uint32_t face : faces_at[v]) {
+        if (impl_->ring_marks.insert(face)) impl_->forward.add(impl_->corners[face], face);
+      }
+    }
+    impl_->forward.close_added();
+    CoverAssignment::Ids ids;
+    for (FaceMask used = impl_->forward.cover(t, false, 0); used != 0; used &= used - 1)
+      ids.push_back(impl_->forward.face(std::countr_zero(used)));
+    if (ids.empty())
+      uncovered.push_back(t);
+    else
+      impl_->cover.assign(t, ids);
+  }
+  return uncovered;
+}
+
+bool DeviationTracker::admits(const SurfaceChange& change) {
+  impl_->uncovered = SurfaceChange::no_triangle;
+  impl_->refusal = impl_->examine(change);
+  impl_->pending.admitted = impl_->refusal == Refusal::None;
+  if (impl_->pending.admitted)
+    ++impl_->stats.admitted;
+  else
+    ++impl_->stats.refused[static_cast<std::size_t>(impl_->refusal)];
+  return impl_->pending.admitted;
+}
+
+void DeviationTracker::commit() {
+  Impl::Pending& pending = impl_->pending;
+  if (!pending.admitted) throw Error("commit without an admitted change");
+  pending.admitted = false;
+  for (std::size_t k = 0; k < pending.added.size(); ++k) {
+    const TrackedFace& face = pending.added[k];
+    const Corners at{to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])};
+    impl_->put_face(face.id, at, pending.nearest[k]);
+  }
+  for (std::size_t i = 0; i < pending.affected.size(); ++i)
+    impl_->cover.assign(pending.affected[i], pending.covers[i]);
+}
+
+void DeviationTracker::grow_tolerance(double tolerance) {
+  if (!(tolerance >= impl_->tolerance) || !std::isfinite(tolerance))
+    throw InvalidInput("the tolerance of a tracker can only grow: its proofs hold for the smaller one only");
+  impl_->set_tolerance(tolerance);
+}
+double DeviationTracker::tolerance() const { return impl_->tolerance; }
+Refusal DeviationTracker::last_refusal() const { return impl_->refusal; }
+std::uint32_t DeviationTracker::last_uncovered() const { return impl_->uncovered; }
+const TrackerStats& DeviationTracker::stats() const {
+  impl_->stats.originals_split = impl_->forward.splits;
+  impl_->stats.cuts = impl_->forward.cuts;
+  return impl_->stats;
+}
+
+}  // namespace meshbound

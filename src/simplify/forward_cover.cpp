@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/forward_cover.h"
+
+#include <algorithm>
+
+namespace meshbound {
+namespace {
+
+/// Pieces shorter than this share of the tolerance are not cut further: between points that close, a face that holds one
+/// and not the other is at the tolerance, and a cover that needs it is too tight to look for.
+constexpr double shortest_edge_share = 1e-3;
+
+/// Cuts keep away from the ends, so that pieces shrink.
+constexpr double nearest_cut = 0.05;
+
+/// An edge whose ends share a face is cut only when the others do too: it weighs as if it were this much shorter.
+constexpr double held_edge_weight = 1e-3;
+
+FaceMask lowest(FaceMask mask) { return mask & (~mask + 1); }
+
+}  // namespace
+
+ForwardCover::ForwardCover(const std::vector<Vec3>& vertices,
+                           const std::vector<std::array<std::uint32_t, 3>>& triangles)
+    : vertices_(vertices), triangles_(triangles), cache_(vertices.size()) {}
+
+void ForwardCover::begin(double tolerance) {
+  candidates_.clear(tolerance);
+  added_ = 0;
+  const double shortest = shortest_edge_share * tolerance;
+  shortest_squared_edge_ = shortest * shortest;
+  ++round_;
+}
+
+bool ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
+  if (candidates_.size() == CandidateFaces::capacity) return false;
+  faces_[static_cast<std::size_t>(candidates_.size())] = face;
+  candidates_.add(corners);
+  return true;
+}
+
+FaceMask ForwardCover::mask_of(std::uint32_t vertex, bool with_ring) {
+  CachedMask& cached = cache_[vertex];
+  if (cached.round != round_) cached = {round_, 0, 0};
+  const int wanted = with_ring ? candidates_.size() : added_;
+  if (cached.known < wanted) {
+    cached.mask |= candidates_.holding(vertices_[vertex], cached.known, wanted);
+    cached.known = static_cast<std::uint8_t>(wanted);
+  }
+  if (wanted == CandidateFaces::capacity) return cached.mask;
+  return cached.mask & ((FaceMask{1} << wanted) - 1);
+}
+
+bool ForwardCover::corner_out_of_reach(std::uint32_t triangle) {
+  const auto& corners = triangles_[triangle];
+  return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return mask_of(v, true) == 0; });
+}
+
+FaceMask ForwardCover::cover(std::uint32_t triangle, bool with_ring, FaceMask preferred) {
+  const auto& t = triangles_[triangle];
+  Piece whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    whole.masks[i] = mask_of(t[i], with_ring);
+    if (whole.masks[i] == 0) return 0;
+  }
+  const FaceMask common = whole.masks[0] & whole.masks[1] & whole.masks[2];
+  if (common != 0) return lowest((common & preferred) != 0 ? common & preferred : common);
+  for (std::size_t i = 0; i < 3; ++i) whole.corners[i] = vertices_[t[i]];
+  ++splits;
+  return cover_in_pieces(whole, with_ring);
+}
+
+FaceMask ForwardCover::cover_in_pieces(const Piece& whole, bool with_ring) {
+  open_.assign(1, whole);
+  FaceMask used = 0;
+  for (int spent = 0; !open_.empty();) {
+    const Piece piece = open_.back();
+    open_.pop_back();
+    const FaceMask common = piece.masks[0] & piece.masks[1] & piece.masks[2];
+    if (common != 0) {
+      if ((common & used) == 0) used |= lowest(common);
+      continue;
+    }
+    if (++spent > deepest_cut || !cut(piece, with_ring)) return 0;
+  }
+  return used;
+}
+
+bool ForwardCover::cut(const Piece& piece, bool with_ring) {
+  std::size_t from = 0;
+  double longest = -1, squared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const double edge = squared_length(piece.corners[j] - piece.corners[i]);
+    const double weight = (piece.masks[i] & piece.masks[j]) != 0 ? held_edge_weight * edge : edge;
+    if (weight > longest) longest = weight, squared = edge, from = i;
+  }
+  if (squared < shortest_squared_edge_) return false;
+  const std::size_t to = (from + 1) % 3;
+  const Vec3 p = piece.corners[from], q = piece.corners[to];
+  double share = 0.5;
+  if ((piece.masks[from] & piece.masks[to]) == 0) {
+    const double forth = candidates_.reach(p, q, piece.masks[from]), back = candidates_.reach(q, p, piece.masks[to]);
+    share = std::clamp((forth + 1 - back) / 2, nearest_cut, 1 - nearest_cut);
+  }
+  const Vec3 middle = p + share * (q - p);
+  ++cuts;
+  const FaceMask mask = mask_at(middle, with_ring);
+  if (mask == 0) return false;
+  open_.push_back(piece);
+  open_.back().corners[to] = middle;
+  open_.back().masks[to] = mask;
+  open_.push_back(piece);
+  open_.back().corners[from] = middle;
+  open_.back().masks[from] = mask;
+  return true;
+}
+
+}  // namespace meshbound
