@@ -32,7 +32,8 @@ struct SurfaceChange {
   std::span<const TrackedFace> added;           ///< may reuse ids of `removed`
   std::optional<Eigen::Vector3d> moved_vertex;  ///< w above, where there is one: checked before anything else
   std::uint32_t try_first = no_triangle;        ///< original triangle whose cover is most likely to fail
-  /// Appends ids of current faces around the change, `removed` excluded. Called only when the added faces do not suffice.
+  /// Appends ids of current faces around the change, `removed` excluded. Called only when the added faces do not
+  /// suffice.
   std::function<void(std::vector<std::uint32_t>&)> ring;
 
   static constexpr std::uint32_t no_triangle = 0xffffffff;
@@ -41,22 +42,22 @@ struct SurfaceChange {
 /// Why a change was refused.
 enum class Refusal {
   None,
-  MovedVertexTooFar,    ///< `moved_vertex` is further from the original than the tolerance, or cannot be proven not to be
-  OriginalUncovered,    ///< a part of the original would have no face near enough around it
-  NewFaceTooFar,        ///< a part of an added face would be too far from the original
-  TooManyFaces,         ///< more added faces than `DeviationTracker::most_added_faces`
+  MovedVertexTooFar,  ///< `moved_vertex` is further from the original than the tolerance, or cannot be proven not to be
+  OriginalUncovered,  ///< a part of the original would have no face near enough around it
+  NewFaceTooFar,      ///< a part of an added face would be too far from the original
+  TooManyFaces,       ///< more added faces than `DeviationTracker::most_added_faces`
   ToleranceBelowRounding  ///< the tolerance is so small that doubles cannot prove anything but the unchanged mesh
 };
 
 struct TrackerStats {
-  std::uint64_t admitted = 0;                ///< calls of `admits` that returned true
+  std::uint64_t admitted = 0;                 ///< calls of `admits` that returned true
   std::array<std::uint64_t, 6> refused = {};  ///< by `Refusal`
-  std::uint64_t originals_tested = 0;        ///< original triangles whose cover had to be found again
-  std::uint64_t originals_split = 0;         ///< of these, held by no single face
+  std::uint64_t originals_tested = 0;         ///< original triangles whose cover had to be found again
+  std::uint64_t originals_split = 0;          ///< of these, held by no single face
   std::uint64_t cuts = 0;
-  std::uint64_t ring_searches = 0;        ///< changes that needed faces beyond the added ones
-  std::uint64_t faces_tested = 0;         ///< added faces compared with the original
-  std::uint64_t faces_by_degree = 0;      ///< of these, proven by projecting the original onto them
+  std::uint64_t ring_searches = 0;    ///< changes that needed faces beyond the added ones
+  std::uint64_t faces_tested = 0;     ///< added faces compared with the original
+  std::uint64_t faces_by_degree = 0;  ///< of these, proven by projecting the original onto them
 };
 
 /// Keeps a proof that a mesh under local edits stays within a tolerance of a fixed original, both ways:
@@ -64,11 +65,11 @@ struct TrackerStats {
 ///     every point of the original lies within the tolerance of a face that its triangle is assigned to, and
 ///     every face of the current mesh lies within the tolerance of the original.
 ///
-/// Forward, each original triangle t has a set of current faces S(t) such that t can be cut into convex pieces, each with
-/// one face of S(t) that is within the tolerance of all its corners; the distance to a triangle is convex, so the face is
-/// within the tolerance of the whole piece. An edit that removes a face of S(t) must find a new cover of t, among the
-/// added faces, then the rest of S(t) and the faces around; every other triangle keeps its proof. Backward, an added face
-/// is compared with the original itself, so errors never add up.
+/// Forward, each original triangle t has a set of current faces S(t) such that t can be cut into convex pieces, each
+/// with one face of S(t) that is within the tolerance of all its corners; the distance to a triangle is convex, so the
+/// face is within the tolerance of the whole piece. An edit that removes a face of S(t) must find a new cover of t,
+/// among the added faces, then the rest of S(t) and the faces around; every other triangle keeps its proof. Backward,
+/// an added face is compared with the original itself, so errors never add up.
 ///
 /// The proof uses a tolerance that is smaller by `tracking_share` and by the rounding errors of doubles at the size of
 /// the coordinates. Coordinates should be of ordinary size (1e-70 to 1e70): their squares must neither overflow nor
@@ -81,8 +82,8 @@ class DeviationTracker {
   /// More are refused: the candidate faces of a point are the bits of one 64-bit word, and some are kept for the ring.
   static constexpr std::size_t most_added_faces = 48;
 
-  /// `bvh` must be built from `original` and outlive this. The view is copied. Throws `InvalidInput` when the two differ
-  /// in size or the tolerance is negative or not finite.
+  /// `bvh` must be built from `original` and outlive this. The view is copied. Throws `InvalidInput` when the two
+  /// differ in size or the tolerance is negative or not finite.
   DeviationTracker(const MeshView& original, const Bvh& bvh, double tolerance);
   DeviationTracker(DeviationTracker&&) noexcept;
   DeviationTracker& operator=(DeviationTracker&&) noexcept;

@@ -30,8 +30,8 @@ inline bool is_fixed(const BorderConstraint& constraint, SurfaceMesh::Vertex_ind
   return constraint.enabled && constraint.mesh->is_border(v);
 }
 
-/// Garland-Heckbert or Lindstrom-Turk as cost and placement. Quadrics are computed once, from the mesh of the first run,
-/// and summed up by collapses ever after, so a later pass or level still knows the shape it started from.
+/// Garland-Heckbert or Lindstrom-Turk as cost and placement. Quadrics are computed once, from the mesh of the first
+/// run, and summed up by collapses ever after, so a later pass or level still knows the shape it started from.
 class CollapsePolicies {
   using GarlandHeckbert = SMS::GarlandHeckbert_plane_policies<SurfaceMesh, Kernel>;
 
@@ -74,8 +74,8 @@ class CollapsePolicies {
   }
 
  private:
-  /// Where the surface is flat the quadric is singular but for rounding, and its optimum may be anywhere: it is believed
-  /// within five edge lengths only.
+  /// Where the surface is flat the quadric is singular but for rounding, and its optimum may be anywhere: it is
+  /// believed within five edge lengths only.
   template <class Profile>
   static bool is_local(const Profile& profile, const Kernel::Point_3& p) {
     const double reach = 25 * CGAL::squared_distance(profile.p0(), profile.p1());
@@ -86,8 +86,8 @@ class CollapsePolicies {
   boost::optional<Kernel::Point_3> best_on_edge(const Profile& profile) const {
     boost::optional<Kernel::Point_3> best;
     double least = 0;
-    for (const Kernel::Point_3& p : {CGAL::midpoint(profile.p0(), profile.p1()), Kernel::Point_3(profile.p0()),
-                                     Kernel::Point_3(profile.p1())}) {
+    for (const Kernel::Point_3& p :
+         {CGAL::midpoint(profile.p0(), profile.p1()), Kernel::Point_3(profile.p0()), Kernel::Point_3(profile.p1())}) {
       const double cost = *(*quadrics_)(profile, boost::optional<Kernel::Point_3>(p));
       if (!best || cost < least) best = p, least = cost;
     }

@@ -98,8 +98,10 @@ bool Decimation::must_stop(std::size_t faces) {
     return true;
   }
   if (stop_checks_++ % checks_between_looks != 0) return false;
-  if (options_.cancel != nullptr && options_.cancel->load()) ended_by_ = EndedBy::Cancelled;
-  else if (std::chrono::duration<double>(Clock::now() - began_).count() > seconds_) ended_by_ = EndedBy::TimeLimit;
+  if (options_.cancel != nullptr && options_.cancel->load())
+    ended_by_ = EndedBy::Cancelled;
+  else if (std::chrono::duration<double>(Clock::now() - began_).count() > seconds_)
+    ended_by_ = EndedBy::TimeLimit;
   show_progress(faces);
   return ended_by_.has_value();
 }
@@ -150,8 +152,8 @@ TriangleMesh Decimation::current_mesh() const {
   }
   for (const auto f : copy_.mesh.faces()) {
     const auto h = copy_.mesh.halfedge(f);
-    result.triangles.push_back({index[copy_.mesh.source(h)], index[copy_.mesh.target(h)],
-                                index[copy_.mesh.target(copy_.mesh.next(h))]});
+    result.triangles.push_back(
+        {index[copy_.mesh.source(h)], index[copy_.mesh.target(h)], index[copy_.mesh.target(copy_.mesh.next(h))]});
   }
   for (const std::uint32_t t : monitor_->uncovered()) {
     Triangle corners{};

@@ -18,10 +18,12 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 void check_options(const SimplifyOptions& options) {
   const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
-  if (!is_length(options.tolerance)) throw InvalidInput("the tolerance must be given: a length in model units, 0 or more");
+  if (!is_length(options.tolerance))
+    throw InvalidInput("the tolerance must be given: a length in model units, 0 or more");
   for (const double level : options.levels) {
     if (!is_length(level)) throw InvalidInput("a level must be a length in model units, 0 or more");
-    if (level > options.tolerance) throw InvalidInput("a level is larger than the tolerance; the tolerance is the last level");
+    if (level > options.tolerance)
+      throw InvalidInput("a level is larger than the tolerance; the tolerance is the last level");
   }
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
@@ -81,12 +83,13 @@ SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyO
     const bool is_last = tolerance == levels.back();
     SimplifiedLevel& level = result.levels.emplace_back();
     level.tolerance = tolerance;
-    level.ended_by = decimation.run(tolerance, is_last ? target(original, options) : 0,
-                                    options.time_limit - seconds_since(start));
+    level.ended_by =
+        decimation.run(tolerance, is_last ? target(original, options) : 0, options.time_limit - seconds_since(start));
     level.mesh = decimation.current_mesh();
     level.collapses_performed = decimation.monitor().counts().performed;
     level.collapses_refused = decimation.monitor().counts().refused;
-    if (options.progress) options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
+    if (options.progress)
+      options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
   }
   decimation.describe(result);
   result.seconds.simplify = seconds_since(start) - result.seconds.prepare;

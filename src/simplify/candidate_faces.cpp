@@ -31,8 +31,8 @@ void CandidateFaces::add(const std::array<Vec3, 3>& corners) {
   const double area = length(normal);
   const double longest = std::sqrt(std::max({squared_length(ab), squared_length(ac), squared_length(bc)}));
   // A cross product of computed edges is off by at most 8u |ab| |ac| in length, so the unit normal turns by at most
-  // 8u longest^2 / area and a side plane by twice that; at the distance of a point of the slab that is a displacement of
-  // 24u (longest + tolerance) longest^2 / area in all. Beyond the slack, or at zero area, the planes are not used.
+  // 8u longest^2 / area and a side plane by twice that; at the distance of a point of the slab that is a displacement
+  // of 24u (longest + tolerance) longest^2 / area in all. Beyond the slack, or at zero area, the planes are not used.
   const double displacement = 24 * unit_roundoff * (longest + tolerance_) * longest * longest;
   const bool flat = displacement < plane_slack * tolerance_ * area;
   if (!flat) {

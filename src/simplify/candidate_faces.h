@@ -14,8 +14,8 @@ using FaceMask = std::uint64_t;
 ///
 /// A triangle answers by its plane and the three planes through its edges perpendicular to it where these are accurate
 /// enough (`set_tolerance`), which is exact inside the prism that they bound, and by `closest_on_triangle` elsewhere.
-/// An answer may be "no" for a point that is within the tolerance by rounding alone, and is "yes" only for points within
-/// tolerance (1 + plane_slack) + rounding_slack(M) in real arithmetic.
+/// An answer may be "no" for a point that is within the tolerance by rounding alone, and is "yes" only for points
+/// within tolerance (1 + plane_slack) + rounding_slack(M) in real arithmetic.
 class CandidateFaces {
  public:
   static constexpr int capacity = 64;

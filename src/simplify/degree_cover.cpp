@@ -83,8 +83,8 @@ bool DegreeCover::set_view(const std::array<Vec3, 3>& face, double tolerance, do
   const double area = length(normal);
   if (!(area > 0)) return false;
   z_axis_ = (1 / area) * normal;
-  // The normal of a thin face may lean; the axes are orthonormal nevertheless, and the corners of the face must turn out
-  // to have no height.
+  // The normal of a thin face may lean; the axes are orthonormal nevertheless, and the corners of the face must turn
+  // out to have no height.
   const Vec3 along = ab - dot(ab, z_axis_) * z_axis_;
   const double along_length = length(along);
   if (!(along_length > 0)) return false;
@@ -97,7 +97,8 @@ bool DegreeCover::set_view(const std::array<Vec3, 3>& face, double tolerance, do
   }
   const double middle_x = (corners[0].x + corners[1].x + corners[2].x) / 3;
   const double middle_y = (corners[0].y + corners[1].y + corners[2].y) / 3;
-  const double diameter = std::sqrt(std::max({squared_length(ab), squared_length(ac), squared_length(face[2] - face[1])}));
+  const double diameter =
+      std::sqrt(std::max({squared_length(ab), squared_length(ac), squared_length(face[2] - face[1])}));
   const double keep = 1 - std::min(0.01, shrink_share * tolerance / diameter);
   for (std::size_t k = 0; k < 3; ++k) {
     corner_x_[k] = middle_x + keep * (corners[k].x - middle_x);

@@ -10,16 +10,16 @@ namespace meshbound {
 
 /// Proves that a face lies within a tolerance of the original by the degree of a projection, without cutting the face.
 ///
-/// Let P be a set of original triangles and T' the face, shrunk a little, seen from above. If no edge of the boundary of
-/// P (an edge with an odd number of triangles of P) projects onto T', the number of triangles of P above a point of T'
-/// is constant modulo 2 over T'. If it is odd at one point, every point of T' has a point of P straight above or below
-/// it; and if P, clipped to the prism over T', has no height beyond the limit, that point is near. Nothing is assumed of
-/// the original: it may fold or cross itself, several sheets may lie above each other.
+/// Let P be a set of original triangles and T' the face, shrunk a little, seen from above. If no edge of the boundary
+/// of P (an edge with an odd number of triangles of P) projects onto T', the number of triangles of P above a point of
+/// T' is constant modulo 2 over T'. If it is odd at one point, every point of T' has a point of P straight above or
+/// below it; and if P, clipped to the prism over T', has no height beyond the limit, that point is near. Nothing is
+/// assumed of the original: it may fold or cross itself, several sheets may lie above each other.
 ///
-/// Rounding. Corners are projected once each, by the same expression, so the projected triangles share their edges to the
-/// bit and the argument above is exact for them; it is the heights that carry the error of the projection, and tests
-/// against T' keep a rim that is wider than theirs (`covers`). The crossings counted for the parity take each edge in
-/// the same direction from both its triangles, so interior edges cancel whatever rounding does.
+/// Rounding. Corners are projected once each, by the same expression, so the projected triangles share their edges to
+/// the bit and the argument above is exact for them; it is the heights that carry the error of the projection, and
+/// tests against T' keep a rim that is wider than theirs (`covers`). The crossings counted for the parity take each
+/// edge in the same direction from both its triangles, so interior edges cancel whatever rounding does.
 class DegreeCover {
  public:
   /// Shrinking the face costs this share of the tolerance. It keeps walls that stand on an edge of the face, as at the
@@ -56,8 +56,8 @@ class DegreeCover {
   std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< across the edge from corner k to corner k + 1
 
   Vec3 origin_, x_axis_, y_axis_, z_axis_;
-  std::array<double, 3> corner_x_{}, corner_y_{};                      ///< of T'
-  std::array<double, 3> side_x_{}, side_y_{}, side_offset_{};          ///< outward unit normals of its sides
+  std::array<double, 3> corner_x_{}, corner_y_{};              ///< of T'
+  std::array<double, 3> side_x_{}, side_y_{}, side_offset_{};  ///< outward unit normals of its sides
   double centre_x_ = 0, centre_y_ = 0, height_limit_ = 0, rim_ = 0;
 
   std::vector<std::uint32_t> patch_, visited_;

@@ -75,10 +75,10 @@ struct DeviationTracker::Impl {
 
   struct Pending {
     bool admitted = false;
-    std::vector<TrackedFace> added;              ///< those that differ from the current face of their id
-    std::vector<std::uint32_t> nearest;          ///< original triangle near each of `added`
-    std::vector<std::uint32_t> affected;         ///< original triangles that lost a face
-    std::vector<CoverAssignment::Ids> covers;    ///< new cover of each of `affected`; grows, never shrinks
+    std::vector<TrackedFace> added;            ///< those that differ from the current face of their id
+    std::vector<std::uint32_t> nearest;        ///< original triangle near each of `added`
+    std::vector<std::uint32_t> affected;       ///< original triangles that lost a face
+    std::vector<CoverAssignment::Ids> covers;  ///< new cover of each of `affected`; grows, never shrinks
   } pending;
   std::vector<std::uint32_t> ring;
   bool ring_known = false;
@@ -263,7 +263,8 @@ bool DeviationTracker::Impl::added_faces_near() {
       ++stats.faces_by_degree;
       continue;
     }
-    if (proximity.triangle_within(at, working_tolerance, hint, most_cuts_of_added_face) != Verdict::Within) return false;
+    if (proximity.triangle_within(at, working_tolerance, hint, most_cuts_of_added_face) != Verdict::Within)
+      return false;
   }
   return true;
 }
@@ -345,8 +346,7 @@ void DeviationTracker::commit() {
     const Corners at{to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])};
     impl_->put_face(face.id, at, pending.nearest[k]);
   }
-  for (std::size_t i = 0; i < pending.affected.size(); ++i)
-    impl_->cover.assign(pending.affected[i], pending.covers[i]);
+  for (std::size_t i = 0; i < pending.affected.size(); ++i) impl_->cover.assign(pending.affected[i], pending.covers[i]);
 }
 
 void DeviationTracker::grow_tolerance(double tolerance) {

@@ -6,8 +6,8 @@
 namespace meshbound {
 namespace {
 
-/// Pieces shorter than this share of the tolerance are not cut further: between points that close, a face that holds one
-/// and not the other is at the tolerance, and a cover that needs it is too tight to look for.
+/// Pieces shorter than this share of the tolerance are not cut further: between points that close, a face that holds
+/// one and not the other is at the tolerance, and a cover that needs it is too tight to look for.
 constexpr double shortest_edge_share = 1e-3;
 
 /// Cuts keep away from the ends, so that pieces shrink.

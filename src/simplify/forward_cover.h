@@ -12,11 +12,11 @@ namespace meshbound {
 ///
 /// A piece is covered when the masks of its three corners share a bit: that face is within the tolerance of the corners
 /// and, the distance to a triangle being convex, of the whole piece. Otherwise the piece is cut in two where it leaves
-/// the faces that hold its ends. The cover fails at once when no candidate holds a corner: then the original has a point
-/// there that is too far from all of them.
+/// the faces that hold its ends. The cover fails at once when no candidate holds a corner: then the original has a
+/// point there that is too far from all of them.
 ///
-/// Cut points are rounded, so the two parts meet in a point beside the piece; the displacement, `cut_error` for each cut
-/// on the way down, is part of the rounding slack of the tracker (`deepest_cut`).
+/// Cut points are rounded, so the two parts meet in a point beside the piece; the displacement, `cut_error` for each
+/// cut on the way down, is part of the rounding slack of the tracker (`deepest_cut`).
 class ForwardCover {
  public:
   static constexpr int deepest_cut = 64;  ///< cuts spent on one original triangle

@@ -65,9 +65,9 @@ class DeviationMonitor {
   DeviationMonitor(Mesh& mesh, double tolerance, VertexPointMap points)
       : DeviationMonitor(mesh, to_triangle_mesh(mesh, points), {}, tolerance, points) {}
 
-  /// The original is a soup of which `mesh` is a manifold copy: its k-th face, in order of the range of faces, is triangle
-  /// `triangle_of_face[k]` (k itself where the vector is empty). Triangles that no face is made from count as well.
-  /// `uncovered` tells which of them lie nowhere near the copy; they are kept as they are, see there.
+  /// The original is a soup of which `mesh` is a manifold copy: its k-th face, in order of the range of faces, is
+  /// triangle `triangle_of_face[k]` (k itself where the vector is empty). Triangles that no face is made from count as
+  /// well. `uncovered` tells which of them lie nowhere near the copy; they are kept as they are, see there.
   DeviationMonitor(Mesh& mesh, const TriangleMesh& original, const std::vector<std::uint32_t>& triangle_of_face,
                    double tolerance, VertexPointMap points);
 
@@ -173,8 +173,8 @@ class DeviationMonitor {
   std::vector<Face> removed_faces_;
   std::vector<TrackedFace> added_;
   std::vector<std::array<Eigen::Vector3d, 3>> before_;  ///< of each of `added_`
-  std::optional<Halfedge> selected_;                     ///< popped from the queue, its placement not yet asked for
-  std::optional<std::pair<Halfedge, Point>> refused_;    ///< by the placement, for the filter that follows
+  std::optional<Halfedge> selected_;                    ///< popped from the queue, its placement not yet asked for
+  std::optional<std::pair<Halfedge, Point>> refused_;   ///< by the placement, for the filter that follows
   bool refused_by_bound_ = false;
   std::optional<std::pair<Halfedge, Point>> admitted_;
   bool collapsing_ = false;

@@ -31,8 +31,8 @@ struct SimplifyOptions {
   std::optional<std::size_t> target_faces;  ///< decimation ends at this many faces if the tolerance allows it
   std::optional<double> target_ratio;       ///< the same as a share of the original's faces, 0 to 1
   OnExceed on_exceed = OnExceed::Skip;
-  /// Smaller tolerances at which the mesh is handed out as well, in any order. One run with growing tolerance makes all,
-  /// each bounded against the original itself. Targets apply to `tolerance` only.
+  /// Smaller tolerances at which the mesh is handed out as well, in any order. One run with growing tolerance makes
+  /// all, each bounded against the original itself. Targets apply to `tolerance` only.
   std::vector<double> levels;
   CollapseCost cost = CollapseCost::GarlandHeckbert;
   bool preserve_boundary = false;  ///< edges with one face stay as they are
@@ -43,7 +43,7 @@ struct SimplifyOptions {
   bool measure = true;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
   int threads = 0;                                              ///< of the measurement; 0: as many as OpenMP has
-  const std::atomic<bool>* cancel = nullptr;  ///< set to true from another thread or a signal handler to stop early
+  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread; a guess
 };
 
@@ -59,10 +59,10 @@ struct SimplifiedLevel {
 };
 
 struct SimplifyResult {
-  std::vector<SimplifiedLevel> levels;  ///< ascending; the last is the one of `SimplifyOptions::tolerance`
-  std::size_t dropped_triangles = 0;    ///< duplicates and degenerate ones that lie on others
-  std::size_t kept_triangles = 0;       ///< degenerate ones that lie on no other: part of every level as they are
-  bool split = false;                   ///< the input was not an oriented 2-manifold and was cut into one
+  std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
+  std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
+  std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: part of every level as they are
+  bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
   bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
   TrackerStats stats;
   struct Seconds {
@@ -73,8 +73,8 @@ struct SimplifyResult {
 };
 
 /// Simplifies a triangle soup by edge collapses while its symmetric Hausdorff distance to the original stays within the
-/// tolerance. Each collapse is proven both ways by a `DeviationMonitor`; that proof steers, and the verdict of each level
-/// is a fresh measurement of its mesh (`options.measure`). Decimation needs a 2-manifold, so it works on a
+/// tolerance. Each collapse is proven both ways by a `DeviationMonitor`; that proof steers, and the verdict of each
+/// level is a fresh measurement of its mesh (`options.measure`). Decimation needs a 2-manifold, so it works on a
 /// `manifold_copy`; the bound is always against the soup as it came in. Single-threaded and deterministic but for
 /// `time_limit` and `cancel`.
 ///
@@ -83,8 +83,8 @@ struct SimplifyResult {
 
 /// The same for any triangulated face graph of CGAL.
 template <class FaceGraph>
-  requires(!std::is_same_v<FaceGraph, TriangleMesh>)
-[[nodiscard]] SimplifyResult simplify_with_bound(const FaceGraph& original, const SimplifyOptions& options) {
+requires(!std::is_same_v<FaceGraph, TriangleMesh>) [[nodiscard]] SimplifyResult
+    simplify_with_bound(const FaceGraph& original, const SimplifyOptions& options) {
   return simplify_with_bound(to_triangle_mesh(original), options);
 }
 

@@ -35,8 +35,8 @@ template <class FaceGraph, class VertexPointMap>
   for (const auto f : faces(graph)) {
     const auto h = halfedge(f, graph);
     if (!CGAL::is_triangle(h, graph)) throw InvalidInput("the mesh has a face that is not a triangle; triangulate it");
-    mesh.triangles.push_back({get(index, target(h, graph)), get(index, target(next(h, graph), graph)),
-                              get(index, source(h, graph))});
+    mesh.triangles.push_back(
+        {get(index, target(h, graph)), get(index, target(next(h, graph), graph)), get(index, source(h, graph))});
   }
   return mesh;
 }
@@ -60,8 +60,8 @@ struct ManifoldCopy {
 };
 
 /// Welds vertices of equal coordinates, drops duplicate triangles and those with two equal corners, and where the rest
-/// is not a 2-manifold orients the triangles and duplicates vertices (CGAL's `orient_polygon_soup`). The surface is that
-/// of the soup but for what was dropped. Throws `InvalidInput` when nothing is left. O(n log n).
+/// is not a 2-manifold orients the triangles and duplicates vertices (CGAL's `orient_polygon_soup`). The surface is
+/// that of the soup but for what was dropped. Throws `InvalidInput` when nothing is left. O(n log n).
 [[nodiscard]] ManifoldCopy manifold_copy(const TriangleMesh& soup);
 
 }  // namespace meshbound::cgal

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "common/gated_output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+
+namespace meshbound::tools {
+
+GatedOutput::GatedOutput(std::filesystem::path path) : path_(std::move(path)), target_(path_) {
+  (void)format_of(path_);
+  std::error_code none;
+  if (std::filesystem::is_symlink(path_, none)) target_ = std::filesystem::weakly_canonical(path_);
+  if (std::filesystem::is_directory(target_, none)) throw IoError(path_.string() + " is a folder; name a file in it");
+}
+
+GatedOutput::GatedOutput(GatedOutput&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      verdict_(other.verdict_),
+      distance_(other.distance_),
+      summary_(other.summary_) {}
+
+GatedOutput::~GatedOutput() {
+  std::error_code ignored;
+  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+}
+
+double GatedOutput::largest_rounding(double largest) const {
+  if (format_of(path_) != FileFormat::Stl) return 0;
+  // Half an ulp of float in each coordinate, or half its smallest step; 2 > sqrt(3) covers the length of three.
+  return 2 * std::max(largest * 0x1p-24, 0x1p-150);
+}
+
+void GatedOutput::write(const TriangleMesh& mesh) {
+  std::ostringstream name;
+  name << '.' << target_.stem().string() << ".unproven" << getpid() << target_.extension().string();
+  temporary_ = target_.parent_path() / name.str();
+  write_mesh(temporary_, rounded_for(temporary_, mesh));
+}
+
+const SymmetricDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
+  const TriangleMesh mesh = read_mesh(temporary_).mesh;
+  summary_ = summarise(mesh);
+  distance_ = symmetric_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
+  verdict_ = distance_.bounds.upper <= *options.tolerance  ? Verdict::Within
+             : distance_.bounds.lower > *options.tolerance ? Verdict::Exceeds
+                                                           : Verdict::Undecided;
+  return distance_;
+}
+
+void GatedOutput::publish() {
+  if (verdict_ != Verdict::Within)
+    throw Error(path_.string() + " is not proven to be within the tolerance: not written");
+  std::error_code error;
+  std::filesystem::rename(temporary_, target_, error);
+  if (error) throw IoError("cannot write " + path_.string() + ": " + error.message());
+  temporary_.clear();
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <filesystem>
+
+#include "meshbound/bvh.h"
+#include "meshbound/distance.h"
+#include "meshbound/mesh_summary.h"
+
+namespace meshbound::tools {
+
+/// A mesh file that appears under its name only after what stands in it has been measured: `write` puts it under a
+/// temporary name in the same folder, `measure` reads that back, `publish` renames it if it was found to be within the
+/// tolerance. The destructor removes what was not published.
+class GatedOutput {
+ public:
+  /// Throws `InvalidInput` when the extension of `path` is none of ours.
+  explicit GatedOutput(std::filesystem::path path);
+  GatedOutput(GatedOutput&& other) noexcept;
+  GatedOutput& operator=(GatedOutput&&) = delete;
+  ~GatedOutput();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// No point of a mesh with coordinates of magnitude at most `largest` is moved by more than this when it is rounded
+  /// to the precision of the file format: 0 where that is double.
+  [[nodiscard]] double largest_rounding(double largest) const;
+
+  /// Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
+  void write(const TriangleMesh& mesh);
+
+  /// Distance of the original (a) and the file as it reads (b). `options.tolerance` must be set.
+  const SymmetricDistance& measure(const Bvh& original, const DistanceOptions& options);
+  [[nodiscard]] Verdict verdict() const { return verdict_; }
+  [[nodiscard]] const SymmetricDistance& distance() const { return distance_; }
+  [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
+
+  /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
+  void publish();
+
+ private:
+  std::filesystem::path path_;       ///< as named by the user
+  std::filesystem::path target_;     ///< links resolved
+  std::filesystem::path temporary_;  ///< empty when there is none
+  Verdict verdict_ = Verdict::Undecided;
+  SymmetricDistance distance_;
+  MeshSummary summary_;
+};
+
+}  // namespace meshbound::tools

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// simplify_with_bound IN OUT --tolerance T: as few triangles as possible, never further than T from the original. What
+// appears under OUT has been written, read back and measured against IN before.
+#include "meshbound/cgal/simplify_with_bound.h"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "common/gated_output.h"
+#include "common/length.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/signals.h"
+#include "common/tool_main.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/report.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// Share of the time limit that decimation may use; the rest is for the proof of what came out.
+constexpr double simplify_share = 0.7;
+
+/// Width of the measured interval, as a share of the original's diagonal.
+constexpr double relative_error_bound = 1e-6;
+
+struct Options {
+  std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", output_dir;
+  std::vector<std::string> levels;
+  std::optional<std::size_t> target_faces;
+  std::optional<double> target_ratio;
+  bool preserve_boundary = false;
+  CommonOptions common;
+};
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  /// Seconds since the last lap.
+  double lap() {
+    const double now = seconds();
+    return now - std::exchange(last_, now);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double last_ = 0;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY or STL")->required();
+  app.add_option("OUT", options.output, "File for the result; its extension chooses the format")->required();
+  app.add_option("--tolerance", options.tolerance,
+                 "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
+  auto* faces = app.add_option("--target-faces", options.target_faces, "End at this many faces, tolerance permitting");
+  app.add_option("--target-ratio", options.target_ratio, "The same as a share of the faces of IN")
+      ->check(CLI::Range(0.0, 1.0))
+      ->excludes(faces);
+  app.add_option("--on-exceed", options.on_exceed,
+                 "At a collapse that would exceed the tolerance: skip it and go on, or stop there")
+      ->check(CLI::IsMember({"skip", "stop"}))
+      ->capture_default_str();
+  app.add_option("--levels", options.levels, "Smaller tolerances to write levels for as well: T1,T2,...")
+      ->delimiter(',');
+  app.add_option("--output-dir", options.output_dir, "Folder for the levels (default: that of OUT)");
+  app.add_option("--cost", options.cost, "What makes a collapse cheap")
+      ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
+      ->capture_default_str();
+  app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
+  add_common_options(app, options.common);
+}
+
+/// One run of the tool, in the order of its phases.
+class Run {
+ public:
+  explicit Run(const Options& options) : options_(options), interrupted_(watch_interrupts()) {}
+  int operator()();
+
+ private:
+  void read();
+  void choose_tolerances();
+  void open_outputs();
+  void simplify();
+  void certify();
+  void publish();
+  void report();
+  void print_summary() const;
+  [[nodiscard]] std::string end_reason() const;
+  [[nodiscard]] double remaining(double share) const {
+    return options_.common.has_time_limit ? std::max(0.0, share * options_.common.time_limit - watch_.seconds())
+                                          : std::numeric_limits<double>::infinity();
+  }
+
+  const Options& options_;
+  const std::atomic<bool>& interrupted_;
+  Stopwatch watch_;
+  TriangleMesh original_;
+  double largest_coordinate_ = 0;
+  std::vector<double> tolerances_;  ///< ascending, without repetitions; the last is that of OUT
+  std::vector<GatedOutput> outputs_;
+  cgal::SimplifyResult result_;
+  SimplifyReport report_;
+  Verdict verdict_ = Verdict::Undecided;
+};
+
+int Run::operator()() {
+  read();
+  choose_tolerances();
+  open_outputs();
+  simplify();
+  certify();
+  if (verdict_ == Verdict::Within) publish();
+  report();
+  return exit_code(verdict_);
+}
+
+void Run::read() {
+  original_ = read_mesh(options_.input).mesh;
+  validate(original_);
+  report_.original = {options_.input, summarise(original_)};
+  const Eigen::AlignedBox3d box = used_bounding_box(original_);
+  largest_coordinate_ = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  report_.seconds.read = watch_.lap();
+}
+
+void Run::choose_tolerances() {
+  const double diagonal = report_.original.summary.bbox_diagonal;
+  for (const std::string& level : options_.levels)
+    tolerances_.push_back(parse_length("--levels", level).in_model_units(diagonal));
+  std::sort(tolerances_.begin(), tolerances_.end());
+  if (!options_.tolerance.empty()) {
+    const double tolerance = parse_length("--tolerance", options_.tolerance).in_model_units(diagonal);
+    if (!tolerances_.empty() && tolerances_.back() > tolerance)
+      throw InvalidInput("--levels: a level is larger than --tolerance, which is that of OUT");
+    tolerances_.push_back(tolerance);
+  } else if (tolerances_.empty()) {
+    throw InvalidInput("--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%");
+  }
+  tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
+  report_.tolerance = tolerances_.back();
+}
+
+/// One output for each tolerance but the last, when levels are asked for; then OUT.
+void Run::open_outputs() {
+  const std::filesystem::path out = options_.output;
+  if (!options_.levels.empty()) {
+    const std::filesystem::path folder =
+        options_.output_dir.empty() ? out.parent_path() : std::filesystem::path(options_.output_dir);
+    if (!options_.output_dir.empty()) std::filesystem::create_directories(folder);
+    for (std::size_t i = 0; i < tolerances_.size(); ++i) {
+      std::ostringstream name;
+      name << out.stem().string() << "_level_" << i + 1 << out.extension().string();
+      const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
+      if (is_level) outputs_.emplace_back(folder / name.str());
+    }
+  }
+  outputs_.emplace_back(out);
+}
+
+void Run::simplify() {
+  ProgressBar bar("simplifying", options_.common.quiet);
+  cgal::SimplifyOptions simplify;
+  simplify.tolerance = tolerances_.back();
+  simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
+  simplify.target_faces = options_.target_faces;
+  simplify.target_ratio = options_.target_ratio;
+  simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
+  simplify.cost =
+      options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
+  simplify.preserve_boundary = options_.preserve_boundary;
+  // A vertex may leave the box by the tolerance.
+  simplify.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
+  simplify.measure = false;
+  simplify.time_limit = remaining(simplify_share);
+  simplify.threads = options_.common.threads;
+  simplify.cancel = &interrupted_;
+  simplify.progress = [&](double fraction) { bar.show(fraction); };
+  result_ = cgal::simplify_with_bound(original_, simplify);
+  report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused};
+  report_.seconds.simplify = watch_.lap();
+}
+
+/// Writes each mesh under a temporary name, reads it back and measures that.
+void Run::certify() {
+  const Bvh original(original_, BvhOptions{options_.common.threads});
+  verdict_ = Verdict::Within;
+  for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
+    const std::size_t level = std::min(i, tolerances_.size() - 1);  // OUT may repeat the last level
+    watch_.lap();
+    outputs_[i].write(result_.levels[level].mesh);
+    report_.seconds.write += watch_.lap();
+    ProgressBar bar("measuring", options_.common.quiet);
+    DistanceOptions distance;
+    distance.error_bound = relative_error_bound * report_.original.summary.bbox_diagonal;
+    distance.tolerance = tolerances_[level];
+    distance.budget.seconds = remaining(1);
+    distance.threads = options_.common.threads;
+    distance.cancel = &interrupted_;
+    distance.progress = [&](double fraction) { bar.show(fraction); };
+    outputs_[i].measure(original, distance);
+    verdict_ = outputs_[i].verdict();
+    report_.seconds.certify += watch_.lap();
+    if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
+      throw Error(
+          "internal error: the result is further from the original than was proven during decimation; nothing "
+          "was written. Please report this with the input and the command line");
+  }
+}
+
+void Run::publish() {
+  for (GatedOutput& output : outputs_) output.publish();
+}
+
+void Run::report() {
+  const GatedOutput& out = outputs_.back();
+  report_.verdict = verdict_;
+  report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
+  report_.distance = out.distance();
+  for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
+    report_.levels.push_back(
+        {tolerances_[i], outputs_[i].path().string(), outputs_[i].summary().faces, outputs_[i].distance()});
+  report_.threads = options_.common.threads > 0 ? options_.common.threads : 1;
+  report_.seconds.total = watch_.seconds();
+  if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
+  if (options_.common.json != "-" && !options_.common.quiet) print_summary();
+  if (verdict_ == Verdict::Within) return;
+  const char* const why = interrupted_                   ? "interrupted before the result was proven"
+                          : verdict_ == Verdict::Exceeds ? "the tolerance is smaller than the rounding of the output "
+                                                           "format; use PLY, OFF or OBJ"
+                                                         : "the time limit ended before the result was proven";
+  std::fprintf(stderr, "simplify_with_bound: %s; nothing was written\n", why);
+}
+
+std::string Run::end_reason() const {
+  const auto ended = result_.last().ended_by;
+  const bool had_target = options_.target_faces || options_.target_ratio;
+  if (result_.tolerance_below_rounding)
+    return "the tolerance is below the rounding of the coordinates: nothing collapsed";
+  if (ended == cgal::EndedBy::Target) return "the target was reached first, within the tolerance";
+  if (ended == cgal::EndedBy::TimeLimit) return "the time limit came first";
+  if (ended == cgal::EndedBy::Cancelled) return "interrupted";
+  const std::string tolerance = ended == cgal::EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
+                                                                  : "no further collapse fits the tolerance";
+  return had_target ? tolerance + ": it came before the target" : tolerance;
+}
+
+void print_direction(const char* label, const OneSidedDistance& side) {
+  const Eigen::Vector3d &from = side.witness.from.position, &to = side.witness.nearest.position;
+  std::printf("  %s [%.9g, %.9g], seen from (%.9g %.9g %.9g) to (%.9g %.9g %.9g)\n", label, side.bounds.lower,
+              side.bounds.upper, from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
+}
+
+void Run::print_summary() const {
+  const GatedOutput& out = outputs_.back();
+  const double diagonal = report_.original.summary.bbox_diagonal;
+  std::printf("faces      %zu -> %zu (%s%%): %s\n", report_.original.summary.faces, out.summary().faces,
+              short_number(100.0 * static_cast<double>(out.summary().faces) /
+                           static_cast<double>(report_.original.summary.faces))
+                  .c_str(),
+              end_reason().c_str());
+  std::printf("tolerance  %s\n", both_units(report_.tolerance, diagonal).c_str());
+  std::printf("distance   [%.9g, %.9g], %s\n", out.distance().bounds.lower, out.distance().bounds.upper,
+              to_string(verdict_).c_str());
+  print_direction("original to simplified", out.distance().a_to_b);
+  print_direction("simplified to original", out.distance().b_to_a);
+  if (result_.split) std::printf("input      not an oriented 2-manifold: cut into one for decimation\n");
+  if (result_.dropped_triangles + result_.kept_triangles > 0)
+    std::printf("input      %zu duplicate or degenerate triangles dropped, %zu kept as they are\n",
+                result_.dropped_triangles, result_.kept_triangles);
+  std::printf("seconds    read %.2f, simplify %.2f, write %.2f, certify %.2f, total %.2f\n", report_.seconds.read,
+              report_.seconds.simplify, report_.seconds.write, report_.seconds.certify, report_.seconds.total);
+  if (verdict_ != Verdict::Within) return;
+  for (const GatedOutput& output : outputs_) {
+    std::printf("wrote      %s, %zu faces, [%.6g, %.6g]\n", output.path().c_str(), output.summary().faces,
+                output.distance().bounds.lower, output.distance().bounds.upper);
+  }
+}
+
+}  // namespace
+}  // namespace meshbound::tools
+
+int main(int argc, char** argv) {
+  CLI::App app("Simplifies a triangle mesh and proves how far the result is from the original.", "simplify_with_bound");
+  meshbound::tools::Options options;
+  meshbound::tools::declare(app, options);
+  return meshbound::tools::tool_main(app, argc, argv, [&] { return meshbound::tools::Run(options)(); });
+}
