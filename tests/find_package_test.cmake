@@ -18,3 +18,6 @@ run("configure the consumer" ${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/
   -D CONSUMER_CGAL=${with_cgal} ${flags})
 run("build the consumer" ${CMAKE_COMMAND} --build ${work_dir}/build)
 run("run the consumer" ${work_dir}/build/consumer)
+if(with_cgal)
+  run("run the consumer of the cgal component" ${work_dir}/build/simplify)
+endif()
