@@ -53,6 +53,9 @@ struct DistanceStats {
   std::uint64_t triangles_tested = 0;  ///< point-triangle distances evaluated by those queries
   std::uint64_t subdivisions = 0;      ///< cuts of a piece into two
   std::uint32_t deepest_subdivision = 0;
+  std::uint64_t pieces = 0;        ///< bounded on the walk, whole triangles included
+  std::uint64_t resolved = 0;      ///< pieces split between two closest triangles that are not neighbours
+  std::uint64_t given_up = 0;      ///< pieces left as they stood: too deep, or the budget ran out
   double culled_on_a_percent = 0;  ///< triangles of A never subdivided
   double culled_on_b_percent = 0;  ///< mean share of B's triangles that a query did not touch
   double seconds = 0;

@@ -109,10 +109,11 @@ class CellWalker {
       push(piece, piece.slot, steps_between_queries);
   }
 
-  void push(const Piece& piece, std::uint32_t slot, std::uint32_t age) {
+  void push(const Piece& piece, std::uint32_t slot, std::uint32_t age, bool trimmed = false) {
     stack_.push_back(piece);
     stack_.back().slot = slot;
     stack_.back().age = age;
+    stack_.back().trimmed = trimmed;
   }
 
   bool cut_and_count(const Piece& piece, const PlaneSides& sides, Piece& inside, Piece& outside) {
@@ -122,8 +123,8 @@ class CellWalker {
     return true;
   }
 
-  /// The planes of a cell: lane k runs through the edge from corner k to k + 1, along the bisector of the normals on both
-  /// sides, with its unit normal pointing outward (0 where the edge has no direction). Lane 3 is unused.
+  /// The planes of a cell: lane k runs through the edge from corner k to k + 1, along the bisector of the normals on
+  /// both sides, with its unit normal pointing outward (0 where the edge has no direction). Lane 3 is unused.
   struct CellPlanes {
     Vec<Double4> normal;
     Double4 offset;
@@ -156,20 +157,21 @@ class CellWalker {
   }
 
   /// How far the cell may be pushed outward so that most parts inside are still within the target. A part at height h
-  /// over the plane of t passes when it is within sqrt(target^2 - h^2) of t sideways; 0.6 of that leaves room for
-  /// corners of the cell, where two planes are pushed at once (measured: DESIGN 5.2).
+  /// over the plane of t may lie sqrt(target^2 - h^2) sideways of t; where two edges meet at 60 degrees, pushing both
+  /// by s moves the corner of the cell by 2 s, hence one half. What still fails is cut by the cell itself, where only
+  /// the height counts.
   [[nodiscard]] double outward_slack(const Piece& piece, const CornerTriangle<double>& t) const {
     const auto& n = b_.normals[piece.slot];
     const PlaneSides heights = sides_of(piece, {n[0], n[1], n[2]}, n[0] * t.a.x + n[1] * t.a.y + n[2] * t.a.z);
     const double highest = std::max(heights.most, -heights.least), room = accepted_squared_ - highest * highest;
-    return room > 0 ? 0.6 * std::sqrt(room) : 0;
+    return room > 0 ? 0.5 * std::sqrt(room) : 0;
   }
 
   /// Cuts the piece by the cell of its candidate and sends the parts on. False when the piece lies inside the cell.
   bool walk(const Piece& piece) {
     constexpr double noise = 1e-13;  // corners this near to a plane lie on it: cutting there would give empty parts
     const CornerTriangle<double> t = triangle_at(b_, piece.slot);
-    const double outward = outward_slack(piece, t);
+    const double outward = piece.trimmed ? 0 : outward_slack(piece, t);
     const CellPlanes planes = planes_of(piece.slot, t);
     Piece rest = piece;
     bool changed = false;
@@ -189,8 +191,14 @@ class CellWalker {
       rest = inside;
       changed = true;
     }
-    if (changed) push(rest, piece.slot, steps_between_queries);
-    return changed;
+    if (changed) {
+      const bool again = outward > 0;
+      push(rest, piece.slot, again ? piece.age : steps_between_queries, again);
+      return true;
+    }
+    if (outward == 0) return false;
+    push(piece, piece.slot, piece.age, true);
+    return true;
   }
 
   /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges.
@@ -217,6 +225,7 @@ class CellWalker {
     Piece next = piece;
     ++next.depth;  // a round without a cut counts too, so that no piece walks in circles
     next.age = 0;
+    next.trimmed = false;
     double bound = std::min(farthest.squared, lipschitz * lipschitz);
     if (nearest.slot != piece.slot) {
       const double other = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;

@@ -50,6 +50,9 @@ void OneSidedSearch::fill_stats() {
     stats_.nodes_visited += counters.queries.nodes;
     tested += counters.queries.triangles;
     stats_.subdivisions += counters.cuts;
+    stats_.pieces += counters.pieces;
+    stats_.resolved += counters.resolved;
+    stats_.given_up += counters.given_up;
     stats_.deepest_subdivision = std::max(stats_.deepest_subdivision, counters.deepest);
   }
   stats_.triangles_tested = tested;

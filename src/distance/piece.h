@@ -17,6 +17,7 @@ struct alignas(32) Piece {
   std::uint32_t slot = 0;   ///< candidate triangle of B
   std::uint32_t depth = 0;  ///< cuts that led here
   std::uint32_t age = 0;    ///< steps walked since a query chose or confirmed a candidate
+  bool trimmed = false;     ///< lies inside the pushed-out cell of its candidate, so only the cell itself cuts it
   alignas(32) double x[capacity], y[capacity], z[capacity];
 
   Piece() {}  // NOLINT: corners beyond `count` stay as they are, pieces are made by the million
@@ -27,6 +28,7 @@ struct alignas(32) Piece {
     slot = other.slot;
     depth = other.depth;
     age = other.age;
+    trimmed = other.trimmed;
     for (std::uint32_t first = 0; first < count; first += 4) {
       *reinterpret_cast<Double4*>(x + first) = *reinterpret_cast<const Double4*>(other.x + first);
       *reinterpret_cast<Double4*>(y + first) = *reinterpret_cast<const Double4*>(other.y + first);
