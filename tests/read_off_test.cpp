@@ -90,6 +90,11 @@ TEST(ReadOff, RefusesNumbersThatAreNone) {
     EXPECT_CONTAINS(refused("OFF\n4 1 0\n" + three_vertices + "0 " + bad + " 0\n3 0 1 2\n"), "line 6");
 }
 
+TEST(ReadOff, CountsLinesHoweverTheyEnd) {
+  for (const std::string end : {"\n", "\r\n", "\r"})
+    EXPECT_CONTAINS(refused("OFF" + end + "3 1 0" + end + end + "0 0 zero 0 0 0 0 0 0" + end), "line 4");
+}
+
 TEST(ReadOff, RefusesIndicesThatAreNone) {
   for (const std::string bad : {"3", "-1", "4294967296", "99999999999999999999999999", "1.0", "x", "1/2"})
     EXPECT_CONTAINS(refused("OFF\n3 1 0\n" + three_vertices + "3 0 1 " + bad + "\n"), "line 6");

@@ -32,13 +32,16 @@ struct WriteOptions {
   bool single_precision = false;  ///< PLY: float coordinates (STL is always float, OFF and OBJ always 17 digits)
 };
 
-/// The mesh that `read_mesh` gives back after `write_mesh`, up to the order of vertices in STL: coordinates rounded to
-/// the precision of the file format. Throws `InvalidInput` when a coordinate leaves the range of float.
+/// The mesh that `read_mesh` gives back after `write_mesh`, bit for bit: coordinates rounded to the precision of the
+/// file format, and for STL vertices welded, numbered as the triangles reach them, unused ones dropped. The order of
+/// triangles is kept. Throws `InvalidInput` when a coordinate leaves the range of float or `validate` refuses the mesh.
+/// O(n).
 [[nodiscard]] TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& mesh,
                                        const WriteOptions& options = {});
 
 /// Writes to a temporary name in the same folder, then renames: `path` either keeps what it had or holds the whole
-/// mesh. Throws `IoError` (also when the disk is full), `InvalidInput` for an unknown extension.
+/// mesh. Throws `IoError` (also when the disk is full), `InvalidInput` for an unknown extension and where `rounded_for`
+/// does; nothing is written then. O(n). Safe to call from several threads, as is all of this header.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
 
 }  // namespace meshbound

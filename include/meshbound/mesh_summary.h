@@ -16,7 +16,8 @@ struct MeshSummary {
   double bbox_diagonal = 0;    ///< of the vertices that triangles use, model units
 };
 
-/// O(n) time and memory.
+/// O(n) time and memory. Here and below every index must be in range, as `validate` checks. Safe to call from several
+/// threads.
 [[nodiscard]] MeshSummary summarise(const MeshView& mesh);
 
 /// Bounding box of the vertices that triangles use; empty when there are none.
