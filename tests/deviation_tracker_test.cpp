@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// The tracker admits only what keeps the bound, refuses for the right reason, and forgets what it refused. Every mesh
+// that comes out of random admitted edits is measured by the distance engine.
+#include "meshbound/deviation_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <random>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/proximity.h"
+#include "reference/small_meshes.h"
+#include "simplify/degree_cover.h"
+
+namespace meshbound {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A mesh under edits beside its tracker: the simplest simplifier that can drive one. Topology is not looked after, so
+/// it makes soups that a half-edge structure never would.
+class TrackedSoup {
+ public:
+  TrackedSoup(const TriangleMesh& original, double tolerance)
+      : original_(original), bvh_(original), tracker(original, bvh_, tolerance), mesh_(original) {
+    for (std::uint32_t t = 0; t < original.triangles.size(); ++t) tracker.start(t, t);
+    alive_.assign(original.triangles.size(), true);
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> faces_around(std::uint32_t u, std::uint32_t v) const {
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f)
+      if (alive_[f] && (has(f, u) || has(f, v))) around.push_back(f);
+    return around;
+  }
+
+  /// Collapses v into u at `to`, if the tracker admits it.
+  bool collapse(std::uint32_t u, std::uint32_t v, const Vector3d& to) {
+    const std::vector<std::uint32_t> removed = faces_around(u, v);
+    std::vector<TrackedFace> added;
+    for (const std::uint32_t f : removed) {
+      if (has(f, u) && has(f, v)) continue;
+      TrackedFace face{f, {}};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t c = mesh_.triangles[f][i];
+        face.corners[i] = c == u || c == v ? to : mesh_.vertices[c];
+      }
+      added.push_back(face);
+    }
+    SurfaceChange change;
+    change.removed = removed;
+    change.added = added;
+    change.moved_vertex = to;
+    change.ring = [&](std::vector<std::uint32_t>& ring) {
+      for (const std::uint32_t f : removed)
+        for (const std::uint32_t c : mesh_.triangles[f])
+          for (const std::uint32_t g : faces_around(c, c))
+            if (std::find(removed.begin(), removed.end(), g) == removed.end()) ring.push_back(g);
+    };
+    if (!tracker.admits(change)) return false;
+    tracker.commit();
+    for (const std::uint32_t f : removed) {
+      if (has(f, u) && has(f, v)) alive_[f] = false;
+      for (std::uint32_t& c : mesh_.triangles[f]) c = c == v ? u : c;
+    }
+    mesh_.vertices[u] = to;
+    return true;
+  }
+
+  [[nodiscard]] TriangleMesh current() const {
+    TriangleMesh result{mesh_.vertices, {}};
+    for (std::size_t f = 0; f < alive_.size(); ++f)
+      if (alive_[f]) result.triangles.push_back(mesh_.triangles[f]);
+    return result;
+  }
+  [[nodiscard]] Bounds distance() const { return symmetric_distance(bvh_, Bvh(current())).bounds; }
+  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+  [[nodiscard]] bool alive(std::uint32_t f) const { return alive_[f]; }
+
+ private:
+  [[nodiscard]] bool has(std::uint32_t f, std::uint32_t v) const {
+    const Triangle& t = mesh_.triangles[f];
+    return t[0] == v || t[1] == v || t[2] == v;
+  }
+  TriangleMesh original_;
+  Bvh bvh_;
+
+ public:
+  DeviationTracker tracker;
+
+ private:
+  TriangleMesh mesh_;
+  std::vector<bool> alive_;
+};
+
+/// Tries `count` collapses of random edges into random points near them; returns how many were admitted.
+int random_collapses(TrackedSoup& soup, std::uint32_t seed, int count, double jitter) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int admitted = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto f = static_cast<std::uint32_t>(random() % soup.mesh().triangles.size());
+    const auto k = random() % 3;
+    if (!soup.alive(f)) continue;
+    const std::uint32_t u = soup.mesh().triangles[f][k], v = soup.mesh().triangles[f][(k + 1) % 3];
+    if (u == v) continue;
+    const double s = unit(random) < 0.5 ? 0.0 : unit(random);
+    const Vector3d noise = jitter * Vector3d(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+    const Vector3d to = (1 - s) * soup.mesh().vertices[u] + s * soup.mesh().vertices[v] + (s == 0 ? 0.0 : 1.0) * noise;
+    admitted += soup.collapse(u, v, to) ? 1 : 0;
+  }
+  return admitted;
+}
+
+struct Shape {
+  const char* name;
+  TriangleMesh mesh;
+  double tolerance;
+};
+
+std::vector<Shape> shapes() {
+  return {{"sphere", datasets::icosphere(1, 3), 0.05},
+          {"open plane with spikes", datasets::spiked_plane(1, 0.2, 16, 4), 0.03},
+          {"thin sheet, tolerance above its thickness", datasets::thin_sheet(1, 0.01, 12), 0.02},
+          {"open terrain", datasets::terrain(1, 16, 7), 0.02},
+          {"two spheres through each other",
+           reference::both(datasets::icosphere(1, 2), reference::moved(datasets::icosphere(1, 2), {0.5, 0, 0})), 0.1}};
+}
+
+TEST(DeviationTracker, KeepsRandomCollapsesWithinTheToleranceBothWays) {
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    TrackedSoup soup(shape.mesh, shape.tolerance);
+    EXPECT_GT(random_collapses(soup, 1, 3000, shape.tolerance), 100);
+    EXPECT_LE(soup.distance().upper, shape.tolerance);
+  }
+}
+
+TEST(DeviationTracker, UsesMostOfTheTolerance) {
+  TrackedSoup soup(datasets::icosphere(1, 3), 0.05);
+  random_collapses(soup, 2, 6000, 0.05);
+  EXPECT_GT(soup.distance().lower, 0.7 * 0.05);
+}
+
+TEST(DeviationTracker, RefusesAVertexTooFarFromTheOriginal) {
+  TrackedSoup soup(reference::unit_square(4), 0.01);
+  EXPECT_FALSE(soup.collapse(6, 7, {0.4, 0.3, 0.011}));
+  EXPECT_EQ(soup.tracker.last_refusal(), Refusal::MovedVertexTooFar);
+}
+
+/// Flat but for one spike: its removal leaves only faces that lie on the original, and the tip without any near it.
+TEST(DeviationTracker, RefusesToForgetASpikeAndNamesATriangleOfIt) {
+  TriangleMesh spike = reference::unit_square(4);
+  const std::uint32_t tip = 12;
+  spike.vertices[tip].z() = 0.5;
+  TrackedSoup soup(spike, 0.01);
+  const std::uint32_t neighbour = 11;
+  EXPECT_FALSE(soup.collapse(neighbour, tip, spike.vertices[neighbour]));
+  ASSERT_EQ(soup.tracker.last_refusal(), Refusal::OriginalUncovered);
+  const Triangle t = spike.triangles.at(soup.tracker.last_uncovered());
+  EXPECT_NE(std::find(t.begin(), t.end(), tip), t.end());
+}
+
+/// Two plates side by side with a gap: a face across it is near everything that was removed, but far from the original
+/// in its middle.
+TEST(DeviationTracker, RefusesAFaceAcrossAGap) {
+  const TriangleMesh plates =
+      reference::both(reference::unit_square(1), reference::moved(reference::unit_square(1), {2, 0, 0}));
+  const Bvh bvh(plates);
+  DeviationTracker tracker(plates, bvh, 0.1);
+  for (std::uint32_t t = 0; t < plates.triangles.size(); ++t) tracker.start(t, t);
+  const std::vector<TrackedFace> bridge = {{7, {Vector3d(1, 0, 0), Vector3d(2, 0, 0), Vector3d(2, 1, 0)}}};
+  SurfaceChange change;
+  change.added = bridge;
+  EXPECT_FALSE(tracker.admits(change));
+  EXPECT_EQ(tracker.last_refusal(), Refusal::NewFaceTooFar);
+}
+
+TEST(DeviationTracker, IsTheSameAfterARefusalAsBefore) {
+  const TriangleMesh sphere = datasets::icosphere(1, 2);
+  TrackedSoup plain(sphere, 0.05), disturbed(sphere, 0.05);
+  std::mt19937 random(5);
+  for (int i = 0; i < 600; ++i) {
+    const Triangle t = plain.mesh().triangles[random() % plain.mesh().triangles.size()];
+    if (t[0] == t[1]) continue;
+    const Vector3d to = 0.5 * (plain.mesh().vertices[t[0]] + plain.mesh().vertices[t[1]]);
+    EXPECT_FALSE(disturbed.collapse(t[0], t[1], 3 * to));
+    EXPECT_EQ(plain.collapse(t[0], t[1], to), disturbed.collapse(t[0], t[1], to));
+  }
+  EXPECT_EQ(plain.current().triangles, disturbed.current().triangles);
+}
+
+TEST(DeviationTracker, CommitsOnlyWhatItAdmitted) {
+  TrackedSoup soup(reference::unit_square(4), 0.01);
+  EXPECT_THROW(soup.tracker.commit(), Error);
+  ASSERT_FALSE(soup.collapse(6, 7, {0, 0, 9}));
+  EXPECT_THROW(soup.tracker.commit(), Error);
+}
+
+TEST(DeviationTracker, CoversDuplicatesAndDegenerateTrianglesByTheirNeighbours) {
+  TriangleMesh mesh = reference::unit_square(1);
+  const Triangle first = mesh.triangles[0];
+  mesh.triangles.push_back(first);
+  mesh.triangles.push_back({first[0], first[1], first[1]});
+  mesh.vertices.emplace_back(5, 5, 5);
+  mesh.triangles.push_back({first[0], first[0], 4});  // a segment that leads away from the square
+  const Bvh bvh(mesh);
+  DeviationTracker tracker(mesh, bvh, 0.01);
+  tracker.start(0, 0);
+  tracker.start(1, 1);
+  EXPECT_EQ(tracker.cover_the_rest(), std::vector<std::uint32_t>{4});
+}
+
+TEST(DeviationTracker, GrowsItsToleranceButNeverShrinksIt) {
+  TrackedSoup soup(reference::unit_square(4), 0.01);
+  const Vector3d above(0.4, 0.3, 0.05);
+  EXPECT_FALSE(soup.collapse(6, 7, above));
+  EXPECT_THROW(soup.tracker.grow_tolerance(0.005), InvalidInput);
+  soup.tracker.grow_tolerance(0.06);
+  EXPECT_TRUE(soup.collapse(6, 7, above));
+  EXPECT_LE(soup.distance().upper, 0.06);
+}
+
+TEST(DeviationTracker, AdmitsNoChangeAtToleranceZero) {
+  TrackedSoup soup(datasets::icosphere(1, 2), 0);
+  EXPECT_FALSE(soup.collapse(0, soup.mesh().triangles[0][0] == 0 ? soup.mesh().triangles[0][1] : 1, {1, 0, 0}));
+  EXPECT_EQ(soup.tracker.last_refusal(), Refusal::ToleranceBelowRounding);
+}
+
+TEST(DeviationTracker, RefusesTolerancesThatAreNoLengths) {
+  const TriangleMesh square = reference::unit_square(1);
+  const Bvh bvh(square);
+  EXPECT_THROW(DeviationTracker(square, bvh, -1), InvalidInput);
+  EXPECT_THROW(DeviationTracker(square, bvh, std::numeric_limits<double>::quiet_NaN()), InvalidInput);
+  EXPECT_THROW(DeviationTracker(reference::cube(1), bvh, 1), InvalidInput);
+}
+
+/// Random triangles near rough surfaces: the proof by degree may fail where the bound holds, never the other way.
+TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    std::vector<Vec3> vertices;
+    for (const Vector3d& p : shape.mesh.vertices) vertices.push_back({p.x(), p.y(), p.z()});
+    DegreeCover degree(vertices, shape.mesh.triangles);
+    const Bvh original(shape.mesh);
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(0, 0.5 * shape.tolerance);
+    int covered = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const auto t = static_cast<std::uint32_t>(random() % shape.mesh.triangles.size());
+      const Triangle& near = shape.mesh.triangles[t];
+      TriangleMesh face{{}, {{0, 1, 2}}};
+      const double size = 0.2 + 0.001 * static_cast<double>(i % 2000);
+      const Vector3d first = shape.mesh.vertices[near[0]];
+      for (const std::uint32_t v : near)
+        face.vertices.push_back(first + size * (shape.mesh.vertices[v] - first) +
+                                Vector3d(noise(random), noise(random), noise(random)));
+      std::array<Vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = {face.vertices[k].x(), face.vertices[k].y(), face.vertices[k].z()};
+      if (!degree.covers(corners, shape.tolerance, 2, t)) continue;
+      ++covered;
+      EXPECT_NE(check_one_sided(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
+    }
+    EXPECT_GT(covered, 100);
+  }
+}
+
+}  // namespace
+}  // namespace meshbound
