@@ -52,7 +52,13 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
       framed_original_(mapped(original, frame_)),
       copy_(manifold_copy(framed_original_)) {
   start_points_.reserve(copy_.mesh.number_of_vertices());
-  for (const auto v : copy_.mesh.vertices()) start_points_.push_back(copy_.mesh.point(v));
+  for (const auto v : copy_.mesh.vertices()) {
+    start_points_.push_back(copy_.mesh.point(v));
+    by_start_point_.push_back(v);
+  }
+  std::sort(by_start_point_.begin(), by_start_point_.end(), [&](auto a, auto b) {
+    return start_points_[a] < start_points_[b] || (start_points_[a] == start_points_[b] && a < b);
+  });
   monitor_.emplace(copy_.mesh, framed_original_, copy_.triangle_of_face, 0.0, get(CGAL::vertex_point, copy_.mesh));
   monitor_->normal_guard = NormalGuard();
   monitor_->preserve_boundary = options.preserve_boundary;
@@ -138,17 +144,22 @@ TriangleMesh Decimation::after_refused_collapse() const {
   return soup;
 }
 
+/// A vertex that never moved, or went to where another one was, gets the coordinates of the input to the bit: the way
+/// into the frame and back may round.
+Eigen::Vector3d Decimation::in_model(const Kernel::Point_3& p) const {
+  const auto before = [&](SurfaceMesh::Vertex_index v, const Kernel::Point_3& q) { return start_points_[v] < q; };
+  const auto start = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p, before);
+  if (start != by_start_point_.end() && start_points_[*start] == p)
+    return original_.vertices[copy_.vertex_of_vertex[*start]];
+  return frame_.to_model({p.x(), p.y(), p.z()});
+}
+
 TriangleMesh Decimation::current_mesh() const {
   TriangleMesh result;
-  constexpr std::uint32_t unused = 0xffffffff;
-  std::vector<std::uint32_t> index(start_points_.size(), unused);
+  std::vector<std::uint32_t> index(start_points_.size());
   for (const auto v : copy_.mesh.vertices()) {
     index[v] = static_cast<std::uint32_t>(result.vertices.size());
-    const Kernel::Point_3& p = copy_.mesh.point(v);
-    // A vertex that never moved keeps the coordinates it came with, to the bit.
-    const bool moved = p != start_points_[v];
-    result.vertices.push_back(moved ? frame_.to_model({p.x(), p.y(), p.z()})
-                                    : original_.vertices[copy_.vertex_of_vertex[v]]);
+    result.vertices.push_back(in_model(copy_.mesh.point(v)));
   }
   for (const auto f : copy_.mesh.faces()) {
     const auto h = copy_.mesh.halfedge(f);

@@ -34,6 +34,7 @@ class Decimation {
   [[nodiscard]] bool must_stop(std::size_t faces);
   [[nodiscard]] bool truly_exceeds();
   [[nodiscard]] TriangleMesh after_refused_collapse() const;
+  [[nodiscard]] Eigen::Vector3d in_model(const Kernel::Point_3& p) const;
   void pass();
   void show_progress(std::size_t faces);
 
@@ -42,7 +43,8 @@ class Decimation {
   WorkingFrame frame_;
   TriangleMesh framed_original_;
   ManifoldCopy copy_;
-  std::vector<Kernel::Point_3> start_points_;  ///< by vertex index, in the frame
+  std::vector<Kernel::Point_3> start_points_;              ///< by vertex index, in the frame
+  std::vector<SurfaceMesh::Vertex_index> by_start_point_;  ///< sorted by these
   std::optional<Monitor> monitor_;
   std::optional<CollapsePolicies> policies_;
 

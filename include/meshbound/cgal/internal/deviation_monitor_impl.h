@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Member functions of `DeviationMonitor`; included by its header.
+#pragma once
+#include "meshbound/cgal/deviation_monitor.h"
+
+namespace meshbound::cgal {
+
+template <class Mesh, class VertexPointMap>
+DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const TriangleMesh& original,
+                                                         const std::vector<std::uint32_t>& triangle_of_face,
+                                                         double tolerance, VertexPointMap points)
+    : mesh_(mesh),
+      points_(points),
+      bvh_(MeshView(original)),
+      tracker_(MeshView(original), bvh_, tolerance),
+      face_ids_(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh)),
+      edge_memory_(get(CGAL::dynamic_edge_property_t<EdgeMemory>(), mesh)),
+      vertex_memory_(get(CGAL::dynamic_vertex_property_t<VertexMemory>(), mesh)) {
+  for (const Edge e : edges(mesh_)) put(edge_memory_, e, EdgeMemory{});
+  for (const Vertex v : vertices(mesh_)) put(vertex_memory_, v, VertexMemory{});
+  refuse_zero_length_edges();
+  number_faces(triangle_of_face);
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::number_faces(const std::vector<std::uint32_t>& triangle_of_face) {
+  for (const Face f : CGAL::faces(mesh_)) {
+    const auto id = static_cast<std::uint32_t>(faces_++);
+    put(face_ids_, f, id);
+    tracker_.start(id, triangle_of_face.empty() ? id : triangle_of_face.at(id));
+  }
+  uncovered_ = tracker_.cover_the_rest();
+  auto id = static_cast<std::uint32_t>(faces_);
+  for (const std::uint32_t t : uncovered_) tracker_.start(id++, t);
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::refuse_zero_length_edges() const {
+  for (const Edge e : edges(mesh_)) {
+    const Halfedge h = halfedge(e, mesh_);
+    if (at(source(h, mesh_)) == at(target(h, mesh_)))
+      throw InvalidInput("an edge has length zero, which CGAL collapses without asking; weld equal vertices first");
+  }
+}
+
+template <class Mesh, class VertexPointMap>
+template <class Visit>
+void DeviationMonitor<Mesh, VertexPointMap>::for_each_face_around(Vertex v, const Visit& visit) const {
+  for (const Halfedge h : CGAL::halfedges_around_target(halfedge(v, mesh_), mesh_)) {
+    const Face f = face(h, mesh_);
+    if (f != Graph::null_face()) visit(f);
+  }
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::gather_star(Vertex v0, Vertex v1, const Point& placement) {
+  removed_.clear();
+  removed_faces_.clear();
+  added_.clear();
+  before_.clear();
+  const Eigen::Vector3d moved = to_eigen(placement);
+  const auto visit = [&](Face f, Vertex around, Vertex other) {
+    const std::array<Vertex, 3> v = corners(f);
+    const bool both = v[0] == other || v[1] == other || v[2] == other;
+    if (both && around == v1) return;  // seen from v0
+    removed_.push_back(get(face_ids_, f));
+    removed_faces_.push_back(f);
+    if (both) return;
+    TrackedFace& face = added_.emplace_back();
+    face.id = removed_.back();
+    auto& before = before_.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      before[i] = at(v[i]);
+      face.corners[i] = v[i] == around ? moved : before[i];
+    }
+  };
+  for_each_face_around(v0, [&](Face f) { visit(f, v0, v1); });
+  for_each_face_around(v1, [&](Face f) { visit(f, v1, v0); });
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) const {
+  for (const Face star : removed_faces_) {
+    for (const Vertex v : corners(star)) {
+      if (v == v0 || v == v1) continue;
+      for_each_face_around(v, [&](Face f) {
+        const std::uint32_t id = get(face_ids_, f);
+        if (std::find(removed_.begin(), removed_.end(), id) == removed_.end() &&
+            std::find(ring.begin(), ring.end(), id) == ring.end())
+          ring.push_back(id);
+      });
+    }
+  }
+}
+
+template <class Mesh, class VertexPointMap>
+template <class Visit>
+void DeviationMonitor<Mesh, VertexPointMap>::for_each_face_after_refused(const Visit& visit) const {
+  for (const Face f : CGAL::faces(mesh_)) {
+    if (std::find(removed_faces_.begin(), removed_faces_.end(), f) != removed_faces_.end()) continue;
+    const std::array<Vertex, 3> v = corners(f);
+    visit(std::array<Eigen::Vector3d, 3>{at(v[0]), at(v[1]), at(v[2])});
+  }
+  for (const TrackedFace& face : added_) visit(face.corners);
+}
+
+/// Zero-length edges must never come to be: CGAL would collapse them without asking when the next pass begins.
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::passes_guards() const {
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    const auto& c = added_[i].corners;
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return false;
+    if (normal_guard && !normal_guard->allows(before_[i], c)) return false;
+  }
+  return true;
+}
+
+/// An edge that was refused is not tried again in the same pass unless one of its ends has moved; in the next pass,
+/// when something changed among the neighbours of an end; and always after the tolerance has grown.
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::nothing_changed_since(const EdgeMemory& memory, Vertex v0,
+                                                                   Vertex v1) const {
+  if (memory.refused_at <= tolerance_start_) return false;
+  const VertexMemory a = get(vertex_memory_, v0), b = get(vertex_memory_, v1);
+  if (memory.refused_at > pass_start_) return std::max(a.moved_at, b.moved_at) < memory.refused_at;
+  return std::max(a.touched_at, b.touched_at) < memory.refused_at;
+}
+
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex v1, const Point& placement,
+                                                  std::uint32_t try_first) {
+  gather_star(v0, v1, placement);
+  if (!passes_guards()) return false;
+  SurfaceChange change;
+  change.removed = removed_;
+  change.added = added_;
+  change.moved_vertex = to_eigen(placement);
+  change.try_first = try_first;
+  change.ring = [this, v0, v1](std::vector<std::uint32_t>& ring) { append_ring(v0, v1, ring); };
+  if (!tracker_.admits(change)) {
+    refused_by_bound_ = true;
+    return false;
+  }
+  admitted_.emplace(h, placement);
+  return true;
+}
+
+template <class Mesh, class VertexPointMap>
+template <class Profile>
+bool DeviationMonitor<Mesh, VertexPointMap>::admits(const Profile& profile, const Point& placement) {
+  const std::pair<Halfedge, Point> asked(profile.v0_v1(), placement);
+  if (admitted_ == asked) return true;
+  const bool refused = refused_ == asked;
+  admitted_.reset();
+  refused_.reset();
+  if (refused) return false;
+  refused_by_bound_ = false;
+  const Edge e = edge(profile.v0_v1(), mesh_);
+  const EdgeMemory memory = get(edge_memory_, e);
+  if (nothing_changed_since(memory, profile.v0(), profile.v1())) {
+    ++counts_.repeated;
+    return false;
+  }
+  if (test(profile.v0_v1(), profile.v0(), profile.v1(), placement, memory.uncovered)) return true;
+  ++counts_.refused;
+  put(edge_memory_, e, EdgeMemory{++clock_, refused_by_bound_ ? tracker_.last_uncovered() : memory.uncovered});
+  return false;
+}
+
+template <class Mesh, class VertexPointMap>
+template <class Profile>
+std::optional<typename DeviationMonitor<Mesh, VertexPointMap>::Point>
+DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profile, const Point& wanted) {
+  if (admits(profile, wanted)) return wanted;
+  const Edge e = edge(profile.v0_v1(), mesh_);
+  EdgeMemory memory = get(edge_memory_, e);
+  const bool tested = memory.refused_at == clock_;
+  const bool movable = !preserve_boundary || !(is_border(profile.v0()) || is_border(profile.v1()));
+  for (int k = 0; tested && movable && k < fallback_placements; ++k) {
+    const Point other = fallback(k, profile.p0(), profile.p1(), wanted);
+    if (other == wanted) continue;
+    if (test(profile.v0_v1(), profile.v0(), profile.v1(), other, memory.uncovered)) {
+      --counts_.refused;
+      put(edge_memory_, e, EdgeMemory{});
+      return other;
+    }
+    if (refused_by_bound_) memory.uncovered = tracker_.last_uncovered();
+  }
+  put(edge_memory_, e, memory);
+  refused_.emplace(profile.v0_v1(), wanted);
+  return std::nullopt;
+}
+
+template <class Mesh, class VertexPointMap>
+typename DeviationMonitor<Mesh, VertexPointMap>::Point DeviationMonitor<Mesh, VertexPointMap>::fallback(
+    int k, const Point& p0, const Point& p1, const Point& wanted) const {
+  if (k == 0) return CGAL::midpoint(p0, p1);
+  if (k == 1) return p0;
+  if (k == 2) return p1;
+  // A vertex on a curved surface whose faces are chords wants to lie outside of it, up to the tolerance.
+  constexpr std::array<double, 4> shares = {0.35, -0.35, 0.7, -0.7};
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const auto& c : before_) normal += (c[1] - c[0]).cross(c[2] - c[0]);
+  const double length = normal.norm();
+  if (!(length > 0)) return wanted;
+  const double share = shares[static_cast<std::size_t>(k - 3)] * tracker_.tolerance() / length;
+  const Eigen::Vector3d p = to_eigen(wanted) + share * normal;
+  return Point(p.x(), p.y(), p.z());
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::collapsed_into(Vertex v) {
+  ++counts_.performed;
+  const std::uint64_t now = ++clock_;
+  put(vertex_memory_, v, VertexMemory{now, now});
+  for (const Halfedge h : CGAL::halfedges_around_target(halfedge(v, mesh_), mesh_)) {
+    VertexMemory memory = get(vertex_memory_, source(h, mesh_));
+    memory.touched_at = now;
+    put(vertex_memory_, source(h, mesh_), memory);
+  }
+}
+
+}  // namespace meshbound::cgal

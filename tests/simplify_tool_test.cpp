@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// The tool simplify_with_bound through its command line: exit codes, files, JSON, and that nothing appears under the
+// name of the output unless its bound was measured.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "common/gated_output.h"
+#include "datasets.h"
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "reference/small_meshes.h"
+
+namespace meshbound {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+struct Result {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+class SimplifyTool : public testing::Test {
+ protected:
+  SimplifyTool() {
+    std::string name = (fs::temp_directory_path() / "simplify_tool_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    write_mesh(in("sphere.off"), datasets::icosphere(1, 3));
+  }
+  ~SimplifyTool() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path in(const std::string& name) const { return folder_ / name; }
+
+  /// Runs the tool inside the folder. `timeout` ends what hangs, with exit code 124.
+  [[nodiscard]] Result run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && timeout 300 '" SIMPLIFY_WITH_BOUND "' " + arguments +
+                                " >stdout.txt 2>stderr.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(in("stdout.txt")), content(in("stderr.txt"))};
+  }
+
+  /// Nothing but what the tests put there themselves: no half-written or temporary files.
+  [[nodiscard]] bool is_clean() const {
+    return std::all_of(fs::directory_iterator(folder_), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+      return entry.path().filename().string().find("unproven") == std::string::npos;
+    });
+  }
+
+  void expect_refused(const Result& result, const std::string& output) const {
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(in(output)));
+    EXPECT_TRUE(is_clean());
+  }
+
+  fs::path folder_;
+};
+
+Verdict check(const fs::path& original, const fs::path& simplified, double tolerance) {
+  return check_symmetric(Bvh(read_mesh(original).mesh), Bvh(read_mesh(simplified).mesh), tolerance).verdict;
+}
+
+TEST_F(SimplifyTool, WritesAMeshWithinTheToleranceInEveryFormat) {
+  for (const char* name : {"out.off", "out.obj", "out.ply", "out.stl"}) {
+    SCOPED_TRACE(name);
+    const Result result = run(std::string("sphere.off ") + name + " --tolerance 0.02");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(check(in("sphere.off"), in(name), 0.02), Verdict::Within);
+    EXPECT_LT(read_mesh(in(name)).mesh.triangles.size(), 600u);
+    EXPECT_NE(result.out.find(name), std::string::npos);
+  }
+  EXPECT_TRUE(is_clean());
+}
+
+TEST_F(SimplifyTool, TakesTolerancesInPercentOfTheDiagonal) {
+  ASSERT_EQ(run("sphere.off out.off --tolerance 1% --json -").exit_code, 0);
+  const Json json = Json::parse(content(in("stdout.txt")));
+  EXPECT_NEAR(json["tolerance"]["absolute"].get<double>(), 0.01 * json["original"]["bbox_diagonal"].get<double>(),
+              1e-15);
+  EXPECT_NEAR(json["tolerance"]["percent_of_diagonal"].get<double>(), 1, 1e-12);
+}
+
+TEST_F(SimplifyTool, ReportsEveryKeyOfTheSchema) {
+  const Result result =
+      run("sphere.off out.ply --tolerance 0.02 --levels 0.005,0.01 --output-dir levels --json r.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json json = Json::parse(content(in("r.json")));
+  EXPECT_EQ(json["schema"], "meshbound/simplify/1");
+  EXPECT_EQ(json["verdict"], "within");
+  EXPECT_EQ(json["original"]["faces"], 1280);
+  EXPECT_EQ(json["original"]["closed"], true);
+  EXPECT_EQ(json["simplified"]["path"], "out.ply");
+  EXPECT_EQ(json["simplified"]["faces"], read_mesh(in("out.ply")).mesh.triangles.size());
+  for (const char* side : {"original_to_simplified", "simplified_to_original"}) {
+    EXPECT_LE(json["distance"][side]["lower"], json["distance"][side]["upper"]);
+    EXPECT_EQ(json["distance"][side]["witness"]["from"].size(), 3u);
+    EXPECT_EQ(json["distance"][side]["witness"]["to"].size(), 3u);
+  }
+  EXPECT_LE(json["distance"]["upper"].get<double>(), 0.02);
+  for (const char* key : {"performed", "refused"}) EXPECT_TRUE(json["collapses"][key].is_number());
+  for (const char* key : {"read", "simplify", "certify", "write", "total"})
+    EXPECT_TRUE(json["seconds"][key].is_number());
+  EXPECT_TRUE(json.contains("stats") && json.contains("threads"));
+  ASSERT_EQ(json["levels"].size(), 2u);
+  for (const Json& level : json["levels"]) {
+    const double tolerance = level["tolerance"];
+    EXPECT_LE(level["distance"]["upper"].get<double>(), tolerance);
+    EXPECT_EQ(check(in("sphere.off"), in(level["path"]), tolerance), Verdict::Within);
+    EXPECT_EQ(level["faces"], read_mesh(in(level["path"])).mesh.triangles.size());
+  }
+}
+
+TEST_F(SimplifyTool, StopsAtTheFirstCollapseThatWouldExceedWhenAsked) {
+  write_mesh(in("terrain.off"), datasets::terrain(1, 30, 5));
+  ASSERT_EQ(run("terrain.off skip.off --tolerance 0.01").exit_code, 0);
+  const Result stop = run("terrain.off stop.off --tolerance 0.01 --on-exceed stop");
+  ASSERT_EQ(stop.exit_code, 0) << stop.err;
+  EXPECT_NE(stop.out.find("next collapse would exceed"), std::string::npos);
+  EXPECT_LT(read_mesh(in("skip.off")).mesh.triangles.size(), read_mesh(in("stop.off")).mesh.triangles.size());
+  EXPECT_EQ(check(in("terrain.off"), in("stop.off"), 0.01), Verdict::Within);
+}
+
+TEST_F(SimplifyTool, SaysWhetherTheTargetOrTheToleranceCameFirst) {
+  const Result target = run("sphere.off out.off --tolerance 0.05 --target-faces 900");
+  EXPECT_EQ(target.exit_code, 0);
+  EXPECT_NE(target.out.find("target was reached first"), std::string::npos);
+  EXPECT_NEAR(static_cast<double>(read_mesh(in("out.off")).mesh.triangles.size()), 900, 2);
+  const Result tolerance = run("sphere.off out.off --tolerance 0.001 --target-ratio 0.01");
+  EXPECT_EQ(tolerance.exit_code, 0);
+  EXPECT_NE(tolerance.out.find("it came before the target"), std::string::npos);
+}
+
+TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
+  ASSERT_EQ(run("sphere.off one.ply --tolerance 0.02 --threads 1").exit_code, 0);
+  ASSERT_EQ(run("sphere.off two.ply --tolerance 0.02 --threads 2").exit_code, 0);
+  EXPECT_EQ(content(in("one.ply")), content(in("two.ply")));
+}
+
+TEST_F(SimplifyTool, ChangesNothingAtToleranceZero) {
+  ASSERT_EQ(run("sphere.off out.off --tolerance 0 --json -").exit_code, 0);
+  EXPECT_EQ(Json::parse(content(in("stdout.txt")))["distance"]["upper"], 0.0);
+}
+
+TEST_F(SimplifyTool, PrintsNothingWhenQuietAndOnlyJsonWhenAskedFor) {
+  EXPECT_EQ(run("sphere.off out.off --tolerance 0.02 --quiet").out, "");
+  EXPECT_TRUE(Json::accept(run("sphere.off out.off --tolerance 0.02 --json").out));
+}
+
+TEST_F(SimplifyTool, AnswersHelpAndVersion) {
+  EXPECT_EQ(run("--version").exit_code, 0);
+  const Result help = run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* option :
+       {"--tolerance", "--target-faces", "--target-ratio", "--on-exceed", "--levels", "--output-dir", "--cost",
+        "--preserve-boundary", "--time-limit", "--json", "--quiet", "--threads"})
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+}
+
+TEST_F(SimplifyTool, RefusesBadUsageInOneLine) {
+  for (const char* arguments :
+       {"sphere.off out.off", "sphere.off", "", "sphere.off out.off --tolerance -1",
+        "sphere.off out.off --tolerance 1x", "sphere.off out.off --tolerance nan", "sphere.off out.off --tolerance inf",
+        "sphere.off out.xyz --tolerance 1", "absent.off out.off --tolerance 1",
+        "sphere.off out.off --tolerance 1 --on-exceed maybe", "sphere.off out.off --tolerance 1 --cost least",
+        "sphere.off out.off --tolerance 1 --target-ratio 2",
+        "sphere.off out.off --tolerance 1 --target-faces 5 --target-ratio 0.5",
+        "sphere.off out.off --tolerance 1 --wrong", "sphere.off out.off --tolerance 1 --levels 2",
+        "sphere.off out.off --tolerance 1 --levels x", "sphere.off out.off --tolerance 1 --target-faces -3"}) {
+    SCOPED_TRACE(arguments);
+    expect_refused(run(arguments), "out.off");
+  }
+  expect_refused(run("sphere.off nowhere/out.off --tolerance 1"), "nowhere/out.off");
+}
+
+TEST_F(SimplifyTool, LeavesTheOldFileWhenItIsOutOfTime) {
+  write_mesh(in("terrain.off"), datasets::terrain(1, 100, 5));
+  std::ofstream(in("out.off")) << "old";
+  const Result result = run("terrain.off out.off --tolerance 0.01 --time-limit 0");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(content(in("out.off")), "old");
+  EXPECT_TRUE(is_clean());
+}
+
+/// Coordinates with 17 digits cannot be held by floats: the file would be further away than the tolerance.
+TEST_F(SimplifyTool, WritesNoStlWhoseRoundingExceedsTheTolerance) {
+  const Result result = run("sphere.off out.stl --tolerance 1e-12");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_FALSE(fs::exists(in("out.stl")));
+  EXPECT_TRUE(is_clean());
+}
+
+/// What stands between a wrong simplifier and the user: a mesh with one vertex out of place is measured, found too far,
+/// and not published.
+TEST_F(SimplifyTool, CatchesASabotagedResultAtTheGate) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  TriangleMesh sabotaged = sphere;
+  sabotaged.vertices[17] *= 1.021;
+  DistanceOptions options;
+  options.tolerance = 0.02;
+  tools::GatedOutput output(in("out.off"));
+  output.write(sabotaged);
+  output.measure(Bvh(sphere), options);
+  EXPECT_EQ(output.verdict(), Verdict::Exceeds);
+  EXPECT_THROW(output.publish(), Error);
+  EXPECT_FALSE(fs::exists(in("out.off")));
+}
+
+/// Files of the wild and of malice: either a proven result, or one line and no file.
+TEST_F(SimplifyTool, SurvivesBrokenFiles) {
+  const auto broken = dataset("broken");
+  if (!broken) GTEST_SKIP() << "the folder of broken files is not on this machine (MESHBOUND_DATASETS)";
+  for (const fs::directory_entry& entry : fs::directory_iterator(*broken)) {
+    SCOPED_TRACE(entry.path().filename().string());
+    const Result result = run("'" + entry.path().string() + "' out.ply --tolerance 1% --quiet");
+    if (result.exit_code == 0) {
+      EXPECT_EQ(result.err, "");
+      EXPECT_FALSE(read_mesh(in("out.ply")).mesh.triangles.empty());
+    } else {
+      expect_refused(result, "out.ply");
+    }
+    fs::remove(in("out.ply"));
+  }
+}
+
+}  // namespace
+}  // namespace meshbound
