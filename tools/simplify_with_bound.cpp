@@ -31,7 +31,7 @@ constexpr double relative_error_bound = 1e-6;
 struct Options {
   std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", output_dir;
   std::vector<std::string> levels;
-  std::optional<std::size_t> target_faces;
+  std::optional<std::int64_t> target_faces;
   std::optional<double> target_ratio;
   bool preserve_boundary = false;
   CommonOptions common;
@@ -58,7 +58,8 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("OUT", options.output, "File for the result; its extension chooses the format")->required();
   app.add_option("--tolerance", options.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
-  auto* faces = app.add_option("--target-faces", options.target_faces, "End at this many faces, tolerance permitting");
+  auto* faces = app.add_option("--target-faces", options.target_faces, "End at this many faces, tolerance permitting")
+                    ->check(CLI::NonNegativeNumber);
   app.add_option("--target-ratio", options.target_ratio, "The same as a share of the faces of IN")
       ->check(CLI::Range(0.0, 1.0))
       ->excludes(faces);
@@ -168,7 +169,7 @@ void Run::simplify() {
   cgal::SimplifyOptions simplify;
   simplify.tolerance = tolerances_.back();
   simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
-  simplify.target_faces = options_.target_faces;
+  if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
   simplify.target_ratio = options_.target_ratio;
   simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
   simplify.cost =

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +19,12 @@ GatedOutput::GatedOutput(std::filesystem::path path) : path_(std::move(path)), t
   std::error_code none;
   if (std::filesystem::is_symlink(path_, none)) target_ = std::filesystem::weakly_canonical(path_);
   if (std::filesystem::is_directory(target_, none)) throw IoError(path_.string() + " is a folder; name a file in it");
+  // Known now, not after an hour of decimation.
+  const std::filesystem::path folder = target_.parent_path().empty() ? "." : target_.parent_path();
+  if (!std::filesystem::is_directory(folder, none))
+    throw IoError("cannot write " + path_.string() + ": no such folder");
+  if (access(folder.c_str(), W_OK) != 0)
+    throw IoError("cannot write " + path_.string() + ": the folder is not writable");
 }
 
 GatedOutput::GatedOutput(GatedOutput&& other) noexcept
