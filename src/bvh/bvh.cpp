@@ -45,12 +45,26 @@ std::vector<Vec3> working_vertices(const MeshView& mesh, const Frame& frame, int
   return working;
 }
 
+/// The same triangle, turned so that its first edge is the longest (what `closest_on_triangle` asks for).
+Triangle longest_edge_first(const Triangle& t, const std::vector<Vec3>& working) {
+  double longest = -1;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double squared = squared_length(working[t[(k + 1) % 3]] - working[t[k]]);
+    if (squared > longest) {
+      longest = squared;
+      first = k;
+    }
+  }
+  return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
+}
+
 /// Renumbers vertices by first use along the curve: neighbours in space become neighbours in memory.
 void place(Bvh::Data& data, const MeshView& mesh, const std::vector<Vec3>& working) {
   std::vector<std::uint32_t> place_of(mesh.vertex_count(), unused);
   data.corners.resize(mesh.triangle_count());
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
-    const Triangle t = mesh.triangle(data.triangle_of_slot[slot]);
+    const Triangle t = longest_edge_first(mesh.triangle(data.triangle_of_slot[slot]), working);
     for (int k = 0; k < 3; ++k) {
       std::uint32_t& at = place_of[t[k]];
       if (at == unused) {

@@ -55,13 +55,14 @@ class CellWalker {
     }
   }
 
-  /// Offers a point of A at a computed squared distance to the nearest triangle: raises the lower bound if it proves
-  /// one.
-  void offer(const Vec3& p, const Nearest& nearest) {
+  /// Offers a point of A, made by `cuts` cuts, at a computed squared distance to the nearest triangle: raises the lower
+  /// bound if it proves one.
+  void offer(const Vec3& p, const Nearest& nearest, std::uint32_t cuts) {
     if (nearest.squared <= offered_squared_) return;
     const double certified = certified_distance(b_, p, nearest.squared, counters_.queries);
     if (std::sqrt(nearest.squared) - certified <= goal_.slack) offered_squared_ = nearest.squared;
-    if (certified - goal_.slack > lower_.lower) set_lower({certified - goal_.slack, p, nearest.slot, from_slot_});
+    const double proven = certified - goal_.slack - cuts * goal_.cut_slack;
+    if (proven > lower_.lower) set_lower({proven, p, nearest.slot, from_slot_});
   }
 
   void set_from(std::uint32_t from_slot) { from_slot_ = from_slot; }
@@ -96,10 +97,11 @@ class CellWalker {
   }
 
   void step(const Piece& piece) {
-    ++counters_.pieces;
+    // A look at the clock costs as much as a piece; a thousand pieces take well under a millisecond.
+    if ((++counters_.pieces & 1023) == 0 && goal_.out_of_time()) cuts_left_ = 0;
     const Farthest farthest = farthest_corner(piece, triangle_at(b_, piece.slot));
-    if (done_with(farthest.squared)) return;
     counters_.deepest = std::max(counters_.deepest, piece.depth);
+    if (done_with(farthest.squared)) return;
     if (cuts_left_ == 0 || (goal_.decide_only && exceeds_tolerance())) return give_up(farthest.squared);
     const bool due =
         piece.age >= steps_between_queries || piece.depth >= halve_from_depth || piece.count > crowded_piece;
@@ -219,7 +221,7 @@ class CellWalker {
     const Vec3 probe = probe_point(piece, farthest.corner);
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
     find_nearest(b_, probe, 0, nearest, counters_.queries);
-    offer(probe, nearest);
+    offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
     if (done_with(farthest.squared) || done_with(lipschitz * lipschitz)) return;
     Piece next = piece;
@@ -251,7 +253,7 @@ class CellWalker {
       const Vec3 corner = piece.corner(i);
       Nearest nearest{closest_on_triangle(t, corner).squared_distance, piece.slot};
       find_nearest(b_, corner, 0, nearest, counters_.queries);
-      offer(corner, nearest);
+      offer(corner, nearest, piece.depth);
       if (nearest.slot == piece.slot) continue;
       const CornerTriangle<double> candidate = triangle_at(b_, nearest.slot);
       const double squared = farthest_corner(piece, candidate).squared;

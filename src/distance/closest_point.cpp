@@ -36,7 +36,7 @@ ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query) {
   const double magnitude = std::max(1.0, largest(p));
   if (!(magnitude <= largest_magnitude)) return closest_of_point_like(data, query);
   Goal goal;
-  goal.slack = search_slack(magnitude, data.frame.error + data.frame.rounding_of(model));
+  set_slack(goal, magnitude, data.frame.error + data.frame.rounding_of(model));
   const std::unique_ptr<Searcher> searcher = make_searcher(data, goal);
   const Nearest nearest = searcher->nearest(p, 0, 0);
   searcher->begin({});

@@ -69,17 +69,19 @@ double OneSidedSearch::farthest_apart() const {
   const double radius_b = 0.5 * length(b_.working_box.hi - b_.working_box.lo);
   const Vec3 centre_a = map_(0.5 * (a_.working_box.lo + a_.working_box.hi));
   const Vec3 centre_b = 0.5 * (b_.working_box.lo + b_.working_box.hi);
-  return (length(centre_a - centre_b) + radius_a + radius_b) * (1 + 0x1p-20) + goal_.slack;
+  return (length(centre_a - centre_b) + radius_a + radius_b) * (1 + 0x1p-20) + goal_.largest_slack();
 }
 
 OneSidedDistance OneSidedSearch::result() {
   OneSidedDistance result;
   const LowerBound lower = proven_witness();
+  std::uint32_t deepest = 0;
+  for (const auto& searcher : searchers_) deepest = std::max(deepest, searcher->counters().deepest);
   double upper = 0;
   if (decided())
     upper = farthest_apart();
   else if (stats_.matched < stats_.triangles)
-    upper = next_up(std::sqrt(upper_squared_) * (1 + 4 * unit_roundoff)) + goal_.slack;
+    upper = next_up(std::sqrt(upper_squared_) * (1 + 4 * unit_roundoff)) + goal_.slack + deepest * goal_.cut_slack;
   result.bounds.lower = b_.frame.length_down(std::max(0.0, lower.lower));
   result.bounds.upper = std::max(b_.frame.length_up(upper), result.bounds.lower);
   result.witness = witness_at(lower);

@@ -31,7 +31,11 @@ Goal make_goal(const OneSidedTask& task, const Mapping& map) {
   goal.tolerance = to.working_length_down(task.tolerance);
   goal.decide_only = task.decide_only;
   const double model_error = (from.error > 0 ? scaled(from.error, from.exponent - to.exponent) : 0) + to.error;
-  goal.slack = search_slack(map.magnitude, model_error + map.error);
+  set_slack(goal, map.magnitude, model_error + map.error);
+  goal.cancel = task.options.cancel;
+  if (task.options.budget.seconds < 1e9)  // about 30 years: beyond it there is no deadline, and no overflow
+    goal.deadline = task.start + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(task.options.budget.seconds));
   return goal;
 }
 
@@ -57,9 +61,7 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
 
 bool OneSidedSearch::out_of_budget() {
   if (exhausted_) return true;
-  const bool cancelled = task_.options.cancel != nullptr && task_.options.cancel->load(std::memory_order_relaxed);
-  const double seconds = std::chrono::duration<double>(Clock::now() - task_.start).count();
-  exhausted_ = cancelled || cuts_left_ == 0 || seconds >= task_.options.budget.seconds;
+  exhausted_ = cuts_left_ == 0 || goal_.out_of_time();
   return exhausted_;
 }
 

@@ -40,7 +40,7 @@ struct Proximity::Impl {
     goal.decide_only = true;
     goal.tolerance = data.frame.working_length_down(tolerance);
     // Powers of two, so that neighbouring triangles share one goal.
-    goal.slack = search_slack(std::exp2(std::ceil(std::log2(magnitude))), data.frame.error + error);
+    set_slack(goal, std::exp2(std::ceil(std::log2(magnitude))), data.frame.error + error);
     if (!searcher || goal.tolerance != current.tolerance || goal.slack != current.slack) {
       searcher = make_searcher(data, goal);
       current = goal;
@@ -85,7 +85,9 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
   }
   searcher.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
   if (searcher.lower().lower > impl_->current.tolerance) return Verdict::Exceeds;
-  return searcher.upper_squared() <= searcher.accepted_squared() ? Verdict::Within : Verdict::Undecided;
+  const double upper =
+      next_up(std::sqrt(searcher.upper_squared()) * (1 + 4 * unit_roundoff)) + impl_->current.largest_slack();
+  return upper <= impl_->current.tolerance ? Verdict::Within : Verdict::Undecided;
 }
 
 double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint) {

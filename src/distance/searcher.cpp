@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "distance/searcher.h"
 
-#include "distance/cell_walker.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -16,9 +15,9 @@ std::unique_ptr<Searcher> make_searcher(const Bvh::Data& target, const Goal& goa
   return make_portable_searcher(target, goal);
 }
 
-double search_slack(double magnitude, double model_error) {
-  const double computed = (primal_error + dual_error + deepest_cut * cut_error) * magnitude;
-  return (computed + model_error) * (1 + 4 * unit_roundoff);
+void set_slack(Goal& goal, double magnitude, double model_error) {
+  goal.slack = ((primal_error + dual_error) * magnitude + model_error) * (1 + 4 * unit_roundoff);
+  goal.cut_slack = cut_error * magnitude;
 }
 
 }  // namespace meshbound

@@ -41,8 +41,8 @@ class Searcher {
 /// The fastest searcher this machine runs. All of them give the same results to the last bit.
 std::unique_ptr<Searcher> make_searcher(const Bvh::Data& target, const Goal& goal);
 
-/// The rounding slack of a search (see numeric/rounding.h): `magnitude` bounds all coordinates, `model_error` is what
+/// Sets the rounding slacks of a goal (numeric/rounding.h): `magnitude` bounds all coordinates, `model_error` is what
 /// the coordinates themselves may be off.
-double search_slack(double magnitude, double model_error);
+void set_slack(Goal& goal, double magnitude, double model_error);
 
 }  // namespace meshbound

@@ -20,7 +20,7 @@ class SearcherImpl final : public Searcher {
 
   void offer(const Vec3& p, const Nearest& nearest, std::uint32_t from_slot) override {
     walker_.set_from(from_slot);
-    walker_.offer(p, nearest);
+    walker_.offer(p, nearest, 0);
   }
 
   double farthest_squared(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t slot) override {

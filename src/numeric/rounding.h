@@ -10,11 +10,13 @@
 /// underflow adds 2^-1075 << u, which the roundings up of each k absorb.
 ///
 /// Distances that feed an upper bound (primal). The closest point of triangle (a, a+ab, a+ac) to p is never trusted: we
-/// evaluate |p - q| for q = a + v ab + w ac with computed v, w >= 0, v + w <= 1 + 2u. Each coordinate of
-/// e = (p - a) - v ab - w ac has |terms| <= 2M, and is reached from exact inputs by: ab, ac (1 rounding each, 2uM),
-/// p - a (2uM), two products (2uM each), two differences (4uM and 6uM). Sum: 20uM a coordinate, 35uM as a length; the
-/// excess of v + w moves q off the triangle by at most 2u * 2 sqrt(3) M < 7uM. The length of e from its coordinates has
-/// a relative error of 3u, at most 3u * 2 sqrt(3) M < 11uM. Together less than 53uM.
+/// evaluate |p - q| for q = a + v ab + w ac with computed v, w >= 0, v + w <= 1 + 2u, or q on an edge likewise. Each
+/// coordinate of the offset has terms of at most 2M, and is reached from exact inputs by: ab, ac (1 rounding each,
+/// 2uM), p - a (2uM), two products (2uM each), two differences (4uM and 6uM). Sum: 20uM a coordinate, 35uM as a length;
+/// along bc, bp and bc carry one more rounding each (4uM), 28uM a coordinate, 49uM as a length. The excess of v + w
+/// moves q off the triangle by at most 2u * 2 sqrt(3) M < 7uM. The length of the offset from its coordinates has a
+/// relative error of 3u, at most 3u * 2 sqrt(3) M < 11uM. Together less than 64uM (49 + 11 along bc, 35 + 7 + 11
+/// inside).
 ///
 /// Distances that feed a lower bound (dual). Whatever the direction n is, d(p, T) >= min over the corners c of T of
 /// n.(p - c) / |n|, because T lies in the half-space beyond its nearest corner. p - c carries 4uM a coordinate (7uM as
