@@ -19,6 +19,9 @@ namespace meshbound {
 struct MeshReport {
   std::string path;
   MeshSummary summary;
+  std::size_t triangulated_polygons = 0;  ///< see `MeshFile`
+  std::size_t decoded_strips = 0;
+  std::size_t ignored_elements = 0;
 };
 
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".

@@ -28,7 +28,10 @@ Json mesh(const MeshReport& mesh) {
           {"faces", mesh.summary.faces},
           {"components", mesh.summary.components},
           {"closed", mesh.summary.closed},
-          {"bbox_diagonal", number(mesh.summary.bbox_diagonal)}};
+          {"bbox_diagonal", number(mesh.summary.bbox_diagonal)},
+          {"triangulated_polygons", mesh.triangulated_polygons},
+          {"decoded_strips", mesh.decoded_strips},
+          {"ignored_elements", mesh.ignored_elements}};
 }
 
 Json bounds(const Bounds& bounds) { return {{"lower", number(bounds.lower)}, {"upper", number(bounds.upper)}}; }

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 /// {"absolute":..,"percent_of_diagonal":..}
 [[nodiscard]] Json length(double absolute, double diagonal);
 
-/// {"path":..,"vertices":..,"faces":..,"components":..,"closed":..,"bbox_diagonal":..}
+/// {"path":..,"vertices":..,"faces":..,"components":..,"closed":..,"bbox_diagonal":..} and what the reader did
 [[nodiscard]] Json mesh(const MeshReport& mesh);
 
 /// {"lower":..,"upper":..}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reference/brute_force.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// H(A,B) = max(h(A,B), h(B,A)), and the decision H(A,B) <= tolerance.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+#include "reference/brute_force.h"
+#include "reference/claims.h"
+#include "reference/small_meshes.h"
+
+namespace meshbound {
+namespace {
+
+using Eigen::Vector3d;
+using namespace reference;
+
+void expect_is_maximum(const SymmetricDistance& result) {
+  EXPECT_EQ(result.bounds.lower, std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower));
+  EXPECT_EQ(result.bounds.upper, std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper));
+}
+
+void expect_distance(const TriangleMesh& a, const TriangleMesh& b, const Bounds& truth) {
+  const Bvh tree_a(a), tree_b(b);
+  const SymmetricDistance result = symmetric_distance(tree_a, tree_b);
+  expect_meets(result.bounds, truth);
+  expect_is_maximum(result);
+  // One direction may stop as soon as it is known to be below the other, but the larger one carries its witness.
+  const bool forward = result.a_to_b.bounds.lower >= result.b_to_a.bounds.lower;
+  if (forward) {
+    expect_witness(a, b, result.a_to_b);
+  } else {
+    expect_witness(b, a, result.b_to_a);
+  }
+  const double size = std::max(bounding_box_diagonal(both(a, b)), truth.upper);
+  EXPECT_LE(result.bounds.upper - result.bounds.lower, std::max(1e-6 * bounding_box_diagonal(a), 4e-12 * size));
+
+  const double step = 1e-7 * size;
+  EXPECT_EQ(check_symmetric(tree_a, tree_b, truth.upper + step).verdict, Verdict::Within);
+  if (truth.lower > step) {
+    EXPECT_EQ(check_symmetric(tree_a, tree_b, truth.lower - step).verdict, Verdict::Exceeds);
+  }
+  DistanceOptions at_most;
+  at_most.budget.subdivisions = 20000;
+  EXPECT_NE(check_symmetric(tree_a, tree_b, truth.upper, at_most).verdict, Verdict::Exceeds);
+}
+
+Bounds about(double value) { return {value * (1 - 1e-15), value * (1 + 1e-15)}; }
+
+TEST(SymmetricDistance, IsTheLargerDirection) {
+  expect_distance(cube(1), cube(2), about(std::numbers::sqrt3));
+  expect_distance(cube(2), cube(1), about(std::numbers::sqrt3));
+  const TriangleMesh plane = unit_square(4);
+  expect_distance(plane, both(plane, moved(plane, {0, 0, 0.5})), {0.5, 0.5});
+  expect_distance(both(plane, moved(plane, {0, 0, 0.5})), plane, {0.5, 0.5});
+}
+
+TEST(SymmetricDistance, OfConcentricSpheresIsTheGapUpToFaceting) {
+  const TriangleMesh sphere = icosphere(3);
+  expect_distance(sphere, scaled(sphere, 2), {1 - 1e-14, 2 - inscribed_radius(sphere) * (1 - 1e-14)});
+}
+
+TEST(SymmetricDistance, OfIdenticalMeshesIsExactlyZero) {
+  for (const TriangleMesh& mesh : {cube(1), icosphere(4), random_soup(3, 300, 0.2)}) {
+    const SymmetricDistance result = symmetric_distance(Bvh(mesh), Bvh(mesh));
+    EXPECT_EQ(result.bounds.lower, 0);
+    EXPECT_EQ(result.bounds.upper, 0);
+    EXPECT_EQ(check_symmetric(Bvh(mesh), Bvh(mesh), 0).verdict, Verdict::Within);
+  }
+}
+
+TEST(SymmetricDistance, SeesAMissingPart) {
+  const TriangleMesh whole = both(cube(1), moved(cube(0.125), {0, 0, 4}));
+  const double furthest = std::sqrt(3.125 * 3.125);
+  expect_distance(whole, cube(1), about(furthest));
+  expect_distance(cube(1), whole, about(furthest));
+}
+
+TEST(SymmetricDistance, OfRandomSoupsAgreesWithBruteForce) {
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const TriangleMesh a = random_soup(seed + 2000, 1 + static_cast<int>(seed % 11), 0.4);
+    const TriangleMesh b = random_soup(seed + 3000, 1 + static_cast<int>(seed % 7), 0.4);
+    expect_distance(a, b, brute_force_symmetric(a, b, 1e-4));
+  }
+}
+
+TEST(SymmetricDistance, DoesNotDependOnTheOrderOfTheModels) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const Bvh a(random_soup(seed, 200, 0.3)), b(random_soup(seed + 99, 150, 0.3));
+    expect_meets(symmetric_distance(a, b).bounds, symmetric_distance(b, a).bounds);
+  }
+}
+
+TEST(SymmetricDistance, HonoursTheErrorBound) {
+  const Bvh a(random_soup(11, 60, 0.3)), b(random_soup(12, 80, 0.3));
+  for (int digits = 2; digits <= 9; ++digits) {
+    DistanceOptions options;
+    options.error_bound = std::pow(10.0, -digits) * a.bounding_box_diagonal();
+    const SymmetricDistance result = symmetric_distance(a, b, options);
+    EXPECT_LE(result.bounds.upper - result.bounds.lower, *options.error_bound);
+  }
+}
+
+TEST(SymmetricDistance, IsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh a = icosphere(4), b = random_soup(13, 500, 0.3);
+  DistanceOptions one, two;
+  one.threads = 1;
+  two.threads = 2;
+  const SymmetricDistance x = symmetric_distance(Bvh(a, {1}), Bvh(b, {1}), one);
+  const SymmetricDistance y = symmetric_distance(Bvh(a, {2}), Bvh(b, {2}), two);
+  EXPECT_EQ(x.bounds.lower, y.bounds.lower);
+  EXPECT_EQ(x.bounds.upper, y.bounds.upper);
+  EXPECT_EQ(x.a_to_b.witness.from.position, y.a_to_b.witness.from.position);
+  EXPECT_EQ(x.b_to_a.witness.from.position, y.b_to_a.witness.from.position);
+}
+
+TEST(CheckSymmetric, DecidesOnBothSidesOfTheDistance) {
+  const TriangleMesh a = random_soup(23, 40, 0.3), b = random_soup(24, 40, 0.3);
+  const Bvh tree_a(a), tree_b(b);
+  DistanceOptions tight;
+  tight.error_bound = 1e-10;
+  const Bounds truth = symmetric_distance(tree_a, tree_b, tight).bounds;
+  for (const double factor : {1e-8, 1e-5, 1e-2, 0.5}) {
+    const ToleranceCheck within = check_symmetric(tree_a, tree_b, truth.upper * (1 + factor));
+    EXPECT_EQ(within.verdict, Verdict::Within);
+    EXPECT_LE(within.bounds.upper, within.tolerance);
+    EXPECT_GE(within.bounds.upper, truth.lower);
+    const ToleranceCheck exceeds = check_symmetric(tree_a, tree_b, truth.lower * (1 - factor));
+    EXPECT_EQ(exceeds.verdict, Verdict::Exceeds);
+    EXPECT_GT(exceeds.bounds.lower, exceeds.tolerance);
+    EXPECT_LE(exceeds.bounds.lower, truth.upper);
+    EXPECT_GE(exceeds.bounds.upper, truth.lower) << "a direction that was not finished has no upper bound yet";
+  }
+}
+
+TEST(CheckSymmetric, LooksAtBothDirections) {
+  const TriangleMesh part = unit_square(2);
+  const TriangleMesh whole = both(part, moved(part, {0, 0, 1}));
+  EXPECT_EQ(check_symmetric(Bvh(part), Bvh(whole), 0.5).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_symmetric(Bvh(whole), Bvh(part), 0.5).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_one_sided(Bvh(part), Bvh(whole), 0.5).verdict, Verdict::Within);
+}
+
+TEST(CheckSymmetric, DoesNotSearchBackWhenForwardExceeds) {
+  const ToleranceCheck result = check_symmetric(Bvh(cube(2)), Bvh(cube(1)), 0.5);
+  EXPECT_EQ(result.verdict, Verdict::Exceeds);
+  EXPECT_EQ(result.b_to_a.bounds.lower, 0);
+  EXPECT_EQ(result.b_to_a.bounds.upper, std::numeric_limits<double>::infinity());
+}
+
+TEST(CheckSymmetric, IsUndecidedWhenABudgetRunsOut) {
+  const Bvh a(icosphere(3)), b(random_soup(31, 60, 0.5));
+  const Bounds truth = symmetric_distance(a, b).bounds;
+  std::atomic<bool> cancelled = true;
+  DistanceOptions no_time, cancel;
+  no_time.budget.seconds = 0;
+  cancel.cancel = &cancelled;
+  for (const DistanceOptions& options : {no_time, cancel}) {
+    const ToleranceCheck result = check_symmetric(a, b, truth.upper, options);
+    EXPECT_EQ(result.verdict, Verdict::Undecided);
+    expect_meets(result.bounds, truth);
+    expect_meets(symmetric_distance(a, b, options).bounds, truth);
+  }
+}
+
+TEST(CheckSymmetric, RefusesAToleranceThatIsNotOne) {
+  EXPECT_THROW((void)check_symmetric(Bvh(cube(1)), Bvh(cube(1)), -1.0), InvalidInput);
+  EXPECT_THROW((void)check_symmetric(Bvh(cube(1)), Bvh(cube(1)), std::nan("")), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meshbound

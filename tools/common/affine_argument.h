@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Geometry>
+#include <string>
+
+namespace meshbound::tools {
+
+/// An affine map from the command line: 16 numbers in row-major order, separated by blanks, commas or semicolons, given
+/// in the argument itself or in the file that it names. Throws `InvalidInput`, naming `option`, unless there are
+/// exactly 16 finite numbers, the last four 0 0 0 1; `IoError` when the file cannot be read.
+[[nodiscard]] Eigen::Affine3d parse_affine(const std::string& option, const std::string& numbers_or_file);
+
+}  // namespace meshbound::tools

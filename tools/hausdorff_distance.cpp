@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// The Hausdorff distance between two meshes as a proven interval, or the decision whether it is at most a tolerance.
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "common/affine_argument.h"
+#include "common/length.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/signals.h"
+#include "common/tool_main.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/report.h"
+#include "meshbound/transform.h"
+
+namespace {
+
+using namespace meshbound;
+using namespace meshbound::tools;
+
+struct Arguments {
+  std::string a;
+  std::string b;
+  std::string error_bound;
+  std::string tolerance;
+  std::string transform_b;
+  bool one_sided = false;
+  CommonOptions common;
+};
+
+/// Seconds since the last call, and since the start.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+  [[nodiscard]] double total() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+/// The lengths of the question in model units.
+struct Question {
+  std::optional<double> error_bound;
+  std::optional<double> tolerance;
+  bool error_bound_was_given = false;
+  bool one_sided = false;
+  double displacement = 0;  ///< rounding of the transformed B: every bound is widened by it
+};
+
+struct Answer {
+  Bounds bounds;
+  OneSidedDistance a_to_b;
+  std::optional<OneSidedDistance> b_to_a;
+  std::string verdict;
+  ExitCode exit_code = exit_undecided;
+};
+
+void add_arguments(CLI::App& app, Arguments& arguments) {
+  app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY or STL")->required();
+  app.add_option("B", arguments.b, "The mesh to compare with it")->required();
+  app.add_option("--error-bound", arguments.error_bound,
+                 "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");
+  app.add_option("--tolerance", arguments.tolerance,
+                 "Decide whether the distance is at most this (units as above): exit 0 within, 1 exceeds, 3 undecided. "
+                 "Stops as soon as that is known, unless --error-bound is given too");
+  app.add_flag("--one-sided", arguments.one_sided, "Only from A to B");
+  app.add_option("--transform-b", arguments.transform_b,
+                 "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
+  add_common_options(app, arguments.common);
+}
+
+/// Default width of the interval: 1e-6 of the diagonal of A; of both meshes together when A is a single point.
+double default_error_bound(const TriangleMesh& a, const TriangleMesh& b, double diagonal) {
+  if (diagonal > 0) return 1e-6 * diagonal;
+  const Eigen::AlignedBox3d box = used_bounding_box(a).merged(used_bounding_box(b));
+  return 1e-6 * (box.max() - box.min()).stableNorm();
+}
+
+Verdict verdict_of(const Bounds& bounds, double tolerance) {
+  if (bounds.upper <= tolerance) return Verdict::Within;
+  return bounds.lower > tolerance ? Verdict::Exceeds : Verdict::Undecided;
+}
+
+ToleranceCheck check(const Bvh& a, const Bvh& b, double tolerance, const Question& question,
+                     const DistanceOptions& options) {
+  return question.one_sided ? check_one_sided(a, b, tolerance, options) : check_symmetric(a, b, tolerance, options);
+}
+
+/// At or below this for the rounded image of B, the distance to the exact one is within the tolerance.
+double shrunk_tolerance(const Question& question) {
+  return widened({*question.tolerance, *question.tolerance}, question.displacement).lower;
+}
+
+/// Decides for the exact image of B from its rounded one, which is at most `displacement` away.
+Answer decide(const Bvh& a, const Bvh& b, const Question& question, DistanceOptions options) {
+  const double tolerance = *question.tolerance;
+  ToleranceCheck result = check(a, b, shrunk_tolerance(question), question, options);
+  if (question.displacement > 0 && result.verdict == Verdict::Exceeds &&
+      !(widened(result.bounds, question.displacement).lower > tolerance)) {
+    const double used = result.a_to_b.stats.seconds + result.b_to_a.stats.seconds;
+    options.budget.seconds = std::max(0.0, options.budget.seconds - used);
+    result = check(a, b, widened({tolerance, tolerance}, question.displacement).upper, question, options);
+  }
+  Answer answer{result.bounds, result.a_to_b, std::nullopt, {}, exit_undecided};
+  if (!question.one_sided) answer.b_to_a = result.b_to_a;
+  return answer;
+}
+
+Answer measure(const Bvh& a, const Bvh& b, const Question& question, const DistanceOptions& options) {
+  if (question.one_sided) {
+    OneSidedDistance result = one_sided_distance(a, b, options);
+    return {result.bounds, result, std::nullopt, {}, exit_undecided};
+  }
+  const SymmetricDistance result = symmetric_distance(a, b, options);
+  return {result.bounds, result.a_to_b, result.b_to_a, {}, exit_undecided};
+}
+
+void widen(Answer& answer, double displacement) {
+  answer.bounds = widened(answer.bounds, displacement);
+  answer.a_to_b.bounds = widened(answer.a_to_b.bounds, displacement);
+  if (answer.b_to_a) answer.b_to_a->bounds = widened(answer.b_to_a->bounds, displacement);
+}
+
+/// Whether a measurement is what was asked for. A default error bound that doubles cannot reach is no failure; one that
+/// was asked for is.
+bool is_done(const Answer& answer, const Question& question) {
+  if (answer.bounds.upper - answer.bounds.lower <= *question.error_bound) return true;
+  const auto stopped_early = [](const OneSidedDistance& d) { return d.outcome == Outcome::BudgetExhausted; };
+  const bool cut_short = stopped_early(answer.a_to_b) || (answer.b_to_a && stopped_early(*answer.b_to_a));
+  return !question.error_bound_was_given && !cut_short;
+}
+
+Answer answer_to(const Question& question, const Bvh& a, const Bvh& b, const DistanceOptions& options) {
+  const bool decision_only = question.tolerance && !question.error_bound_was_given;
+  Answer answer = decision_only ? decide(a, b, question, options) : measure(a, b, question, options);
+  widen(answer, question.displacement);
+  if (question.tolerance) {
+    const Verdict verdict = verdict_of(answer.bounds, *question.tolerance);
+    answer.verdict = to_string(verdict);
+    answer.exit_code = exit_code(verdict);
+  } else {
+    const bool done = is_done(answer, question);
+    answer.verdict = done ? "done" : "undecided";
+    answer.exit_code = done ? exit_done : exit_undecided;
+  }
+  return answer;
+}
+
+void print_mesh(const char* name, const MeshReport& mesh) {
+  const MeshSummary& s = mesh.summary;
+  std::printf("%s  %s: %zu triangles, %zu vertices, %zu component%s, %s, diagonal %s\n", name, mesh.path.c_str(),
+              s.faces, s.vertices, s.components, s.components == 1 ? "" : "s", s.closed ? "closed" : "open",
+              short_number(s.bbox_diagonal).c_str());
+  if (mesh.triangulated_polygons > 0) std::printf("   %zu polygons split into triangles\n", mesh.triangulated_polygons);
+  if (mesh.decoded_strips > 0) std::printf("   %zu triangle strips decoded\n", mesh.decoded_strips);
+  if (mesh.ignored_elements > 0) std::printf("   %zu lines, points or empty faces ignored\n", mesh.ignored_elements);
+}
+
+void print_bounds(const char* label, const Bounds& bounds, double diagonal) {
+  std::printf("%-20s lower %.17g, upper %.17g\n", label, bounds.lower, bounds.upper);
+  std::printf("%-20s %s to %s\n", "", both_units(bounds.lower, diagonal).c_str(),
+              both_units(bounds.upper, diagonal).c_str());
+}
+
+void print_direction(const char* label, const OneSidedDistance& distance, double diagonal) {
+  print_bounds(label, distance.bounds, diagonal);
+  if (distance.stats.closest_point_queries == 0 && distance.stats.matched == 0) return;
+  const Eigen::Vector3d& from = distance.witness.from.position;
+  const Eigen::Vector3d& to = distance.witness.nearest.position;
+  std::printf("%-20s from (%.17g %.17g %.17g) to (%.17g %.17g %.17g)\n", "  witness", from.x(), from.y(), from.z(),
+              to.x(), to.y(), to.z());
+}
+
+void print_report(const DistanceReport& report) {
+  const double diagonal = report.a.summary.bbox_diagonal;
+  print_mesh("A", report.a);
+  print_mesh("B", report.b);
+  print_direction("A to B", report.a_to_b, diagonal);
+  if (report.b_to_a) print_direction("B to A", *report.b_to_a, diagonal);
+  if (report.b_to_a) print_bounds("Hausdorff distance", report.bounds, diagonal);
+  if (report.error_bound) std::printf("%-20s %s\n", "error bound", both_units(*report.error_bound, diagonal).c_str());
+  if (report.tolerance) std::printf("%-20s %s\n", "tolerance", both_units(*report.tolerance, diagonal).c_str());
+  if (report.transform_displacement)
+    std::printf("%-20s %s, within the bounds\n", "transform rounding",
+                short_number(*report.transform_displacement).c_str());
+  std::printf("%-20s %s\n", "verdict", report.verdict.c_str());
+  std::printf("%-20s read %.3f s, build %.3f s, query %.3f s, total %.3f s; %d thread%s\n", "time", report.seconds.read,
+              report.seconds.build, report.seconds.query, report.seconds.total, report.threads,
+              report.threads == 1 ? "" : "s");
+}
+
+MeshFile read(const std::string& path, MeshReport& report) {
+  MeshFile file = read_mesh(path);
+  report = {path, {}, file.triangulated_polygons, file.decoded_strips, file.ignored_elements};
+  return file;
+}
+
+DistanceOptions engine_options(const Arguments& arguments, const Question& question, const Stopwatch& watch,
+                               ProgressBar& bar) {
+  DistanceOptions options;
+  options.error_bound = question.error_bound;
+  if (question.error_bound && question.tolerance) options.tolerance = shrunk_tolerance(question);
+  options.threads = arguments.common.threads;
+  options.cancel = &watch_interrupts();
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  if (arguments.common.has_time_limit)
+    options.budget.seconds = std::max(0.0, arguments.common.time_limit - watch.total());
+  return options;
+}
+
+/// Parses what does not need a mesh first, so that a typing error does not cost a long read.
+Question parse_question(const Arguments& arguments, std::optional<Length>& error_bound,
+                        std::optional<Length>& tolerance) {
+  Question question;
+  question.one_sided = arguments.one_sided;
+  question.error_bound_was_given = !arguments.error_bound.empty();
+  if (!arguments.error_bound.empty()) error_bound = parse_length("--error-bound", arguments.error_bound);
+  if (!arguments.tolerance.empty()) tolerance = parse_length("--tolerance", arguments.tolerance);
+  return question;
+}
+
+int run(const Arguments& arguments) {
+  Stopwatch watch;
+  std::optional<Length> error_bound;
+  std::optional<Length> tolerance;
+  Question question = parse_question(arguments, error_bound, tolerance);
+  std::optional<Eigen::Affine3d> map;
+  if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
+
+  DistanceReport report;
+  const MeshFile a = read(arguments.a, report.a);
+  MeshFile b = read(arguments.b, report.b);
+  if (map) {
+    TransformedMesh image = transformed(b.mesh, *map);
+    b.mesh = std::move(image.mesh);
+    question.displacement = image.displacement_bound;
+    report.transform_displacement = image.displacement_bound;
+  }
+  report.a.summary = summarise(a.mesh);
+  report.b.summary = summarise(b.mesh);
+  const double diagonal = report.a.summary.bbox_diagonal;
+  if (tolerance) question.tolerance = tolerance->in_model_units(diagonal);
+  if (error_bound) question.error_bound = error_bound->in_model_units(diagonal);
+  if (!tolerance && !error_bound) question.error_bound = default_error_bound(a.mesh, b.mesh, diagonal);
+  report.seconds.read = watch.lap();
+
+  const Bvh tree_a(a.mesh, {arguments.common.threads});
+  const Bvh tree_b(b.mesh, {arguments.common.threads});
+  report.seconds.build = watch.lap();
+
+  Answer answer;
+  {
+    ProgressBar bar("measuring", arguments.common.quiet);
+    answer = answer_to(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));
+  }
+  report.seconds.query = watch.lap();
+  report.verdict = answer.verdict;
+  report.error_bound = question.error_bound;
+  report.tolerance = question.tolerance;
+  report.bounds = answer.bounds;
+  report.a_to_b = answer.a_to_b;
+  report.b_to_a = answer.b_to_a;
+  report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
+  report.seconds.total = watch.total();
+
+  if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
+  if (arguments.common.json != "-" && !arguments.common.quiet) print_report(report);
+  return answer.exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Hausdorff distance between two triangle meshes as a proven interval [lower, upper] with witnesses, "
+      "rounding included.\nExit: 0 done or within, 1 exceeds, 2 bad usage or input, 3 undecided.",
+      "hausdorff_distance");
+  Arguments arguments;
+  add_arguments(app, arguments);
+  return tool_main(app, argc, argv, [&arguments] { return run(arguments); });
+}
