@@ -53,6 +53,7 @@ class OneSidedSearch {
   void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end);
+  void sort_open();
   [[nodiscard]] double sampled_block_radius() const;
   [[nodiscard]] bool vertex_is_wanted(std::uint32_t v) const { return wanted_.empty() || wanted_[v] != 0; }
   void mark_wanted_vertices();
