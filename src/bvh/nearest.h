@@ -131,6 +131,30 @@ inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squ
   });
 }
 
+/// Steps over the surface towards p before the tree is asked: queries in spatial order start a few triangles away.
+inline constexpr int steps_towards_point = 8;
+
+/// Walks from `best.slot` across the edge that p is furthest outside of, until a triangle within `enough_squared` is
+/// found or p lies over a triangle. Costs a few point-triangle tests where a query costs a traversal.
+inline void step_towards(const Bvh::Data& data, const Vec3& p, double enough_squared, Nearest& best,
+                         QueryCounters& counters) {
+  std::uint32_t slot = best.slot;
+  for (int step = 0; step < steps_towards_point && best.squared > enough_squared; ++step) {
+    const CornerTriangle<double> t = triangle_at(data, slot);
+    const auto& normal = data.normals[slot];
+    const Vec3 n{normal[0], normal[1], normal[2]}, ap = p - t.a;
+    const double outside[3] = {dot(cross(t.ab, n), ap), dot(cross(t.ac - t.ab, n), ap - t.ab), dot(cross(n, t.ac), ap)};
+    const int edge = outside[0] >= outside[1] ? (outside[0] >= outside[2] ? 0 : 2) : (outside[1] >= outside[2] ? 1 : 2);
+    if (!(outside[edge] > 0)) return;
+    const Neighbour across = data.neighbours[slot][static_cast<std::size_t>(edge)];
+    if (across.slot == no_slot) return;
+    slot = across.slot;
+    ++counters.triangles;
+    const double squared = closest_on_triangle(triangle_at(data, slot), p).squared_distance;
+    if (squared < best.squared) best = {squared, slot};
+  }
+}
+
 /// A proven lower bound (but for `dual_error`) of the distance of p to the whole mesh: every triangle is either in a
 /// box beyond `nearest_squared`, or separated from p by a plane. Where rounding spoils the plane (slivers), it is
 /// computed again in extended precision.

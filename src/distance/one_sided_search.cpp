@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t vertices_per_chunk = 256;   ///< hints are handed on inside a chunk, so not too few
 constexpr std::uint32_t triangles_per_chunk = 256;  ///< cheap bounds
 constexpr std::uint32_t walks_per_chunk = 8;        ///< walks differ much in cost
-constexpr std::ptrdiff_t worst_first = 256;         ///< walks in the order of their bounds; a few of them set the lower bound
+constexpr std::ptrdiff_t worst_first = 256;  ///< walks in the order of their bounds; a few of them set the lower bound
 constexpr std::uint32_t probes = 64;
 constexpr std::chrono::milliseconds between_progress{100};
 
@@ -236,8 +236,8 @@ void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::ui
   }
 }
 
-/// The worst first, to raise the lower bound early; the rest in the order of the curve, where neighbours share what is in
-/// the cache.
+/// The worst first, to raise the lower bound early; the rest in the order of the curve, where neighbours share what is
+/// in the cache.
 void OneSidedSearch::sort_open() {
   const auto worse = [](const Open& x, const Open& y) {
     return x.bound_squared != y.bound_squared ? x.bound_squared > y.bound_squared : x.slot < y.slot;
