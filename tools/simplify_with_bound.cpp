@@ -3,6 +3,9 @@
 // appears under OUT has been written, read back and measured against IN before.
 #include "meshbound/cgal/simplify_with_bound.h"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -226,7 +229,7 @@ void Run::report() {
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back(
         {tolerances_[i], outputs_[i].path().string(), outputs_[i].summary().faces, outputs_[i].distance()});
-  report_.threads = options_.common.threads > 0 ? options_.common.threads : 1;
+  report_.threads = options_.common.threads > 0 ? options_.common.threads : omp_get_max_threads();
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
