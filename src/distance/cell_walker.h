@@ -169,16 +169,21 @@ class CellWalker {
     return room > 0 ? 0.5 * std::sqrt(room) : 0;
   }
 
-  /// Cuts the piece by the cell of its candidate and sends the parts on. False when the piece lies inside the cell.
+  /// Cuts the piece by the cell of its candidate and sends the parts on: by the cell pushed outward where that cuts
+  /// anything, else by the cell itself. False when the piece lies inside the cell.
   bool walk(const Piece& piece) {
-    constexpr double noise = 1e-13;  // corners this near to a plane lie on it: cutting there would give empty parts
     const CornerTriangle<double> t = triangle_at(b_, piece.slot);
-    const double outward = piece.trimmed ? 0 : outward_slack(piece, t);
     const CellPlanes planes = planes_of(piece.slot, t);
+    const double outward = piece.trimmed ? 0 : outward_slack(piece, t);
+    return (outward > 0 && cut_by_cell(piece, planes, outward)) || cut_by_cell(piece, planes, 0);
+  }
+
+  bool cut_by_cell(const Piece& piece, const CellPlanes& planes, double outward) {
+    constexpr double noise = 1e-13;  // corners this near to a plane lie on it: cutting there would give empty parts
     Piece rest = piece;
     bool changed = false;
     for (int edge = 0; edge < 3; ++edge) {
-      const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;
+      const std::uint32_t across = b_.neighbours[piece.slot][static_cast<std::size_t>(edge)].slot;
       if (across == no_slot) continue;
       const Vec3 normal{planes.normal.x[edge], planes.normal.y[edge], planes.normal.z[edge]};
       const PlaneSides sides = sides_of(rest, normal, planes.offset[edge] + outward);
@@ -193,14 +198,8 @@ class CellWalker {
       rest = inside;
       changed = true;
     }
-    if (changed) {
-      const bool again = outward > 0;
-      push(rest, piece.slot, again ? piece.age : steps_between_queries, again);
-      return true;
-    }
-    if (outward == 0) return false;
-    push(piece, piece.slot, piece.age, true);
-    return true;
+    if (changed) push(rest, piece.slot, outward > 0 ? piece.age : steps_between_queries, outward > 0);
+    return changed;
   }
 
   /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges.
