@@ -16,9 +16,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bvh/nearest.h"
-#include "distance/goal.h"
 #include "distance/piece.h"
+#include "distance/proven_bounds.h"
 
 namespace meshbound {
 
@@ -31,20 +30,14 @@ inline constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
 
 inline namespace MESHBOUND_ISA {
 
-class CellWalker {
+class CellWalker : public ProvenBounds {
  public:
-  CellWalker(const Bvh::Data& target, const Goal& goal) : b_(target), goal_(goal) { set_lower({}); }
-
-  /// Starts from a proven lower bound (0 is one); forgets the upper bound.
-  void begin(const LowerBound& lower) {
-    set_lower(lower);
-    upper_squared_ = 0;
-  }
+  using ProvenBounds::ProvenBounds;
 
   /// Covers one triangle of A, starting at triangle `slot` of B.
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
              std::uint64_t max_cuts) {
-    from_slot_ = from_slot;
+    set_from(from_slot);
     cuts_left_ = max_cuts;
     stack_.clear();
     stack_.push_back(whole_triangle(a, b, c, slot));
@@ -55,54 +48,14 @@ class CellWalker {
     }
   }
 
-  /// Offers a point of A, made by `cuts` cuts, at a computed squared distance to the nearest triangle: raises the lower
-  /// bound if it proves one.
-  void offer(const Vec3& p, const Nearest& nearest, std::uint32_t cuts) {
-    if (nearest.squared <= offered_squared_) return;
-    const double certified = certified_distance(b_, p, nearest.squared, counters_.queries);
-    if (std::sqrt(nearest.squared) - certified <= goal_.slack) offered_squared_ = nearest.squared;
-    const double proven = certified - goal_.slack - cuts * goal_.cut_slack;
-    if (proven > lower_.lower) set_lower({proven, p, nearest.slot, from_slot_});
-  }
-
-  void set_from(std::uint32_t from_slot) { from_slot_ = from_slot; }
-  void accept(double squared) { upper_squared_ = std::max(upper_squared_, squared); }
-  [[nodiscard]] bool accepts(double squared) const { return squared <= accepted_squared_; }
-  [[nodiscard]] double accepted_squared() const { return accepted_squared_; }
-  [[nodiscard]] const LowerBound& lower() const { return lower_; }
-  [[nodiscard]] double upper_squared() const { return upper_squared_; }
-  [[nodiscard]] bool exceeds_tolerance() const { return lower_.lower > goal_.tolerance; }
-  [[nodiscard]] const Goal& goal() const { return goal_; }
-  WalkCounters& counters() { return counters_; }
-  [[nodiscard]] const WalkCounters& counters() const { return counters_; }
-  const Bvh::Data& target() const { return b_; }
-
  private:
-  void set_lower(const LowerBound& lower) {
-    lower_ = lower;
-    const double accepted = goal_.accepted(lower.lower);
-    accepted_squared_ = accepted * accepted * (1 - 8 * 0x1p-53);
-    offered_squared_ = (lower.lower + goal_.slack) * (lower.lower + goal_.slack);
-  }
-
-  bool done_with(double squared) {
-    if (squared > accepted_squared_) return false;
-    accept(squared);
-    return true;
-  }
-
-  void give_up(double squared) {
-    accept(squared);
-    ++counters_.given_up;
-  }
-
   void step(const Piece& piece) {
     // A look at the clock costs as much as a piece; a thousand pieces take well under a millisecond.
     if ((++counters_.pieces & 1023) == 0 && goal_.out_of_time()) cuts_left_ = 0;
     const Farthest farthest = farthest_corner(piece, triangle_at(b_, piece.slot));
     counters_.deepest = std::max(counters_.deepest, piece.depth);
     if (done_with(farthest.squared)) return;
-    if (cuts_left_ == 0 || (goal_.decide_only && exceeds_tolerance())) return give_up(farthest.squared);
+    if (cuts_left_ == 0 || decided()) return give_up(farthest.squared);
     const bool due =
         piece.age >= steps_between_queries || piece.depth >= halve_from_depth || piece.count > crowded_piece;
     if (due)
@@ -303,16 +256,8 @@ class CellWalker {
     push(far, far_slot, steps_between_queries);
   }
 
-  const Bvh::Data& b_;
-  Goal goal_;
-  LowerBound lower_;
-  double accepted_squared_ = 0;
-  double offered_squared_ = 0;
-  double upper_squared_ = 0;
-  std::uint32_t from_slot_ = 0;
   std::uint64_t cuts_left_ = 0;
   std::vector<Piece> stack_;
-  WalkCounters counters_;
 };
 
 }  // namespace MESHBOUND_ISA
