@@ -18,10 +18,17 @@ struct HalfEdge {
 bool runs_upward(const Triangle& corners, std::uint32_t edge) { return corners[edge] < corners[(edge + 1) % 3]; }
 
 /// Where each vertex's bucket of half-edges begins.
-std::vector<std::uint32_t> bucket_begins(const Bvh::Data& data) {
+std::vector<std::uint32_t> bucket_begins(const Bvh::Data& data, int threads) {
   std::vector<std::uint32_t> begin(data.vertices.size() + 1, 0);
-  for (const Triangle& t : data.corners)
-    for (int k = 0; k < 3; ++k) ++begin[std::min(t[k], t[(k + 1) % 3]) + 1];
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
+    const Triangle& t = data.corners[slot];
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& count = begin[std::min(t[k], t[(k + 1) % 3]) + 1];
+#pragma omp atomic
+      ++count;
+    }
+  }
   for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
   return begin;
 }
@@ -49,22 +56,25 @@ void link_bucket(Bvh::Data& data, HalfEdge* begin, HalfEdge* end) {
 
 }  // namespace
 
-void build_adjacency(Bvh::Data& data) {
-  data.neighbours.assign(data.corners.size(), {});
-  std::vector<std::uint32_t> next = bucket_begins(data);
+void build_adjacency(Bvh::Data& data, int threads) {
+  data.neighbours.resize(data.corners.size());
+  const std::vector<std::uint32_t> begin = bucket_begins(data, threads);
+  std::vector<std::uint32_t> next = begin;
   std::vector<HalfEdge> half_edges(3 * data.corners.size());
+#pragma omp parallel for num_threads(threads) schedule(static)
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
     const Triangle& t = data.corners[slot];
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto [near, far] = std::minmax(t[k], t[(k + 1) % 3]);
-      half_edges[next[near]++] = {far, 4 * slot + k};
+      std::uint32_t at = 0;
+#pragma omp atomic capture
+      at = next[near]++;
+      half_edges[at] = {far, 4 * slot + k};  // in any order: each bucket is sorted before it is linked
     }
   }
-  std::uint32_t begin = 0;
-  for (std::size_t v = 0; v < data.vertices.size(); ++v) {
-    link_bucket(data, half_edges.data() + begin, half_edges.data() + next[v]);
-    begin = next[v];
-  }
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 4096)
+  for (std::size_t v = 0; v < data.vertices.size(); ++v)
+    link_bucket(data, half_edges.data() + begin[v], half_edges.data() + begin[v + 1]);
 }
 
 }  // namespace meshbound

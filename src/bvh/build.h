@@ -15,7 +15,7 @@ namespace meshbound {
 std::vector<std::uint32_t> hilbert_order(const MeshView& mesh, const std::vector<Vec3>& working, const Box& box,
                                          int threads);
 
-void build_adjacency(Bvh::Data& data);
+void build_adjacency(Bvh::Data& data, int threads);
 void build_blocks(Bvh::Data& data, int threads);
 void build_nodes(Bvh::Data& data, int threads);
 

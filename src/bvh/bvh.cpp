@@ -91,7 +91,7 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
     data->vertices.reserve(std::min(mesh.vertex_count(), 3 * mesh.triangle_count()));
     place(*data, mesh, working);
   }
-  build_adjacency(*data);
+  build_adjacency(*data, threads);
   build_blocks(*data, threads);
   build_nodes(*data, threads);
   return data;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "bvh/build.h"
 #include "geometry/hilbert.h"
@@ -23,19 +24,27 @@ int grid_bits(std::size_t triangles) {
   return std::min(bits, 20);
 }
 
-/// Stable least-significant-digit radix sort over the lowest `bits` of the keys.
-void sort_by_key(std::vector<Keyed>& items, int bits) {
+/// Stable least-significant-digit radix sort over the lowest `bits` of the keys. Each thread counts and moves one run
+/// of the items; where a run's items of a digit begin follows from the counts, so the result is the one order.
+void sort_by_key(std::vector<Keyed>& items, int bits, int threads) {
+  const auto runs = static_cast<std::size_t>(threads);
   std::vector<Keyed> scratch(items.size());
+  std::vector<std::array<std::size_t, digits>> start(runs);
+  const auto run_begin = [&](std::size_t run) { return items.size() * run / runs; };
   for (int shift = 0; shift < bits; shift += digit_bits) {
-    std::array<std::size_t, digits> start{};
-    for (const Keyed& item : items) ++start[item.key >> shift & (digits - 1)];
-    std::size_t sum = 0;
-    for (std::size_t& s : start) {
-      const std::size_t count = s;
-      s = sum;
-      sum += count;
+    const auto digit = [shift](const Keyed& item) { return item.key >> shift & (digits - 1); };
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t run = 0; run < runs; ++run) {
+      start[run].fill(0);
+      for (std::size_t i = run_begin(run); i < run_begin(run + 1); ++i) ++start[run][digit(items[i])];
     }
-    for (const Keyed& item : items) scratch[start[item.key >> shift & (digits - 1)]++] = item;
+    std::size_t sum = 0;
+    for (std::size_t d = 0; d < digits; ++d)
+      for (auto& counts : start) sum += std::exchange(counts[d], sum);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t run = 0; run < runs; ++run)
+      for (std::size_t i = run_begin(run); i < run_begin(run + 1); ++i)
+        scratch[start[run][digit(items[i])]++] = items[i];
     items.swap(scratch);
   }
 }
@@ -57,7 +66,7 @@ std::vector<std::uint32_t> hilbert_order(const MeshView& mesh, const std::vector
     const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells)); };
     items[i] = {hilbert_index(cell(sum.x), cell(sum.y), cell(sum.z), bits), static_cast<std::uint32_t>(i)};
   }
-  sort_by_key(items, 3 * bits);
+  sort_by_key(items, 3 * bits, threads);
   std::vector<std::uint32_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = items[i].triangle;
   return order;

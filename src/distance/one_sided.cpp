@@ -12,8 +12,8 @@ OneSidedDistance search_one_sided(const OneSidedTask& task) {
   const Mapping map = mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
   if (!(map.magnitude <= largest_magnitude)) return distance_to_point_like(task);
   OneSidedSearch search(task, map);
-  search.drop_identical();
   search.probe();
+  search.drop_identical();
   search.cull_nodes();
   search.query_vertices();
   search.bound_triangles();

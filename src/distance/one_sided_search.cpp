@@ -136,11 +136,10 @@ void OneSidedSearch::offer_vertex(std::uint32_t v, const Nearest& nearest) {
 
 void OneSidedSearch::drop_identical() {
   const bool exact = map_.is_identity && map_.error == 0 && a_.frame.error == 0 && b_.frame.error == 0;
-  if (exact) stats_.matched = drop_identical_triangles(a_, b_, alive_);
+  if (exact && probe_on_b_) stats_.matched = drop_identical_triangles(a_, b_, alive_);
 }
 
 void OneSidedSearch::probe() {
-  if (stats_.matched == stats_.triangles) return;
   const auto n = static_cast<std::uint32_t>(a_.vertices.size());
   Searcher& searcher = *searchers_.front();
   Nearest farthest{-1, 0};
@@ -149,6 +148,7 @@ void OneSidedSearch::probe() {
     const auto v = static_cast<std::uint32_t>(std::uint64_t{i} * n / std::min(probes, n));
     const Nearest nearest = searcher.nearest(vertex(v), hint, 0);
     hint = nearest.slot;
+    probe_on_b_ = probe_on_b_ || nearest.squared <= goal_.slack * goal_.slack;
     if (nearest.squared > farthest.squared) {
       farthest = nearest;
       at = v;

@@ -17,8 +17,8 @@ class OneSidedSearch {
  public:
   OneSidedSearch(const OneSidedTask& task, const Mapping& map);
 
-  void drop_identical();   ///< triangles that B has too: at distance 0 without arithmetic
   void probe();            ///< a few vertices, for a first lower bound
+  void drop_identical();   ///< triangles that B has too, if a probe lay on B: at distance 0 without arithmetic
   void cull_nodes();       ///< paper, Alg. 1: whole nodes of A, best first
   void query_vertices();   ///< closest triangles of the vertices that are left
   void bound_triangles();  ///< paper, 4.4: triangles bounded by a closest triangle of one of their vertices
@@ -79,6 +79,7 @@ class OneSidedSearch {
   Nearest farthest_nearest_{-1, 0};
   double upper_squared_ = 0;
   bool exhausted_ = false;
+  bool probe_on_b_ = false;
   std::uint64_t cuts_left_ = 0;
   DistanceStats stats_;
   std::chrono::steady_clock::time_point last_progress_;
