@@ -23,8 +23,10 @@ namespace meshbound {
 
 /// Steps without a query: long enough to cross a fan, short enough not to get lost where adjacency misleads.
 inline constexpr std::uint32_t steps_between_queries = 8;
-/// Cuts after which a piece is only halved; see also `deepest_cut`.
+/// Cuts, and queries, after which a piece is only halved: it walks in circles. What is left to `deepest_cut` halves its
+/// diameter thirty times.
 inline constexpr std::uint32_t halve_from_depth = 60;
+inline constexpr std::uint32_t halve_from_rounds = 24;
 /// Corners from which a piece is halved, so that three cuts by a cell still fit.
 inline constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
 
@@ -56,12 +58,15 @@ class CellWalker : public ProvenBounds {
     counters_.deepest = std::max(counters_.deepest, piece.depth);
     if (done_with(farthest.squared)) return;
     if (cuts_left_ == 0 || decided()) return give_up(farthest.squared);
-    const bool due =
-        piece.age >= steps_between_queries || piece.depth >= halve_from_depth || piece.count > crowded_piece;
+    const bool due = piece.age >= steps_between_queries || must_halve(piece);
     if (due)
       query_and_walk(piece, farthest);
     else if (!walk(piece))
       push(piece, piece.slot, steps_between_queries);
+  }
+
+  static bool must_halve(const Piece& piece) {
+    return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds || piece.count > crowded_piece;
   }
 
   void push(const Piece& piece, std::uint32_t slot, std::uint32_t age, bool trimmed = false) {
@@ -155,11 +160,13 @@ class CellWalker : public ProvenBounds {
     return changed;
   }
 
-  /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges.
+  /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges. Of
+  /// a piece that is only halved, the corner itself: there the lower bound is what is wanted.
   static Vec3 probe_point(const Piece& piece, std::uint32_t worst) {
+    const Vec3 corner = piece.corner(worst);
+    if (must_halve(piece)) return corner;
     Vec3 sum;
     for (std::uint32_t i = 0; i < piece.count; ++i) sum = sum + piece.corner(i);
-    const Vec3 corner = piece.corner(worst);
     return corner + 0.25 * ((1.0 / piece.count) * sum - corner);
   }
 
@@ -177,7 +184,7 @@ class CellWalker : public ProvenBounds {
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
     if (done_with(farthest.squared) || done_with(lipschitz * lipschitz)) return;
     Piece next = piece;
-    ++next.depth;  // a round without a cut counts too, so that no piece walks in circles
+    ++next.rounds;
     next.age = 0;
     next.trimmed = false;
     double bound = std::min(farthest.squared, lipschitz * lipschitz);
@@ -188,7 +195,7 @@ class CellWalker : public ProvenBounds {
       next.slot = nearest.slot;
     }
     if (piece.depth >= deepest_cut) return give_up(bound);
-    if (piece.depth >= halve_from_depth || piece.count > crowded_piece) return halve(next, next.slot, next.slot, bound);
+    if (must_halve(piece)) return halve(next, piece.slot, next.slot, bound);
     if (!walk(next)) resolve(next, farthest.corner, bound);
   }
 

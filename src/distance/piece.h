@@ -14,10 +14,11 @@ inline namespace MESHBOUND_ISA {
 struct alignas(32) Piece {
   static constexpr std::uint32_t capacity = 12;
   std::uint32_t count = 0;
-  std::uint32_t slot = 0;   ///< candidate triangle of B
-  std::uint32_t depth = 0;  ///< cuts that led here
-  std::uint32_t age = 0;    ///< steps walked since a query chose or confirmed a candidate
-  bool trimmed = false;     ///< lies inside the pushed-out cell of its candidate, so only the cell itself cuts it
+  std::uint32_t slot = 0;    ///< candidate triangle of B
+  std::uint32_t depth = 0;   ///< cuts that led here
+  std::uint32_t rounds = 0;  ///< queries that led here
+  std::uint32_t age = 0;     ///< steps walked since a query chose or confirmed a candidate
+  bool trimmed = false;      ///< lies inside the pushed-out cell of its candidate, so only the cell itself cuts it
   alignas(32) double x[capacity], y[capacity], z[capacity];
 
   Piece() {}  // NOLINT: corners beyond `count` stay as they are, pieces are made by the million
@@ -27,6 +28,7 @@ struct alignas(32) Piece {
     count = other.count;
     slot = other.slot;
     depth = other.depth;
+    rounds = other.rounds;
     age = other.age;
     trimmed = other.trimmed;
     for (std::uint32_t first = 0; first < count; first += 4) {
@@ -135,6 +137,7 @@ inline bool cut(const Piece& piece, const PlaneSides& sides, Piece& inside, Piec
   }
   for (Piece* part : {&inside, &outside}) {
     part->depth = piece.depth + 1;
+    part->rounds = piece.rounds;
     if (part->count > 0) part->pad();
   }
   return true;
