@@ -220,6 +220,21 @@ TEST(OneSidedDistance, OfRandomSoupsAgreesWithBruteForce) {
   }
 }
 
+TEST(OneSidedDistance, HoldsToTheLastBit) {
+  // The distance to one triangle is convex, so h(A,B) is reached at a corner of A: known exactly.
+  for (std::uint32_t seed = 0; seed < 1500 && !testing::Test::HasFailure(); ++seed) {
+    const TriangleMesh a = random_soup(seed, 1, 0.3), b = random_soup(seed + 7000, 1, 0.5);
+    DistanceOptions options;
+    options.error_bound = seed % 2 == 0 ? 0 : 1e-3;
+    options.threads = 1;
+    const Bounds bounds = one_sided_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
+    ExactLength truth = exact_distance(a.vertices[0], b);
+    for (const Vector3d& v : a.vertices) truth = std::max(truth, exact_distance(v, b));
+    EXPECT_LE(truth.compare(bounds.upper), 0) << seed;
+    EXPECT_GE(truth.compare(bounds.lower), 0) << seed;
+  }
+}
+
 TEST(OneSidedDistance, OfAPerturbedCopyAgreesWithBruteForce) {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     SCOPED_TRACE(seed);
