@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bench_main.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "measure.h"
+
+namespace meshbound::bench {
+
+int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run) {
+  CLI::App app{description};
+  Options options;
+  app.add_flag("--quick", options.quick, "fewer pairs, sizes and steps, and a limit of 20 s");
+  app.add_option("--out", options.out, "folder of the results")->capture_default_str();
+  app.add_option("--cache", options.cache, "folder of the meshes that are made once")->capture_default_str();
+  auto* limit = app.add_option("--limit", options.limit, "CPU seconds after which a run is ended");
+  CLI11_PARSE(app, argc, argv);
+  if (options.quick && limit->empty()) options.limit = 20;
+  try {
+    std::filesystem::create_directories(options.out);
+    std::filesystem::create_directories(options.cache);
+    options.machine = machine_line();
+    return run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+    return 2;
+  }
+}
+
+}  // namespace meshbound::bench

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace meshbound::bench {
+
+/// The command line that the benchmark programs share.
+struct Options {
+  bool quick = false;
+  std::filesystem::path out = ".";        ///< tables and data of pictures
+  std::filesystem::path cache = "cache";  ///< meshes made once
+  double limit = 120;                     ///< seconds of processor time for one run of one function
+  std::string machine;                    ///< one line for every table
+};
+
+/// Parses, creates the folders and calls `run`, whose result is the exit code; an exception becomes one line on stderr
+/// and exit code 2.
+int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run);
+
+}  // namespace meshbound::bench

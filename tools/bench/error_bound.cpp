@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// error_bound: processor time against the error bound, ours and CGAL's; for CGAL's sampling against the error it makes.
+#include <cmath>
+#include <cstdio>
+
+#include "bench_main.h"
+#include "cgal_functions.h"
+#include "meshes.h"
+#include "our_run.h"
+#include "table.h"
+
+namespace {
+
+using namespace meshbound;
+using namespace meshbound::bench;
+
+struct Subject {
+  std::string name;
+  TriangleMesh a, b;
+};
+
+class Curves {
+ public:
+  Curves(const Options& options, Table& table) : options_(options), table_(table) {}
+
+  void add(const Subject& subject) {
+    const auto cgal = CgalPair::make(subject.a, subject.b);
+    bool cgal_in_time = cgal.has_value();
+    double middle = 0;  // of our tightest interval
+    for (int exponent = -2; exponent >= -9; --exponent) {
+      const double bound = std::pow(10.0, exponent);
+      const OurRun ours = run_ours(subject.a, subject.b, {bound, -1, 1, options_.limit});
+      if (ours.status == ChildResult::Status::Done) {
+        row(subject, "ours", bound, ours.build.cpu + ours.query.cpu, ours.bounds.upper);
+        middle = (ours.bounds.lower + ours.bounds.upper) / 2;
+      }
+      // A smaller bound never takes CGAL less time.
+      if (cgal_in_time)
+        cgal_in_time = cgal_run(subject, "CGAL bounded", bound, [&] { return cgal->bounded_error(bound); });
+    }
+    if (cgal) sampled(subject, *cgal, middle);
+  }
+
+ private:
+  void sampled(const Subject& subject, const CgalPair& cgal, double truth) {
+    for (const double density : {1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
+      const ChildResult child = timed([&] { return cgal.approximate(density); });
+      if (child.status != ChildResult::Status::Done) return;
+      const double error = std::abs(child.values[0] - truth);
+      row(subject, "CGAL approximate", std::max(error, 1e-9), child.values[1], child.values[0]);
+    }
+  }
+
+  bool cgal_run(const Subject& subject, const char* method, double bound, const std::function<double()>& function) {
+    const ChildResult child = timed(function);
+    if (child.status != ChildResult::Status::Done) return false;
+    row(subject, method, bound, child.values[1], child.values[0]);
+    return true;
+  }
+
+  ChildResult timed(const std::function<double()>& function) const {
+    return run_in_child(options_.limit, [&] {
+      const Stopwatch watch;
+      const double value = function();
+      return std::vector<double>{value, watch.elapsed().cpu};
+    });
+  }
+
+  void row(const Subject& subject, const char* method, double bound, double seconds, double value) {
+    table_.rows.push_back({subject.name, method, format(bound), format(seconds), format(value, 9)});
+    table_.write_csv(options_.out / "error_bound.csv", options_.machine);
+    std::printf("%s, %s: %.0e %.3g s, %.9g\n", subject.name.c_str(), method, bound, seconds, value);
+    std::fflush(stdout);
+  }
+
+  const Options& options_;
+  Table& table_;
+};
+
+int run(const Options& options) {
+  const auto fandisk = find_dataset({"cad/c3d_fandisk.obj", "cgal/fandisk.off"});
+  const auto bunny = find_dataset({"scan/c3d_stanford-bunny.obj", "cgal/bunny00.off"});
+  if (!fandisk || !bunny)
+    throw std::runtime_error("fandisk or bunny is missing; run datasets/fetch or set MESHBOUND_DATASETS");
+  Table table{{"pair", "method", "error bound", "CPU seconds", "value"}, {}};
+  Curves curves(options, table);
+  const auto decimation = [&](const std::filesystem::path& file) {
+    Recipe half{file};
+    half.ratio = 0.5;
+    return make(half, options.cache);
+  };
+  curves.add({"bunny / its 50%", make({*bunny}, options.cache), decimation(*bunny)});
+  curves.add({"fandisk / its 50%", make({*fandisk}, options.cache), decimation(*fandisk)});
+  Recipe finer{*bunny};
+  finer.subdivisions = 1;
+  curves.add({"bunny / its subdivision", make({*bunny}, options.cache), make(finer, options.cache)});
+  write_file(options.out / "error_bound.md", table.markdown());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bench_main(argc, argv, "Processor time against error bound, 1e-2 to 1e-9 of the diagonal.", run);
+}

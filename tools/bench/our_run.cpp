@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "our_run.h"
+
+#include "meshbound/bvh.h"
+#include "meshbound/distance.h"
+
+namespace meshbound::bench {
+namespace {
+
+Bounds measure(const Bvh& a, const Bvh& b, const OurTask& task) {
+  DistanceOptions options;
+  options.threads = task.threads;
+  if (task.tolerance >= 0) return check_symmetric(a, b, task.tolerance, options).bounds;
+  options.error_bound = task.error_bound;
+  return symmetric_distance(a, b, options).bounds;
+}
+
+}  // namespace
+
+OurRun run_ours(const TriangleMesh& a, const TriangleMesh& b, const OurTask& task) {
+  const ChildResult child = run_in_child(task.limit, [&] {
+    const Stopwatch watch;
+    const BvhOptions options{task.threads};
+    const Bvh tree_a(a, options), tree_b(b, options);
+    const Times built = watch.elapsed();
+    const Bounds bounds = measure(tree_a, tree_b, task);
+    const Times total = watch.elapsed();
+    return std::vector<double>{bounds.lower,         bounds.upper, built.wall, built.cpu, total.wall - built.wall,
+                               total.cpu - built.cpu};
+  });
+  OurRun run;
+  run.status = child.status;
+  run.error = child.error;
+  run.peak_bytes = child.peak_bytes;
+  if (child.status != ChildResult::Status::Done) return run;
+  const std::vector<double>& v = child.values;
+  run.bounds = {v[0], v[1]};
+  run.build = {v[2], v[3]};
+  run.query = {v[4], v[5]};
+  return run;
+}
+
+}  // namespace meshbound::bench
