@@ -102,9 +102,16 @@ std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, s
 }
 
 std::uint32_t slot_using_vertex(const Bvh::Data& data, std::uint32_t vertex) {
-  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
-    for (const std::uint32_t v : data.corners[slot])
-      if (v == vertex) return slot;
+  const auto uses = [&](std::uint32_t slot) {
+    const Triangle& t = data.corners[slot];
+    return t[0] == vertex || t[1] == vertex || t[2] == vertex;
+  };
+  const std::uint32_t n = data.triangle_count();
+  const auto guess = static_cast<std::uint32_t>(std::uint64_t{vertex} * n / data.vertices.size());
+  for (std::uint32_t away = 0; away < n; ++away) {
+    if (guess + away < n && uses(guess + away)) return guess + away;
+    if (away <= guess && uses(guess - away)) return guess - away;
+  }
   return 0;
 }
 

@@ -11,7 +11,8 @@ namespace meshbound {
 /// triangle of B. Both trees must have the same frame. Returns how many there were. O(n).
 std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive);
 
-/// A slot that uses a vertex. O(n).
+/// A slot that uses a vertex. Vertices are numbered by first use along the slots, so it is looked for outward from the
+/// proportional place: few steps as a rule, O(n) at worst.
 std::uint32_t slot_using_vertex(const Bvh::Data& data, std::uint32_t vertex);
 
 }  // namespace meshbound

@@ -36,8 +36,9 @@ OneSidedDistance distance_to_point_like(const OneSidedTask& task) {
     }
   }
   // Two poses (6 roundings a coordinate each, 1e-9 of drift refused elsewhere), a difference and a hypot: 32 u of the
-  // largest length in sight; the diagonal of B bounds how far B reaches from one of its own vertices.
-  const double size_of_b = b.diagonal * (1 + 4 * unit_roundoff);
+  // largest length in sight; the diagonal of B, stretched by what a pose may drift (below 2^-29), bounds how far B
+  // reaches from one of its own vertices.
+  const double size_of_b = b.diagonal * (1 + 0x1p-28);
   const double slack = 32 * unit_roundoff * reach + size_of_b;
   result.bounds = {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)};
   result.witness.from = {world(task.a, a.vertices[farthest]), a.triangle_of_slot[slot_using_vertex(a, farthest)]};
