@@ -88,9 +88,8 @@ TEST(OneSidedDistance, OfDisjointCubes) {
 TEST(OneSidedDistance, OfVeryFarModels) {
   for (const double far : {0x1p30, 1e12, 0x1p70, 0x1p300}) {
     const Bounds truth = {far - 2, far + 2};
-    DistanceOptions options;
-    options.budget.subdivisions = 20000;
-    const OneSidedDistance result = one_sided_distance(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})), options);
+    // Without a budget: the default error bound is out of reach here, and the search has to see that by itself.
+    const OneSidedDistance result = one_sided_distance(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})));
     expect_meets(result.bounds, truth);
     EXPECT_LE(result.bounds.upper - result.bounds.lower, 1e-6 + 4e-12 * far);
     EXPECT_EQ(check_one_sided(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})), far / 2).verdict, Verdict::Exceeds);
@@ -297,6 +296,15 @@ TEST(CheckOneSided, DecidesOnBothSidesOfTheDistance) {
     EXPECT_LE(exceeds.bounds.lower, truth.upper);
     expect_witness(a, b, exceeds.a_to_b);
   }
+}
+
+TEST(CheckOneSided, EndsAtEqualityWithoutABudget) {
+  const TriangleMesh square = unit_square(5);
+  const ToleranceCheck check = check_one_sided(Bvh(square), Bvh(moved(square, {0, 0, 0.25})), 0.25);
+  EXPECT_NE(check.verdict, Verdict::Exceeds);
+  EXPECT_LE(check.bounds.lower, 0.25);
+  EXPECT_GE(check.bounds.upper, 0.25);
+  EXPECT_LE(check.bounds.upper, 0.25 + 1e-11);
 }
 
 TEST(Budgets, LeaveValidBounds) {
