@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Closest-point queries. Compiled once per instruction set (numeric/isa.h).
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -155,32 +156,33 @@ inline void step_towards(const Bvh::Data& data, const Vec3& p, double enough_squ
   }
 }
 
+/// `separation` by the offset from the closest point; where rounding spoils that direction, by the offset in extended
+/// precision (slivers) and by the normal of the triangle (next to the surface, where the offset is mostly rounding).
+inline double best_separation(const CornerTriangle<double>& t, const Vec3& p, double wanted) {
+  double best = separation(t, p, closest_on_triangle(t, p).offset);
+  if (best >= wanted) return best;
+  const CornerTriangle<long double> fine{{t.a.x, t.a.y, t.a.z}, {t.ab.x, t.ab.y, t.ab.z}, {t.ac.x, t.ac.y, t.ac.z}};
+  const Vec<long double> offset = closest_on_triangle(fine, Vec<long double>{p.x, p.y, p.z}).offset;
+  const Vec3 normal = cross(t.ab, t.ac);
+  for (const Vec3& direction :
+       {Vec3{static_cast<double>(offset.x), static_cast<double>(offset.y), static_cast<double>(offset.z)}, normal,
+        Vec3{} - normal})
+    best = std::max(best, separation(t, p, direction));
+  return best;
+}
+
 /// A proven lower bound (but for `dual_error`) of the distance of p to the whole mesh: every triangle is either in a
-/// box beyond `nearest_squared`, or separated from p by a plane. Where rounding spoils the plane (slivers), it is
-/// computed again in extended precision.
+/// box beyond `nearest_squared`, or separated from p by a plane.
 inline double certified_distance(const Bvh::Data& data, const Vec3& p, double nearest_squared,
                                  QueryCounters& counters) {
   ++counters.queries;
   double least = std::sqrt(nearest_squared);
-  const Vec<long double> fine_p{p.x, p.y, p.z};
   const std::uint32_t last = data.triangle_count() - 1;
   const float limit = prune_limit(nearest_squared);
   visit_near(data, p, limit, counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
-    for (std::uint32_t lane = 0; lane < block_width && block * block_width + lane <= last; ++lane) {
-      const CornerTriangle<double> t = triangle_at(data, block * block_width + lane);
-      double separated = separation(t, p, closest_on_triangle(t, p).offset);
-      if (separated < least) {
-        const CornerTriangle<long double> fine{
-            {t.a.x, t.a.y, t.a.z}, {t.ab.x, t.ab.y, t.ab.z}, {t.ac.x, t.ac.y, t.ac.z}};
-        const Vec<long double> offset = closest_on_triangle(fine, fine_p).offset;
-        const Vec3 direction{static_cast<double>(offset.x), static_cast<double>(offset.y),
-                             static_cast<double>(offset.z)};
-        const double again = separation(t, p, direction);
-        separated = again > separated ? again : separated;
-      }
-      least = separated < least ? separated : least;
-    }
+    for (std::uint32_t lane = 0; lane < block_width && block * block_width + lane <= last; ++lane)
+      least = std::min(least, best_separation(triangle_at(data, block * block_width + lane), p, least));
     return limit;
   });
   return least;
