@@ -14,8 +14,8 @@ struct BvhOptions {
 };
 
 /// A bounding volume hierarchy over a triangle soup, with the adjacency and cells that the Hausdorff engine walks.
-/// It keeps its own copy of the geometry; the view may go away after construction. Immutable, so that any number of
-/// threads may query it. Build: O(n log n).
+/// It keeps its own copy of the geometry; the view may go away after construction. Any number of threads may query it,
+/// but not during `refit`. Build: O(n log n).
 class Bvh {
  public:
   /// Throws `InvalidInput` as `validate` does.
@@ -23,6 +23,19 @@ class Bvh {
   Bvh(Bvh&&) noexcept;
   Bvh& operator=(Bvh&&) noexcept;
   ~Bvh();
+
+  /// Takes over the vertices of the same mesh after they have moved, at any distance and scale: O(n), without sorting
+  /// or finding neighbours again. Queries and distances have the guarantees of a tree that is built anew; as the
+  /// triangles are met in another order, bounds may differ inside these guarantees. The same result for any number of
+  /// threads. Afterwards `data()` is another object, and what was made from the tree before (`Proximity`) must be made
+  /// again; `PlacedModel` and `LevelChecker` follow. Throws `InvalidInput` as `validate` does, and when a triangle
+  /// joins other vertices than before; the tree is then as it was.
+  void refit(const MeshView& moved, const BvhOptions& options = {});
+
+  /// How much larger the boxes have become since the tree was built, in proportion to the whole model: 1 after
+  /// building, about 1 after rigid motions and smooth deformations. Queries slow down with it; once it is beyond 2 or
+  /// so, building anew pays. O(n / 4).
+  [[nodiscard]] double growth() const;
 
   [[nodiscard]] std::size_t triangle_count() const;
   [[nodiscard]] const Eigen::AlignedBox3d& bounding_box() const;

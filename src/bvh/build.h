@@ -10,6 +10,12 @@ namespace meshbound {
 /// The steps of building `Bvh::Data`; each fills the members named after it from those filled before.
 /// Every one gives the same result for any number of threads.
 
+/// Box, diagonal and frame, and a new serial number.
+void set_frame(Bvh::Data& data, const MeshView& mesh);
+
+/// Where the longest edge of a triangle begins: corner 0, 1 or 2, the first of them when edges are equally long.
+std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Triangles by the Hilbert index of their centroids; ties by index, so the order is unique. `working` holds the
 /// working coordinates of the mesh's vertices, `box` bounds them.
 std::vector<std::uint32_t> hilbert_order(const MeshView& mesh, const std::vector<Vec3>& working, const Box& box,

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 
@@ -29,14 +30,6 @@ void check_size(const MeshView& mesh) {
                        " triangles; a tree holds fewer than 2^30, split the mesh");
 }
 
-void set_frame(Bvh::Data& data, const MeshView& mesh) {
-  data.bounding_box = used_bounding_box(mesh);
-  data.diagonal = bounding_box_diagonal(mesh);
-  const Vec3 lo = to_vec3(data.bounding_box.min()), hi = to_vec3(data.bounding_box.max());
-  data.frame = frame_for_box(lo, hi);
-  data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};
-}
-
 /// Working coordinates of all vertices (of unused ones too: they may be anything, and are dropped by `place`).
 std::vector<Vec3> working_vertices(const MeshView& mesh, const Frame& frame, int threads) {
   std::vector<Vec3> working(mesh.vertex_count());
@@ -47,15 +40,7 @@ std::vector<Vec3> working_vertices(const MeshView& mesh, const Frame& frame, int
 
 /// The same triangle, turned so that its first edge is the longest (what `closest_on_triangle` asks for).
 Triangle longest_edge_first(const Triangle& t, const std::vector<Vec3>& working) {
-  double longest = -1;
-  std::size_t first = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double squared = squared_length(working[t[(k + 1) % 3]] - working[t[k]]);
-    if (squared > longest) {
-      longest = squared;
-      first = k;
-    }
-  }
+  const std::uint32_t first = longest_edge(working[t[0]], working[t[1]], working[t[2]]);
   return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
 }
 
@@ -70,6 +55,7 @@ void place(Bvh::Data& data, const MeshView& mesh, const std::vector<Vec3>& worki
       if (at == unused) {
         at = static_cast<std::uint32_t>(data.vertices.size());
         data.vertices.push_back(working[t[k]]);
+        data.source_vertex.push_back(t[k]);
         data.frame.error = std::max(data.frame.error, data.frame.rounding_of(to_vec3(mesh.vertex(t[k]))));
       }
       data.corners[slot][k] = at;
@@ -89,6 +75,7 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
     const std::vector<Vec3> working = working_vertices(mesh, data->frame, threads);
     data->triangle_of_slot = hilbert_order(mesh, working, data->working_box, threads);
     data->vertices.reserve(std::min(mesh.vertex_count(), 3 * mesh.triangle_count()));
+    data->source_vertex.reserve(data->vertices.capacity());
     place(*data, mesh, working);
   }
   build_adjacency(*data, threads);
@@ -104,6 +91,22 @@ std::size_t bytes(const std::vector<T>& v) {
 
 }  // namespace
 
+void set_frame(Bvh::Data& data, const MeshView& mesh) {
+  static std::atomic<std::uint64_t> last_serial{0};
+  data.serial = ++last_serial;
+  data.bounding_box = used_bounding_box(mesh);
+  data.diagonal = bounding_box_diagonal(mesh);
+  const Vec3 lo = to_vec3(data.bounding_box.min()), hi = to_vec3(data.bounding_box.max());
+  data.frame = frame_for_box(lo, hi);
+  data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};
+}
+
+std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ab = squared_length(b - a), bc = squared_length(c - b), ca = squared_length(a - c);
+  if (ab >= bc && ab >= ca) return 0;
+  return bc >= ca ? 1 : 2;
+}
+
 Bvh::Bvh(const MeshView& mesh, const BvhOptions& options) : data_(build(mesh, thread_count(options.threads))) {}
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
@@ -115,8 +118,8 @@ double Bvh::bounding_box_diagonal() const { return data_->diagonal; }
 
 std::size_t Bvh::memory_bytes() const {
   const Data& d = *data_;
-  return sizeof(Data) + bytes(d.vertices) + bytes(d.corners) + bytes(d.neighbours) + bytes(d.normals) +
-         bytes(d.triangle_of_slot) + bytes(d.blocks) + bytes(d.nodes) + bytes(d.level_begin);
+  return sizeof(Data) + bytes(d.vertices) + bytes(d.source_vertex) + bytes(d.corners) + bytes(d.neighbours) +
+         bytes(d.normals) + bytes(d.triangle_of_slot) + bytes(d.blocks) + bytes(d.nodes) + bytes(d.level_begin);
 }
 
 }  // namespace meshbound

@@ -44,6 +44,8 @@ struct Neighbour {
 };
 
 struct Bvh::Data {
+  std::uint64_t serial = 0;  ///< of these coordinates; never given twice in a process
+  double built_cost = 0;     ///< `tree_cost` before the first refit; 0: never refitted
   Frame frame;
   Eigen::AlignedBox3d bounding_box;  ///< model units
   double diagonal = 0;               ///< of it, model units
@@ -51,6 +53,7 @@ struct Bvh::Data {
 
   // By vertex, in the order of first use along the curve. Only vertices that triangles use.
   std::vector<Vec3> vertices;
+  std::vector<std::uint32_t> source_vertex;  ///< index in the mesh that the tree was built from
   // By slot: the place of a triangle along the curve.
   std::vector<Triangle> corners;
   std::vector<std::array<Neighbour, 3>> neighbours;  ///< [k] across the edge from corner k to corner k + 1

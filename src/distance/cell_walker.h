@@ -56,7 +56,7 @@ class CellWalker : public ProvenBounds {
     if ((++counters_.pieces & 1023) == 0 && goal_.out_of_time()) cuts_left_ = 0;
     const Farthest farthest = farthest_corner(piece, triangle_at(b_, piece.slot));
     counters_.deepest = std::max(counters_.deepest, piece.depth);
-    if (done_with(farthest.squared)) return;
+    if (done_with(farthest.squared, piece.slot)) return;
     if (cuts_left_ == 0 || decided()) return give_up(farthest.squared);
     const bool due = piece.age >= steps_between_queries || must_halve(piece);
     if (due)
@@ -182,7 +182,7 @@ class CellWalker : public ProvenBounds {
     find_nearest(b_, probe, 0, nearest, counters_.queries);
     offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
-    if (done_with(farthest.squared) || done_with(lipschitz * lipschitz)) return;
+    if (done_with(farthest.squared, piece.slot) || done_with(lipschitz * lipschitz, nearest.slot)) return;
     Piece next = piece;
     ++next.rounds;
     next.age = 0;
@@ -190,7 +190,7 @@ class CellWalker : public ProvenBounds {
     double bound = std::min(farthest.squared, lipschitz * lipschitz);
     if (nearest.slot != piece.slot) {
       const double other = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
-      if (done_with(other)) return;
+      if (done_with(other, nearest.slot)) return;
       bound = std::min(bound, other);
       next.slot = nearest.slot;
     }
@@ -216,7 +216,7 @@ class CellWalker : public ProvenBounds {
       if (nearest.slot == piece.slot) continue;
       const CornerTriangle<double> candidate = triangle_at(b_, nearest.slot);
       const double squared = farthest_corner(piece, candidate).squared;
-      if (done_with(squared)) return;
+      if (done_with(squared, nearest.slot)) return;
       bound = std::min(bound, squared);
       const Vec3 point = corner - closest_on_triangle(candidate, corner).offset;
       if (squared_length(point - here) > apart) {

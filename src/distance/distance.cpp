@@ -6,6 +6,7 @@
 #include <string>
 
 #include "distance/one_sided.h"
+#include "distance/symmetric.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -41,6 +42,16 @@ OneSidedTask decision(const PlacedModel& a, const PlacedModel& b, double toleran
 
 Bounds larger(const Bounds& x, const Bounds& y) { return {std::max(x.lower, y.lower), std::max(x.upper, y.upper)}; }
 
+ToleranceCheck checked_one_sided(const OneSidedTask& task) {
+  ToleranceCheck check;
+  check.tolerance = task.tolerance;
+  check.a_to_b = search_one_sided(task);
+  check.b_to_a.bounds = {};
+  check.bounds = check.a_to_b.bounds;
+  check.verdict = verdict_of(check.bounds, task.tolerance);
+  return check;
+}
+
 }  // namespace
 
 OneSidedDistance one_sided_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
@@ -50,13 +61,14 @@ OneSidedDistance one_sided_distance(const PlacedModel& a, const PlacedModel& b, 
   return search_one_sided(task);
 }
 
-SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
-  OneSidedTask task{.a = a, .b = b, .options = options};
+SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options,
+                                     const SymmetricMemory& memory) {
+  OneSidedTask task{.a = a, .b = b, .options = options, .memory = memory.a_to_b};
   task.error_bound = error_bound_of(a, options);
   task.tolerance = tolerance_of(options);
   SymmetricDistance result;
   result.a_to_b = search_one_sided(task);
-  OneSidedTask back{.a = b, .b = a, .options = options};
+  OneSidedTask back{.a = b, .b = a, .options = options, .memory = memory.b_to_a};
   back.error_bound = task.error_bound;
   back.tolerance = task.tolerance;
   back.known_lower = result.a_to_b.bounds.lower;  // paper, section 6: the first result seeds the second
@@ -66,29 +78,35 @@ SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
   return result;
 }
 
+SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
+  return symmetric_distance(a, b, options, {});
+}
+
 ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                const DistanceOptions& options) {
-  ToleranceCheck check;
-  check.tolerance = tolerance;
-  check.a_to_b = search_one_sided(decision(a, b, tolerance, options));
-  check.b_to_a.bounds = {};
-  check.bounds = check.a_to_b.bounds;
+  return checked_one_sided(decision(a, b, tolerance, options));
+}
+
+ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                               const DistanceOptions& options, const SymmetricMemory& memory) {
+  OneSidedTask task = decision(a, b, tolerance, options);
+  task.memory = memory.a_to_b;
+  ToleranceCheck check = checked_one_sided(task);
+  if (check.verdict == Verdict::Exceeds) {
+    check.bounds.upper = std::numeric_limits<double>::infinity();
+    return check;
+  }
+  OneSidedTask back = decision(b, a, tolerance, options);
+  back.memory = memory.b_to_a;
+  check.b_to_a = search_one_sided(back);
+  check.bounds = larger(check.a_to_b.bounds, check.b_to_a.bounds);
   check.verdict = verdict_of(check.bounds, tolerance);
   return check;
 }
 
 ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                const DistanceOptions& options) {
-  ToleranceCheck check = check_one_sided(a, b, tolerance, options);
-  if (check.verdict == Verdict::Exceeds) {
-    check.bounds.upper = std::numeric_limits<double>::infinity();
-    return check;
-  }
-  OneSidedTask back = decision(b, a, tolerance, options);
-  check.b_to_a = search_one_sided(back);
-  check.bounds = larger(check.a_to_b.bounds, check.b_to_a.bounds);
-  check.verdict = verdict_of(check.bounds, tolerance);
-  return check;
+  return check_symmetric(a, b, tolerance, options, {});
 }
 
 }  // namespace meshbound

@@ -16,6 +16,7 @@ struct NodeOfA {
   double bound_squared;  ///< of the distance of all its triangles to B
   std::uint32_t level;
   std::uint32_t index;
+  std::uint32_t slot;  ///< the triangle of B that gives the bound
 
   bool operator<(const NodeOfA& other) const {
     if (bound_squared != other.bound_squared) return bound_squared < other.bound_squared;
@@ -90,7 +91,7 @@ void OneSidedSearch::cull_nodes() {
   if (sampled_block_radius() > 0.5 * std::sqrt(searcher.accepted_squared())) return;
   NodeTest test(a_, map_, searcher);
   std::priority_queue<NodeOfA> queue;
-  queue.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0});
+  queue.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
   while (!queue.empty() && !decided() && !out_of_budget()) {
     const NodeOfA node = queue.top();
     queue.pop();
@@ -98,6 +99,8 @@ void OneSidedSearch::cull_nodes() {
       searcher.accept(node.bound_squared);
       const auto [begin, end] = slots_below(a_, node.level, node.index);
       const auto culled = std::count(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1});
+      for (std::uint32_t slot = begin; task_.memory != nullptr && slot < end; ++slot)
+        if (alive_[slot] != 0) remember(slot, node.bound_squared, node.slot);
       std::fill(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{0});
       stats_.culled_by_node += static_cast<std::uint64_t>(culled);
       continue;
@@ -118,7 +121,9 @@ void OneSidedSearch::cull_nodes() {
       const std::uint32_t child = node.index * node_width + k;
       const auto [begin, end] = slots_below(a_, node.level - 1, child);
       if (begin == end) break;
-      queue.push({test.bound_squared(node.level - 1, child), node.level - 1, child});
+      if (std::find(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1}) == alive_.begin() + end) continue;
+      const double bound = test.bound_squared(node.level - 1, child);
+      queue.push({bound, node.level - 1, child, test.hint()});
     }
   }
   upper_squared_ = std::max(upper_squared_, searcher.upper_squared());

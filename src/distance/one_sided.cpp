@@ -14,10 +14,12 @@ OneSidedDistance search_one_sided(const OneSidedTask& task) {
   OneSidedSearch search(task, map);
   search.probe();
   search.drop_identical();
+  search.drop_proven();
   search.cull_nodes();
   search.query_vertices();
   search.bound_triangles();
   search.walk_rest();
+  search.remember_hints();
   return search.result();
 }
 

@@ -6,6 +6,8 @@
 
 namespace meshbound {
 
+struct SearchMemory;
+
 /// One direction of a measurement: what all directions and levels share.
 struct OneSidedTask {
   const PlacedModel& a;
@@ -18,6 +20,7 @@ struct OneSidedTask {
   /// larger.
   double known_lower = 0;
   const DistanceOptions& options;
+  SearchMemory* memory = nullptr;  ///< proofs and hints of earlier searches, used and updated; null: none
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
 

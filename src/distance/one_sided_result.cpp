@@ -56,7 +56,8 @@ void OneSidedSearch::fill_stats() {
     stats_.deepest_subdivision = std::max(stats_.deepest_subdivision, counters.deepest);
   }
   stats_.triangles_tested = tested;
-  stats_.culled_by_vertices = stats_.triangles - stats_.matched - stats_.culled_by_node - stats_.walked;
+  stats_.culled_by_vertices =
+      stats_.triangles - stats_.matched - stats_.proven_before - stats_.culled_by_node - stats_.walked;
   stats_.culled_on_a_percent = 100 * (1 - static_cast<double>(stats_.walked) / static_cast<double>(stats_.triangles));
   const double all = static_cast<double>(stats_.closest_point_queries) * b_.triangle_count();
   stats_.culled_on_b_percent = all > 0 ? std::max(0.0, 100 * (1 - static_cast<double>(tested) / all)) : 100;
@@ -80,11 +81,12 @@ OneSidedDistance OneSidedSearch::result() {
   double upper = 0;
   if (decided())
     upper = farthest_apart();
-  else if (stats_.matched < stats_.triangles)
-    upper = next_up(std::sqrt(upper_squared_) * (1 + 4 * unit_roundoff)) + goal_.slack + deepest * goal_.cut_slack;
+  else if (stats_.matched + stats_.proven_before < stats_.triangles)
+    upper = proven_length(upper_squared_, deepest);
   result.bounds.lower = b_.frame.length_down(std::max(0.0, lower.lower));
-  result.bounds.upper = std::max(b_.frame.length_up(upper), result.bounds.lower);
+  result.bounds.upper = std::max({b_.frame.length_up(upper), kept_upper_, result.bounds.lower});
   result.witness = witness_at(lower);
+  remember_start(lower);
   const double proven = std::max(result.bounds.lower, task_.known_lower);
   const bool narrow = result.bounds.upper <= proven + task_.error_bound && !task_.decide_only;
   if (decided())

@@ -110,6 +110,7 @@ void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::u
       merge(found[i]);
       if (found[i].farthest_squared > found[farthest].farthest_squared) farthest = i;
       open_.insert(open_.end(), found[i].open.begin(), found[i].open.end());
+      remember_walk(found[i]);
     }
     spend_cuts();
     if (found[farthest].farthest_squared >= 0)
@@ -140,6 +141,7 @@ void OneSidedSearch::drop_identical() {
 }
 
 void OneSidedSearch::probe() {
+  probe_start();
   const auto n = static_cast<std::uint32_t>(a_.vertices.size());
   Searcher& searcher = *searchers_.front();
   Nearest farthest{-1, 0};
@@ -170,6 +172,7 @@ void OneSidedSearch::query_chunk(Searcher& searcher, std::uint32_t begin, std::u
   std::uint32_t hint = 0;
   for (std::uint32_t v = begin; v < end; ++v) {
     if (!vertex_is_wanted(v)) continue;
+    if (const std::uint32_t before = hint_before(task_.memory, v); before != no_slot) hint = before;
     const double enough = exhausted_ ? std::numeric_limits<double>::infinity() : searcher.accepted_squared();
     nearest_[v] = searcher.nearest(vertex(v), hint, enough);
     hint = nearest_[v].slot;
@@ -199,12 +202,18 @@ void OneSidedSearch::bound_chunk(Searcher& searcher, std::uint32_t begin, std::u
     const Vec3 corner[3] = {vertex(t[0]), vertex(t[1]), vertex(t[2])};
     double bound = std::numeric_limits<double>::infinity();
     int worst = 0;
+    std::uint32_t nearest_to_all = 0;
     for (int k = 0; k < 3 && bound > searcher.accepted_squared(); ++k) {
       if (nearest_[t[k]].squared > nearest_[t[worst]].squared) worst = k;
       const std::uint32_t candidate = nearest_[t[k]].slot;
       if (k > 0 && (candidate == nearest_[t[0]].slot || (k == 2 && candidate == nearest_[t[1]].slot))) continue;
-      bound = std::min(bound, searcher.farthest_squared(corner[0], corner[1], corner[2], candidate));
+      const double squared = searcher.farthest_squared(corner[0], corner[1], corner[2], candidate);
+      if (squared < bound) {
+        bound = squared;
+        nearest_to_all = candidate;
+      }
     }
+    remember(slot, bound, nearest_to_all);
     if (bound <= searcher.accepted_squared() || exhausted_)
       searcher.accept(bound);
     else
@@ -221,7 +230,7 @@ void OneSidedSearch::bound_triangles() {
   });
 }
 
-void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end) {
+void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const Open& open = open_[i];
     if (open.bound_squared <= searcher.accepted_squared() || exhausted_) {
@@ -232,7 +241,10 @@ void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::ui
     const Vec3 a = vertex(t[0]), b = vertex(t[1]), c = vertex(t[2]);
     // The centroid breaks the ties of corners, which many triangles of B share.
     const Nearest start = searcher.nearest((1.0 / 3) * (a + b + c), open.start, searcher.accepted_squared());
-    searcher.cover(a, b, c, open.slot, start.slot, cuts_left_);
+    if (task_.memory == nullptr)
+      searcher.cover(a, b, c, open.slot, start.slot, cuts_left_);
+    else
+      cover_and_record(searcher, open.slot, start.slot, found);
   }
 }
 
@@ -253,9 +265,9 @@ void OneSidedSearch::walk_rest() {
   const auto n = static_cast<std::uint32_t>(open_.size());
   stats_.walked = n;
   const std::uint32_t chunks = (n + walks_per_chunk - 1) / walks_per_chunk;
-  run_chunks(chunks, 1, 512, 0.3, 1.0, [&](Searcher& searcher, std::uint32_t chunk, Found&) {
+  run_chunks(chunks, 1, 512, 0.3, 1.0, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * walks_per_chunk;
-    walk_chunk(searcher, begin, std::min(n, begin + walks_per_chunk));
+    walk_chunk(searcher, begin, std::min(n, begin + walks_per_chunk), found);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "distance/goal.h"
 #include "distance/one_sided.h"
+#include "distance/search_memory.h"
 #include "distance/searcher.h"
 #include "geometry/mapping.h"
 
@@ -19,10 +20,12 @@ class OneSidedSearch {
 
   void probe();            ///< a few vertices, for a first lower bound
   void drop_identical();   ///< triangles that B has too, if a probe lay on B: at distance 0 without arithmetic
+  void drop_proven();      ///< triangles that an earlier search has proven to be near enough
   void cull_nodes();       ///< paper, Alg. 1: whole nodes of A, best first
   void query_vertices();   ///< closest triangles of the vertices that are left
   void bound_triangles();  ///< paper, 4.4: triangles bounded by a closest triangle of one of their vertices
   void walk_rest();        ///< cells of B for what is left, worst first
+  void remember_hints();   ///< for the next search of this model
   [[nodiscard]] OneSidedDistance result();
 
  private:
@@ -39,6 +42,7 @@ class OneSidedSearch {
     std::uint32_t farthest_vertex = 0;
     double farthest_squared = -1;
     std::vector<Open> open;
+    std::vector<WalkedTriangle> walked;  ///< with a memory only
   };
 
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
@@ -52,11 +56,17 @@ class OneSidedSearch {
   void offer_vertex(std::uint32_t v, const Nearest& nearest);
   void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
-  void walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end);
+  void walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void sort_open();
   [[nodiscard]] double sampled_block_radius() const;
   [[nodiscard]] bool vertex_is_wanted(std::uint32_t v) const { return wanted_.empty() || wanted_[v] != 0; }
   void mark_wanted_vertices();
+  void probe_start();
+  [[nodiscard]] double proven_length(double squared, std::uint32_t cuts) const;
+  void remember(std::uint32_t slot, double squared, std::uint32_t face);
+  void cover_and_record(Searcher& searcher, std::uint32_t slot, std::uint32_t start, Found& found) const;
+  void remember_walk(const Found& found);
+  void remember_start(const LowerBound& lower);
   void report_progress(double fraction);
   [[nodiscard]] Witness witness_at(const LowerBound& lower) const;
   LowerBound proven_witness();
@@ -78,6 +88,7 @@ class OneSidedSearch {
   std::uint32_t farthest_vertex_ = 0;  ///< met so far
   Nearest farthest_nearest_{-1, 0};
   double upper_squared_ = 0;
+  double kept_upper_ = 0;  ///< of the triangles that `drop_proven` dropped, model units
   bool exhausted_ = false;
   bool probe_on_b_ = false;
   std::uint64_t cuts_left_ = 0;

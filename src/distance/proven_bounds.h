@@ -7,6 +7,7 @@
 
 #include "bvh/nearest.h"
 #include "distance/goal.h"
+#include "distance/search_memory.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
@@ -34,14 +35,21 @@ class ProvenBounds {
     if (proven > lower_.lower) set_lower({proven, p, nearest.slot, from_slot_});
   }
 
-  /// Records that a piece of A is within this squared distance of B, and needs no more work.
-  void accept(double squared) { upper_squared_ = std::max(upper_squared_, squared); }
+  /// From now on each piece that is accepted leaves the triangle of B that bounds it here; null: nowhere.
+  void record_in(CoverRecord* record) { record_ = record; }
+
+  /// Records that a piece of A is within this squared distance of B, of the triangle at `slot` where that is known, and
+  /// needs no more work.
+  void accept(double squared, std::uint32_t slot = no_slot) {
+    upper_squared_ = std::max(upper_squared_, squared);
+    if (record_ != nullptr) record_->add(squared, slot);
+  }
   [[nodiscard]] bool accepts(double squared) const { return squared <= accepted_squared_; }
 
   /// Accepts a piece whose bound meets the target; says whether it did.
-  bool done_with(double squared) {
+  bool done_with(double squared, std::uint32_t slot = no_slot) {
     if (!accepts(squared)) return false;
-    accept(squared);
+    accept(squared, slot);
     return true;
   }
 
@@ -70,6 +78,7 @@ class ProvenBounds {
   double offered_squared_ = 0;
   double upper_squared_ = 0;
   std::uint32_t from_slot_ = 0;
+  CoverRecord* record_ = nullptr;
   WalkCounters counters_;
 
  private:

@@ -6,6 +6,7 @@
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
 #include "distance/goal.h"
+#include "distance/search_memory.h"
 
 namespace meshbound {
 
@@ -30,6 +31,9 @@ class Searcher {
   /// Covers a whole triangle of A starting from a candidate, with at most `max_cuts` cuts.
   virtual void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
                      std::uint64_t max_cuts) = 0;
+
+  /// From now on `cover` leaves the triangles of B that the pieces were accepted on here; null: nowhere.
+  virtual void record_in(CoverRecord* record) = 0;
 
   virtual void accept(double squared) = 0;
   [[nodiscard]] virtual double accepted_squared() const = 0;

@@ -34,6 +34,7 @@ class SearcherImpl final : public Searcher {
     walker_.cover(a, b, c, from_slot, slot, max_cuts);
   }
 
+  void record_in(CoverRecord* record) override { walker_.record_in(record); }
   void accept(double squared) override { walker_.accept(squared); }
   [[nodiscard]] double accepted_squared() const override { return walker_.accepted_squared(); }
   [[nodiscard]] const LowerBound& lower() const override { return walker_.lower(); }

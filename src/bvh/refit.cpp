@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <omp.h>
+
+#include <algorithm>
+#include <string>
+
+#include "bvh/build.h"
+#include "meshbound/error.h"
+
+namespace meshbound {
+namespace {
+
+template <class T>
+std::array<T, 3> rotated(const std::array<T, 3>& x, std::uint32_t by) {
+  return {x[by], x[(by + 1) % 3], x[(by + 2) % 3]};
+}
+
+constexpr std::uint32_t no_turn = 3;
+
+/// By how many corners the tree has turned a triangle of the mesh (`longest_edge`); trees never mirror them.
+std::uint32_t turn_of(const Bvh::Data& data, std::uint32_t slot, const Triangle& in_mesh) {
+  const Triangle& t = data.corners[slot];
+  const Triangle in_tree{data.source_vertex[t[0]], data.source_vertex[t[1]], data.source_vertex[t[2]]};
+  for (std::uint32_t by = 0; by < no_turn; ++by)
+    if (in_tree == rotated(in_mesh, by)) return by;
+  return no_turn;
+}
+
+void check_same_triangles(const Bvh::Data& data, const MeshView& moved) {
+  if (moved.triangle_count() != data.triangle_count())
+    throw InvalidInput("a mesh of " + std::to_string(moved.triangle_count()) + " triangles cannot refit a tree of " +
+                       std::to_string(data.triangle_count()) + "; build a new tree");
+  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
+    if (turn_of(data, slot, moved.triangle(data.triangle_of_slot[slot])) == no_turn)
+      throw InvalidInput("triangle " + std::to_string(data.triangle_of_slot[slot]) +
+                         " has other vertices than in the tree; only vertices may move, build a new tree");
+  }
+}
+
+void place_vertices(Bvh::Data& data, const MeshView& moved, int threads) {
+  const Frame frame = data.frame;
+  double error = 0;
+  data.vertices.resize(data.source_vertex.size());
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : error)
+  for (std::size_t v = 0; v < data.vertices.size(); ++v) {
+    const Eigen::Vector3d p = moved.vertex(data.source_vertex[v]);
+    data.vertices[v] = frame.to_working({p.x(), p.y(), p.z()});
+    error = std::max(error, frame.rounding_of({p.x(), p.y(), p.z()}));
+  }
+  data.frame.error = error;
+}
+
+/// Turns each triangle as a build would: its longest edge first, ties by the order in the mesh.
+void turn_triangles(Bvh::Data& data, const MeshView& moved, int threads) {
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
+    const std::uint32_t back = no_turn - turn_of(data, slot, moved.triangle(data.triangle_of_slot[slot]));
+    const Triangle t = rotated(data.corners[slot], back % 3);
+    const std::uint32_t first = longest_edge(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]);
+    data.corners[slot] = rotated(t, first);
+    data.neighbours[slot] = rotated(data.neighbours[slot], (back + first) % 3);
+  }
+}
+
+/// Sum of the squared diagonals of all boxes in units of the whole one's: to a query on the surface the chance that it
+/// opens a box grows with the box's extent in the two directions of the surface. 1 for a mesh that is a point.
+double tree_cost(const Bvh::Data& data) {
+  const double whole = squared_length(data.working_box.hi - data.working_box.lo);
+  if (!(whole > 0)) return 1;
+  double sum = 0;
+  for (const BvhNode& node : data.nodes) {
+    for (std::uint32_t k = 0; k < node_width; ++k) {
+      if (node.lo[0][k] > node.hi[0][k]) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double size = static_cast<double>(node.hi[axis][k]) - static_cast<double>(node.lo[axis][k]);
+        sum += size * size;
+      }
+    }
+  }
+  return sum / whole;
+}
+
+}  // namespace
+
+void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
+  validate(moved);
+  check_same_triangles(*data_, moved);
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  auto next = std::make_unique<Data>();
+  set_frame(*next, moved);
+  next->built_cost = data_->built_cost > 0 ? data_->built_cost : tree_cost(*data_);
+  next->source_vertex = data_->source_vertex;
+  next->corners = data_->corners;
+  next->neighbours = data_->neighbours;
+  next->triangle_of_slot = data_->triangle_of_slot;
+  place_vertices(*next, moved, threads);
+  turn_triangles(*next, moved, threads);
+  build_blocks(*next, threads);
+  build_nodes(*next, threads);
+  data_ = std::move(next);
+}
+
+double Bvh::growth() const { return data_->built_cost > 0 ? tree_cost(*data_) / data_->built_cost : 1; }
+
+}  // namespace meshbound

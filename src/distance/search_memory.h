@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "bvh/bvh_data.h"
+
+namespace meshbound {
+
+/// The triangles of B that one covered triangle of A relies on. Filled by the walk, outside of its hot loops; not
+/// inline, because the walk is compiled once per instruction set (numeric/isa.h).
+struct CoverRecord {
+  double squared = 0;  ///< largest distance that was accepted
+  bool complete = true;
+  std::vector<std::uint32_t> slots;  ///< each once
+
+  /// `no_slot`: a piece whose triangle is not known, so the cover proves nothing for later.
+  void add(double squared_distance, std::uint32_t slot);
+};
+
+/// A cover that a search has found; `faces` are slots of B.
+struct WalkedTriangle {
+  std::uint32_t slot = 0;  ///< of A
+  double squared = 0;
+  std::vector<std::uint32_t> faces;
+};
+
+/// No point of a triangle of A is further than `bound` from the union of some triangles of B. True for as long as those
+/// stay where they are, whatever becomes of the rest of B.
+struct Proof {
+  double bound = std::numeric_limits<double>::infinity();  ///< model units, rounding included
+  std::uint32_t count = 0;                                 ///< of those triangles
+  std::uint32_t at = 0;  ///< the slot of the only one, or where their slots begin in `SearchMemory::faces`
+};
+
+/// A point of triangle `slot` of A: a + v ab + w ac.
+struct StartPoint {
+  std::uint32_t slot = 0;
+  double v = 0, w = 0;
+};
+
+/// What one search leaves for the next one of the same direction. `proofs` must be true, the rest are hints.
+struct SearchMemory {
+  std::vector<Proof> proofs;         ///< by A's slot
+  std::vector<std::uint32_t> faces;  ///< slots of B
+  std::vector<std::uint32_t> hints;  ///< by A's vertex: a slot of B near it, or `no_slot`
+  std::optional<StartPoint> start;   ///< the furthest point found
+
+  /// Without proofs, for a model A of that size.
+  void reset(const Bvh::Data& a);
+  /// Replaces the proof of a triangle if the new bound is lower. `used` are slots of B.
+  void improve(std::uint32_t slot, double bound, const std::vector<std::uint32_t>& used);
+  void improve(std::uint32_t slot, double bound, std::uint32_t used);
+};
+
+inline std::uint32_t hint_before(const SearchMemory* memory, std::uint32_t vertex) {
+  return memory != nullptr ? memory->hints[vertex] : no_slot;
+}
+
+}  // namespace meshbound

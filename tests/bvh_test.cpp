@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// The tree itself: what queries take for granted.
+#include "meshbound/bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <random>
+
+#include "bvh/build.h"
+#include "bvh/bvh_data.h"
+#include "reference/exact_distance.h"
+#include "reference/small_meshes.h"
+
+namespace {
+
+using namespace meshbound;
+using namespace meshbound::reference;
+using Eigen::Vector3d;
+
+/// Counts of triangles around which the number of blocks, levels or nodes of a level changes.
+std::vector<std::uint32_t> telling_sizes() {
+  std::vector<std::uint32_t> sizes(100);
+  std::iota(sizes.begin(), sizes.end(), 1U);
+  for (std::uint32_t power = 64; power <= 32768; power *= 8)
+    for (const std::uint32_t n : {power - 1, power, power + 1, 4 * power - 1, 4 * power, 4 * power + 1})
+      sizes.push_back(n);
+  return sizes;
+}
+
+TriangleMesh soup_of(std::uint32_t n) { return random_soup(n, static_cast<int>(n), 0.05); }
+
+/// First slot below a node or block, and the one after the last.
+std::pair<std::uint64_t, std::uint64_t> slots_below(const Bvh::Data& data, std::uint32_t level, std::uint64_t index) {
+  std::uint64_t size = block_width;
+  for (std::uint32_t l = 0; l < level; ++l) size *= node_width;
+  const std::uint64_t n = data.triangle_count();
+  return {std::min(n, index * size), std::min(n, (index + 1) * size)};
+}
+
+/// Every child's box holds the double coordinates of all triangles below it; children that have none are empty.
+void expect_boxes_hold_their_triangles(const Bvh::Data& data) {
+  for (std::uint32_t level = 1; level < data.levels(); ++level) {
+    for (std::uint32_t i = 0; i < data.level_begin[level + 1] - data.level_begin[level]; ++i) {
+      const BvhNode& node = data.nodes[data.level_begin[level] + i];
+      for (std::uint32_t k = 0; k < node_width; ++k) {
+        const auto [begin, end] = slots_below(data, level - 1, std::uint64_t{i} * node_width + k);
+        EXPECT_EQ(begin == end, node.lo[0][k] > node.hi[0][k]);
+        for (std::uint64_t slot = begin; slot < end; ++slot) {
+          for (const std::uint32_t v : data.corners[slot]) {
+            const double p[3] = {data.vertices[v].x, data.vertices[v].y, data.vertices[v].z};
+            for (int axis = 0; axis < 3; ++axis) {
+              ASSERT_LE(double{node.lo[axis][k]}, p[axis]) << "level " << level << " node " << i;
+              ASSERT_GE(double{node.hi[axis][k]}, p[axis]) << "level " << level << " node " << i;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Bvh, BoxesHoldTheDoubleCoordinatesOfTheirTriangles) {
+  for (const std::uint32_t n : telling_sizes()) expect_boxes_hold_their_triangles(Bvh(soup_of(n)).data());
+  expect_boxes_hold_their_triangles(Bvh(icosphere(5)).data());
+  expect_boxes_hold_their_triangles(Bvh(moved(scaled(icosphere(3), 1e-7), {1, 2, 3})).data());
+  expect_boxes_hold_their_triangles(Bvh(scaled(icosphere(3), 1e200)).data());
+}
+
+TEST(Bvh, BoxesAreNoLargerThanRoundingAsks) {
+  const Bvh bvh(icosphere(4));
+  const Bvh::Data& data = bvh.data();
+  const Box root = node_box(data, data.levels() - 1, 0);
+  EXPECT_LE(length(root.hi - root.lo), length(data.working_box.hi - data.working_box.lo) * (1 + 0x1p-21));
+}
+
+TEST(Bvh, HoldsEachTriangleInExactlyOneSlot) {
+  for (const std::uint32_t n : telling_sizes()) {
+    const TriangleMesh mesh = soup_of(n);
+    const Bvh bvh(mesh);
+    const Bvh::Data& data = bvh.data();
+    std::vector<std::uint32_t> seen = data.triangle_of_slot;
+    std::sort(seen.begin(), seen.end());
+    ASSERT_EQ(seen.size(), n);
+    for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(seen[i], i);
+    for (std::uint32_t slot = 0; slot < n; ++slot) {
+      Triangle from;
+      for (std::size_t k = 0; k < 3; ++k) from[k] = data.source_vertex[data.corners[slot][k]];
+      Triangle expected = mesh.triangles[data.triangle_of_slot[slot]];
+      std::rotate(expected.begin(), std::find(expected.begin(), expected.end(), from[0]), expected.end());
+      ASSERT_EQ(from, expected);
+    }
+  }
+}
+
+TEST(Bvh, StacksLevelsOfEightUpToOneRoot) {
+  for (const std::uint32_t n : telling_sizes()) {
+    const Bvh bvh(soup_of(n));
+    const Bvh::Data& data = bvh.data();
+    std::size_t below = (n + block_width - 1) / block_width;
+    ASSERT_EQ(data.blocks.size(), below);
+    for (std::uint32_t level = 1; level < data.levels(); ++level) {
+      const std::size_t here = data.level_begin[level + 1] - data.level_begin[level];
+      ASSERT_EQ(here, (below + node_width - 1) / node_width) << n;
+      below = here;
+    }
+    ASSERT_EQ(below, 1U) << n;
+    ASSERT_EQ(data.nodes.size(), data.level_begin.back());
+    ASSERT_GE(data.levels(), 2U);
+  }
+}
+
+TEST(Bvh, BlocksHoldTheTrianglesLaneByLaneAndRepeatTheLast) {
+  for (const std::uint32_t n : {1U, 2U, 3U, 4U, 5U, 63U, 65U}) {
+    const Bvh bvh(soup_of(n));
+    const Bvh::Data& data = bvh.data();
+    for (std::uint32_t i = 0; i < data.blocks.size() * block_width; ++i) {
+      const TriangleBlock& block = data.blocks[i / block_width];
+      const Triangle& t = data.corners[std::min(i, n - 1)];
+      const Vec3 a = data.vertices[t[0]], ac = data.vertices[t[2]] - a;
+      EXPECT_EQ(block.a[1][i % block_width], a.y);
+      EXPECT_EQ(block.ac[2][i % block_width], ac.z);
+    }
+  }
+}
+
+TEST(Bvh, AdjacencyIsMutualOnManifoldEdgesAndEmptyOnBorders) {
+  TriangleMesh mixed = icosphere(3);
+  for (std::size_t i = 0; i < mixed.triangles.size(); i += 3) std::swap(mixed.triangles[i][0], mixed.triangles[i][1]);
+  const std::pair<TriangleMesh, std::size_t> cases[] = {{icosphere(3), 3 * 1280},
+                                                        {unit_square(9), 3 * 162 - 4 * 9},
+                                                        {cube(1), 3 * 12},
+                                                        {mixed, 3 * 1280},
+                                                        {random_soup(1, 50, 0.5), 0}};
+  for (const auto& [mesh, expected] : cases) {
+    const Bvh bvh(mesh);
+    const Bvh::Data& data = bvh.data();
+    std::size_t linked = 0;
+    for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
+      for (int k = 0; k < 3; ++k) {
+        const Neighbour neighbour = data.neighbours[slot][k];
+        if (neighbour.slot == no_slot) continue;
+        ++linked;
+        const std::uint32_t from = data.corners[slot][k], to = data.corners[slot][(k + 1) % 3];
+        bool mutual = false;
+        for (int back = 0; back < 3; ++back) {
+          const std::uint32_t s = data.corners[neighbour.slot][back], e = data.corners[neighbour.slot][(back + 1) % 3];
+          const bool same_way = s == from && e == to, other_way = s == to && e == from;
+          if (!same_way && !other_way) continue;
+          EXPECT_EQ(data.neighbours[neighbour.slot][back].slot, slot);
+          EXPECT_EQ(neighbour.flipped, same_way ? 1U : 0U);
+          mutual = true;
+        }
+        EXPECT_TRUE(mutual);
+      }
+    }
+    EXPECT_EQ(linked, expected);
+  }
+}
+
+TEST(Bvh, EdgeOfManyTrianglesIsARing) {
+  TriangleMesh book;  // five pages on one spine
+  book.vertices = {{0, 0, 0}, {0, 0, 1}};
+  for (std::uint32_t page = 0; page < 5; ++page) {
+    book.vertices.emplace_back(std::cos(page), std::sin(page), 0.5);
+    book.triangles.push_back({0, 1, page + 2});
+  }
+  const Bvh bvh(book);
+  const Bvh::Data& data = bvh.data();
+  std::uint32_t slot = 0;
+  std::vector<bool> met(5, false);
+  for (int step = 0; step < 5; ++step) {
+    EXPECT_FALSE(met[slot]);
+    met[slot] = true;
+    std::uint32_t next = no_slot;
+    for (const Neighbour& neighbour : data.neighbours[slot])
+      if (neighbour.slot != no_slot) next = neighbour.slot;
+    ASSERT_LT(next, 5U);
+    slot = next;
+  }
+  EXPECT_EQ(slot, 0U);
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
+  for (const TriangleMesh& mesh : {icosphere(5), random_soup(3, 5000, 0.1), unit_square(64)}) {
+    const Bvh one(mesh, {.threads = 1}), two(mesh, {.threads = 2});
+    const Bvh::Data &a = one.data(), &b = two.data();
+    EXPECT_TRUE(same_bytes(a.vertices, b.vertices));
+    EXPECT_TRUE(same_bytes(a.source_vertex, b.source_vertex));
+    EXPECT_TRUE(same_bytes(a.corners, b.corners));
+    EXPECT_TRUE(same_bytes(a.neighbours, b.neighbours));
+    EXPECT_TRUE(same_bytes(a.normals, b.normals));
+    EXPECT_TRUE(same_bytes(a.triangle_of_slot, b.triangle_of_slot));
+    EXPECT_TRUE(same_bytes(a.blocks, b.blocks));
+    EXPECT_TRUE(same_bytes(a.nodes, b.nodes));
+    EXPECT_EQ(a.level_begin, b.level_begin);
+    EXPECT_EQ(a.frame.error, b.frame.error);
+  }
+}
+
+TEST(Bvh, NearestIsThatOfTestingEveryTriangle) {
+  std::mt19937 random(7);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  for (const std::uint32_t n : {1U, 3U, 31U, 33U, 200U, 500U}) {
+    const TriangleMesh mesh = random_soup(n, static_cast<int>(n), n % 2 == 0 ? 0.02 : 0.3);
+    const Bvh bvh(mesh);
+    for (int i = 0; i < 30; ++i) {
+      const double reach = i % 3 == 0 ? 1000 : 1;
+      const Vector3d query(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach));
+      const ExactLength truth = exact_distance(query, mesh);
+      const ClosestPoint found = closest_point(bvh, query);
+      EXPECT_GE(truth.compare(found.distance.lower), 0);
+      EXPECT_LE(truth.compare(found.distance.upper), 0);
+      EXPECT_LE(found.distance.upper - found.distance.lower, 1e-12 * reach);
+      EXPECT_LE((found.point.position - query).norm(), found.distance.upper * (1 + 1e-12) + 1e-12);
+      EXPECT_LE(exact_distance(query, corners(mesh, found.point.triangle)).compare(found.distance.upper + 1e-12), 0);
+    }
+  }
+}
+
+/// Work per triangle of a fan must not grow with the number of triangles around its hub: with 1e5 of them an adjacency
+/// that is quadratic in the valence takes minutes and meets the tests' time limit.
+TEST(Bvh, BuildsAFanOfAHundredThousandTriangles) {
+  constexpr std::uint32_t n = 100000;
+  TriangleMesh fan;
+  fan.vertices.emplace_back(0, 0, 0);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * M_PI * i / n;
+    fan.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    fan.triangles.push_back({0, i + 1, (i + 1) % n + 1});
+  }
+  const Bvh bvh(fan);
+  const Bvh::Data& data = bvh.data();
+  std::size_t linked = 0;
+  for (const auto& neighbours : data.neighbours)
+    for (const Neighbour& neighbour : neighbours) linked += neighbour.slot != no_slot ? 1 : 0;
+  EXPECT_EQ(linked, 2 * std::size_t{n});
+  EXPECT_NEAR(closest_point(bvh, {0.5, 0.2, 3}).distance.upper, 3, 1e-9);
+}
+
+TEST(Bvh, KeepsDegenerateAndSingleTriangles) {
+  for (const TriangleMesh& mesh :
+       {single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), single_triangle({0, 0, 0}, {0, 0, 0}, {0, 1, 0}),
+        single_triangle({2, 2, 2}, {2, 2, 2}, {2, 2, 2})}) {
+    const Bvh bvh(mesh);
+    EXPECT_EQ(bvh.triangle_count(), 1U);
+    const ClosestPoint found = closest_point(bvh, {0, 3, 0});
+    const ExactLength truth = exact_distance({0, 3, 0}, mesh);
+    EXPECT_GE(truth.compare(found.distance.lower), 0);
+    EXPECT_LE(truth.compare(found.distance.upper), 0);
+    EXPECT_NEAR(found.distance.lower, truth.approximate(), 1e-12);
+  }
+}
+
+}  // namespace
