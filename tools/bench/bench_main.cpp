@@ -15,6 +15,7 @@ int bench_main(int argc, char** argv, const char* description, const std::functi
   app.add_option("--out", options.out, "folder of the results")->capture_default_str();
   app.add_option("--cache", options.cache, "folder of the meshes that are made once")->capture_default_str();
   auto* limit = app.add_option("--limit", options.limit, "CPU seconds after which a run is ended");
+  app.add_option("--only", options.only, "measure only what has this in its name");
   CLI11_PARSE(app, argc, argv);
   if (options.quick && limit->empty()) options.limit = 20;
   try {

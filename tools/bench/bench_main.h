@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace meshbound::bench {
 
@@ -12,7 +13,10 @@ struct Options {
   std::filesystem::path out = ".";        ///< tables and data of pictures
   std::filesystem::path cache = "cache";  ///< meshes made once
   double limit = 120;                     ///< seconds of processor time for one run of one function
+  std::string only;                       ///< measures only what has this in its name
   std::string machine;                    ///< one line for every table
+
+  [[nodiscard]] bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
 };
 
 /// Parses, creates the folders and calls `run`, whose result is the exit code; an exception becomes one line on stderr

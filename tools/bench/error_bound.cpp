@@ -24,6 +24,7 @@ class Curves {
   Curves(const Options& options, Table& table) : options_(options), table_(table) {}
 
   void add(const Subject& subject) {
+    if (!options_.wants(subject.name)) return;
     const auto cgal = CgalPair::make(subject.a, subject.b);
     bool cgal_in_time = cgal.has_value();
     double middle = 0;  // of our tightest interval

@@ -162,13 +162,14 @@ int run(const Options& options) {
                "paper's", "culled on A %", "paper's", "culled on B %", "paper's", "queries", "nodes", "subdivisions"},
               {}};
   for (const Benchmark& benchmark : benchmarks) {
+    const std::string name = std::string(benchmark.a.name) + '-' + benchmark.b.name;
+    if (!options.wants(name)) continue;
     const TriangleMesh mesh_a = stand_in(benchmark.a, options), mesh_b = stand_in(benchmark.b, options);
     const Bvh a(mesh_a, {1}), b(mesh_b, {1});
     const std::vector<Step> steps = approach(a, b, options.quick ? 60 : 350);
     const auto [low, high] = std::minmax_element(
         steps.begin(), steps.end(), [](const Step& x, const Step& y) { return x.milliseconds < y.milliseconds; });
     const double ms = average(steps, &Step::milliseconds);
-    const std::string name = std::string(benchmark.a.name) + '-' + benchmark.b.name;
     write_steps(options, name, steps);
     table.rows.push_back({name,
                           std::to_string(mesh_a.triangles.size()) + " / " + std::to_string(mesh_b.triangles.size()),

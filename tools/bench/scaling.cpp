@@ -127,6 +127,7 @@ int run(const Options& options) {
               {}};
   std::string exponents;
   for (const Family& family : families) {
+    if (!options.wants(family.name)) continue;
     std::vector<double> sizes, seconds;
     for (const std::size_t size : {10'000u, 30'000u, 100'000u, 300'000u, 1'000'000u, 3'000'000u, 10'000'000u}) {
       if (options.quick && size > 1'000'000) break;

@@ -10,7 +10,7 @@ set ylabel "CGAL bounded error / ours, CPU time"
 set key outside right
 limited(s) = strstrt(s, ">") > 0
 number(s) = limited(s) ? real(substr(s, 3, strlen(s))) : real(s)
-plot for [kind in "decimation near-zero identical coarse real apart"] 'pairs.csv' \
+plot for [kind in "decimation near-zero identical coarse real apart decision"] 'pairs.csv' \
     using (column(3)+column(4)):((strcol(2) eq kind && strcol(14) ne "-" && !limited(strcol(14))) ? number(strcol(14)) : NaN) with points title kind, \
   'pairs.csv' using (column(3)+column(4)):(limited(strcol(14)) ? number(strcol(14)) : NaN) with points pointtype 9 title "at least (limit)", \
   1.5 with lines dashtype 2 title "never below 1.5", 30 with lines dashtype 3 title "decimation: 30"
