@@ -21,7 +21,7 @@ if(TARGET meshbound_cgal)
     FILES_MATCHING PATTERN "*.h")
 endif()
 
-foreach(tool IN ITEMS simplify_with_bound hausdorff_distance)
+foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance)
   if(TARGET ${tool})
     install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()

@@ -73,7 +73,7 @@ std::size_t layer_of(std::string_view path) {
 }
 
 bool may_use_cgal(const SourceFile& file) {
-  for (const char* prefix : {"include/meshbound/cgal/", "src/cgal/", "tests/", "tools/"})
+  for (const char* prefix : {"include/meshbound/cgal/", "src/cgal/", "examples/", "tests/", "tools/"})
     if (starts_with(file.path, prefix)) return true;
   return false;
 }

@@ -141,13 +141,15 @@ TEST_F(SimplifyTool, StopsAtTheFirstCollapseThatWouldExceedWhenAsked) {
 }
 
 TEST_F(SimplifyTool, SaysWhetherTheTargetOrTheToleranceCameFirst) {
-  const Result target = run("sphere.off out.off --tolerance 0.05 --target-faces 900");
+  const Result target = run("sphere.off out.off --tolerance 0.05 --target-faces 900 --json r.json");
   EXPECT_EQ(target.exit_code, 0);
   EXPECT_NE(target.out.find("target was reached first"), std::string::npos);
+  EXPECT_EQ(Json::parse(content(in("r.json")))["stopped_by"], "target");
   EXPECT_NEAR(static_cast<double>(read_mesh(in("out.off")).mesh.triangles.size()), 900, 2);
-  const Result tolerance = run("sphere.off out.off --tolerance 0.001 --target-ratio 0.01");
+  const Result tolerance = run("sphere.off out.off --tolerance 0.001 --target-ratio 0.01 --json r.json");
   EXPECT_EQ(tolerance.exit_code, 0);
   EXPECT_NE(tolerance.out.find("it came before the target"), std::string::npos);
+  EXPECT_EQ(Json::parse(content(in("r.json")))["stopped_by"], "tolerance");
 }
 
 TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
@@ -158,7 +160,9 @@ TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
 
 TEST_F(SimplifyTool, ChangesNothingAtToleranceZero) {
   ASSERT_EQ(run("sphere.off out.off --tolerance 0 --json -").exit_code, 0);
-  EXPECT_EQ(Json::parse(content(in("stdout.txt")))["distance"]["upper"], 0.0);
+  const Json json = Json::parse(content(in("stdout.txt")));
+  EXPECT_EQ(json["distance"]["upper"], 0.0);
+  EXPECT_EQ(json["stopped_by"], "rounding");
 }
 
 TEST_F(SimplifyTool, PrintsNothingWhenQuietAndOnlyJsonWhenAskedFor) {

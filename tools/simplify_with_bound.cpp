@@ -6,7 +6,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/signals.h"
+#include "common/stopwatch.h"
 #include "common/tool_main.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -38,22 +38,6 @@ struct Options {
   std::optional<double> target_ratio;
   bool preserve_boundary = false;
   CommonOptions common;
-};
-
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  /// Seconds since the last lap.
-  double lap() {
-    const double now = seconds();
-    return now - std::exchange(last_, now);
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_ = 0;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -186,6 +170,7 @@ void Run::simplify() {
   simplify.cancel = &interrupted_;
   simplify.progress = [&](double fraction) { bar.show(fraction); };
   result_ = cgal::simplify_with_bound(original_, simplify);
+  report_.stopped_by = to_string(result_.last().ended_by);
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused};
   report_.seconds.simplify = watch_.lap();
 }

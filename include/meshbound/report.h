@@ -12,6 +12,7 @@
 #include "meshbound/bounds.h"
 #include "meshbound/distance.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/screen_space.h"
 
 namespace meshbound {
 
@@ -56,6 +57,7 @@ struct SimplifyReport {
   MeshReport original;
   MeshReport simplified;       ///< as written
   SymmetricDistance distance;  ///< a: the original, b: the simplified mesh as written
+  std::string stopped_by;      ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   std::vector<LevelReport> levels;
   struct Collapses {
     std::uint64_t performed = 0, refused = 0;
@@ -63,6 +65,27 @@ struct SimplifyReport {
   struct Seconds {
     double read = 0, simplify = 0, certify = 0, write = 0, total = 0;
   } seconds;
+  int threads = 1;
+};
+
+/// What `lod_chain` says: schema "meshbound/lod/1".
+struct LodReport {
+  /// From which the tolerances came, if they were not given.
+  struct View {
+    double pixels = 1;
+    Screen screen;
+  };
+  struct Level : LevelReport {
+    std::string file;  ///< the last part of `path`: where the report lies beside the levels, it needs no more
+    std::size_t vertices = 0;
+    std::optional<double> view_distance;  ///< the one that the tolerance was made for
+    std::string stopped_by;               ///< as in `SimplifyReport`
+  };
+  Verdict verdict = Verdict::Undecided;
+  MeshReport original;
+  std::optional<View> view;
+  std::vector<Level> levels;  ///< those that were proven, ascending by tolerance
+  SimplifyReport::Seconds seconds;
   int threads = 1;
 };
 
@@ -75,5 +98,6 @@ struct SimplifyReport {
 /// One JSON document, indented, with a newline at its end. Bytes of a path that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string to_json(const DistanceReport& report);
 [[nodiscard]] std::string to_json(const SimplifyReport& report);
+[[nodiscard]] std::string to_json(const LodReport& report);
 
 }  // namespace meshbound

@@ -75,7 +75,7 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
   began_ = Clock::now();
   ended_by_.reset();
   below_rounding_ = !(frame_tolerance_ > 2 * room);
-  if (below_rounding_) return EndedBy::NothingFits;
+  if (below_rounding_) return EndedBy::Rounding;
   monitor_->grow_tolerance(frame_tolerance_ - room);
   for (;;) {
     const std::size_t before = monitor_->faces();

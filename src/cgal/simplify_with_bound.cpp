@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "cgal/decimation.h"
+#include "cgal/measured_level.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
@@ -14,22 +14,6 @@ namespace meshbound::cgal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-void check_options(const SimplifyOptions& options) {
-  const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
-  if (!is_length(options.tolerance))
-    throw InvalidInput("the tolerance must be given: a length in model units, 0 or more");
-  for (const double level : options.levels) {
-    if (!is_length(level)) throw InvalidInput("a level must be a length in model units, 0 or more");
-    if (level > options.tolerance)
-      throw InvalidInput("a level is larger than the tolerance; the tolerance is the last level");
-  }
-  if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
-    throw InvalidInput("the target ratio must lie between 0 and 1");
-  if (!is_length(options.output_rounding)) throw InvalidInput("the output rounding must be a length, 0 or more");
-  if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
-}
 
 /// Ascending, each once, ending with the tolerance.
 std::vector<double> tolerances(const SimplifyOptions& options) {
@@ -50,25 +34,57 @@ std::size_t target(const TriangleMesh& original, const SimplifyOptions& options)
   return faces;
 }
 
-void measure(SimplifyResult& result, const TriangleMesh& original, const SimplifyOptions& options) {
-  const auto start = Clock::now();
-  const BvhOptions tree{options.threads};
-  const Bvh original_tree(original, tree);
-  for (SimplifiedLevel& level : result.levels) {
-    DistanceOptions distance;
-    distance.tolerance = level.tolerance;
-    distance.threads = options.threads;
-    distance.cancel = options.cancel;
-    level.distance = symmetric_distance(original_tree, Bvh(level.mesh, tree), distance);
-    const Bounds& bounds = level.distance->bounds;
-    level.verdict = bounds.upper <= level.tolerance  ? Verdict::Within
-                    : bounds.lower > level.tolerance ? Verdict::Exceeds
-                                                     : Verdict::Undecided;
+}  // namespace
+
+std::string to_string(EndedBy reason) {
+  switch (reason) {
+    case EndedBy::NothingFits:
+    case EndedBy::Tolerance:
+      return "tolerance";
+    case EndedBy::Target:
+      return "target";
+    case EndedBy::Rounding:
+      return "rounding";
+    case EndedBy::TimeLimit:
+      return "time_limit";
+    case EndedBy::Cancelled:
+      break;
   }
-  result.seconds.measure = seconds_since(start);
+  return "cancelled";
 }
 
-}  // namespace
+void check_options(const SimplifyOptions& options) {
+  const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
+  if (!is_length(options.tolerance))
+    throw InvalidInput("the tolerance must be given: a length in model units, 0 or more");
+  for (const double level : options.levels) {
+    if (!is_length(level)) throw InvalidInput("a level must be a length in model units, 0 or more");
+    if (level > options.tolerance)
+      throw InvalidInput("a level is larger than the tolerance; the tolerance is the last level");
+  }
+  if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
+    throw InvalidInput("the target ratio must lie between 0 and 1");
+  if (!is_length(options.output_rounding)) throw InvalidInput("the output rounding must be a length, 0 or more");
+  if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
+}
+
+void take_state(const Decimation& decimation, SimplifiedLevel& level) {
+  level.mesh = decimation.current_mesh();
+  level.collapses_performed = decimation.monitor().counts().performed;
+  level.collapses_refused = decimation.monitor().counts().refused;
+}
+
+void measure_level(const Bvh& original, SimplifiedLevel& level, const SimplifyOptions& options) {
+  DistanceOptions distance;
+  distance.tolerance = level.tolerance;
+  distance.threads = options.threads;
+  distance.cancel = options.cancel;
+  level.distance = symmetric_distance(original, Bvh(level.mesh, BvhOptions{options.threads}), distance);
+  const Bounds& bounds = level.distance->bounds;
+  level.verdict = bounds.upper <= level.tolerance  ? Verdict::Within
+                  : bounds.lower > level.tolerance ? Verdict::Exceeds
+                                                   : Verdict::Undecided;
+}
 
 SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options) {
   const auto start = Clock::now();
@@ -85,15 +101,17 @@ SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyO
     level.tolerance = tolerance;
     level.ended_by =
         decimation.run(tolerance, is_last ? target(original, options) : 0, options.time_limit - seconds_since(start));
-    level.mesh = decimation.current_mesh();
-    level.collapses_performed = decimation.monitor().counts().performed;
-    level.collapses_refused = decimation.monitor().counts().refused;
+    take_state(decimation, level);
     if (options.progress)
       options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
   }
   decimation.describe(result);
   result.seconds.simplify = seconds_since(start) - result.seconds.prepare;
-  if (options.measure) measure(result, original, options);
+  if (!options.measure) return result;
+  const auto measuring = Clock::now();
+  const Bvh tree(original, BvhOptions{options.threads});
+  for (SimplifiedLevel& level : result.levels) measure_level(tree, level, options);
+  result.seconds.measure = seconds_since(measuring);
   return result;
 }
 

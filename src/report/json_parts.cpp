@@ -52,6 +52,13 @@ Json one_sided(const OneSidedDistance& distance) {
   return json;
 }
 
+Json symmetric(const SymmetricDistance& distance) {
+  Json json = bounds(distance.bounds);
+  json["original_to_simplified"] = one_sided(distance.a_to_b);
+  json["simplified_to_original"] = one_sided(distance.b_to_a);
+  return json;
+}
+
 Json stats(const std::vector<const OneSidedDistance*>& directions) {
   DistanceStats sum;
   double culled_triangles = 0;

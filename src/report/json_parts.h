@@ -29,6 +29,9 @@ using Json = nlohmann::ordered_json;
 /// Bounds, outcome and witness of one direction; no witness where nothing was searched.
 [[nodiscard]] Json one_sided(const OneSidedDistance& distance);
 
+/// Bounds of both directions and their maximum; a is the original, b the simplified mesh.
+[[nodiscard]] Json symmetric(const SymmetricDistance& distance);
+
 /// Statistics over the directions that were searched: sums, and means weighted by what they count.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);
 

@@ -3,17 +3,6 @@
 #include "report/json_parts.h"
 
 namespace meshbound {
-namespace {
-
-report::Json symmetric(const SymmetricDistance& distance) {
-  report::Json json = report::bounds(distance.bounds);
-  json["original_to_simplified"] = report::one_sided(distance.a_to_b);
-  json["simplified_to_original"] = report::one_sided(distance.b_to_a);
-  return json;
-}
-
-}  // namespace
-
 std::string to_json(const SimplifyReport& from) {
   using namespace report;
   Json json = {{"schema", "meshbound/simplify/1"}, {"verdict", to_string(from.verdict)}};
@@ -21,6 +10,7 @@ std::string to_json(const SimplifyReport& from) {
   json["original"] = mesh(from.original);
   json["simplified"] = mesh(from.simplified);
   json["distance"] = symmetric(from.distance);
+  json["stopped_by"] = from.stopped_by;
   json["levels"] = Json::array();
   for (const LevelReport& level : from.levels) {
     json["levels"].push_back({{"tolerance", number(level.tolerance)},

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "meshbound/cgal/surface_mesh.h"
@@ -23,7 +24,18 @@ enum class OnExceed {
 };
 
 /// Why decimation ended.
-enum class EndedBy { NothingFits, Target, Tolerance, TimeLimit, Cancelled };
+enum class EndedBy {
+  NothingFits,  ///< no further collapse keeps the bound
+  Target,
+  Tolerance,  ///< OnExceed::Stop: the next collapse would exceed
+  TimeLimit,
+  Cancelled,
+  Rounding  ///< the tolerance is too small for doubles at these coordinates: nothing was collapsed
+};
+
+/// Which bound came first, for reports: "tolerance" (also where nothing fits), "target", "rounding", "time_limit" or
+/// "cancelled".
+[[nodiscard]] std::string to_string(EndedBy reason);
 
 struct SimplifyOptions {
   /// Bound of the symmetric Hausdorff distance to the original, model units. Must be given.
@@ -56,6 +68,8 @@ struct SimplifiedLevel {
   Verdict verdict = Verdict::Undecided;
   std::uint64_t collapses_performed = 0;  ///< since the beginning of the run
   std::uint64_t collapses_refused = 0;
+
+  [[nodiscard]] std::size_t faces() const { return mesh.triangles.size(); }
 };
 
 struct SimplifyResult {

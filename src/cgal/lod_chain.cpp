@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshbound/cgal/lod_chain.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "cgal/decimation.h"
+#include "cgal/measured_level.h"
+#include "meshbound/error.h"
+
+namespace meshbound::cgal {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const LodOptions& checked(const LodOptions& options) {
+  if (!std::isnan(options.tolerance) || !options.levels.empty())
+    throw InvalidInput("the options of a chain hold no tolerance and no levels: they are asked for one by one");
+  if (options.target_faces || options.target_ratio)
+    throw InvalidInput("a chain ends its levels at their tolerances; leave the target unset");
+  LodOptions complete = options;
+  complete.tolerance = 0;
+  check_options(complete);
+  return options;
+}
+
+const TriangleMesh& validated(const TriangleMesh& mesh) {
+  validate(mesh);
+  return mesh;
+}
+
+}  // namespace
+
+struct LodChain::Impl {
+  TriangleMesh original;
+  LodOptions options;
+  Decimation decimation;
+  std::optional<Bvh> tree;  ///< of the original in model coordinates; built for the first measurement
+  double tolerance = 0;
+  SimplifyResult::Seconds seconds;
+
+  Impl(TriangleMesh mesh, const LodOptions& wanted)
+      : original(std::move(mesh)), options(checked(wanted)), decimation(validated(original), options) {}
+};
+
+LodChain::LodChain(TriangleMesh original, const LodOptions& options) {
+  const auto start = Clock::now();
+  impl_ = std::make_unique<Impl>(std::move(original), options);
+  impl_->seconds.prepare = seconds_since(start);
+}
+LodChain::LodChain(LodChain&&) noexcept = default;
+LodChain& LodChain::operator=(LodChain&&) noexcept = default;
+LodChain::~LodChain() = default;
+
+LodLevel LodChain::next(double tolerance) {
+  if (!std::isfinite(tolerance) || !(tolerance >= impl_->tolerance))
+    throw InvalidInput("the tolerances of a chain must be lengths, and grow from level to level");
+  impl_->tolerance = tolerance;
+  auto start = Clock::now();
+  LodLevel level;
+  level.tolerance = tolerance;
+  level.ended_by = impl_->decimation.run(tolerance, 0, impl_->options.time_limit - impl_->seconds.simplify);
+  take_state(impl_->decimation, level);
+  impl_->seconds.simplify += seconds_since(start);
+  if (impl_->options.measure) {
+    start = Clock::now();
+    if (!impl_->tree) impl_->tree.emplace(impl_->original, BvhOptions{impl_->options.threads});
+    measure_level(*impl_->tree, level, impl_->options);
+    impl_->seconds.measure += seconds_since(start);
+  }
+  return level;
+}
+
+const TriangleMesh& LodChain::original() const { return impl_->original; }
+
+SimplifyResult LodChain::describe() const {
+  SimplifyResult result;
+  impl_->decimation.describe(result);
+  result.seconds = impl_->seconds;
+  return result;
+}
+
+std::size_t build_lod_chain(const MeshView& original, std::span<const double> tolerances, const LodOptions& options,
+                            const LodSink& sink) {
+  double before = -1;
+  for (const double tolerance : tolerances) {
+    if (!std::isfinite(tolerance) || !(tolerance >= 0) || !(tolerance > before))
+      throw InvalidInput("the tolerances of a chain must be lengths, 0 or more, and grow from level to level");
+    before = tolerance;
+  }
+  if (tolerances.empty()) return 0;
+  LodChain chain(original, options);
+  for (std::size_t i = 0; i < tolerances.size(); ++i) {
+    if (!sink(i, chain.next(tolerances[i]))) return i + 1;
+  }
+  return tolerances.size();
+}
+
+}  // namespace meshbound::cgal

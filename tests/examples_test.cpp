@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The programs in examples/ do what they say; what they write is measured here.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "meshbound/io.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using testing_tools::run_tool;
+using testing_tools::TemporaryFolder;
+using testing_tools::ToolRun;
+
+#ifdef BOUNDED_EDGE_COLLAPSE
+TEST(Examples, EdgeCollapseWithOwnCostAndPlacementKeepsTheBound) {
+  const TemporaryFolder folder;
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  write_mesh(folder / "in.off", torus);
+  const ToolRun run = run_tool(BOUNDED_EDGE_COLLAPSE, {folder / "in.off", folder / "out.off", "0.02"});
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  const TriangleMesh result = read_mesh(folder / "out.off").mesh;
+  EXPECT_LT(result.triangles.size(), torus.triangles.size() / 4);
+  EXPECT_EQ(check_symmetric(Bvh(torus), Bvh(result), 0.02).verdict, Verdict::Within);
+}
+
+/// 16-bit indices for the small model, 32-bit ones for the large.
+TEST(Examples, EngineBuffersGetLevelsThatHold) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "small.off", datasets::icosphere(1, 4));
+  write_mesh(folder / "large.ply", datasets::terrain(1, 257, 3));
+  const ToolRun small = run_tool(ENGINE_LODS, {folder / "small.off"});
+  EXPECT_EQ(small.exit_code, 0) << small.out << small.err;
+  EXPECT_NE(small.out.find("2-byte indices"), std::string::npos) << small.out;
+  EXPECT_EQ(testing_tools::line_count(small.out), 3) << small.out;
+  const ToolRun large = run_tool(ENGINE_LODS, {folder / "large.ply"});
+  EXPECT_EQ(large.exit_code, 0) << large.out << large.err;
+  EXPECT_NE(large.out.find("4-byte indices"), std::string::npos) << large.out;
+}
+#endif
+
+#ifdef CHECK_OTHER_SIMPLIFIER
+TEST(Examples, LevelsOfAnotherSimplifierAreTightenedUntilTheyHold) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "torus.off", datasets::torus(1, 0.3, 60, 24));
+  const ToolRun run = run_tool(CHECK_OTHER_SIMPLIFIER, {folder / "torus.off", "0.005", "0.02", "0.05"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(run.out);
+  double tolerance = 0, upper = 0;
+  std::size_t faces = 0, before = 2881;
+  int attempts = 0, most_attempts = 0;
+  for (int level = 0; level < 3; ++level) {
+    ASSERT_TRUE(lines >> tolerance >> faces >> attempts >> upper) << run.out;
+    EXPECT_LE(upper, tolerance);
+    EXPECT_LT(faces, before);
+    before = faces;
+    most_attempts = std::max(most_attempts, attempts);
+  }
+  EXPECT_GT(most_attempts, 1) << "the first try of each level held: nothing shows that they are tightened\n" << run.out;
+}
+#endif
+
+}  // namespace
+}  // namespace meshbound

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The chain of levels as a library: each level holds against the original, the run goes on instead of starting again,
+// and what nobody asks for is not computed.
+#include "meshbound/cgal/lod_chain.h"
+
+#include <gtest/gtest.h>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/error.h"
+#include "reference/small_meshes.h"
+
+namespace meshbound::cgal {
+namespace {
+
+LodOptions one_thread() {
+  LodOptions options;
+  options.threads = 1;
+  return options;
+}
+
+TEST(LodChain, HandsOutLevelsThatGrowCoarserAndHoldAgainstTheOriginal) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  const std::vector<double> tolerances = {0.002, 0.01, 0.04};
+  std::vector<LodLevel> levels;
+  const std::size_t given = build_lod_chain(torus, tolerances, one_thread(), [&](std::size_t index, LodLevel&& level) {
+    EXPECT_EQ(index, levels.size());
+    levels.push_back(std::move(level));
+    return true;
+  });
+  EXPECT_EQ(given, 3u);
+  ASSERT_EQ(levels.size(), 3u);
+  const Bvh original(torus);
+  std::size_t faces = torus.triangles.size();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(levels[i].tolerance, tolerances[i]);
+    EXPECT_EQ(levels[i].verdict, Verdict::Within);
+    EXPECT_LE(levels[i].distance->bounds.upper, tolerances[i]);
+    EXPECT_EQ(check_symmetric(original, Bvh(levels[i].mesh), tolerances[i]).verdict, Verdict::Within);
+    EXPECT_EQ(levels[i].faces(), levels[i].mesh.triangles.size());
+    EXPECT_LT(levels[i].faces(), faces);
+    faces = levels[i].faces();
+  }
+}
+
+TEST(LodChain, GivesTheLevelsThatSimplifyWithBoundGives) {
+  const TriangleMesh terrain = datasets::terrain(1, 30, 3);
+  SimplifyOptions options;
+  options.tolerance = 0.02;
+  options.levels = {0.005};
+  options.threads = 1;
+  const SimplifyResult whole = simplify_with_bound(terrain, options);
+  LodChain chain(terrain, one_thread());
+  for (const SimplifiedLevel& level : whole.levels)
+    EXPECT_EQ(chain.next(level.tolerance).mesh.triangles, level.mesh.triangles);
+}
+
+TEST(LodChain, ComputesNoLevelAfterTheSinkHasSaidNo) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  std::size_t progress_after_end = 0, calls = 0;
+  bool ended = false;
+  LodOptions options = one_thread();
+  options.progress = [&](double) { progress_after_end += ended ? 1 : 0; };
+  const std::size_t given =
+      build_lod_chain(torus, std::vector<double>{0.001, 0.002, 0.05, 0.1}, options, [&](std::size_t index, LodLevel&&) {
+        ++calls;
+        ended = index == 1;
+        return !ended;
+      });
+  EXPECT_EQ(given, 2u);
+  EXPECT_EQ(calls, 2u);
+  EXPECT_EQ(progress_after_end, 0u);
+}
+
+TEST(LodChain, GoesOnFromTheLevelBefore) {
+  LodChain chain(datasets::icosphere(1, 4), one_thread());
+  const LodLevel first = chain.next(0.005);
+  const LodLevel second = chain.next(0.02);
+  EXPECT_GT(first.collapses_performed, 1000u);
+  EXPECT_GT(second.collapses_performed, first.collapses_performed);
+  // Each collapse of a closed mesh takes two faces: those of the first level are not made again.
+  EXPECT_EQ(second.collapses_performed - first.collapses_performed, (first.faces() - second.faces()) / 2);
+  EXPECT_EQ(chain.describe().stats.admitted, second.collapses_performed);
+}
+
+TEST(LodChain, TakesBuffersOfAnEngineAndGraphsOfCgal) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  std::vector<float> positions;
+  for (const Eigen::Vector3d& p : sphere.vertices)
+    for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(p[i]));
+  std::vector<std::uint16_t> indices;
+  for (const Triangle& t : sphere.triangles)
+    for (const std::uint32_t v : t) indices.push_back(static_cast<std::uint16_t>(v));
+  const MeshView view(positions.data(), sphere.vertices.size(), 3 * sizeof(float), indices.data(),
+                      sphere.triangles.size());
+  const auto faces_at = [](const auto& mesh) {
+    std::size_t faces = 0;
+    build_lod_chain(mesh, std::vector<double>{0.02}, one_thread(), [&](std::size_t, LodLevel&& level) {
+      faces = level.faces();
+      EXPECT_EQ(level.verdict, Verdict::Within);
+      return true;
+    });
+    return faces;
+  };
+  EXPECT_LT(faces_at(view), 600u);
+  EXPECT_LT(faces_at(to_surface_mesh(sphere)), 600u);
+}
+
+TEST(LodChain, LeavesTheMeasurementToACallerWhoWantsIt) {
+  LodOptions options = one_thread();
+  options.measure = false;
+  LodChain chain(datasets::icosphere(1, 2), options);
+  const LodLevel level = chain.next(0.05);
+  EXPECT_FALSE(level.distance.has_value());
+  EXPECT_EQ(level.verdict, Verdict::Undecided);
+}
+
+TEST(LodChain, RefusesTolerancesThatDoNotGrowAndOptionsThatAreNotItsOwn) {
+  const TriangleMesh sphere = datasets::icosphere(1, 1);
+  const auto build = [&](const std::vector<double>& tolerances, const LodOptions& options) {
+    build_lod_chain(sphere, tolerances, options, [](std::size_t, LodLevel&&) {
+      ADD_FAILURE() << "a level was computed";
+      return true;
+    });
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& wrong : {std::vector<double>{0.2, 0.1}, {0.1, 0.1}, {-1}, {nan}, {0.1, nan}})
+    EXPECT_THROW(build(wrong, one_thread()), InvalidInput);
+  LodOptions options = one_thread();
+  options.tolerance = 0.1;
+  EXPECT_THROW(build({0.1}, options), InvalidInput);
+  options = one_thread();
+  options.target_faces = 10;
+  EXPECT_THROW(build({0.1}, options), InvalidInput);
+  EXPECT_EQ(build_lod_chain(sphere, {}, one_thread(), nullptr), 0u);
+  LodChain chain(sphere, one_thread());
+  (void)chain.next(0.1);
+  EXPECT_THROW((void)chain.next(0.05), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meshbound::cgal

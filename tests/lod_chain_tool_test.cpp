@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The tool lod_chain through its command line: every file it names holds its tolerance, and none is there otherwise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "meshbound/io.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using testing_tools::content_of;
+using testing_tools::ToolRun;
+
+class LodChainTool : public testing::Test {
+ protected:
+  LodChainTool() { write_mesh(in("torus.off"), datasets::torus(1, 0.3, 60, 24)); }
+
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] ToolRun run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {in("torus.off"), in("chain")});
+    return testing_tools::run_tool(LOD_CHAIN, arguments);
+  }
+  /// One line, exit 2, and no folder.
+  void expect_refused(const std::vector<std::string>& arguments) const {
+    const ToolRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(testing_tools::line_count(result.err), 1) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(fs::exists(in("chain")));
+  }
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(in("chain")), fs::directory_iterator()));
+  }
+  /// What chain.json says of each level, against the file itself.
+  void expect_levels_hold(const Json& json) const {
+    const Bvh original(read_mesh(in("torus.off")).mesh);
+    for (const Json& level : json["levels"]) {
+      const TriangleMesh mesh = read_mesh(level["path"].get<std::string>()).mesh;
+      EXPECT_EQ(level["faces"], mesh.triangles.size());
+      EXPECT_EQ(level["vertices"], mesh.vertices.size());
+      EXPECT_TRUE(fs::exists(fs::path(in("chain")) / level["file"].get<std::string>()));
+      const double tolerance = level["tolerance"];
+      EXPECT_EQ(check_symmetric(original, Bvh(mesh), tolerance).verdict, Verdict::Within);
+      EXPECT_LE(level["distance"]["upper"].get<double>(), tolerance);
+      EXPECT_LE(level["distance"]["lower"].get<double>(), level["distance"]["upper"].get<double>());
+      EXPECT_EQ(level["distance"]["original_to_simplified"]["witness"]["from"].size(), 3u);
+    }
+  }
+
+  testing_tools::TemporaryFolder folder_;
+};
+
+TEST_F(LodChainTool, WritesLevelsThatHoldInEveryFormat) {
+  for (const std::string format : {"ply", "obj", "off", "stl"}) {
+    SCOPED_TRACE(format);
+    const ToolRun result = run({"--levels", "0.02,0.002,0.5%", "--format", format});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const Json json = Json::parse(content_of(in("chain/chain.json")));
+    EXPECT_EQ(json["schema"], "meshbound/lod/1");
+    EXPECT_EQ(json["verdict"], "within");
+    ASSERT_EQ(json["levels"].size(), 3u);
+    EXPECT_EQ(json["levels"][0]["file"], "lod_0." + format);
+    EXPECT_EQ(json["levels"][0]["tolerance"], 0.002);
+    EXPECT_EQ(json["levels"][0]["stopped_by"], "tolerance");
+    EXPECT_GT(json["levels"][0]["faces"], json["levels"][1]["faces"]);
+    EXPECT_GT(json["levels"][1]["faces"], json["levels"][2]["faces"]);
+    EXPECT_FALSE(json.contains("view"));
+    expect_levels_hold(json);
+    EXPECT_EQ(files(), 4u);
+    fs::remove_all(in("chain"));
+  }
+}
+
+TEST_F(LodChainTool, TakesItsTolerancesFromPixelsAndDistances) {
+  const ToolRun result =
+      run({"--pixels", "1", "--screen-height", "1080", "--fov", "90", "--distances", "10,2.5,40", "--json", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(result.out, content_of(in("chain/chain.json")));
+  EXPECT_NEAR(json["view"]["fov_degrees"].get<double>(), 90, 1e-9);
+  const double distances[] = {2.5, 10, 40};
+  ASSERT_EQ(json["levels"].size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(json["levels"][i]["tolerance"].get<double>(), distances[i] / 540, 1e-12);
+    EXPECT_NEAR(json["levels"][i]["view_distance"].get<double>(), distances[i], 1e-9);
+  }
+  expect_levels_hold(json);
+}
+
+TEST_F(LodChainTool, KeepsToTheOptionsThatAllToolsHave) {
+  EXPECT_EQ(run({"--levels", "0.01", "--quiet", "--threads", "1", "--cost", "lindstrom-turk"}).out, "");
+  expect_levels_hold(Json::parse(content_of(in("chain/chain.json"))));
+  EXPECT_EQ(testing_tools::run_tool(LOD_CHAIN, {"--version"}).exit_code, 0);
+  const std::string help = testing_tools::run_tool(LOD_CHAIN, {"--help"}).out;
+  for (const char* option : {"--levels", "--pixels", "--screen-height", "--fov", "--distances", "--format", "--json",
+                             "--quiet", "--threads", "--cost", "--preserve-boundary", "--time-limit"})
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
+TEST_F(LodChainTool, RefusesBadUsageInOneLineAndMakesNoFolder) {
+  expect_refused({});
+  expect_refused({"--levels", "x"});
+  expect_refused({"--levels", "-1"});
+  expect_refused({"--levels", "0.1", "--pixels", "1"});
+  expect_refused({"--pixels", "1", "--screen-height", "1080", "--fov", "60"});
+  expect_refused({"--pixels", "1", "--screen-height", "1080", "--fov", "180", "--distances", "1"});
+  expect_refused({"--pixels", "0", "--screen-height", "1080", "--fov", "60", "--distances", "1"});
+  expect_refused({"--pixels", "1", "--screen-height", "1080", "--fov", "60", "--distances", "0"});
+  expect_refused({"--levels", "0.1", "--format", "xyz"});
+  EXPECT_EQ(testing_tools::run_tool(LOD_CHAIN, {in("absent.off"), in("chain"), "--levels", "1"}).exit_code, 2);
+  EXPECT_EQ(testing_tools::run_tool(LOD_CHAIN, {in("torus.off"), in("torus.off"), "--levels", "1"}).exit_code, 2);
+  EXPECT_FALSE(fs::exists(in("chain")));
+}
+
+/// The first level can be written, the second cannot be proven: neither appears, and an old chain stays.
+TEST_F(LodChainTool, WritesAllLevelsOrNone) {
+  const ToolRun below = run({"--levels", "1e-12,0.01", "--format", "stl"});
+  EXPECT_EQ(below.exit_code, 1);
+  EXPECT_EQ(testing_tools::line_count(below.err), 1) << below.err;
+  EXPECT_FALSE(fs::exists(in("chain")));
+  ASSERT_EQ(run({"--levels", "0.01,0.02"}).exit_code, 0);
+  const std::string old = content_of(in("chain/chain.json"));
+  const ToolRun late = run({"--levels", "0.001,0.002", "--time-limit", "0"});
+  EXPECT_EQ(late.exit_code, 3);
+  EXPECT_EQ(testing_tools::line_count(late.err), 1) << late.err;
+  EXPECT_EQ(content_of(in("chain/chain.json")), old);
+  EXPECT_EQ(files(), 3u);
+}
+
+}  // namespace
+}  // namespace meshbound

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lod_chain IN DIR: levels of detail, each with a proven distance to IN. The files appear together, once every one of
+// them has been written, read back and measured.
+#include "meshbound/cgal/lod_chain.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "common/gated_output.h"
+#include "common/length.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/signals.h"
+#include "common/stopwatch.h"
+#include "common/tool_main.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/report.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// Share of the time limit that decimation may use; the rest is for the proof of what came out.
+constexpr double simplify_share = 0.7;
+
+/// Width of the measured interval, as a share of the original's diagonal.
+constexpr double relative_error_bound = 1e-6;
+
+struct Options {
+  std::string input, folder, format = "ply", cost = "garland-heckbert";
+  std::vector<std::string> levels, distances;
+  std::optional<double> pixels, screen_height, fov;
+  bool preserve_boundary = false;
+  CommonOptions common;
+};
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("IN", options.input, "Mesh to make levels of: OFF, OBJ, PLY or STL")->required();
+  app.add_option("DIR", options.folder, "Folder for lod_0, lod_1, ... and chain.json; made when it is not there")
+      ->required();
+  app.add_option("--levels", options.levels, "Tolerances: model units, or 0.1% of the bounding-box diagonal: T1,T2,...")
+      ->delimiter(',');
+  app.add_option("--pixels", options.pixels, "Instead of --levels: pixels that the error may cover on the screen");
+  app.add_option("--screen-height", options.screen_height, "Height of the screen in pixels");
+  app.add_option("--fov", options.fov, "Vertical field of view in degrees");
+  app.add_option("--distances", options.distances,
+                 "Distances from the eye to the model, a level for each: model units, or % of the diagonal: D1,D2,...")
+      ->delimiter(',');
+  app.add_option("--format", options.format, "Format of the level files")
+      ->check(CLI::IsMember({"ply", "obj", "off", "stl"}))
+      ->capture_default_str();
+  app.add_option("--cost", options.cost, "What makes a collapse cheap")
+      ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
+      ->capture_default_str();
+  app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
+  add_common_options(app, options.common);
+}
+
+/// The folder of the chain; one that was made for it goes again when nothing came to stand in it.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::filesystem::path path) : path_(std::move(path)) {
+    std::error_code error;
+    made_ = std::filesystem::create_directories(path_, error);
+    if (!std::filesystem::is_directory(path_, error))
+      throw IoError("cannot make the folder " + path_.string() + "; name one that can be written to");
+  }
+  ~OutputFolder() {
+    std::error_code ignored;
+    if (made_ && std::filesystem::is_empty(path_, ignored)) std::filesystem::remove(path_, ignored);
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool made_ = false;
+};
+
+/// One run of the tool, in the order of its phases.
+class Run {
+ public:
+  explicit Run(const Options& options) : options_(options), interrupted_(watch_interrupts()) {}
+  int operator()();
+
+ private:
+  void check_usage() const;
+  void read();
+  void choose_tolerances();
+  void open_outputs();
+  void make_levels();
+  [[nodiscard]] cgal::LodOptions chain_options(ProgressBar& bar) const;
+  [[nodiscard]] bool take(std::size_t index, const cgal::LodLevel& level);
+  void publish();
+  void print_summary() const;
+  [[nodiscard]] double remaining(double share) const {
+    return options_.common.has_time_limit ? std::max(0.0, share * options_.common.time_limit - watch_.seconds())
+                                          : std::numeric_limits<double>::infinity();
+  }
+
+  const Options& options_;
+  const std::atomic<bool>& interrupted_;
+  Stopwatch watch_;
+  TriangleMesh original_;
+  double largest_coordinate_ = 0;
+  std::optional<Bvh> tree_;
+  std::vector<double> tolerances_;  ///< ascending, without repetitions
+  std::optional<OutputFolder> folder_;
+  std::vector<GatedOutput> outputs_;  ///< one for each tolerance
+  LodReport report_;
+};
+
+int Run::operator()() {
+  check_usage();
+  read();
+  choose_tolerances();
+  open_outputs();
+  make_levels();
+  if (report_.verdict == Verdict::Within) publish();
+  if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
+  if (options_.common.json != "-" && !options_.common.quiet) print_summary();
+  if (report_.verdict != Verdict::Within) {
+    std::fprintf(stderr, "lod_chain: %s; nothing was written\n",
+                 interrupted_ ? "interrupted before every level was proven"
+                 : report_.verdict == Verdict::Exceeds
+                     ? "a tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ"
+                     : "the time limit ended before every level was proven");
+  }
+  return exit_code(report_.verdict);
+}
+
+void Run::check_usage() const {
+  const int of_view = int{options_.pixels.has_value()} + int{options_.screen_height.has_value()} +
+                      int{options_.fov.has_value()} + int{!options_.distances.empty()};
+  if (options_.levels.empty() && of_view == 0)
+    throw InvalidInput(
+        "say which levels to make: --levels T1,T2,... or --pixels with --screen-height, --fov, "
+        "--distances");
+  if (!options_.levels.empty() && of_view > 0)
+    throw InvalidInput("--levels gives the tolerances themselves; leave out --pixels and what belongs to it");
+  if (options_.levels.empty() && of_view < 4)
+    throw InvalidInput("--pixels, --screen-height, --fov and --distances belong together; one is missing");
+}
+
+void Run::read() {
+  original_ = read_mesh(options_.input).mesh;
+  validate(original_);
+  report_.original = {options_.input, summarise(original_)};
+  const Eigen::AlignedBox3d box = used_bounding_box(original_);
+  largest_coordinate_ = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  report_.seconds.read = watch_.lap();
+}
+
+void Run::choose_tolerances() {
+  const double diagonal = report_.original.summary.bbox_diagonal;
+  for (const std::string& level : options_.levels)
+    tolerances_.push_back(parse_length("--levels", level).in_model_units(diagonal));
+  if (options_.pixels) {
+    const Screen screen{*options_.screen_height, *options_.fov / 180 * std::numbers::pi};
+    report_.view = LodReport::View{*options_.pixels, screen};
+    for (const std::string& distance : options_.distances)
+      tolerances_.push_back(screen_space_tolerance(screen, *options_.pixels,
+                                                   parse_length("--distances", distance).in_model_units(diagonal)));
+  }
+  std::sort(tolerances_.begin(), tolerances_.end());
+  tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
+}
+
+void Run::open_outputs() {
+  folder_.emplace(options_.folder);
+  for (std::size_t i = 0; i < tolerances_.size(); ++i)
+    outputs_.emplace_back(folder_->path() / ("lod_" + std::to_string(i) + "." + options_.format));
+}
+
+cgal::LodOptions Run::chain_options(ProgressBar& bar) const {
+  cgal::LodOptions chain;
+  chain.cost =
+      options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
+  chain.preserve_boundary = options_.preserve_boundary;
+  // A vertex may leave the box by the tolerance.
+  chain.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
+  chain.measure = false;  // the file is what counts: `take` measures that
+  chain.time_limit = remaining(simplify_share);
+  chain.threads = options_.common.threads;
+  chain.cancel = &interrupted_;
+  chain.progress = [&bar](double fraction) { bar.show(fraction); };
+  return chain;
+}
+
+void Run::make_levels() {
+  ProgressBar bar("simplifying and measuring", options_.common.quiet);
+  report_.verdict = Verdict::Within;
+  tree_.emplace(original_, BvhOptions{options_.common.threads});
+  report_.seconds.certify += watch_.lap();
+  cgal::build_lod_chain(original_, tolerances_, chain_options(bar),
+                        [&](std::size_t index, cgal::LodLevel&& level) { return take(index, level); });
+  report_.threads = options_.common.threads > 0 ? options_.common.threads : omp_get_max_threads();
+  report_.seconds.total = watch_.seconds();
+}
+
+/// Writes the level under a temporary name, reads it back and measures that. The chain ends where this fails.
+bool Run::take(std::size_t index, const cgal::LodLevel& level) {
+  report_.seconds.simplify += watch_.lap();
+  GatedOutput& output = outputs_[index];
+  output.write(level.mesh);
+  report_.seconds.write += watch_.lap();
+  DistanceOptions distance;
+  distance.error_bound = relative_error_bound * report_.original.summary.bbox_diagonal;
+  distance.tolerance = level.tolerance;
+  distance.budget.seconds = remaining(1);
+  distance.threads = options_.common.threads;
+  distance.cancel = &interrupted_;
+  output.measure(*tree_, distance);
+  report_.seconds.certify += watch_.lap();
+  report_.verdict = output.verdict();
+  if (report_.verdict == Verdict::Exceeds && level.ended_by != cgal::EndedBy::Rounding)
+    throw Error(
+        "internal error: a level is further from the original than was proven during decimation; nothing was "
+        "written. Please report this with the input and the command line");
+  if (report_.verdict != Verdict::Within) return false;
+  LodReport::Level& entry = report_.levels.emplace_back();
+  entry.tolerance = level.tolerance;
+  if (report_.view)
+    entry.view_distance = least_view_distance(report_.view->screen, report_.view->pixels, level.tolerance);
+  entry.path = output.path().string();
+  entry.file = output.path().filename().string();
+  entry.vertices = output.summary().vertices;
+  entry.faces = output.summary().faces;
+  entry.distance = output.distance();
+  entry.stopped_by = to_string(level.ended_by);
+  return true;
+}
+
+void Run::publish() {
+  // The report names the files, so it comes last; an interrupted rename leaves the old report with the old names.
+  for (GatedOutput& output : outputs_) output.publish();
+  write_text((folder_->path() / "chain.json").string(), to_json(report_));
+}
+
+void Run::print_summary() const {
+  const double diagonal = report_.original.summary.bbox_diagonal;
+  std::printf("original   %s, %zu faces\n", options_.input.c_str(), report_.original.summary.faces);
+  for (const LodReport::Level& level : report_.levels) {
+    std::printf("%-10s %zu faces, tolerance %s, distance [%.6g, %.6g]", level.file.c_str(), level.faces,
+                both_units(level.tolerance, diagonal).c_str(), level.distance.bounds.lower,
+                level.distance.bounds.upper);
+    if (level.view_distance) std::printf(", from view distance %s on", short_number(*level.view_distance).c_str());
+    std::printf("\n");
+  }
+  std::printf("verdict    %s\n", to_string(report_.verdict).c_str());
+  std::printf("seconds    read %.2f, simplify %.2f, write %.2f, certify %.2f, total %.2f\n", report_.seconds.read,
+              report_.seconds.simplify, report_.seconds.write, report_.seconds.certify, report_.seconds.total);
+}
+
+}  // namespace
+}  // namespace meshbound::tools
+
+int main(int argc, char** argv) {
+  CLI::App app("Makes levels of detail of a triangle mesh and proves how far each is from the original.", "lod_chain");
+  meshbound::tools::Options options;
+  meshbound::tools::declare(app, options);
+  return meshbound::tools::tool_main(app, argc, argv, [&] { return meshbound::tools::Run(options)(); });
+}
