@@ -23,7 +23,10 @@ struct MeshSummary {
 /// Bounding box of the vertices that triangles use; empty when there are none.
 [[nodiscard]] Eigen::AlignedBox3d used_bounding_box(const MeshView& mesh);
 
-/// Length of the diagonal of `used_bounding_box`, without overflow or underflow in between; 0 when it is empty.
+/// Length of the diagonal of a box, without overflow or underflow in between; 0 when it is empty.
+[[nodiscard]] double diagonal_of(const Eigen::AlignedBox3d& box);
+
+/// `diagonal_of` the `used_bounding_box`.
 [[nodiscard]] double bounding_box_diagonal(const MeshView& mesh);
 
 }  // namespace meshbound

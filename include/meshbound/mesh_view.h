@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "meshbound/triangle_mesh.h"
 
@@ -38,6 +40,33 @@ class MeshView {
   bool single_precision_ = false;
   bool short_indices_ = false;
 };
+
+namespace detail {
+
+/// A value at any alignment.
+template <class T>
+T load(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof(T));
+  return value;
+}
+
+}  // namespace detail
+
+inline Eigen::Vector3d MeshView::vertex(std::size_t i) const {
+  const std::byte* at = positions_ + i * stride_;
+  if (!single_precision_)
+    return {detail::load<double>(at), detail::load<double>(at + sizeof(double)),
+            detail::load<double>(at + 2 * sizeof(double))};
+  return {detail::load<float>(at), detail::load<float>(at + sizeof(float)),
+          detail::load<float>(at + 2 * sizeof(float))};
+}
+
+inline Triangle MeshView::triangle(std::size_t i) const {
+  if (!short_indices_) return detail::load<Triangle>(indices_ + i * sizeof(Triangle));
+  const auto corners = detail::load<std::array<std::uint16_t, 3>>(indices_ + i * 3 * sizeof(std::uint16_t));
+  return {corners[0], corners[1], corners[2]};
+}
 
 /// Copies a view into a mesh of its own.
 [[nodiscard]] TriangleMesh to_triangle_mesh(const MeshView& view);

@@ -95,7 +95,7 @@ void set_frame(Bvh::Data& data, const MeshView& mesh) {
   static std::atomic<std::uint64_t> last_serial{0};
   data.serial = ++last_serial;
   data.bounding_box = used_bounding_box(mesh);
-  data.diagonal = bounding_box_diagonal(mesh);
+  data.diagonal = diagonal_of(data.bounding_box);
   const Vec3 lo = to_vec3(data.bounding_box.min()), hi = to_vec3(data.bounding_box.max());
   data.frame = frame_for_box(lo, hi);
   data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};

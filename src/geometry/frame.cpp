@@ -43,6 +43,7 @@ Vec3 Frame::to_working(const Vec3& p) const { return scaled(p - center, -exponen
 Vec3 Frame::to_model(const Vec3& w) const { return scaled(w, exponent) + center; }
 
 double Frame::rounding_of(const Vec3& p) const {
+  if (center.x == 0 && center.y == 0 && center.z == 0) return 0;
   const double residual =
       difference_residual(p.x, center.x) + difference_residual(p.y, center.y) + difference_residual(p.z, center.z);
   return residual > 0 ? next_up(std::ldexp(next_up(residual), -exponent)) : 0;

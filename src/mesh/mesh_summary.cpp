@@ -114,17 +114,22 @@ MeshSummary summarise(const MeshView& mesh) {
 }
 
 Eigen::AlignedBox3d used_bounding_box(const MeshView& mesh) {
-  Eigen::AlignedBox3d box;
+  // Vertices once, not once a corner.
+  std::vector<std::uint8_t> used(mesh.vertex_count(), 0);
   for (std::size_t i = 0; i < mesh.triangle_count(); ++i)
-    for (const std::uint32_t v : mesh.triangle(i)) box.extend(mesh.vertex(v));
+    for (const std::uint32_t v : mesh.triangle(i)) used[v] = 1;
+  Eigen::AlignedBox3d box;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v] != 0) box.extend(mesh.vertex(v));
   return box;
 }
 
-double bounding_box_diagonal(const MeshView& mesh) {
-  const Eigen::AlignedBox3d box = used_bounding_box(mesh);
+double diagonal_of(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return 0;
   const Eigen::Vector3d size = box.sizes();
   return std::hypot(size.x(), size.y(), size.z());
 }
+
+double bounding_box_diagonal(const MeshView& mesh) { return diagonal_of(used_bounding_box(mesh)); }
 
 }  // namespace meshbound

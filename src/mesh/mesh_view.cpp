@@ -10,13 +10,6 @@
 namespace meshbound {
 namespace {
 
-template <class T>
-T load(const std::byte* from) {
-  T value;
-  std::memcpy(&value, from, sizeof(T));
-  return value;
-}
-
 /// False for NaN, as every comparison with it is.
 bool usable(const Eigen::Vector3d& p) {
   return std::abs(p.x()) <= largest_coordinate && std::abs(p.y()) <= largest_coordinate &&
@@ -63,19 +56,6 @@ MeshView::MeshView(const float* positions, std::size_t vertex_count, std::size_t
 MeshView::MeshView(const TriangleMesh& mesh)
     : MeshView(reinterpret_cast<const double*>(mesh.vertices.data()), mesh.vertices.size(), sizeof(Eigen::Vector3d),
                reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), mesh.triangles.size()) {}
-
-Eigen::Vector3d MeshView::vertex(std::size_t i) const {
-  const std::byte* at = positions_ + i * stride_;
-  if (!single_precision_)
-    return {load<double>(at), load<double>(at + sizeof(double)), load<double>(at + 2 * sizeof(double))};
-  return {load<float>(at), load<float>(at + sizeof(float)), load<float>(at + 2 * sizeof(float))};
-}
-
-Triangle MeshView::triangle(std::size_t i) const {
-  if (!short_indices_) return load<Triangle>(indices_ + i * sizeof(Triangle));
-  const auto corners = load<std::array<std::uint16_t, 3>>(indices_ + i * 3 * sizeof(std::uint16_t));
-  return {corners[0], corners[1], corners[2]};
-}
 
 TriangleMesh to_triangle_mesh(const MeshView& view) {
   TriangleMesh mesh;
