@@ -98,14 +98,12 @@ void OneSidedSearch::cull_nodes() {
     if (node.bound_squared <= searcher.accepted_squared()) {
       searcher.accept(node.bound_squared);
       const auto [begin, end] = slots_below(a_, node.level, node.index);
-      const auto culled = std::count(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1});
       for (std::uint32_t slot = begin; task_.memory != nullptr && slot < end; ++slot)
-        if (alive_[slot] != 0) remember(slot, node.bound_squared, node.slot);
-      std::fill(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{0});
-      stats_.culled_by_node += static_cast<std::uint64_t>(culled);
+        if (is_alive(slot)) remember(slot, node.bound_squared, node.slot);
       continue;
     }
     if (node.level == 0) {  // too far for its size: its vertices may raise the lower bound
+      keep_slots_below(0, node.index);
       for (const std::uint32_t v : a_.corners[node.index * block_width]) {
         const Nearest nearest = searcher.nearest(vertex(v), test.hint(), searcher.accepted_squared());
         if (nearest.squared > searcher.accepted_squared()) {
@@ -121,12 +119,24 @@ void OneSidedSearch::cull_nodes() {
       const std::uint32_t child = node.index * node_width + k;
       const auto [begin, end] = slots_below(a_, node.level - 1, child);
       if (begin == end) break;
-      if (std::find(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1}) == alive_.begin() + end) continue;
+      if (!alive_.empty() &&
+          std::find(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1}) == alive_.begin() + end)
+        continue;
       const double bound = test.bound_squared(node.level - 1, child);
       queue.push({bound, node.level - 1, child, test.hint()});
     }
   }
   upper_squared_ = std::max(upper_squared_, searcher.upper_squared());
+  for (; !queue.empty(); queue.pop()) keep_slots_below(queue.top().level, queue.top().index);
+  std::sort(left_.begin(), left_.end());
+  culled_ = true;
+  stats_.culled_by_node = stats_.triangles - stats_.matched - stats_.proven_before - left_.size();
+}
+
+void OneSidedSearch::keep_slots_below(std::uint32_t level, std::uint32_t index) {
+  const auto [begin, end] = slots_below(a_, level, index);
+  for (std::uint32_t slot = begin; slot < end; ++slot)
+    if (is_alive(slot)) left_.push_back(slot);
 }
 
 }  // namespace meshbound

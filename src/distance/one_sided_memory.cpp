@@ -31,6 +31,7 @@ void OneSidedSearch::probe_start() {
 void OneSidedSearch::drop_proven() {
   if (task_.memory == nullptr || decided()) return;
   const double lower = b_.frame.length_down(std::max(0.0, lower_.lower));
+  if (alive_.empty()) alive_.assign(a_.triangle_count(), 1);
   double target = task_.decide_only ? task_.tolerance : lower + task_.error_bound;
   if (lower <= task_.tolerance) target = std::min(target, task_.tolerance);
   for (std::uint32_t slot = 0; slot < a_.triangle_count(); ++slot) {
@@ -62,9 +63,12 @@ void OneSidedSearch::remember_walk(const Found& found) {
 }
 
 void OneSidedSearch::remember_hints() {
-  if (task_.memory == nullptr) return;
-  for (std::size_t v = 0; v < nearest_.size(); ++v)
-    if (std::isfinite(nearest_[v].squared)) task_.memory->hints[v] = nearest_[v].slot;
+  if (task_.memory == nullptr || nearest_ == nullptr || decided()) return;
+  const std::size_t n = culled_ ? wanted_.size() : a_.vertices.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t v = culled_ ? wanted_[i] : i;
+    task_.memory->hints[v] = nearest_[v].slot;
+  }
 }
 
 /// In coordinates of its triangle, which the next search may see in another frame. Near enough is good enough: any

@@ -52,7 +52,6 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
       b_(task.b.bvh->data()),
       map_(map),
       goal_(make_goal(task, map)),
-      alive_(a_.triangle_count(), 1),
       cuts_left_(task.options.budget.subdivisions),
       last_progress_(task.start) {
   for (int i = 0; i < thread_count(task); ++i) searchers_.push_back(make_searcher(b_, goal_));
@@ -113,8 +112,10 @@ void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::u
       remember_walk(found[i]);
     }
     spend_cuts();
-    if (found[farthest].farthest_squared >= 0)
-      offer_vertex(found[farthest].farthest_vertex, nearest_[found[farthest].farthest_vertex]);
+    if (found[farthest].farthest_squared >= 0) {
+      const VertexNearest& nearest = nearest_[found[farthest].farthest_vertex];
+      offer_vertex(found[farthest].farthest_vertex, {nearest.squared, nearest.slot});
+    }
     begin += size;
     report_progress(from + (to - from) * begin / count);
   }
@@ -137,7 +138,9 @@ void OneSidedSearch::offer_vertex(std::uint32_t v, const Nearest& nearest) {
 
 void OneSidedSearch::drop_identical() {
   const bool exact = map_.is_identity && map_.error == 0 && a_.frame.error == 0 && b_.frame.error == 0;
-  if (exact && probe_on_b_) stats_.matched = drop_identical_triangles(a_, b_, alive_);
+  if (!exact || !probe_on_b_) return;
+  alive_.assign(a_.triangle_count(), 1);
+  stats_.matched = drop_identical_triangles(a_, b_, alive_);
 }
 
 void OneSidedSearch::probe() {
@@ -159,25 +162,32 @@ void OneSidedSearch::probe() {
   offer_vertex(at, farthest);
 }
 
-void OneSidedSearch::mark_wanted_vertices() {
-  if (std::find(alive_.begin(), alive_.end(), 0) == alive_.end()) return;
-  wanted_.assign(a_.vertices.size(), 0);
-  for (std::uint32_t slot = 0; slot < a_.triangle_count(); ++slot) {
-    if (alive_[slot] == 0) continue;
-    for (const std::uint32_t v : a_.corners[slot]) wanted_[v] = 1;
-  }
+/// The vertices of the triangles that are left. Their number decides the cost where whole nodes were culled; flags
+/// would touch all vertices.
+void OneSidedSearch::list_wanted_vertices() {
+  if (!some_dropped()) return;
+  if (!culled_)
+    for (std::uint32_t slot = 0; slot < a_.triangle_count(); ++slot)
+      if (is_alive(slot)) left_.push_back(slot);
+  culled_ = true;
+  wanted_.reserve(3 * left_.size());
+  for (const std::uint32_t slot : left_)
+    wanted_.insert(wanted_.end(), a_.corners[slot].begin(), a_.corners[slot].end());
+  std::sort(wanted_.begin(), wanted_.end());
+  wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
 }
 
 void OneSidedSearch::query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
   std::uint32_t hint = 0;
-  for (std::uint32_t v = begin; v < end; ++v) {
-    if (!vertex_is_wanted(v)) continue;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t v = culled_ ? wanted_[i] : i;
     if (const std::uint32_t before = hint_before(task_.memory, v); before != no_slot) hint = before;
     const double enough = exhausted_ ? std::numeric_limits<double>::infinity() : searcher.accepted_squared();
-    nearest_[v] = searcher.nearest(vertex(v), hint, enough);
-    hint = nearest_[v].slot;
-    if (!exhausted_ && nearest_[v].squared > found.farthest_squared) {
-      found.farthest_squared = nearest_[v].squared;
+    const Nearest nearest = searcher.nearest(vertex(v), hint, enough);
+    nearest_[v] = {nearest.squared, nearest.slot};
+    hint = nearest.slot;
+    if (!exhausted_ && nearest.squared > found.farthest_squared) {
+      found.farthest_squared = nearest.squared;
       found.farthest_vertex = v;
     }
   }
@@ -185,9 +195,10 @@ void OneSidedSearch::query_chunk(Searcher& searcher, std::uint32_t begin, std::u
 
 void OneSidedSearch::query_vertices() {
   if (decided()) return;
-  mark_wanted_vertices();
-  const auto n = static_cast<std::uint32_t>(a_.vertices.size());
-  nearest_.resize(n);
+  list_wanted_vertices();
+  const auto all = static_cast<std::uint32_t>(a_.vertices.size());
+  nearest_ = std::make_unique_for_overwrite<VertexNearest[]>(all);
+  const std::uint32_t n = culled_ ? static_cast<std::uint32_t>(wanted_.size()) : all;
   const std::uint32_t chunks = (n + vertices_per_chunk - 1) / vertices_per_chunk;
   run_chunks(chunks, 4, 256, 0.0, 0.2, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * vertices_per_chunk;
@@ -196,8 +207,8 @@ void OneSidedSearch::query_vertices() {
 }
 
 void OneSidedSearch::bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
-  for (std::uint32_t slot = begin; slot < end; ++slot) {
-    if (alive_[slot] == 0) continue;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t slot = culled_ ? left_[i] : i;
     const Triangle& t = a_.corners[slot];
     const Vec3 corner[3] = {vertex(t[0]), vertex(t[1]), vertex(t[2])};
     double bound = std::numeric_limits<double>::infinity();
@@ -223,7 +234,8 @@ void OneSidedSearch::bound_chunk(Searcher& searcher, std::uint32_t begin, std::u
 
 void OneSidedSearch::bound_triangles() {
   if (decided()) return;
-  const std::uint32_t n = a_.triangle_count(), chunks = (n + triangles_per_chunk - 1) / triangles_per_chunk;
+  const std::uint32_t n = culled_ ? static_cast<std::uint32_t>(left_.size()) : a_.triangle_count();
+  const std::uint32_t chunks = (n + triangles_per_chunk - 1) / triangles_per_chunk;
   run_chunks(chunks, 256, 256, 0.2, 0.3, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * triangles_per_chunk;
     bound_chunk(searcher, begin, std::min(n, begin + triangles_per_chunk), found);

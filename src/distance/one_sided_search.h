@@ -35,6 +35,11 @@ class OneSidedSearch {
     std::uint32_t slot;   ///< of A
     std::uint32_t start;  ///< candidate of B
   };
+  /// `Nearest` without initial values: a search that culls nearly everything does not touch what it does not need.
+  struct VertexNearest {
+    double squared;
+    std::uint32_t slot;
+  };
   /// What a chunk of work found.
   struct Found {
     LowerBound lower;
@@ -59,8 +64,10 @@ class OneSidedSearch {
   void walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void sort_open();
   [[nodiscard]] double sampled_block_radius() const;
-  [[nodiscard]] bool vertex_is_wanted(std::uint32_t v) const { return wanted_.empty() || wanted_[v] != 0; }
-  void mark_wanted_vertices();
+  [[nodiscard]] bool is_alive(std::uint32_t slot) const { return alive_.empty() || alive_[slot] != 0; }
+  [[nodiscard]] bool some_dropped() const { return culled_ || !alive_.empty(); }
+  void keep_slots_below(std::uint32_t level, std::uint32_t index);
+  void list_wanted_vertices();
   void probe_start();
   [[nodiscard]] double proven_length(double squared, std::uint32_t cuts) const;
   void remember(std::uint32_t slot, double squared, std::uint32_t face);
@@ -79,9 +86,11 @@ class OneSidedSearch {
   Mapping map_;
   Goal goal_;
   std::vector<std::unique_ptr<Searcher>> searchers_;  ///< one per thread
-  std::vector<std::uint8_t> alive_;                   ///< by A's slot
-  std::vector<Nearest> nearest_;                      ///< by A's vertex
-  std::vector<std::uint8_t> wanted_;                  ///< by A's vertex; empty: all are
+  std::vector<std::uint8_t> alive_;                   ///< by A's slot, before nodes are culled; empty: all are
+  bool culled_ = false;                               ///< `left_` and `wanted_` list what is left
+  std::vector<std::uint32_t> left_;                   ///< slots of A
+  std::vector<std::uint32_t> wanted_;                 ///< vertices of A
+  std::unique_ptr<VertexNearest[]> nearest_;          ///< by A's vertex; set for wanted ones only
   std::vector<Open> open_;
   LowerBound lower_;                   ///< starts at `known_lower`
   LowerBound own_lower_;               ///< proven for this direction
