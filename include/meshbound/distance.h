@@ -22,7 +22,14 @@ struct Budget {
   std::uint64_t subdivisions = std::numeric_limits<std::uint64_t>::max();
 };
 
+/// How the triangles of A that are not culled are covered. Both prove the same interval.
+enum class Method {
+  CellWalking,  ///< pieces are cut by the cells of B's triangles and walk from cell to cell
+  CrossCulling  ///< the paper's own: culling on A and on B, Voronoi subdivision (sections 4 and 5)
+};
+
 struct DistanceOptions {
+  Method method = Method::CellWalking;
   /// Wanted width of the interval, model units. Absent: 1e-6 of the bounding-box diagonal of the first model.
   std::optional<double> error_bound;
   /// When given, the upper bound is also refined until it is at most this wherever the truth allows it.
@@ -41,6 +48,14 @@ enum class Outcome {
   PrecisionReached   ///< doubles cannot narrow the interval further; the bounds hold
 };
 
+/// Time of each phase, as in Fig. 9 of the paper.
+struct PhaseSeconds {
+  double matching = 0;      ///< finding triangles that both models have
+  double culling_on_a = 0;  ///< nodes of A, and a first lower bound
+  double culling_on_b = 0;  ///< closest triangles of B and the bounds they give
+  double subdivision = 0;   ///< what is left, cut into pieces
+};
+
 /// What the search did. Percentages as in Table 2 of the paper.
 struct DistanceStats {
   std::uint64_t triangles = 0;           ///< of the model that is searched ("A" of the one-sided distance)
@@ -52,14 +67,16 @@ struct DistanceStats {
   std::uint64_t closest_point_queries = 0;
   std::uint64_t nodes_visited = 0;     ///< tree nodes opened by those queries
   std::uint64_t triangles_tested = 0;  ///< point-triangle distances evaluated by those queries
-  std::uint64_t subdivisions = 0;      ///< cuts of a piece into two
+  std::uint64_t subdivisions = 0;      ///< cuts of a piece into two (cell walking) or four (cross-culling)
   std::uint32_t deepest_subdivision = 0;
   std::uint64_t pieces = 0;        ///< bounded on the walk, whole triangles included
   std::uint64_t resolved = 0;      ///< pieces split between two closest triangles that are not neighbours
+  std::uint64_t enclosed = 0;      ///< pieces that a translation takes through a closed B (paper, Lemma 4)
   std::uint64_t given_up = 0;      ///< pieces left as they stood: too deep, or the budget ran out
   double culled_on_a_percent = 0;  ///< triangles of A never subdivided
   double culled_on_b_percent = 0;  ///< mean share of B's triangles that a query did not touch
   double seconds = 0;
+  PhaseSeconds phases;
 };
 
 struct OneSidedDistance {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "bvh/bvh_data.h"
@@ -27,5 +28,8 @@ void build_nodes(Bvh::Data& data, int threads);
 
 /// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.
 Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);
+
+/// The first slot below a node and the one after the last: nodes are runs of the Hilbert order.
+std::pair<std::uint32_t, std::uint32_t> slots_below(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);
 
 }  // namespace meshbound

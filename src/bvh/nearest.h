@@ -43,19 +43,22 @@ inline CornerTriangle<Double4> load4(const TriangleBlock& b) {
           {load4(b.ac[0]), load4(b.ac[1]), load4(b.ac[2])}};
 }
 
-/// A query point as an interval of floats, so that box distances never come out too large.
+/// A query point or box as intervals of floats, so that box distances never come out too large.
 struct FloatQuery {
-  explicit FloatQuery(const Vec3& p) {
-    const double coordinates[3] = {p.x, p.y, p.z};
+  explicit FloatQuery(const Vec3& p) : FloatQuery(p, p) {}
+  FloatQuery(const Vec3& box_lo, const Vec3& box_hi) {
+    const double least[3] = {box_lo.x, box_lo.y, box_lo.z}, most[3] = {box_hi.x, box_hi.y, box_hi.z};
     for (int axis = 0; axis < 3; ++axis) {
-      const auto f = static_cast<float>(coordinates[axis]);
-      // One step of a float is at most 2^-23 of it; the least normal number covers the range below.
-      const float step = (f < 0 ? -f : f) * 0x1p-23F + std::numeric_limits<float>::min();
-      lo[axis] = broadcast8(f - step);
-      hi[axis] = broadcast8(f + step);
+      const auto from = static_cast<float>(least[axis]), to = static_cast<float>(most[axis]);
+      lo[axis] = broadcast8(from - step(from));
+      hi[axis] = broadcast8(to + step(to));
     }
   }
   Float8 lo[3], hi[3];
+
+ private:
+  /// One step of a float is at most 2^-23 of it; the least normal number covers the range below.
+  static float step(float f) { return (f < 0 ? -f : f) * 0x1p-23F + std::numeric_limits<float>::min(); }
 };
 
 /// Lower bounds of the squared distances to the eight boxes, but for 8 roundings of 2^-24 each (`prune_limit` allows
@@ -81,7 +84,7 @@ inline float prune_limit(double squared) {
 /// Depth-first walk over the tree, nearest child first. `on_block(index)` tests a block of triangles and returns the
 /// limit from then on. The stack holds at most 7 siblings for each of at most 10 levels (8^10 > 2^30) and one root.
 template <class OnBlock>
-void visit_near(const Bvh::Data& data, const Vec3& p, float limit, QueryCounters& counters, OnBlock&& on_block) {
+void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, QueryCounters& counters, OnBlock&& on_block) {
   struct Entry {
     float squared;
     std::uint32_t level;
@@ -90,7 +93,6 @@ void visit_near(const Bvh::Data& data, const Vec3& p, float limit, QueryCounters
   Entry stack[80];
   int size = 0;
   stack[size++] = {0, data.levels() - 1, 0};
-  const FloatQuery query(p);
   while (size > 0) {
     const Entry entry = stack[--size];
     if (!(entry.squared < limit)) continue;
@@ -119,7 +121,7 @@ inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squ
   if (best.squared <= enough_squared) return;
   const Vec<Double4> p4 = broadcast4(p);
   const std::uint32_t last = data.triangle_count() - 1;
-  visit_near(data, p, prune_limit(best.squared), counters, [&](std::uint32_t block) {
+  visit_near(data, FloatQuery(p), prune_limit(best.squared), counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
     const Double4 squared = closest_on_triangle(load4(data.blocks[block]), p4).squared_distance;
     for (std::uint32_t lane = 0; lane < block_width; ++lane) {
@@ -179,7 +181,7 @@ inline double certified_distance(const Bvh::Data& data, const Vec3& p, double ne
   double least = std::sqrt(nearest_squared);
   const std::uint32_t last = data.triangle_count() - 1;
   const float limit = prune_limit(nearest_squared);
-  visit_near(data, p, limit, counters, [&](std::uint32_t block) {
+  visit_near(data, FloatQuery(p), limit, counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
     for (std::uint32_t lane = 0; lane < block_width && block * block_width + lane <= last; ++lane)
       least = std::min(least, best_separation(triangle_at(data, block * block_width + lane), p, least));

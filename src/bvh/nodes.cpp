@@ -118,4 +118,11 @@ Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
   return box;
 }
 
+std::pair<std::uint32_t, std::uint32_t> slots_below(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
+  const std::uint64_t size = std::uint64_t{block_width} << (3 * level);
+  const std::uint64_t n = data.triangle_count();
+  return {static_cast<std::uint32_t>(std::min(n, index * size)),
+          static_cast<std::uint32_t>(std::min(n, (index + 1) * size))};
+}
+
 }  // namespace meshbound

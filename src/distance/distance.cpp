@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "bvh/bvh_data.h"
 #include "distance/one_sided.h"
 #include "distance/symmetric.h"
 #include "meshbound/error.h"
@@ -67,11 +68,17 @@ SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
   task.error_bound = error_bound_of(a, options);
   task.tolerance = tolerance_of(options);
   SymmetricDistance result;
+  std::vector<std::uint32_t> pairs;
+  if (options.method == Method::CrossCulling) {
+    pairs.assign(b.bvh->triangle_count(), no_slot);
+    task.found_pairs = &pairs;
+  }
   result.a_to_b = search_one_sided(task);
   OneSidedTask back{.a = b, .b = a, .options = options, .memory = memory.b_to_a};
   back.error_bound = task.error_bound;
   back.tolerance = task.tolerance;
   back.known_lower = result.a_to_b.bounds.lower;  // paper, section 6: the first result seeds the second
+  if (options.method == Method::CrossCulling) back.known_pairs = &pairs;
   back.start = task.start;
   result.b_to_a = search_one_sided(back);
   result.bounds = larger(result.a_to_b.bounds, result.b_to_a.bounds);

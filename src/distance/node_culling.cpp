@@ -31,14 +31,6 @@ struct Ball {
 
 Ball ball_around(const Box& box) { return {0.5 * (box.lo + box.hi), 0.5 * length(box.hi - box.lo)}; }
 
-/// Slots below a node: nodes are runs of the Hilbert order, so this is one range.
-std::pair<std::uint32_t, std::uint32_t> slots_below(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
-  const std::uint64_t size = std::uint64_t{block_width} << (3 * level);
-  const std::uint64_t n = data.triangle_count();
-  return {static_cast<std::uint32_t>(std::min(n, index * size)),
-          static_cast<std::uint32_t>(std::min(n, (index + 1) * size))};
-}
-
 /// All children of one node of A, tested against B.
 class NodeTest {
  public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <chrono>
+#include <cstdint>
+#include <vector>
 
 #include "meshbound/distance.h"
 
@@ -19,6 +21,10 @@ struct OneSidedTask {
   /// than this need no bound of their own. The result's `lower` may then be below it, its `upper` is at most the
   /// larger.
   double known_lower = 0;
+  /// Closest pairs cached between the directions (paper, section 6), both ways hints: a triangle of B for each triangle
+  /// of A or `no_slot`, by slot; and room for the pairs that this direction finds, a triangle of A for each of B.
+  const std::vector<std::uint32_t>* known_pairs = nullptr;
+  std::vector<std::uint32_t>* found_pairs = nullptr;
   const DistanceOptions& options;
   SearchMemory* memory = nullptr;  ///< proofs and hints of earlier searches, used and updated; null: none
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();

@@ -52,6 +52,7 @@ void OneSidedSearch::fill_stats() {
     stats_.subdivisions += counters.cuts;
     stats_.pieces += counters.pieces;
     stats_.resolved += counters.resolved;
+    stats_.enclosed += counters.enclosed;
     stats_.given_up += counters.given_up;
     stats_.deepest_subdivision = std::max(stats_.deepest_subdivision, counters.deepest);
   }

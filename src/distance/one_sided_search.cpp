@@ -59,6 +59,12 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
   stats_.triangles = a_.triangle_count();
 }
 
+void OneSidedSearch::run(void (OneSidedSearch::*step)(), double PhaseSeconds::*phase) {
+  const Clock::time_point start = Clock::now();
+  (this->*step)();
+  stats_.phases.*phase += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 bool OneSidedSearch::out_of_budget() {
   if (exhausted_) return true;
   exhausted_ = cuts_left_ == 0 || goal_.out_of_time();
@@ -242,7 +248,7 @@ void OneSidedSearch::bound_triangles() {
   });
 }
 
-void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+void OneSidedSearch::refine_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const Open& open = open_[i];
     if (open.bound_squared <= searcher.accepted_squared() || exhausted_) {
@@ -251,6 +257,10 @@ void OneSidedSearch::walk_chunk(Searcher& searcher, std::uint32_t begin, std::ui
     }
     const Triangle& t = a_.corners[open.slot];
     const Vec3 a = vertex(t[0]), b = vertex(t[1]), c = vertex(t[2]);
+    if (task_.options.method == Method::CrossCulling) {
+      searcher.subdivide({a, b, c}, open.slot, open.bound_squared, cuts_left_);
+      continue;
+    }
     // The centroid breaks the ties of corners, which many triangles of B share.
     const Nearest start = searcher.nearest((1.0 / 3) * (a + b + c), open.start, searcher.accepted_squared());
     if (task_.memory == nullptr)
@@ -271,7 +281,7 @@ void OneSidedSearch::sort_open() {
   std::sort(middle, open_.end(), [](const Open& x, const Open& y) { return x.slot < y.slot; });
 }
 
-void OneSidedSearch::walk_rest() {
+void OneSidedSearch::refine_rest() {
   if (decided()) return;
   sort_open();
   const auto n = static_cast<std::uint32_t>(open_.size());
@@ -279,7 +289,7 @@ void OneSidedSearch::walk_rest() {
   const std::uint32_t chunks = (n + walks_per_chunk - 1) / walks_per_chunk;
   run_chunks(chunks, 1, 512, 0.3, 1.0, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * walks_per_chunk;
-    walk_chunk(searcher, begin, std::min(n, begin + walks_per_chunk), found);
+    refine_chunk(searcher, begin, std::min(n, begin + walks_per_chunk), found);
   });
 }
 

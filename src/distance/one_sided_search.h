@@ -24,8 +24,11 @@ class OneSidedSearch {
   void cull_nodes();       ///< paper, Alg. 1: whole nodes of A, best first
   void query_vertices();   ///< closest triangles of the vertices that are left
   void bound_triangles();  ///< paper, 4.4: triangles bounded by a closest triangle of one of their vertices
-  void walk_rest();        ///< cells of B for what is left, worst first
+  void cross_cull();       ///< paper, section 4: whole nodes of A, then its triangles against the nodes of B
+  void refine_rest();      ///< what is left, worst first, by `DistanceOptions::method`
   void remember_hints();   ///< for the next search of this model
+  /// Runs one of the steps above and adds its time to a phase.
+  void run(void (OneSidedSearch::*step)(), double PhaseSeconds::*phase);
   [[nodiscard]] OneSidedDistance result();
 
  private:
@@ -61,7 +64,10 @@ class OneSidedSearch {
   void offer_vertex(std::uint32_t v, const Nearest& nearest);
   void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
-  void walk_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
+  [[nodiscard]] double node_bound_squared(Searcher& searcher, std::uint32_t level, std::uint32_t index,
+                                          std::uint32_t& hint) const;
+  void cull_leaf_on_b(Searcher& searcher, std::uint32_t block, std::uint32_t& hint);
+  void refine_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void sort_open();
   [[nodiscard]] double sampled_block_radius() const;
   [[nodiscard]] bool is_alive(std::uint32_t slot) const { return alive_.empty() || alive_[slot] != 0; }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
 #include "distance/goal.h"
+#include "distance/group_bounds.h"
 #include "distance/search_memory.h"
 
 namespace meshbound {
@@ -34,6 +37,17 @@ class Searcher {
 
   /// From now on `cover` leaves the triangles of B that the pieces were accepted on here; null: nowhere.
   virtual void record_in(CoverRecord* record) = 0;
+  /// Bounds of h(T, B) for a triangle T of A, by one traversal (paper, Alg. 2); it ends early once the upper bound is
+  /// within `enough_squared`. Starts with the triangles of B in `hints`.
+  virtual GroupBounds cull_on_b(const TriangleCorners& triangle, std::span<const std::uint32_t> hints,
+                                double enough_squared) = 0;
+
+  /// Covers a whole triangle of A by subdivision (paper, section 5), known to be within the root of `upper_squared`.
+  virtual void subdivide(const TriangleCorners& triangle, std::uint32_t from_slot, double upper_squared,
+                         std::uint64_t max_cuts) = 0;
+
+  /// Largest squared distance of the corners of a box of A to the triangle at `slot`.
+  virtual double farthest_squared(const std::array<Vec3, 8>& box, std::uint32_t slot) = 0;
 
   virtual void accept(double squared) = 0;
   [[nodiscard]] virtual double accepted_squared() const = 0;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
+
 #include "distance/cell_walker.h"
+#include "distance/group_traversal.h"
 #include "distance/searcher.h"
+#include "distance/subdivision.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
@@ -35,6 +39,27 @@ class SearcherImpl final : public Searcher {
   }
 
   void record_in(CoverRecord* record) override { walker_.record_in(record); }
+  GroupBounds cull_on_b(const TriangleCorners& triangle, std::span<const std::uint32_t> hints,
+                        double enough_squared) override {
+    GroupBounds bounds;
+    for (const std::uint32_t hint : hints) test_block(walker_.target(), hint / block_width, triangle, bounds);
+    group_traversal(walker_.target(), triangle, enough_squared, bounds, walker_.counters().queries);
+    return bounds;
+  }
+
+  void subdivide(const TriangleCorners& triangle, std::uint32_t from_slot, double upper_squared,
+                 std::uint64_t max_cuts) override {
+    if (!subdivision_) subdivision_.emplace(walker_);
+    walker_.set_from(from_slot);
+    subdivision_->refine(triangle, upper_squared, max_cuts);
+  }
+
+  double farthest_squared(const std::array<Vec3, 8>& box, std::uint32_t slot) override {
+    Piece corners;
+    for (const Vec3& corner : box) corners.add(corner);
+    return farthest_corner(corners, triangle_at(walker_.target(), slot)).squared;
+  }
+
   void accept(double squared) override { walker_.accept(squared); }
   [[nodiscard]] double accepted_squared() const override { return walker_.accepted_squared(); }
   [[nodiscard]] const LowerBound& lower() const override { return walker_.lower(); }
@@ -42,7 +67,8 @@ class SearcherImpl final : public Searcher {
   [[nodiscard]] const WalkCounters& counters() const override { return walker_.counters(); }
 
  private:
-  CellWalker walker_;
+  CellWalker walker_;  ///< keeps the bounds of both ways to cover a triangle
+  std::optional<Subdivision> subdivision_;
 };
 
 }  // namespace MESHBOUND_ISA
