@@ -10,6 +10,7 @@
 #include <iterator>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/io.h"
@@ -24,11 +25,13 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(Readme, ShowsTheProgramThatTheTestsCompile) {
-  std::string program = text_of(root / "examples" / "measure_two_meshes.cpp");
-  ASSERT_EQ(program.rfind("// SPDX", 0), 0U);
-  program.erase(0, program.find('\n') + 1);
-  EXPECT_NE(text_of(root / "README.md").find("```cpp\n" + program + "```"), std::string::npos);
+TEST(Readme, ShowsTheProgramsThatTheTestsCompile) {
+  for (const char* name : {"measure_two_meshes.cpp", "check_levels.cpp", "deform.cpp"}) {
+    std::string program = text_of(root / "examples" / name);
+    ASSERT_EQ(program.rfind("// SPDX", 0), 0U);
+    program.erase(0, program.find('\n') + 1);
+    EXPECT_NE(text_of(root / "README.md").find("```cpp\n" + program + "```"), std::string::npos) << name;
+  }
 }
 
 TEST(Readme, ProgramTellsACubeFromALargerOne) {
@@ -44,6 +47,24 @@ TEST(Readme, ProgramTellsACubeFromALargerOne) {
   };
   EXPECT_EQ(run("fine.off"), 0);
   EXPECT_EQ(run("large.off"), 1);
+  fs::remove_all(folder);
+}
+
+TEST(Readme, ProgramsForLevelsAndMovingMeshesRun) {
+  const fs::path folder = fs::temp_directory_path() / ("meshbound_levels_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  meshbound::write_mesh(folder / "cube.off", meshbound::datasets::cube(1, 4));
+  meshbound::write_mesh(folder / "fine.off", meshbound::datasets::cube(1, 8));
+  meshbound::write_mesh(folder / "large.off", meshbound::datasets::cube(1.5, 1));
+  const auto run = [&](const std::string& program, const std::vector<const char*>& files) {
+    std::string command = program;
+    for (const char* file : files) command += " " + (folder / file).string();
+    const int status = std::system((command + " >/dev/null").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  EXPECT_EQ(run(CHECK_LEVELS, {"cube.off", "fine.off", "cube.off"}), 0);
+  EXPECT_EQ(run(CHECK_LEVELS, {"cube.off", "fine.off", "large.off"}), 1);
+  EXPECT_EQ(run(DEFORM, {"cube.off"}), 0);
   fs::remove_all(folder);
 }
 

@@ -11,8 +11,8 @@ namespace meshbound {
 /// The steps of building `Bvh::Data`; each fills the members named after it from those filled before.
 /// Every one gives the same result for any number of threads.
 
-/// Box, diagonal and frame, and a new serial number.
-void set_frame(Bvh::Data& data, const MeshView& mesh);
+/// Box, diagonal and frame, and a new serial number. `box`: of the vertices that triangles use, model units.
+void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 
 /// Where the longest edge of a triangle begins: corner 0, 1 or 2, the first of them when edges are equally long.
 std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c);

@@ -70,7 +70,7 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
   validate(mesh);
   check_size(mesh);
   auto data = std::make_unique<Bvh::Data>();
-  set_frame(*data, mesh);
+  set_frame(*data, used_bounding_box(mesh));
   {
     const std::vector<Vec3> working = working_vertices(mesh, data->frame, threads);
     data->triangle_of_slot = hilbert_order(mesh, working, data->working_box, threads);
@@ -91,11 +91,11 @@ std::size_t bytes(const std::vector<T>& v) {
 
 }  // namespace
 
-void set_frame(Bvh::Data& data, const MeshView& mesh) {
+void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   static std::atomic<std::uint64_t> last_serial{0};
   data.serial = ++last_serial;
-  data.bounding_box = used_bounding_box(mesh);
-  data.diagonal = diagonal_of(data.bounding_box);
+  data.bounding_box = box;
+  data.diagonal = diagonal_of(box);
   const Vec3 lo = to_vec3(data.bounding_box.min()), hi = to_vec3(data.bounding_box.max());
   data.frame = frame_for_box(lo, hi);
   data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};

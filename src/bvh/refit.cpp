@@ -15,26 +15,44 @@ std::array<T, 3> rotated(const std::array<T, 3>& x, std::uint32_t by) {
   return {x[by], x[(by + 1) % 3], x[(by + 2) % 3]};
 }
 
-constexpr std::uint32_t no_turn = 3;
+constexpr std::uint8_t no_turn = 3;
 
 /// By how many corners the tree has turned a triangle of the mesh (`longest_edge`); trees never mirror them.
-std::uint32_t turn_of(const Bvh::Data& data, std::uint32_t slot, const Triangle& in_mesh) {
+std::uint8_t turn_of(const Bvh::Data& data, std::uint32_t slot, const Triangle& in_mesh) {
   const Triangle& t = data.corners[slot];
   const Triangle in_tree{data.source_vertex[t[0]], data.source_vertex[t[1]], data.source_vertex[t[2]]};
-  for (std::uint32_t by = 0; by < no_turn; ++by)
+  for (std::uint8_t by = 0; by < no_turn; ++by)
     if (in_tree == rotated(in_mesh, by)) return by;
   return no_turn;
 }
 
-void check_same_triangles(const Bvh::Data& data, const MeshView& moved) {
+/// `turn_of` for each slot. Throws `InvalidInput` when a triangle is another one than in the tree.
+std::vector<std::uint8_t> turns(const Bvh::Data& data, const MeshView& moved) {
   if (moved.triangle_count() != data.triangle_count())
     throw InvalidInput("a mesh of " + std::to_string(moved.triangle_count()) + " triangles cannot refit a tree of " +
                        std::to_string(data.triangle_count()) + "; build a new tree");
+  std::vector<std::uint8_t> result(data.triangle_count());
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
-    if (turn_of(data, slot, moved.triangle(data.triangle_of_slot[slot])) == no_turn)
-      throw InvalidInput("triangle " + std::to_string(data.triangle_of_slot[slot]) +
+    const std::uint32_t triangle = data.triangle_of_slot[slot];
+    result[slot] = turn_of(data, slot, moved.triangle(triangle));
+    if (result[slot] == no_turn)
+      throw InvalidInput("triangle " + std::to_string(triangle) +
                          " has other vertices than in the tree; only vertices may move, build a new tree");
   }
+  return result;
+}
+
+/// Box of the vertices that the tree uses. Throws as `validate`, which reads every triangle, only looks where a vertex
+/// is missing or cannot be used, for the sake of its message.
+Eigen::AlignedBox3d box_of(const Bvh::Data& data, const MeshView& moved) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t v : data.source_vertex) {
+    if (v >= moved.vertex_count() || !(moved.vertex(v).cwiseAbs().maxCoeff() <= largest_coordinate) ||
+        !moved.vertex(v).allFinite())
+      validate(moved);
+    box.extend(moved.vertex(v));
+  }
+  return box;
 }
 
 void place_vertices(Bvh::Data& data, const MeshView& moved, int threads) {
@@ -51,10 +69,10 @@ void place_vertices(Bvh::Data& data, const MeshView& moved, int threads) {
 }
 
 /// Turns each triangle as a build would: its longest edge first, ties by the order in the mesh.
-void turn_triangles(Bvh::Data& data, const MeshView& moved, int threads) {
+void turn_triangles(Bvh::Data& data, const std::vector<std::uint8_t>& turned, int threads) {
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
-    const std::uint32_t back = no_turn - turn_of(data, slot, moved.triangle(data.triangle_of_slot[slot]));
+    const std::uint32_t back = no_turn - turned[slot];
     const Triangle t = rotated(data.corners[slot], back % 3);
     const std::uint32_t first = longest_edge(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]);
     data.corners[slot] = rotated(t, first);
@@ -83,18 +101,17 @@ double tree_cost(const Bvh::Data& data) {
 }  // namespace
 
 void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
-  validate(moved);
-  check_same_triangles(*data_, moved);
+  const std::vector<std::uint8_t> turned = turns(*data_, moved);
   const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   auto next = std::make_unique<Data>();
-  set_frame(*next, moved);
+  set_frame(*next, box_of(*data_, moved));
   next->built_cost = data_->built_cost > 0 ? data_->built_cost : tree_cost(*data_);
   next->source_vertex = data_->source_vertex;
   next->corners = data_->corners;
   next->neighbours = data_->neighbours;
   next->triangle_of_slot = data_->triangle_of_slot;
   place_vertices(*next, moved, threads);
-  turn_triangles(*next, moved, threads);
+  turn_triangles(*next, turned, threads);
   build_blocks(*next, threads);
   build_nodes(*next, threads);
   data_ = std::move(next);
