@@ -152,6 +152,16 @@ TEST_F(SimplifyTool, SaysWhetherTheTargetOrTheToleranceCameFirst) {
   EXPECT_EQ(Json::parse(content(in("r.json")))["stopped_by"], "tolerance");
 }
 
+TEST_F(SimplifyTool, KeepsSharpEdgesWhenAsked) {
+  write_mesh(in("cube.off"), datasets::cube(1, 6));
+  ASSERT_EQ(run("cube.off out.off --tolerance 0.2 --feature-angle 80").exit_code, 0);
+  const std::size_t kept = read_mesh(in("out.off")).mesh.vertices.size();
+  EXPECT_GE(kept, 12u * 5 + 8);
+  ASSERT_EQ(run("cube.off out.off --tolerance 0.2 --feature-angle 100").exit_code, 0);
+  EXPECT_LT(read_mesh(in("out.off")).mesh.vertices.size(), kept);
+  expect_refused(run("cube.off none.off --tolerance 0.2 --feature-angle 200"), "none.off");
+}
+
 TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
   ASSERT_EQ(run("sphere.off one.ply --tolerance 0.02 --threads 1").exit_code, 0);
   ASSERT_EQ(run("sphere.off two.ply --tolerance 0.02 --threads 2").exit_code, 0);
@@ -176,7 +186,7 @@ TEST_F(SimplifyTool, AnswersHelpAndVersion) {
   EXPECT_EQ(help.exit_code, 0);
   for (const char* option :
        {"--tolerance", "--target-faces", "--target-ratio", "--on-exceed", "--levels", "--output-dir", "--cost",
-        "--preserve-boundary", "--time-limit", "--json", "--quiet", "--threads"})
+        "--preserve-boundary", "--feature-angle", "--time-limit", "--json", "--quiet", "--threads"})
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
 }
 

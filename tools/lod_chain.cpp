@@ -37,6 +37,7 @@ struct Options {
   std::vector<std::string> levels, distances;
   std::optional<double> pixels, screen_height, fov;
   bool preserve_boundary = false;
+  std::optional<double> feature_angle;
   CommonOptions common;
 };
 
@@ -59,6 +60,9 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
       ->capture_default_str();
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
+  app.add_option("--feature-angle", options.feature_angle,
+                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
+      ->check(CLI::Range(0.0, 180.0));
   add_common_options(app, options.common);
 }
 
@@ -184,6 +188,7 @@ cgal::LodOptions Run::chain_options(ProgressBar& bar) const {
   chain.cost =
       options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
   chain.preserve_boundary = options_.preserve_boundary;
+  if (options_.feature_angle) chain.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
   // A vertex may leave the box by the tolerance.
   chain.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
   chain.measure = false;  // the file is what counts: `take` measures that

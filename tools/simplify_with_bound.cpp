@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -37,6 +38,7 @@ struct Options {
   std::optional<std::int64_t> target_faces;
   std::optional<double> target_ratio;
   bool preserve_boundary = false;
+  std::optional<double> feature_angle;
   CommonOptions common;
 };
 
@@ -61,6 +63,9 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
       ->capture_default_str();
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
+  app.add_option("--feature-angle", options.feature_angle,
+                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
+      ->check(CLI::Range(0.0, 180.0));
   add_common_options(app, options.common);
 }
 
@@ -162,6 +167,7 @@ void Run::simplify() {
   simplify.cost =
       options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
   simplify.preserve_boundary = options_.preserve_boundary;
+  if (options_.feature_angle) simplify.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
   // A vertex may leave the box by the tolerance.
   simplify.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
   simplify.measure = false;

@@ -95,6 +95,16 @@ class DeviationTracker {
   /// faces that share vertices with them. Returns those that it found none for: start them too, or give up.
   [[nodiscard]] std::vector<std::uint32_t> cover_the_rest();
 
+  /// Tolerances of single original triangles beside the one for all, infinity where there is none. From now on
+  ///
+  ///     every point of triangle k lies within tolerances[k] of the current mesh, and
+  ///     every point of the current mesh lies within tolerances[g] of the original triangle g nearest to it.
+  ///
+  /// A change is tested with the smallest tolerance of the triangles around it, so a coarse region begins about a face
+  /// away from a fine one. Call it before the first change. Throws `InvalidInput` for another number of triangles, a
+  /// tolerance below 0 or not a number, and after `cover_the_rest` has used a larger tolerance. O(n log n).
+  void limit_triangles(std::span<const double> tolerances);
+
   /// True when the bound is proven to survive the change. Nothing changes until `commit`.
   [[nodiscard]] bool admits(const SurfaceChange& change);
   /// Makes the change that the last call of `admits` admitted. Throws `Error` when there is none.

@@ -5,6 +5,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk.h>
 
+#include <functional>
 #include <memory>
 
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -13,8 +14,11 @@ namespace meshbound::cgal {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-/// Edges with one face are constrained when `enabled`.
-struct BorderConstraint {
+/// Vertices that stay where they are, by descriptor; collapses keep it up to date through the monitor that it asks.
+using LockQuery = std::function<bool(SurfaceMesh::Vertex_index)>;
+
+/// Edges with one face are constrained when `enabled`, edges between two locked vertices always.
+struct KeptParts {
   using key_type = SurfaceMesh::Edge_index;
   using value_type = bool;
   using reference = bool;
@@ -22,12 +26,17 @@ struct BorderConstraint {
 
   const SurfaceMesh* mesh = nullptr;
   bool enabled = false;
-  friend bool get(const BorderConstraint& map, key_type edge) { return map.enabled && map.mesh->is_border(edge); }
+  LockQuery is_locked;  ///< none: nothing is
+
+  friend bool get(const KeptParts& map, key_type edge) {
+    if (map.enabled && map.mesh->is_border(edge)) return true;
+    return map.is_locked && map.is_locked(map.mesh->vertex(edge, 0)) && map.is_locked(map.mesh->vertex(edge, 1));
+  }
 };
 
-/// A vertex on the border, when that is to stay as it is.
-inline bool is_fixed(const BorderConstraint& constraint, SurfaceMesh::Vertex_index v) {
-  return constraint.enabled && constraint.mesh->is_border(v);
+/// A locked vertex, or one on the border when that is to stay as it is.
+inline bool is_fixed(const KeptParts& constraint, SurfaceMesh::Vertex_index v) {
+  return (constraint.enabled && constraint.mesh->is_border(v)) || (constraint.is_locked && constraint.is_locked(v));
 }
 
 /// Garland-Heckbert or Lindstrom-Turk as cost and placement. Quadrics are computed once, from the mesh of the first
@@ -38,7 +47,7 @@ class CollapsePolicies {
  public:
   using Update_tag = CGAL::Tag_true;  // CGAL then calls initialize and update_after_collapse
 
-  CollapsePolicies(SurfaceMesh& mesh, CollapseCost cost, BorderConstraint constraint)
+  CollapsePolicies(SurfaceMesh& mesh, CollapseCost cost, KeptParts constraint)
       : cost_(cost),
         constraint_(constraint),
         quadrics_(std::make_shared<GarlandHeckbert>(mesh)),
@@ -95,7 +104,7 @@ class CollapsePolicies {
   }
 
   CollapseCost cost_;
-  BorderConstraint constraint_;
+  KeptParts constraint_;
   std::shared_ptr<GarlandHeckbert> quadrics_;
   std::shared_ptr<bool> initialized_;
   SMS::LindstromTurk_placement<SurfaceMesh> lindstrom_turk_placement_;

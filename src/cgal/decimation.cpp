@@ -4,6 +4,8 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <algorithm>
+#include <boost/property_map/function_property_map.hpp>
+#include <cmath>
 
 #include "meshbound/mesh_summary.h"
 
@@ -23,6 +25,18 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   result.vertices.reserve(mesh.vertices.size());
   for (const Eigen::Vector3d& p : mesh.vertices) result.vertices.push_back(frame.to_frame(p));
   return result;
+}
+
+/// False at a border, and where a face has no area and so no normal.
+bool is_feature(const SurfaceMesh& mesh, SurfaceMesh::Edge_index edge, double angle) {
+  if (mesh.is_border(edge)) return false;
+  const auto normal = [&](SurfaceMesh::Halfedge_index h) {
+    const auto& p = mesh.point(mesh.source(h));
+    return CGAL::cross_product(mesh.point(mesh.target(h)) - p, mesh.point(mesh.target(mesh.next(h))) - p);
+  };
+  const auto a = normal(mesh.halfedge(edge, 0)), b = normal(mesh.halfedge(edge, 1));
+  if (a.squared_length() == 0 || b.squared_length() == 0) return false;
+  return std::atan2(std::sqrt(CGAL::cross_product(a, b).squared_length()), a * b) > angle;
 }
 
 }  // namespace
@@ -63,20 +77,67 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
   monitor_->normal_guard = NormalGuard();
   monitor_->preserve_boundary = options.preserve_boundary;
   monitor_->should_stop = [this](std::size_t faces) { return must_stop(faces); };
-  policies_.emplace(copy_.mesh, options.cost, BorderConstraint{&copy_.mesh, options.preserve_boundary});
+  lock_vertices();
+  limit_faces();
+  policies_.emplace(copy_.mesh, options.cost, kept_parts());
+}
+
+void Decimation::lock_vertices() {
+  if (options_.locked_vertices.empty() && !options_.feature_angle) return;
+  if (!options_.locked_vertices.empty() && options_.locked_vertices.size() != original_.vertices.size())
+    throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
+  const auto locked = locked_copies();
+  monitor_->lock_vertices(boost::make_function_property_map<SurfaceMesh::Vertex_index>(
+      [&](SurfaceMesh::Vertex_index v) { return bool(locked[v]); }));
+  has_locks_ = true;
+}
+
+/// By vertex of the copy: several vertices of the original, at the same place, may have become one, or one several.
+std::vector<bool> Decimation::locked_copies() const {
+  std::vector<bool> locked(start_points_.size(), false);
+  for (std::size_t v = 0; v < options_.locked_vertices.size(); ++v) {
+    if (!options_.locked_vertices[v]) continue;
+    const Eigen::Vector3d& p = framed_original_.vertices[v];
+    const Kernel::Point_3 point(p.x(), p.y(), p.z());
+    const auto before = [&](SurfaceMesh::Vertex_index a, const Kernel::Point_3& q) { return start_points_[a] < q; };
+    auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), point, before);
+    for (; at != by_start_point_.end() && start_points_[*at] == point; ++at) locked[*at] = true;
+  }
+  if (!options_.feature_angle) return locked;
+  for (const auto edge : copy_.mesh.edges()) {
+    if (!is_feature(copy_.mesh, edge, *options_.feature_angle)) continue;
+    locked[copy_.mesh.vertex(edge, 0)] = true;
+    locked[copy_.mesh.vertex(edge, 1)] = true;
+  }
+  return locked;
+}
+
+void Decimation::limit_faces() {
+  if (options_.face_tolerances.empty()) return;
+  std::vector<double> limits;
+  for (const double tolerance : options_.face_tolerances)
+    limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
+  monitor_->limit_triangles(limits);
+}
+
+/// For the ways into and out of the frame, of the original and of the result, and for the output format.
+double Decimation::room() const { return 4 * frame_.rounding() + frame_.length_to_frame(options_.output_rounding); }
+
+KeptParts Decimation::kept_parts() const {
+  KeptParts kept{&copy_.mesh, options_.preserve_boundary, {}};
+  if (has_locks_) kept.is_locked = [this](SurfaceMesh::Vertex_index v) { return monitor_->is_locked(v); };
+  return kept;
 }
 
 EndedBy Decimation::run(double tolerance, std::size_t target_faces, double seconds) {
-  // Room for the ways into and out of the frame, of the original and of the result, and for the output format.
-  const double room = 4 * frame_.rounding() + frame_.length_to_frame(options_.output_rounding);
   frame_tolerance_ = frame_.length_to_frame(tolerance);
   target_faces_ = target_faces;
   seconds_ = seconds;
   began_ = Clock::now();
   ended_by_.reset();
-  below_rounding_ = !(frame_tolerance_ > 2 * room);
+  below_rounding_ = !(frame_tolerance_ > 2 * room());
   if (below_rounding_) return EndedBy::Rounding;
-  monitor_->grow_tolerance(frame_tolerance_ - room);
+  monitor_->grow_tolerance(frame_tolerance_ - room());
   for (;;) {
     const std::size_t before = monitor_->faces();
     pass();
@@ -88,13 +149,12 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
 }
 
 void Decimation::pass() {
-  const BorderConstraint constraint{&copy_.mesh, options_.preserve_boundary};
   SMS::edge_collapse(copy_.mesh, monitor_->stop_predicate(),
                      CGAL::parameters::get_cost(*policies_)
                          .get_placement(monitor_->placement(*policies_))
                          .filter(Filter(*this))
                          .visitor(monitor_->visitor())
-                         .edge_is_constrained_map(constraint));
+                         .edge_is_constrained_map(kept_parts()));
 }
 
 bool Decimation::must_stop(std::size_t faces) {

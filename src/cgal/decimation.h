@@ -35,6 +35,11 @@ class Decimation {
   [[nodiscard]] bool truly_exceeds();
   [[nodiscard]] TriangleMesh after_refused_collapse() const;
   [[nodiscard]] Eigen::Vector3d in_model(const Kernel::Point_3& p) const;
+  void lock_vertices();
+  void limit_faces();
+  [[nodiscard]] double room() const;
+  [[nodiscard]] std::vector<bool> locked_copies() const;
+  [[nodiscard]] KeptParts kept_parts() const;
   void pass();
   void show_progress(std::size_t faces);
 
@@ -56,6 +61,7 @@ class Decimation {
   std::uint64_t stop_checks_ = 0;
   std::optional<EndedBy> ended_by_;
   bool below_rounding_ = false;
+  bool has_locks_ = false;
 };
 
 }  // namespace meshbound::cgal

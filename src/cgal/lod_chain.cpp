@@ -66,7 +66,7 @@ LodLevel LodChain::next(double tolerance) {
   if (impl_->options.measure) {
     start = Clock::now();
     if (!impl_->tree) impl_->tree.emplace(impl_->original, BvhOptions{impl_->options.threads});
-    measure_level(*impl_->tree, level, impl_->options);
+    measure_level(impl_->original, *impl_->tree, level, impl_->options);
     impl_->seconds.measure += seconds_since(start);
   }
   return level;

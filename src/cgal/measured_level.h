@@ -17,7 +17,8 @@ void check_options(const SimplifyOptions& options);
 /// Mesh and counts of the decimation as it stands.
 void take_state(const Decimation& decimation, SimplifiedLevel& level);
 
-/// Measures the mesh of the level against the original and decides about its tolerance.
-void measure_level(const Bvh& original, SimplifiedLevel& level, const SimplifyOptions& options);
+/// Measures the mesh of the level against the original, of which `tree` is, and decides about its tolerances.
+void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,
+                   const SimplifyOptions& options);
 
 }  // namespace meshbound::cgal

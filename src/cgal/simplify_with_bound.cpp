@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "cgal/measured_level.h"
 #include "meshbound/error.h"
+#include "meshbound/face_tolerances.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 
@@ -64,6 +66,8 @@ void check_options(const SimplifyOptions& options) {
   }
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
+  if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))
+    throw InvalidInput("the feature angle must lie between 0 and 180 degrees");
   if (!is_length(options.output_rounding)) throw InvalidInput("the output rounding must be a length, 0 or more");
   if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
 }
@@ -74,16 +78,19 @@ void take_state(const Decimation& decimation, SimplifiedLevel& level) {
   level.collapses_refused = decimation.monitor().counts().refused;
 }
 
-void measure_level(const Bvh& original, SimplifiedLevel& level, const SimplifyOptions& options) {
+void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,
+                   const SimplifyOptions& options) {
   DistanceOptions distance;
   distance.tolerance = level.tolerance;
   distance.threads = options.threads;
   distance.cancel = options.cancel;
-  level.distance = symmetric_distance(original, Bvh(level.mesh, BvhOptions{options.threads}), distance);
+  level.distance = symmetric_distance(tree, Bvh(level.mesh, BvhOptions{options.threads}), distance);
   const Bounds& bounds = level.distance->bounds;
   level.verdict = bounds.upper <= level.tolerance  ? Verdict::Within
                   : bounds.lower > level.tolerance ? Verdict::Exceeds
                                                    : Verdict::Undecided;
+  if (options.face_tolerances.empty() || level.verdict != Verdict::Within) return;
+  level.verdict = check_face_tolerances(original, options.face_tolerances, level.tolerance, level.mesh).verdict;
 }
 
 SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options) {
@@ -110,7 +117,7 @@ SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyO
   if (!options.measure) return result;
   const auto measuring = Clock::now();
   const Bvh tree(original, BvhOptions{options.threads});
-  for (SimplifiedLevel& level : result.levels) measure_level(tree, level, options);
+  for (SimplifiedLevel& level : result.levels) measure_level(original, tree, level, options);
   result.seconds.measure = seconds_since(measuring);
   return result;
 }

@@ -11,6 +11,7 @@
 #include "simplify/cover_assignment.h"
 #include "simplify/degree_cover.h"
 #include "simplify/forward_cover.h"
+#include "simplify/local_tolerance.h"
 
 namespace meshbound {
 namespace {
@@ -62,8 +63,11 @@ struct DeviationTracker::Impl {
   std::vector<Triangle> triangles;
   Proximity proximity;
   double tolerance = 0;
-  double working_tolerance = 0;  ///< what is proven, see `set_tolerance`
-  double magnitude = 0;          ///< largest coordinate seen
+  double working_tolerance = 0;         ///< what is proven, see `set_tolerance`
+  double magnitude = 0;                 ///< largest coordinate seen
+  std::optional<LocalTolerance> local;  ///< where triangles have tolerances of their own
+  double limit = 0;                     ///< what must be proven for the change under test
+  bool covered_with_room = false;       ///< `cover_the_rest` has used a tolerance above 0
 
   CoverAssignment cover;
   std::vector<Corners> corners;        ///< of current faces, by id
@@ -103,6 +107,8 @@ struct DeviationTracker::Impl {
     affected_marks.reserve(triangles.size());
   }
   void set_tolerance(double value);
+  [[nodiscard]] double provable(double value) const;
+  [[nodiscard]] double limit_of_change() const;
   void put_face(std::uint32_t id, const Corners& at, std::uint32_t near);
 
   void select(const SurfaceChange& change);
@@ -114,12 +120,30 @@ struct DeviationTracker::Impl {
   [[nodiscard]] bool added_faces_near();
 };
 
+/// What must be proven in doubles so that `value` holds in real arithmetic.
+double DeviationTracker::Impl::provable(double value) const {
+  // New vertices lie within the tolerance of old ones. The slack of a distance, and of the cuts above a piece:
+  const double size = magnitude + tolerance;
+  const double slack = CandidateFaces::rounding_slack(size) + ForwardCover::deepest_cut * cut_error * size;
+  return value * tracking_share * (1 - 2 * CandidateFaces::plane_slack) - slack;
+}
+
 void DeviationTracker::Impl::set_tolerance(double value) {
   tolerance = value;
-  // New vertices lie within the tolerance of old ones. The slack of a distance, and of the cuts above a piece:
-  const double size = magnitude + value;
-  const double slack = CandidateFaces::rounding_slack(size) + ForwardCover::deepest_cut * cut_error * size;
-  working_tolerance = value * tracking_share * (1 - 2 * CandidateFaces::plane_slack) - slack;
+  working_tolerance = provable(value);
+}
+
+/// The box holds all that the change touches, the original triangles that need another cover included.
+double DeviationTracker::Impl::limit_of_change() const {
+  if (!local) return working_tolerance;
+  Eigen::AlignedBox3d box;
+  for (const TrackedFace& face : pending.added) {
+    for (const Eigen::Vector3d& p : face.corners) box.extend(p);
+  }
+  for (const std::uint32_t t : pending.affected) {
+    for (const std::uint32_t v : triangles[t]) box.extend(Eigen::Vector3d(vertices[v].x, vertices[v].y, vertices[v].z));
+  }
+  return provable(local->sufficient_around(box, tolerance));
 }
 
 void DeviationTracker::Impl::put_face(std::uint32_t id, const Corners& at, std::uint32_t near) {
@@ -172,13 +196,14 @@ void DeviationTracker::Impl::select(const SurfaceChange& change) {
 bool DeviationTracker::Impl::moved_vertex_near(const SurfaceChange& change) {
   if (!change.moved_vertex || pending.added.empty()) return true;
   std::uint32_t hint = pending.affected.empty() ? 0 : pending.affected.front();
-  return proximity.upper_distance(*change.moved_vertex, hint) <= working_tolerance;
+  return proximity.upper_distance(*change.moved_vertex, hint) <= limit;
 }
 
 Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
   select(change);
   if (pending.added.empty() && pending.affected.empty()) return Refusal::None;
-  if (!(working_tolerance > 0)) return Refusal::ToleranceBelowRounding;
+  limit = limit_of_change();
+  if (!(limit > 0)) return Refusal::ToleranceBelowRounding;
   if (pending.added.size() > most_added_faces) return Refusal::TooManyFaces;
   if (!moved_vertex_near(change)) return Refusal::MovedVertexTooFar;
   const Refusal forward_refusal = cover_affected(change);
@@ -187,7 +212,7 @@ Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
 }
 
 Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
-  forward.begin(working_tolerance);
+  forward.begin(limit);
   for (const TrackedFace& face : pending.added)
     forward.add({to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])}, face.id);
   forward.close_added();
@@ -259,12 +284,11 @@ bool DeviationTracker::Impl::added_faces_near() {
     std::uint32_t& hint = pending.nearest[k];
     ++stats.faces_tested;
     const Corners face{to_vec3(at[0]), to_vec3(at[1]), to_vec3(at[2])};
-    if (degree.covers(face, working_tolerance, magnitude, hint)) {
+    if (degree.covers(face, limit, magnitude, hint)) {
       ++stats.faces_by_degree;
       continue;
     }
-    if (proximity.triangle_within(at, working_tolerance, hint, most_cuts_of_added_face) != Verdict::Within)
-      return false;
+    if (proximity.triangle_within(at, limit, hint, most_cuts_of_added_face) != Verdict::Within) return false;
   }
   return true;
 }
@@ -293,6 +317,7 @@ std::vector<std::uint32_t> DeviationTracker::cover_the_rest() {
     if (impl_->cover.faces_of(t).empty()) rest.push_back(t);
   }
   if (rest.empty()) return rest;
+  impl_->covered_with_room = impl_->working_tolerance > 0;
   std::vector<std::vector<std::uint32_t>> faces_at(impl_->vertices.size());
   MarkedIds wanted;
   wanted.reserve(impl_->vertices.size());
@@ -324,6 +349,23 @@ std::vector<std::uint32_t> DeviationTracker::cover_the_rest() {
       impl_->cover.assign(t, ids);
   }
   return uncovered;
+}
+
+void DeviationTracker::limit_triangles(std::span<const double> tolerances) {
+  if (tolerances.size() != impl_->triangles.size())
+    throw InvalidInput("tolerances of triangles must be given for every triangle of the original");
+  if (std::any_of(tolerances.begin(), tolerances.end(), [](double t) { return !(t >= 0); }))
+    throw InvalidInput("the tolerance of a triangle must be a length, 0 or more");
+  if (impl_->covered_with_room)
+    throw InvalidInput("some triangles without a face are covered with the tolerance for all already");
+  std::vector<Eigen::AlignedBox3d> boxes(tolerances.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const std::uint32_t v : impl_->triangles[t]) {
+      const Vec3 p = impl_->vertices[v];
+      boxes[t].extend(Eigen::Vector3d(p.x, p.y, p.z));
+    }
+  }
+  impl_->local.emplace(std::move(boxes), tolerances);
 }
 
 bool DeviationTracker::admits(const SurfaceChange& change) {

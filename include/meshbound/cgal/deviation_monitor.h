@@ -27,6 +27,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,30 @@ class DeviationMonitor {
   /// `Placement` then never moves a vertex of the border by itself.
   bool preserve_boundary = false;
 
+  /// Vertices for which the property map gives true stay where they are: no collapse moves them or joins two of them.
+  /// Read once, now. A collapse may go on with the other vertex descriptor of its edge; the lock goes with the point.
+  /// `Placement` puts the vertex of a collapse where the locked end is; without it, other placements are refused.
+  template <class LockMap>
+  void lock_vertices(const LockMap& is_locked) {
+    for (const Vertex v : CGAL::vertices(mesh_)) {
+      VertexMemory memory = get(vertex_memory_, v);
+      memory.locked = bool(get(is_locked, v));
+      put(vertex_memory_, v, memory);
+    }
+  }
+  [[nodiscard]] bool is_locked(Vertex v) const { return get(vertex_memory_, v).locked; }
+
+  /// A tolerance for each face of the mesh, which must be the original itself, by a property map: see
+  /// `DeviationTracker::limit_triangles` for what it means. Before the first collapse.
+  template <class ToleranceMap>
+  void limit_faces(const ToleranceMap& tolerances) {
+    std::vector<double> by_triangle;
+    for (const Face f : CGAL::faces(mesh_)) by_triangle.push_back(CGAL::to_double(get(tolerances, f)));
+    limit_triangles(by_triangle);
+  }
+  /// The same by triangle of the original.
+  void limit_triangles(std::span<const double> tolerances) { tracker_.limit_triangles(tolerances); }
+
   /// Ends the next run when it returns true; asked before each collapse, with the number of faces left. None: never.
   std::function<bool(std::size_t faces)> should_stop;
 
@@ -132,6 +157,7 @@ class DeviationMonitor {
   struct VertexMemory {
     std::uint64_t moved_at = 0;    ///< clock of the last collapse into this vertex
     std::uint64_t touched_at = 0;  ///< clock of the last collapse into this vertex or a neighbour
+    bool locked = false;
   };
 
   [[nodiscard]] static Eigen::Vector3d to_eigen(const Point& p) {
@@ -156,6 +182,11 @@ class DeviationMonitor {
   void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) const;
   [[nodiscard]] bool nothing_changed_since(const EdgeMemory& memory, Vertex v0, Vertex v1) const;
   void collapsed_into(Vertex v);
+  [[nodiscard]] bool locks_allow(Vertex v0, Vertex v1, const Point& placement) const {
+    const bool first = is_locked(v0), second = is_locked(v1);
+    if (first && second) return false;
+    return (!first || placement == get(points_, v0)) && (!second || placement == get(points_, v1));
+  }
 
   Mesh& mesh_;
   VertexPointMap points_;
@@ -178,6 +209,7 @@ class DeviationMonitor {
   bool refused_by_bound_ = false;
   std::optional<std::pair<Halfedge, Point>> admitted_;
   bool collapsing_ = false;
+  bool collapsing_locked_ = false;  ///< one of the ends is locked
 };
 
 }  // namespace meshbound::cgal

@@ -48,6 +48,14 @@ struct SimplifyOptions {
   std::vector<double> levels;
   CollapseCost cost = CollapseCost::GarlandHeckbert;
   bool preserve_boundary = false;  ///< edges with one face stay as they are
+  /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.
+  std::vector<bool> locked_vertices;
+  /// Edges whose faces' normals are further apart than this stay as they are, both ends locked. Radians, 0 to pi.
+  std::optional<double> feature_angle;
+  /// By triangle of the original, model units, empty for none: beside `tolerance`, every point of triangle k stays
+  /// within face_tolerances[k] of the result, and every point of the result within face_tolerances[g] of the original
+  /// triangle g nearest to it. The verdict of a level includes them (`check_face_tolerances`).
+  std::vector<double> face_tolerances;
   /// The caller will move vertices by at most this afterwards (a file format of single precision), model units: room
   /// for it is kept within the tolerance.
   double output_rounding = 0;
@@ -94,6 +102,14 @@ struct SimplifyResult {
 ///
 /// Throws `InvalidInput` for options out of range, for input that `validate` refuses, and when no manifold copy exists.
 [[nodiscard]] SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options);
+
+/// A vertex property map of a face graph as `SimplifyOptions::locked_vertices` for that graph. O(n).
+template <class FaceGraph, class LockMap>
+[[nodiscard]] std::vector<bool> locked_vertices(const FaceGraph& graph, const LockMap& is_locked) {
+  std::vector<bool> locked;
+  for (const auto v : vertices(graph)) locked.push_back(bool(get(is_locked, v)));
+  return locked;
+}
 
 /// The same for any triangulated face graph of CGAL.
 template <class FaceGraph>

@@ -89,6 +89,7 @@ class DeviationMonitor<Mesh, VertexPointMap>::Visitor {
     admitted.reset();
     monitor_->tracker_.commit();
     monitor_->collapsing_ = true;
+    monitor_->collapsing_locked_ = monitor_->is_locked(profile.v0()) || monitor_->is_locked(profile.v1());
     monitor_->faces_ -= (profile.left_face_exists() ? 1u : 0u) + (profile.right_face_exists() ? 1u : 0u);
   }
   /// Throws `Error` for the collapses of zero-length edges that CGAL makes without asking.

@@ -129,6 +129,7 @@ bool DeviationMonitor<Mesh, VertexPointMap>::nothing_changed_since(const EdgeMem
 template <class Mesh, class VertexPointMap>
 bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex v1, const Point& placement,
                                                   std::uint32_t try_first) {
+  if (!locks_allow(v0, v1, placement)) return false;
   gather_star(v0, v1, placement);
   if (!passes_guards()) return false;
   SurfaceChange change;
@@ -171,6 +172,13 @@ template <class Mesh, class VertexPointMap>
 template <class Profile>
 std::optional<typename DeviationMonitor<Mesh, VertexPointMap>::Point>
 DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profile, const Point& wanted) {
+  const bool locked = is_locked(profile.v0()) || is_locked(profile.v1());
+  if (locked) {
+    const Point& kept = get(points_, is_locked(profile.v0()) ? profile.v0() : profile.v1());
+    if (admits(profile, kept)) return kept;
+    refused_.emplace(profile.v0_v1(), wanted);
+    return std::nullopt;
+  }
   if (admits(profile, wanted)) return wanted;
   const Edge e = edge(profile.v0_v1(), mesh_);
   EdgeMemory memory = get(edge_memory_, e);
@@ -212,7 +220,7 @@ template <class Mesh, class VertexPointMap>
 void DeviationMonitor<Mesh, VertexPointMap>::collapsed_into(Vertex v) {
   ++counts_.performed;
   const std::uint64_t now = ++clock_;
-  put(vertex_memory_, v, VertexMemory{now, now});
+  put(vertex_memory_, v, VertexMemory{now, now, collapsing_locked_});
   for (const Halfedge h : CGAL::halfedges_around_target(halfedge(v, mesh_), mesh_)) {
     VertexMemory memory = get(vertex_memory_, source(h, mesh_));
     memory.touched_at = now;
