@@ -11,6 +11,7 @@ set ytics nomirror
 set multiplot layout 3,2
 do for [pair in "Bird1-Bird2 Watch1-Watch2 Puma1-Puma2 Bunny1-Bunny2 Fish1-Fish2 Dog-Lion"] {
   file = 'paper-'.pair.'.csv'
+  if (system("test -e ".file." && echo yes") ne "yes") { continue }
   set title pair
   set ylabel "ms, closest-point queries / 1000"
   set y2label "distance, longest dimensions"
