@@ -151,6 +151,28 @@ TEST_F(HausdorffTool, WritesJsonToAFileAndASummaryToStdout) {
   EXPECT_EQ(quiet.exit_code, 0);
 }
 
+TEST_F(HausdorffTool, PrintsAProfileWhenAsked) {
+  const ToolRun plain = run({sphere_, soup_});
+  EXPECT_EQ(plain.out.find("culled on A"), std::string::npos);
+  const ToolRun profiled = run({sphere_, soup_, "--profile"});
+  EXPECT_EQ(profiled.exit_code, 0) << profiled.err;
+  for (const char* part : {"profile A to B", "profile B to A", "culled on B", "subdivisions into", "culling on A"})
+    EXPECT_NE(profiled.out.find(part), std::string::npos) << part;
+  const json stats = parsed(run({sphere_, soup_, "--json", "-", "--threads", "1"}))["stats"];
+  EXPECT_GT(stats["pieces"], 0);
+  EXPECT_GT(stats["phase_seconds"]["subdivision"], 0.0);
+}
+
+TEST_F(HausdorffTool, MeasuresByThePapersMethodToo) {
+  const json walked = parsed(run({cube_, soup_, "--json", "-", "--error-bound", "1e-3"}))["distance"];
+  const json paper =
+      parsed(run({cube_, soup_, "--json", "-", "--error-bound", "1e-3", "--method", "cross-culling"}))["distance"];
+  EXPECT_LE(walked["lower"], paper["upper"]);
+  EXPECT_LE(paper["lower"], walked["upper"]);
+  EXPECT_NE(walked["a_to_b"]["upper"], paper["a_to_b"]["upper"]) << "the method made no difference at all";
+  expect_one_line_and_exit_2(run({cube_, soup_, "--method", "guessing"}));
+}
+
 TEST_F(HausdorffTool, GivesTheSameForAnyNumberOfThreads) {
   const json one = parsed(run({sphere_, soup_, "--threads", "1", "--json", "-"}));
   const json two = parsed(run({sphere_, soup_, "--threads", "2", "--json", "-"}));

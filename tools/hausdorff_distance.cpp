@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -32,6 +33,8 @@ struct Arguments {
   std::string tolerance;
   std::string transform_b;
   bool one_sided = false;
+  bool profile = false;
+  Method method = Method::CellWalking;
   CommonOptions common;
 };
 
@@ -66,7 +69,7 @@ struct Answer {
   OneSidedDistance a_to_b;
   std::optional<OneSidedDistance> b_to_a;
   std::string verdict;
-  ExitCode exit_code = exit_undecided;
+  ExitCode exit_code = ExitUndecided;
 };
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
@@ -80,6 +83,12 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_flag("--one-sided", arguments.one_sided, "Only from A to B");
   app.add_option("--transform-b", arguments.transform_b,
                  "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
+  app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
+  const std::map<std::string, Method> methods{{"cell-walking", Method::CellWalking},
+                                              {"cross-culling", Method::CrossCulling}};
+  app.add_option("--method", arguments.method,
+                 "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009 as published")
+      ->transform(CLI::CheckedTransformer(methods));
   add_common_options(app, arguments.common);
 }
 
@@ -115,7 +124,7 @@ Answer decide(const Bvh& a, const Bvh& b, const Question& question, DistanceOpti
     options.budget.seconds = std::max(0.0, options.budget.seconds - used);
     result = check(a, b, widened({tolerance, tolerance}, question.displacement).upper, question, options);
   }
-  Answer answer{result.bounds, result.a_to_b, std::nullopt, {}, exit_undecided};
+  Answer answer{result.bounds, result.a_to_b, std::nullopt, {}, ExitUndecided};
   if (!question.one_sided) answer.b_to_a = result.b_to_a;
   return answer;
 }
@@ -123,10 +132,10 @@ Answer decide(const Bvh& a, const Bvh& b, const Question& question, DistanceOpti
 Answer measure(const Bvh& a, const Bvh& b, const Question& question, const DistanceOptions& options) {
   if (question.one_sided) {
     OneSidedDistance result = one_sided_distance(a, b, options);
-    return {result.bounds, result, std::nullopt, {}, exit_undecided};
+    return {result.bounds, result, std::nullopt, {}, ExitUndecided};
   }
   const SymmetricDistance result = symmetric_distance(a, b, options);
-  return {result.bounds, result.a_to_b, result.b_to_a, {}, exit_undecided};
+  return {result.bounds, result.a_to_b, result.b_to_a, {}, ExitUndecided};
 }
 
 void widen(Answer& answer, double displacement) {
@@ -155,7 +164,7 @@ Answer answer_to(const Question& question, const Bvh& a, const Bvh& b, const Dis
   } else {
     const bool done = is_done(answer, question);
     answer.verdict = done ? "done" : "undecided";
-    answer.exit_code = done ? exit_done : exit_undecided;
+    answer.exit_code = done ? ExitDone : ExitUndecided;
   }
   return answer;
 }
@@ -183,6 +192,23 @@ void print_direction(const char* label, const OneSidedDistance& distance, double
   const Eigen::Vector3d& to = distance.witness.nearest.position;
   std::printf("%-20s from (%.17g %.17g %.17g) to (%.17g %.17g %.17g)\n", "  witness", from.x(), from.y(), from.z(),
               to.x(), to.y(), to.z());
+}
+
+unsigned long long count(std::uint64_t n) { return n; }  // printf has no portable letter for it
+
+/// The statistics that the paper reports in its Table 2 and Fig. 9, and what came of the triangles of one direction.
+void print_profile(const char* label, const OneSidedDistance& distance) {
+  const DistanceStats& s = distance.stats;
+  std::printf("%-20s %.3f%% culled on A, %.5f%% culled on B\n", label, s.culled_on_a_percent, s.culled_on_b_percent);
+  std::printf("%-20s %llu triangles: %llu identical, %llu culled by node, %llu by their corners, %llu subdivided\n", "",
+              count(s.triangles), count(s.matched), count(s.culled_by_node), count(s.culled_by_vertices),
+              count(s.walked));
+  std::printf("%-20s %llu queries, %llu nodes, %llu triangles tested\n", "", count(s.closest_point_queries),
+              count(s.nodes_visited), count(s.triangles_tested));
+  std::printf("%-20s %llu subdivisions into %llu pieces, %u deep; %llu resolved, %llu given up\n", "",
+              count(s.subdivisions), count(s.pieces), s.deepest_subdivision, count(s.resolved), count(s.given_up));
+  std::printf("%-20s matching %.4f s, culling on A %.4f s, on B %.4f s, subdivision %.4f s\n", "", s.phases.matching,
+              s.phases.culling_on_a, s.phases.culling_on_b, s.phases.subdivision);
 }
 
 void print_report(const DistanceReport& report) {
@@ -214,6 +240,7 @@ DistanceOptions engine_options(const Arguments& arguments, const Question& quest
   DistanceOptions options;
   options.error_bound = question.error_bound;
   if (question.error_bound && question.tolerance) options.tolerance = shrunk_tolerance(question);
+  options.method = arguments.method;
   options.threads = arguments.common.threads;
   options.cancel = &watch_interrupts();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
@@ -278,7 +305,11 @@ int run(const Arguments& arguments) {
   report.seconds.total = watch.total();
 
   if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
-  if (arguments.common.json != "-" && !arguments.common.quiet) print_report(report);
+  if (arguments.common.json != "-" && !arguments.common.quiet) {
+    print_report(report);
+    if (arguments.profile) print_profile("profile A to B", report.a_to_b);
+    if (arguments.profile && report.b_to_a) print_profile("profile B to A", *report.b_to_a);
+  }
   return answer.exit_code;
 }
 

@@ -74,6 +74,13 @@ Json stats(const std::vector<const OneSidedDistance*>& directions) {
     sum.nodes_visited += one.nodes_visited;
     sum.triangles_tested += one.triangles_tested;
     sum.subdivisions += one.subdivisions;
+    sum.pieces += one.pieces;
+    sum.resolved += one.resolved;
+    sum.given_up += one.given_up;
+    sum.phases.matching += one.phases.matching;
+    sum.phases.culling_on_a += one.phases.culling_on_a;
+    sum.phases.culling_on_b += one.phases.culling_on_b;
+    sum.phases.subdivision += one.phases.subdivision;
     sum.deepest_subdivision = std::max(sum.deepest_subdivision, one.deepest_subdivision);
     culled_triangles += one.culled_on_a_percent * static_cast<double>(one.triangles);
     culled_queries += one.culled_on_b_percent * static_cast<double>(one.closest_point_queries);
@@ -92,7 +99,15 @@ Json stats(const std::vector<const OneSidedDistance*>& directions) {
           {"walked", sum.walked},
           {"nodes_visited", sum.nodes_visited},
           {"triangles_tested", sum.triangles_tested},
-          {"deepest_subdivision", sum.deepest_subdivision}};
+          {"deepest_subdivision", sum.deepest_subdivision},
+          {"pieces", sum.pieces},
+          {"resolved", sum.resolved},
+          {"given_up", sum.given_up},
+          {"phase_seconds",
+           {{"matching", number(sum.phases.matching)},
+            {"culling_on_a", number(sum.phases.culling_on_a)},
+            {"culling_on_b", number(sum.phases.culling_on_b)},
+            {"subdivision", number(sum.phases.subdivision)}}}};
 }
 
 std::string text(const Json& document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }

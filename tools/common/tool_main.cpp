@@ -13,7 +13,7 @@ namespace {
 int complain(const CLI::App& app, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
-  return exit_bad_input;
+  return ExitBadInput;
 }
 
 }  // namespace
@@ -21,13 +21,13 @@ int complain(const CLI::App& app, std::string message) {
 ExitCode exit_code(Verdict verdict) {
   switch (verdict) {
     case Verdict::Within:
-      return exit_done;
+      return ExitDone;
     case Verdict::Exceeds:
-      return exit_exceeds;
+      return ExitExceeds;
     case Verdict::Undecided:
       break;
   }
-  return exit_undecided;
+  return ExitUndecided;
 }
 
 void add_common_options(CLI::App& app, CommonOptions& options) {

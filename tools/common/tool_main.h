@@ -9,7 +9,7 @@
 
 namespace meshbound::tools {
 
-enum ExitCode : int { exit_done = 0, exit_exceeds = 1, exit_bad_input = 2, exit_undecided = 3 };
+enum ExitCode : int { ExitDone = 0, ExitExceeds = 1, ExitBadInput = 2, ExitUndecided = 3 };
 
 [[nodiscard]] ExitCode exit_code(Verdict verdict);
 
@@ -25,7 +25,7 @@ struct CommonOptions {
 void add_common_options(CLI::App& app, CommonOptions& options);
 
 /// Parses the command line and calls `run`, whose result is the exit code. A usage error or an exception becomes one
-/// line on stderr and `exit_bad_input`; --help and --version print on stdout and give `exit_done`.
+/// line on stderr and `ExitBadInput`; --help and --version print on stdout and give `ExitDone`.
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
 }  // namespace meshbound::tools
