@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Culling on A by whole nodes: paper, Algorithm 1, with Eq. 8-9 taken at the centre of a box.
+/// Culling on A by whole nodes: paper, Algorithm 1, with Eq. 8-9 taken for boxes.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 
@@ -38,25 +39,34 @@ class NodeTest {
     scale_ = length(map.rows[0]) * (1 + 0x1p-40);
   }
 
-  [[nodiscard]] double radius(std::uint32_t level, std::uint32_t index) const {
-    return scale_ * ball_around(node_box(a_, level, index)).radius;
-  }
-
-  /// Eq. 8: no point of a ball is further from B than its centre's distance plus its radius. Infinite where the ball is
-  /// larger than the target, which could not be met.
+  /// Eq. 8 for a node. First by the corners of its box and the triangle that served last: d(., t) is convex, so they
+  /// bound the box, and where that is enough no query is spent. Then by the triangle nearest to the centre, and by the
+  /// ball around the box. Infinite where the ball is larger than the target, which a query would hardly meet.
   double bound_squared(std::uint32_t level, std::uint32_t index) {
-    const Ball ball = ball_around(node_box(a_, level, index));
+    const Box box = node_box(a_, level, index);
+    const std::array<Vec3, 8> corners = corners_of(box);
+    const double by_hint = searcher_.farthest_squared(corners, hint_);
+    if (by_hint <= searcher_.accepted_squared()) return by_hint;
+    const Ball ball = ball_around(box);
     const double reach = scale_ * ball.radius;
     if (reach * reach >= searcher_.accepted_squared()) return std::numeric_limits<double>::infinity();
     const Nearest nearest = searcher_.nearest(map_(ball.centre), hint_, 0);
     hint_ = nearest.slot;
-    const double bound = std::sqrt(nearest.squared) + reach;
-    return bound * bound * (1 + 0x1p-40);
+    const double by_ball = std::sqrt(nearest.squared) + reach;
+    return std::min(by_ball * by_ball * (1 + 0x1p-40), searcher_.farthest_squared(corners, hint_));
   }
 
   std::uint32_t hint() const { return hint_; }
 
  private:
+  [[nodiscard]] std::array<Vec3, 8> corners_of(const Box& box) const {
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i)
+      corners[i] = map_(
+          {(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y, (i & 4) != 0 ? box.hi.z : box.lo.z});
+    return corners;
+  }
+
   const Bvh::Data& a_;
   const Mapping& map_;
   Searcher& searcher_;
