@@ -45,10 +45,10 @@ double CgalPair::bounded_error(double error_bound) const {
 }
 
 double CgalPair::approximate(double points_per_area) const {
-  const auto seeded = CGAL::parameters::random_seed(2009u);
+  CGAL::get_default_random() = CGAL::Random(2009);  // the parameter random_seed does not reach every sampler
   if (points_per_area == 0)
-    return PMP::approximate_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(meshes_->a, meshes_->b, seeded, seeded);
-  const auto sampled = seeded.number_of_points_per_area_unit(points_per_area);
+    return PMP::approximate_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(meshes_->a, meshes_->b);
+  const auto sampled = CGAL::parameters::number_of_points_per_area_unit(points_per_area);
   return PMP::approximate_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(meshes_->a, meshes_->b, sampled, sampled);
 }
 
