@@ -205,8 +205,9 @@ void print_profile(const char* label, const OneSidedDistance& distance) {
               count(s.walked));
   std::printf("%-20s %llu queries, %llu nodes, %llu triangles tested\n", "", count(s.closest_point_queries),
               count(s.nodes_visited), count(s.triangles_tested));
-  std::printf("%-20s %llu subdivisions into %llu pieces, %u deep; %llu resolved, %llu given up\n", "",
-              count(s.subdivisions), count(s.pieces), s.deepest_subdivision, count(s.resolved), count(s.given_up));
+  std::printf("%-20s %llu subdivisions into %llu pieces, %u deep; %llu resolved, %llu enclosed, %llu given up\n", "",
+              count(s.subdivisions), count(s.pieces), s.deepest_subdivision, count(s.resolved), count(s.enclosed),
+              count(s.given_up));
   std::printf("%-20s matching %.4f s, culling on A %.4f s, on B %.4f s, subdivision %.4f s\n", "", s.phases.matching,
               s.phases.culling_on_a, s.phases.culling_on_b, s.phases.subdivision);
 }

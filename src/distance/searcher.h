@@ -37,6 +37,7 @@ class Searcher {
 
   /// From now on `cover` leaves the triangles of B that the pieces were accepted on here; null: nowhere.
   virtual void record_in(CoverRecord* record) = 0;
+
   /// Bounds of h(T, B) for a triangle T of A, by one traversal (paper, Alg. 2); it ends early once the upper bound is
   /// within `enough_squared`. Starts with the triangles of B in `hints`.
   virtual GroupBounds cull_on_b(const TriangleCorners& triangle, std::span<const std::uint32_t> hints,

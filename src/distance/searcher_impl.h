@@ -39,6 +39,7 @@ class SearcherImpl final : public Searcher {
   }
 
   void record_in(CoverRecord* record) override { walker_.record_in(record); }
+
   GroupBounds cull_on_b(const TriangleCorners& triangle, std::span<const std::uint32_t> hints,
                         double enough_squared) override {
     GroupBounds bounds;

@@ -76,6 +76,7 @@ Json stats(const std::vector<const OneSidedDistance*>& directions) {
     sum.subdivisions += one.subdivisions;
     sum.pieces += one.pieces;
     sum.resolved += one.resolved;
+    sum.enclosed += one.enclosed;
     sum.given_up += one.given_up;
     sum.phases.matching += one.phases.matching;
     sum.phases.culling_on_a += one.phases.culling_on_a;
@@ -102,6 +103,7 @@ Json stats(const std::vector<const OneSidedDistance*>& directions) {
           {"deepest_subdivision", sum.deepest_subdivision},
           {"pieces", sum.pieces},
           {"resolved", sum.resolved},
+          {"enclosed", sum.enclosed},
           {"given_up", sum.given_up},
           {"phase_seconds",
            {{"matching", number(sum.phases.matching)},
