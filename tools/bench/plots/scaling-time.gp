@@ -2,6 +2,7 @@
 set terminal svg size 1000,420 font "sans,11" background "white"
 set output picture
 set datafile separator comma
+set datafile missing NaN  # rows of the other curves do not break a line
 set logscale x
 set format x "10^{%T}"
 set xlabel "triangles of both meshes"
