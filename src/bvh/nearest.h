@@ -84,7 +84,8 @@ inline float prune_limit(double squared) {
 /// Depth-first walk over the tree, nearest child first. `on_block(index)` tests a block of triangles and returns the
 /// limit from then on. The stack holds at most 7 siblings for each of at most 10 levels (8^10 > 2^30) and one root.
 template <class OnBlock>
-void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, QueryCounters& counters, OnBlock&& on_block) {
+void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, QueryCounters& counters,
+                OnBlock&& on_block) {
   struct Entry {
     float squared;
     std::uint32_t level;
