@@ -27,7 +27,7 @@ constexpr double allowed_width = 32768;
 
 /// The same where a direction or a height is mostly rounding: points next to the surface, slivers, needles. The bounds
 /// hold there too, but the closest point that the engine constructs may be this far from the true one.
-constexpr double allowed_width_next_to_surface = 0x1p18;
+constexpr double allowed_width_next_to_surface = 0x1p13;
 
 class Random {
  public:

@@ -159,8 +159,9 @@ inline void step_towards(const Bvh::Data& data, const Vec3& p, double enough_squ
   }
 }
 
-/// `separation` by the offset from the closest point; where rounding spoils that direction, by the offset in extended
-/// precision (slivers) and by the normal of the triangle (next to the surface, where the offset is mostly rounding).
+/// `separation` by the offset from the closest point. Where rounding spoils that direction: by the offset in extended
+/// precision and by the normal of the triangle, each also made perpendicular to an edge, as it is wherever the closest
+/// point lies on that edge or inside (needles, slivers, points next to the surface).
 inline double best_separation(const CornerTriangle<double>& t, const Vec3& p, double wanted) {
   double best = separation(t, p, closest_on_triangle(t, p).offset);
   if (best >= wanted) return best;
@@ -169,8 +170,13 @@ inline double best_separation(const CornerTriangle<double>& t, const Vec3& p, do
   const Vec3 normal = cross(t.ab, t.ac);
   for (const Vec3& direction :
        {Vec3{static_cast<double>(offset.x), static_cast<double>(offset.y), static_cast<double>(offset.z)}, normal,
-        Vec3{} - normal})
+        Vec3{} - normal}) {
     best = std::max(best, separation(t, p, direction));
+    for (const Vec3& edge : {t.ab, t.ac, t.ac - t.ab}) {
+      const double along = dot(direction, edge) * detail::reciprocal(dot(edge, edge));
+      best = std::max(best, separation(t, p, direction - along * edge));
+    }
+  }
   return best;
 }
 
