@@ -87,7 +87,7 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   const std::map<std::string, Method> methods{{"cell-walking", Method::CellWalking},
                                               {"cross-culling", Method::CrossCulling}};
   app.add_option("--method", arguments.method,
-                 "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009 as published")
+                 "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
       ->transform(CLI::CheckedTransformer(methods));
   add_common_options(app, arguments.common);
 }

@@ -69,7 +69,7 @@ SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
   task.tolerance = tolerance_of(options);
   SymmetricDistance result;
   // Paper, section 6. Cell walking finds its closest triangles from neighbours along the curve, nearly without queries:
-  // cached pairs gained it nothing (-2% to 3% on six pairs).
+  // cached pairs gained it nothing (-2% to 6% on six pairs).
   std::vector<std::uint32_t> pairs;
   if (options.method == Method::CrossCulling) {
     pairs.assign(b.bvh->triangle_count(), no_slot);
