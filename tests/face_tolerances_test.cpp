@@ -91,6 +91,17 @@ TEST(FaceTolerances, HoldForAFineSheetAboveACoarseOne) {
   EXPECT_LT(level.faces(), sheets.triangles.size());
 }
 
+TEST(FaceTolerances, HoldWithHighEffort) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  SimplifyOptions options = options_for(torus);
+  const std::size_t normal = simplify_with_bound(torus, options).last().faces();
+  options.effort = Effort::High;
+  const SimplifiedLevel level = simplify_with_bound(torus, options).last();
+  EXPECT_EQ(level.verdict, Verdict::Within);
+  EXPECT_LE(worst_share(torus, options.face_tolerances, level.mesh), 1);
+  EXPECT_LT(level.faces(), normal);
+}
+
 TEST(FaceTolerances, OfZeroKeepTheirFacesWhereTheyAre) {
   const TriangleMesh sphere = datasets::icosphere(1, 3);
   SimplifyOptions options = options_for(sphere);

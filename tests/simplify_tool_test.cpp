@@ -51,9 +51,9 @@ class SimplifyTool : public testing::Test {
   [[nodiscard]] fs::path in(const std::string& name) const { return folder_ / name; }
 
   /// Runs the tool inside the folder. `timeout` ends what hangs, with exit code 124.
-  [[nodiscard]] Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && timeout 300 '" SIMPLIFY_WITH_BOUND "' " + arguments +
-                                " >stdout.txt 2>stderr.txt";
+  [[nodiscard]] Result run(const std::string& arguments, const std::string& tool = SIMPLIFY_WITH_BOUND) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && timeout 300 '" + tool + "' " + arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(in("stdout.txt")), content(in("stderr.txt"))};
   }
@@ -247,6 +247,43 @@ TEST_F(SimplifyTool, CatchesASabotagedResultAtTheGate) {
   EXPECT_EQ(output.verdict(), Verdict::Exceeds);
   EXPECT_THROW(output.publish(), Error);
   EXPECT_FALSE(fs::exists(in("out.off")));
+}
+
+/// The tool itself with a monitor that admits too much: nothing appears under the name of the output, and what is
+/// needed to find the fault is kept.
+TEST_F(SimplifyTool, CatchesAFaultyMonitorAndSavesAReproducer) {
+  const std::string arguments = "sphere.off out.ply --tolerance 0.02 --threads 1";
+  const Result faulty = run(arguments, SIMPLIFY_WITH_FAULTY_MONITOR);
+  EXPECT_EQ(faulty.exit_code, 2);
+  EXPECT_EQ(faulty.out, "");
+  EXPECT_EQ(std::count(faulty.err.begin(), faulty.err.end(), '\n'), 1) << faulty.err;
+  EXPECT_NE(faulty.err.find("out.ply.reproducer"), std::string::npos) << faulty.err;
+  EXPECT_FALSE(fs::exists(in("out.ply")));
+  const fs::path folder = in("out.ply.reproducer");
+  EXPECT_EQ(content(folder / "original.off"), content(in("sphere.off")));
+  const Json options = Json::parse(content(folder / "options.json"));
+  EXPECT_EQ(options.at("tolerances"), Json({0.02}));
+  EXPECT_EQ(options.at("effort"), "normal");
+  const TriangleMesh rejected = read_mesh(folder / "rejected.ply").mesh;
+  EXPECT_EQ(check_symmetric(Bvh(read_mesh(in("sphere.off")).mesh), Bvh(rejected), 0.02).verdict, Verdict::Exceeds);
+
+  EXPECT_EQ(run(arguments).exit_code, 0);
+  EXPECT_TRUE(fs::exists(in("out.ply")));
+}
+
+TEST_F(SimplifyTool, FindsFewerFacesWithMoreEffort) {
+  write_mesh(in("torus.off"), datasets::torus(1, 0.3, 90, 36));
+  std::vector<std::size_t> faces;
+  for (const std::string effort : {"fast", "normal", "high"}) {
+    const Result result = run("torus.off out.off --tolerance 0.01 --threads 1 --json - --effort " + effort);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json.at("effort"), effort);
+    faces.push_back(json.at("simplified").at("faces"));
+  }
+  EXPECT_GT(faces[0], faces[1]);
+  EXPECT_GT(static_cast<double>(faces[1]), 1.05 * static_cast<double>(faces[2]));
+  EXPECT_EQ(run("torus.off out.off --tolerance 0.01 --effort extreme").exit_code, 2);
 }
 
 /// Files of the wild and of malice: either a proven result, or one line and no file.

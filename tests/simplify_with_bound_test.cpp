@@ -113,6 +113,21 @@ TEST(SimplifyWithBound, HoldsForSoupsThatAreNotManifold) {
   }
 }
 
+TEST(SimplifyWithBound, HoldsAndSavesFacesWithHighEffort) {
+  SimplifyOptions options = within(0.01);
+  for (const Shape& shape : manifold_shapes()) {
+    if (shape.mesh.triangles.size() > 3000) continue;  // for the time it takes
+    SCOPED_TRACE(shape.name);
+    options.effort = Effort::Normal;
+    const std::size_t normal = simplify_with_bound(shape.mesh, options).last().mesh.triangles.size();
+    options.effort = Effort::High;
+    const SimplifyResult result = simplify_with_bound(shape.mesh, options);
+    expect_within(shape.mesh, result.last());
+    EXPECT_LE(result.last().mesh.triangles.size(), normal);
+    EXPECT_LE(cgal_distance(shape.mesh, result.last().mesh, 2e-4), shape.tolerance + 2e-4);
+  }
+}
+
 TEST(SimplifyWithBound, KeepsDegenerateTrianglesThatLieOnNoOther) {
   TriangleMesh mesh = datasets::icosphere(1, 3);
   mesh.vertices.emplace_back(3, 0, 0);
@@ -190,6 +205,16 @@ TEST(SimplifyWithBound, LeavesTheBoundaryAsItIsWhenAsked) {
   expect_within(terrain, result.last());
 }
 
+TEST(SimplifyWithBound, LeavesTheBoundaryAsItIsWithHighEffort) {
+  SimplifyOptions options = within(0.02);
+  options.preserve_boundary = true;
+  options.effort = Effort::High;
+  const TriangleMesh terrain = datasets::terrain(1, 30, 3);
+  const SimplifyResult result = simplify_with_bound(terrain, options);
+  expect_within(terrain, result.last());
+  EXPECT_EQ(border_points(result.last().mesh), border_points(terrain));
+}
+
 TEST(SimplifyWithBound, GivesTheSameMeshEveryTime) {
   const TriangleMesh terrain = datasets::terrain(1, 40, 3);
   SimplifyOptions options = within(0.01);
@@ -199,6 +224,45 @@ TEST(SimplifyWithBound, GivesTheSameMeshEveryTime) {
   EXPECT_EQ(one.last().mesh.triangles, two.last().mesh.triangles);
   EXPECT_EQ(one.last().mesh.vertices, two.last().mesh.vertices);
   EXPECT_EQ(one.last().distance->bounds.upper, two.last().distance->bounds.upper);
+}
+
+TEST(SimplifyWithBound, GivesTheSameMeshEveryTimeWithHighEffort) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  SimplifyOptions options = within(0.02);
+  options.effort = Effort::High;
+  const SimplifyResult one = simplify_with_bound(torus, options);
+  options.threads = 2;
+  const SimplifyResult two = simplify_with_bound(torus, options);
+  EXPECT_EQ(one.last().mesh.triangles, two.last().mesh.triangles);
+  EXPECT_EQ(one.last().mesh.vertices, two.last().mesh.vertices);
+}
+
+/// Fewer faces than normal effort can reach, yet not fewer than asked for.
+TEST(SimplifyWithBound, EndsAtTheTargetWithHighEffort) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  SimplifyOptions options = within(0.01);
+  options.target_faces = simplify_with_bound(torus, options).last().faces() - 10;
+  options.effort = Effort::High;
+  const SimplifyResult result = simplify_with_bound(torus, options);
+  EXPECT_EQ(result.last().ended_by, EndedBy::Target);
+  EXPECT_LE(result.last().faces(), *options.target_faces);
+  EXPECT_GE(result.last().faces(), *options.target_faces - 2);
+  expect_within(torus, result.last());
+}
+
+/// A vertex dragged over the edges around it turns faces over, within the plane and so within any bound.
+TEST(DeviationMonitor, MovesNoVertexThroughTheNormalGuard) {
+  SurfaceMesh mesh = to_surface_mesh(reference::unit_square(8));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.1);
+  const auto inner =
+      std::find_if(mesh.vertices().begin(), mesh.vertices().end(), [&](auto v) { return !CGAL::is_border(v, mesh); });
+  ASSERT_NE(inner, mesh.vertices().end());
+  const Kernel::Point_3 p = mesh.point(*inner), beyond(p.x() + 0.2, p.y(), p.z());
+  monitor.normal_guard = NormalGuard();
+  EXPECT_FALSE(monitor.move_vertex(*inner, beyond));
+  EXPECT_EQ(mesh.point(*inner), p);
+  monitor.normal_guard.reset();
+  EXPECT_TRUE(monitor.move_vertex(*inner, beyond));
 }
 
 TEST(SimplifyWithBound, ChangesNothingAtToleranceZero) {

@@ -87,6 +87,47 @@ TEST(VertexLocks, HoldInAllLevelsOfAChainAndOnDuplicatedVertices) {
   });
 }
 
+/// Locks as above where vertices are moved by themselves and edges flipped.
+TEST(VertexLocks, HoldWithHighEffort) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  SimplifyOptions options = within(0.03);
+  options.locked_vertices = every(17, torus.vertices.size());
+  const std::size_t normal = simplify_with_bound(torus, options).last().faces();
+  options.effort = Effort::High;
+  const SimplifiedLevel level = simplify_with_bound(torus, options).last();
+  EXPECT_EQ(level.verdict, Verdict::Within);
+  EXPECT_LT(level.faces(), normal);
+  const std::set<Place> left = places(level.mesh);
+  for (std::size_t v = 0; v < torus.vertices.size(); v += 17) EXPECT_TRUE(left.contains(place(torus.vertices[v]))) << v;
+}
+
+/// The edits themselves, one by one, on a mesh that they all improve where nothing is locked.
+TEST(VertexLocks, RefuseEveryEdit) {
+  SurfaceMesh mesh = to_surface_mesh(datasets::torus(1, 0.3, 40, 16));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.05);
+  SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                     CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor()));
+  const auto locked = mesh.add_property_map<SurfaceMesh::Vertex_index, bool>("v:locked", false).first;
+  const auto count = [&] {
+    std::size_t moved = 0, flipped = 0;
+    for (const auto v : mesh.vertices()) {
+      const auto p = mesh.point(v);
+      moved += monitor.move_vertex(v, {p.x(), p.y(), p.z() + 0.01}) ? 1 : 0;
+      moved += monitor.relocate_vertex(v, 0.01, 0.01) ? 1 : 0;
+    }
+    for (const auto e : mesh.edges()) flipped += monitor.flip_edge(e) ? 1 : 0;
+    return std::pair(moved, flipped);
+  };
+  for (const auto v : mesh.vertices()) locked[v] = true;
+  monitor.lock_vertices(locked);
+  EXPECT_EQ(count(), std::pair(std::size_t{0}, std::size_t{0}));
+  for (const auto v : mesh.vertices()) locked[v] = false;
+  monitor.lock_vertices(locked);
+  const auto [moved, flipped] = count();
+  EXPECT_GT(moved, 0u);
+  EXPECT_GT(flipped, 0u);
+}
+
 TEST(VertexLocks, AllLockedChangesNothing) {
   const TriangleMesh sphere = datasets::icosphere(1, 2);
   SimplifyOptions options = within(0.5);
@@ -122,9 +163,10 @@ TEST(VertexLocks, AreReadFromAPropertyMap) {
 }
 
 /// The rim of each side of a box and nothing else: a right angle is above 60 degrees, flat is below.
-TEST(FeatureAngle, KeepsSharpEdgesAsTheyAre) {
+void expect_rim_kept(Effort effort) {
   const TriangleMesh cube = datasets::cube(1, 8);
   SimplifyOptions options = within(0.2);
+  options.effort = effort;
   options.feature_angle = std::numbers::pi / 3;
   const SimplifiedLevel level = simplify_with_bound(cube, options).last();
   EXPECT_EQ(level.verdict, Verdict::Within);
@@ -145,6 +187,9 @@ TEST(FeatureAngle, KeepsSharpEdgesAsTheyAre) {
   options.feature_angle = std::numbers::pi / 2 + 0.01;
   EXPECT_LT(simplify_with_bound(cube, options).last().faces(), level.faces());
 }
+
+TEST(FeatureAngle, KeepsSharpEdgesAsTheyAre) { expect_rim_kept(Effort::Normal); }
+TEST(FeatureAngle, KeepsSharpEdgesAsTheyAreWithHighEffort) { expect_rim_kept(Effort::High); }
 
 TEST(VertexLocks, RefuseAWrongNumberOfVerticesAndAWrongAngle) {
   const TriangleMesh sphere = datasets::icosphere(1, 1);

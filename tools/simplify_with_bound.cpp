@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -33,7 +35,7 @@ constexpr double simplify_share = 0.7;
 constexpr double relative_error_bound = 1e-6;
 
 struct Options {
-  std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", output_dir;
+  std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", effort = "normal", output_dir;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::optional<double> target_ratio;
@@ -62,6 +64,10 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--cost", options.cost, "What makes a collapse cheap")
       ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
       ->capture_default_str();
+  app.add_option("--effort", options.effort,
+                 "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
+      ->check(CLI::IsMember({"fast", "normal", "high"}))
+      ->capture_default_str();
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
   app.add_option("--feature-angle", options.feature_angle,
                  "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
@@ -81,6 +87,7 @@ class Run {
   void open_outputs();
   void simplify();
   void certify();
+  [[nodiscard]] std::filesystem::path save_reproducer(GatedOutput& rejected, double tolerance) const;
   void publish();
   void report();
   void print_summary() const;
@@ -166,6 +173,9 @@ void Run::simplify() {
   simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
   simplify.cost =
       options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
+  simplify.effort = options_.effort == "fast"   ? cgal::Effort::Fast
+                    : options_.effort == "high" ? cgal::Effort::High
+                                                : cgal::Effort::Normal;
   simplify.preserve_boundary = options_.preserve_boundary;
   if (options_.feature_angle) simplify.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
   // A vertex may leave the box by the tolerance.
@@ -176,6 +186,7 @@ void Run::simplify() {
   simplify.cancel = &interrupted_;
   simplify.progress = [&](double fraction) { bar.show(fraction); };
   result_ = cgal::simplify_with_bound(original_, simplify);
+  report_.effort = options_.effort;
   report_.stopped_by = to_string(result_.last().ended_by);
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused};
   report_.seconds.simplify = watch_.lap();
@@ -203,9 +214,38 @@ void Run::certify() {
     report_.seconds.certify += watch_.lap();
     if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
       throw Error(
-          "internal error: the result is further from the original than was proven during decimation; nothing "
-          "was written. Please report this with the input and the command line");
+          "internal error: the result is further from the original than was proven during decimation; nothing was "
+          "written under its name. Please report this with the folder " +
+          save_reproducer(outputs_[i], tolerances_[level]).string());
   }
+}
+
+/// The folder OUT.reproducer: the original, the mesh that was rejected, and everything that led from one to the other.
+std::filesystem::path Run::save_reproducer(GatedOutput& rejected, double tolerance) const {
+  const std::filesystem::path folder = options_.output + ".reproducer", input = options_.input;
+  const auto original = folder / ("original" + input.extension().string());
+  const auto result = folder / ("rejected" + rejected.path().extension().string());
+  std::filesystem::create_directories(folder);
+  std::filesystem::copy_file(input, original, std::filesystem::copy_options::overwrite_existing);
+  rejected.keep_rejected_as(result);
+  nlohmann::json options = {{"schema", "meshbound/reproducer/1"},
+                            {"version", MESHBOUND_VERSION},
+                            {"original", original.filename().string()},
+                            {"rejected", result.filename().string()},
+                            {"rejected_tolerance", tolerance},
+                            {"distance", {{"lower", rejected.distance().bounds.lower}}},
+                            {"tolerances", tolerances_},
+                            {"on_exceed", options_.on_exceed},
+                            {"cost", options_.cost},
+                            {"effort", options_.effort},
+                            {"preserve_boundary", options_.preserve_boundary},
+                            {"threads", options_.common.threads}};
+  if (options_.target_faces) options["target_faces"] = *options_.target_faces;
+  if (options_.feature_angle) options["feature_angle"] = *options_.feature_angle;
+  if (options_.target_ratio) options["target_ratio"] = *options_.target_ratio;
+  if (options_.common.has_time_limit) options["time_limit"] = options_.common.time_limit;
+  std::ofstream(folder / "options.json") << options.dump(2) << '\n';
+  return folder;
 }
 
 void Run::publish() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -109,6 +110,13 @@ class DeviationTracker {
   [[nodiscard]] bool admits(const SurfaceChange& change);
   /// Makes the change that the last call of `admits` admitted. Throws `Error` when there is none.
   void commit();
+
+  /// For choosing among changes of the same faces, `removed`: how far the added faces and the part of the original that
+  /// the removed ones stand for are apart, as the sum of (distance / tolerance)^6 over sample points of both. A guide,
+  /// not a bound. `sample` first; `sampled_deviation` gives up once the sum has reached `enough`.
+  void sample(std::span<const std::uint32_t> removed);
+  [[nodiscard]] double sampled_deviation(std::span<const TrackedFace> added,
+                                         double enough = std::numeric_limits<double>::infinity());
 
   /// A larger tolerance keeps every proof made so far. Throws `InvalidInput` for a smaller one.
   void grow_tolerance(double tolerance);

@@ -58,6 +58,7 @@ struct SimplifyReport {
   MeshReport simplified;       ///< as written
   SymmetricDistance distance;  ///< a: the original, b: the simplified mesh as written
   std::string stopped_by;      ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
+  std::string effort;          ///< "fast", "normal" or "high"
   std::vector<LevelReport> levels;
   struct Collapses {
     std::uint64_t performed = 0, refused = 0;

@@ -16,6 +16,13 @@ namespace {
 /// pays for looking at every edge again.
 constexpr double least_gain_of_pass = 0.01;
 
+/// Refinement ends where this many rounds together gain less than the share: a single one may gain nothing by chance.
+constexpr int rounds_between_looks_at_gain = 8;
+constexpr double least_gain_of_rounds = 0.01;
+
+/// With Effort::Fast, of those that `DeviationMonitor` knows: the middle and the ends of the edge.
+constexpr int fast_fallback_placements = 3;
+
 /// Clock and callbacks are looked at once in this many collapses.
 constexpr std::uint64_t checks_between_looks = 64;
 
@@ -76,10 +83,12 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
   monitor_.emplace(copy_.mesh, framed_original_, copy_.triangle_of_face, 0.0, get(CGAL::vertex_point, copy_.mesh));
   monitor_->normal_guard = NormalGuard();
   monitor_->preserve_boundary = options.preserve_boundary;
+  if (options.effort == Effort::Fast) monitor_->fallback_placements = fast_fallback_placements;
   monitor_->should_stop = [this](std::size_t faces) { return must_stop(faces); };
   lock_vertices();
   limit_faces();
   policies_.emplace(copy_.mesh, options.cost, kept_parts());
+  refinement_.emplace(copy_.mesh, *monitor_, [this] { return must_stop(monitor_->faces()); });
 }
 
 void Decimation::lock_vertices() {
@@ -138,14 +147,36 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
   below_rounding_ = !(frame_tolerance_ > 2 * room());
   if (below_rounding_) return EndedBy::Rounding;
   monitor_->grow_tolerance(frame_tolerance_ - room());
+  passes_until_nothing_fits();
+  if (options_.effort == Effort::High && options_.on_exceed == OnExceed::Skip && !ended_by_) refine();
+  return ended_by_.value_or(EndedBy::NothingFits);
+}
+
+void Decimation::passes_until_nothing_fits() {
   for (;;) {
     const std::size_t before = monitor_->faces();
     pass();
-    if (ended_by_) return *ended_by_;
+    if (ended_by_ || options_.effort == Effort::Fast) return;
     const std::size_t removed = before - monitor_->faces();
-    if (static_cast<double>(removed) < least_gain_of_pass * static_cast<double>(before)) return EndedBy::NothingFits;
     monitor_->begin_pass();
+    if (static_cast<double>(removed) < least_gain_of_pass * static_cast<double>(before)) return;
   }
+}
+
+/// Rounds of edits, each followed by passes over the edges that they changed.
+void Decimation::refine() {
+  monitor_->search_placements = true;
+  monitor_->begin_pass();
+  std::size_t before = monitor_->faces();
+  for (int round = 1; !ended_by_; ++round) {
+    refinement_->round();
+    if (ended_by_) break;
+    passes_until_nothing_fits();
+    if (round % rounds_between_looks_at_gain != 0) continue;
+    if (static_cast<double>(before - monitor_->faces()) < least_gain_of_rounds * static_cast<double>(before)) break;
+    before = monitor_->faces();
+  }
+  monitor_->search_placements = false;
 }
 
 void Decimation::pass() {

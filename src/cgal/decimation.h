@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cgal/collapse_policies.h"
+#include "cgal/refinement.h"
 #include "cgal/working_frame.h"
 #include "meshbound/cgal/deviation_monitor.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -41,6 +42,8 @@ class Decimation {
   [[nodiscard]] std::vector<bool> locked_copies() const;
   [[nodiscard]] KeptParts kept_parts() const;
   void pass();
+  void passes_until_nothing_fits();
+  void refine();
   void show_progress(std::size_t faces);
 
   const TriangleMesh& original_;
@@ -52,6 +55,7 @@ class Decimation {
   std::vector<SurfaceMesh::Vertex_index> by_start_point_;  ///< sorted by these
   std::optional<Monitor> monitor_;
   std::optional<CollapsePolicies> policies_;
+  std::optional<Refinement> refinement_;
 
   using Clock = std::chrono::steady_clock;
   double frame_tolerance_ = 0;

@@ -11,6 +11,7 @@ std::string to_json(const SimplifyReport& from) {
   json["simplified"] = mesh(from.simplified);
   json["distance"] = symmetric(from.distance);
   json["stopped_by"] = from.stopped_by;
+  json["effort"] = from.effort;
   json["levels"] = Json::array();
   for (const LevelReport& level : from.levels) {
     json["levels"].push_back({{"tolerance", number(level.tolerance)},

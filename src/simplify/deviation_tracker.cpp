@@ -11,9 +11,14 @@
 #include "simplify/cover_assignment.h"
 #include "simplify/degree_cover.h"
 #include "simplify/forward_cover.h"
+#include "simplify/local_deviation.h"
 #include "simplify/local_tolerance.h"
+#include "simplify/tracker_fault.h"
 
 namespace meshbound {
+
+double internal::tracker_fault = 1;
+
 namespace {
 
 /// Cuts spent on one added face before it counts as too far: an edit that needs more is refused, the next is cheaper.
@@ -75,6 +80,10 @@ struct DeviationTracker::Impl {
 
   ForwardCover forward;
   DegreeCover degree;
+  LocalDeviation deviation;
+  std::uint32_t deviation_hint = 0;
+  std::vector<Corners> deviation_faces;
+  std::vector<std::uint32_t> deviation_originals;
   MarkedIds removed_marks, kept_marks, affected_marks, ring_marks;
 
   struct Pending {
@@ -97,7 +106,8 @@ struct DeviationTracker::Impl {
         proximity(bvh),
         cover(triangles.size()),
         forward(vertices, triangles),
-        degree(vertices, triangles) {
+        degree(vertices, triangles),
+        deviation(vertices, triangles) {
     for (const Triangle& t : triangles) {
       for (const std::uint32_t v : t) {
         const Vec3 p = vertices[v];
@@ -130,7 +140,7 @@ double DeviationTracker::Impl::provable(double value) const {
 
 void DeviationTracker::Impl::set_tolerance(double value) {
   tolerance = value;
-  working_tolerance = provable(value);
+  working_tolerance = provable(value) * internal::tracker_fault;
 }
 
 /// The box holds all that the change touches, the original triangles that need another cover included.
@@ -389,6 +399,25 @@ void DeviationTracker::commit() {
     impl_->put_face(face.id, at, pending.nearest[k]);
   }
   for (std::size_t i = 0; i < pending.affected.size(); ++i) impl_->cover.assign(pending.affected[i], pending.covers[i]);
+}
+
+void DeviationTracker::sample(std::span<const std::uint32_t> removed) {
+  impl_->deviation_faces.clear();
+  impl_->deviation_originals.clear();
+  for (const std::uint32_t face : removed) {
+    impl_->deviation_faces.push_back(impl_->corners[face]);
+    impl_->deviation_hint = impl_->nearest[face];
+    const auto originals = impl_->cover.originals_of(face);
+    impl_->deviation_originals.insert(impl_->deviation_originals.end(), originals.begin(), originals.end());
+  }
+  impl_->deviation.begin(impl_->tolerance, impl_->deviation_originals, impl_->deviation_faces);
+}
+
+double DeviationTracker::sampled_deviation(std::span<const TrackedFace> added, double enough) {
+  impl_->deviation_faces.clear();
+  for (const TrackedFace& face : added)
+    impl_->deviation_faces.push_back({to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])});
+  return impl_->deviation.of(impl_->deviation_faces, impl_->proximity, impl_->deviation_hint, enough);
 }
 
 void DeviationTracker::grow_tolerance(double tolerance) {

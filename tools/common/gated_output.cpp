@@ -72,4 +72,11 @@ void GatedOutput::publish() {
   temporary_.clear();
 }
 
+void GatedOutput::keep_rejected_as(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::rename(temporary_, path, error);
+  if (error) throw IoError("cannot write " + path.string() + ": " + error.message());
+  temporary_.clear();
+}
+
 }  // namespace meshbound::tools

@@ -37,6 +37,9 @@ class GatedOutput {
   /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
   void publish();
 
+  /// What was written and found too far, for whoever looks for the reason: under this name instead of the output's.
+  void keep_rejected_as(const std::filesystem::path& path);
+
  private:
   std::filesystem::path path_;       ///< as named by the user
   std::filesystem::path target_;     ///< links resolved

@@ -84,11 +84,19 @@ class DeviationMonitor {
     return Placement<Base>(*this, base);
   }
 
+  static constexpr int most_fallback_placements = 7;
+
   /// Checked for every face that a collapse moves, before the bound. None by default: users stack filters of their own.
   std::optional<NormalGuard> normal_guard;
 
   /// `Placement` then never moves a vertex of the border by itself.
   bool preserve_boundary = false;
+
+  /// `Placement` then tries this many placements beside the one it was given, 0 to 7, before an edge is refused.
+  int fallback_placements = most_fallback_placements;
+
+  /// `Placement` then tries last the point where the deviation sampled around the edge is least: fewer faces, slower.
+  bool search_placements = false;
 
   /// Vertices for which the property map gives true stay where they are: no collapse moves them or joins two of them.
   /// Read once, now. A collapse may go on with the other vertex descriptor of its edge; the lock goes with the point.
@@ -139,6 +147,14 @@ class DeviationMonitor {
   template <class Profile>
   [[nodiscard]] std::optional<Point> admitted_placement(const Profile& profile, const Point& wanted);
 
+  /// Edits beside collapses, between two runs of `edge_collapse`. Each is made only when it lowers the deviation
+  /// sampled around it (but for `move_vertex`), passes the guard and keeps the bound; false: the mesh is as it was.
+  /// Vertices of the border and locked ones stay, and so do edges at locked ones. Edits make room for further
+  /// collapses: edges around them are tried again.
+  bool relocate_vertex(Vertex v, double normal_step, double tangent_step);
+  bool move_vertex(Vertex v, const Point& to);
+  bool flip_edge(Edge e);
+
   [[nodiscard]] std::size_t faces() const { return faces_; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   /// True when the last collapse that was refused broke the bound: not the normal guard, nor an unchanged repetition.
@@ -163,6 +179,7 @@ class DeviationMonitor {
   [[nodiscard]] static Eigen::Vector3d to_eigen(const Point& p) {
     return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
   }
+  [[nodiscard]] static Point to_point(const Eigen::Vector3d& p) { return Point(p.x(), p.y(), p.z()); }
   [[nodiscard]] Eigen::Vector3d at(Vertex v) const { return to_eigen(get(points_, v)); }
   void number_faces(const std::vector<std::uint32_t>& triangle_of_face);
   void refuse_zero_length_edges() const;
@@ -175,10 +192,24 @@ class DeviationMonitor {
   [[nodiscard]] bool is_border(Vertex v) const { return bool(CGAL::is_border(v, mesh_)); }
   [[nodiscard]] bool passes_guards() const;
   [[nodiscard]] bool test(Halfedge h, Vertex v0, Vertex v1, const Point& placement, std::uint32_t try_first);
+  /// The faces around v0 and v1, v1 may be none, with `placement` for both.
   void gather_star(Vertex v0, Vertex v1, const Point& placement);
-  /// The k-th of `fallback_placements` placements beside `wanted`, for the edge whose star was gathered last.
-  static constexpr int fallback_placements = 7;
+  /// The gathered star with another placement.
+  void place(const Eigen::Vector3d& p);
+  [[nodiscard]] bool admits_gathered(Vertex v0, Vertex v1, const Eigen::Vector3d& placement, std::uint32_t try_first);
+  [[nodiscard]] Eigen::Vector3d normal_before() const;
+  /// Goes from p, along the normal and across, to where the sampled deviation of the gathered star is lower.
+  struct Sampled {
+    Eigen::Vector3d point;
+    double at_start = 0, lowest = 0;
+  };
+  [[nodiscard]] Sampled lower_deviation(Eigen::Vector3d p, double normal_step, double tangent_step);
+  [[nodiscard]] bool gather_flip(Halfedge h);
+  void commit_move(Vertex v, const Point& to);
+  void touch_around(Vertex v);
+  /// The k-th of the fallback placements beside `wanted`, for the edge whose star was gathered last.
   [[nodiscard]] Point fallback(int k, const Point& p0, const Point& p1, const Point& wanted) const;
+  [[nodiscard]] Point searched_placement(const Point& p0, const Point& p1, const Point& wanted);
   void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) const;
   [[nodiscard]] bool nothing_changed_since(const EdgeMemory& memory, Vertex v0, Vertex v1) const;
   void collapsed_into(Vertex v);
@@ -203,6 +234,7 @@ class DeviationMonitor {
   std::vector<std::uint32_t> removed_;
   std::vector<Face> removed_faces_;
   std::vector<TrackedFace> added_;
+  std::vector<std::size_t> moved_corner_;               ///< of each of `added_`
   std::vector<std::array<Eigen::Vector3d, 3>> before_;  ///< of each of `added_`
   std::optional<Halfedge> selected_;                    ///< popped from the queue, its placement not yet asked for
   std::optional<std::pair<Halfedge, Point>> refused_;   ///< by the placement, for the filter that follows
@@ -214,5 +246,6 @@ class DeviationMonitor {
 
 }  // namespace meshbound::cgal
 
+#include "meshbound/cgal/internal/deviation_monitor_edits.h"
 #include "meshbound/cgal/internal/deviation_monitor_handles.h"
 #include "meshbound/cgal/internal/deviation_monitor_impl.h"

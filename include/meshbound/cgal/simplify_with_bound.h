@@ -23,6 +23,13 @@ enum class OnExceed {
   Stop   ///< decimation ends there, once the global engine has confirmed that the distance would exceed
 };
 
+/// How long to look for a mesh with fewer faces. All hold the same bound.
+enum class Effort {
+  Fast,    ///< one pass over the edges, few placements
+  Normal,  ///< passes until nothing fits, several placements for each edge
+  High     ///< then vertices are moved and edges flipped to make room for further collapses, again and again
+};
+
 /// Why decimation ended.
 enum class EndedBy {
   NothingFits,  ///< no further collapse keeps the bound
@@ -46,6 +53,7 @@ struct SimplifyOptions {
   /// Smaller tolerances at which the mesh is handed out as well, in any order. One run with growing tolerance makes
   /// all, each bounded against the original itself. Targets apply to `tolerance` only.
   std::vector<double> levels;
+  Effort effort = Effort::Normal;
   CollapseCost cost = CollapseCost::GarlandHeckbert;
   bool preserve_boundary = false;  ///< edges with one face stay as they are
   /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.

@@ -58,6 +58,7 @@ void DeviationMonitor<Mesh, VertexPointMap>::gather_star(Vertex v0, Vertex v1, c
   removed_faces_.clear();
   added_.clear();
   before_.clear();
+  moved_corner_.clear();
   const Eigen::Vector3d moved = to_eigen(placement);
   const auto visit = [&](Face f, Vertex around, Vertex other) {
     const std::array<Vertex, 3> v = corners(f);
@@ -72,10 +73,11 @@ void DeviationMonitor<Mesh, VertexPointMap>::gather_star(Vertex v0, Vertex v1, c
     for (std::size_t i = 0; i < 3; ++i) {
       before[i] = at(v[i]);
       face.corners[i] = v[i] == around ? moved : before[i];
+      if (v[i] == around) moved_corner_.push_back(i);
     }
   };
   for_each_face_around(v0, [&](Face f) { visit(f, v0, v1); });
-  for_each_face_around(v1, [&](Face f) { visit(f, v1, v0); });
+  if (v1 != Graph::null_vertex()) for_each_face_around(v1, [&](Face f) { visit(f, v1, v0); });
 }
 
 template <class Mesh, class VertexPointMap>
@@ -131,19 +133,24 @@ bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex 
                                                   std::uint32_t try_first) {
   if (!locks_allow(v0, v1, placement)) return false;
   gather_star(v0, v1, placement);
+  if (!admits_gathered(v0, v1, to_eigen(placement), try_first)) return false;
+  admitted_.emplace(h, placement);
+  return true;
+}
+
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::admits_gathered(Vertex v0, Vertex v1, const Eigen::Vector3d& placement,
+                                                             std::uint32_t try_first) {
   if (!passes_guards()) return false;
   SurfaceChange change;
   change.removed = removed_;
   change.added = added_;
-  change.moved_vertex = to_eigen(placement);
+  change.moved_vertex = placement;
   change.try_first = try_first;
   change.ring = [this, v0, v1](std::vector<std::uint32_t>& ring) { append_ring(v0, v1, ring); };
-  if (!tracker_.admits(change)) {
-    refused_by_bound_ = true;
-    return false;
-  }
-  admitted_.emplace(h, placement);
-  return true;
+  if (tracker_.admits(change)) return true;
+  refused_by_bound_ = true;
+  return false;
 }
 
 template <class Mesh, class VertexPointMap>
@@ -184,8 +191,10 @@ DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profil
   EdgeMemory memory = get(edge_memory_, e);
   const bool tested = memory.refused_at == clock_;
   const bool movable = !preserve_boundary || !(is_border(profile.v0()) || is_border(profile.v1()));
-  for (int k = 0; tested && movable && k < fallback_placements; ++k) {
-    const Point other = fallback(k, profile.p0(), profile.p1(), wanted);
+  const int others = !tested || !movable ? 0 : fallback_placements + (search_placements ? 1 : 0);
+  for (int k = 0; k < others; ++k) {
+    const Point other = k < fallback_placements ? fallback(k, profile.p0(), profile.p1(), wanted)
+                                                : searched_placement(profile.p0(), profile.p1(), wanted);
     if (other == wanted) continue;
     if (test(profile.v0_v1(), profile.v0(), profile.v1(), other, memory.uncovered)) {
       --counts_.refused;
@@ -207,13 +216,8 @@ typename DeviationMonitor<Mesh, VertexPointMap>::Point DeviationMonitor<Mesh, Ve
   if (k == 2) return p1;
   // A vertex on a curved surface whose faces are chords wants to lie outside of it, up to the tolerance.
   constexpr std::array<double, 4> shares = {0.35, -0.35, 0.7, -0.7};
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (const auto& c : before_) normal += (c[1] - c[0]).cross(c[2] - c[0]);
-  const double length = normal.norm();
-  if (!(length > 0)) return wanted;
-  const double share = shares[static_cast<std::size_t>(k - 3)] * tracker_.tolerance() / length;
-  const Eigen::Vector3d p = to_eigen(wanted) + share * normal;
-  return Point(p.x(), p.y(), p.z());
+  const double share = shares[static_cast<std::size_t>(k - 3)] * tracker_.tolerance();
+  return to_point(to_eigen(wanted) + share * normal_before());
 }
 
 template <class Mesh, class VertexPointMap>
@@ -221,11 +225,7 @@ void DeviationMonitor<Mesh, VertexPointMap>::collapsed_into(Vertex v) {
   ++counts_.performed;
   const std::uint64_t now = ++clock_;
   put(vertex_memory_, v, VertexMemory{now, now, collapsing_locked_});
-  for (const Halfedge h : CGAL::halfedges_around_target(halfedge(v, mesh_), mesh_)) {
-    VertexMemory memory = get(vertex_memory_, source(h, mesh_));
-    memory.touched_at = now;
-    put(vertex_memory_, source(h, mesh_), memory);
-  }
+  touch_around(v);
 }
 
 }  // namespace meshbound::cgal
