@@ -12,6 +12,7 @@
 
 #include "bvh/build.h"
 #include "bvh/bvh_data.h"
+#include "bvh/nearest.h"
 #include "reference/exact_distance.h"
 #include "reference/small_meshes.h"
 
@@ -82,7 +83,7 @@ TEST(Bvh, HoldsEachTriangleInExactlyOneSlot) {
     const TriangleMesh mesh = soup_of(n);
     const Bvh bvh(mesh);
     const Bvh::Data& data = bvh.data();
-    std::vector<std::uint32_t> seen = data.triangle_of_slot;
+    auto seen = data.triangle_of_slot;
     std::sort(seen.begin(), seen.end());
     ASSERT_EQ(seen.size(), n);
     for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(seen[i], i);
@@ -101,7 +102,7 @@ TEST(Bvh, StacksLevelsOfEightUpToOneRoot) {
     const Bvh bvh(soup_of(n));
     const Bvh::Data& data = bvh.data();
     std::size_t below = (n + block_width - 1) / block_width;
-    ASSERT_EQ(data.blocks.size(), below);
+    ASSERT_EQ(data.block_count(), below);
     for (std::uint32_t level = 1; level < data.levels(); ++level) {
       const std::size_t here = data.level_begin[level + 1] - data.level_begin[level];
       ASSERT_EQ(here, (below + node_width - 1) / node_width) << n;
@@ -117,12 +118,12 @@ TEST(Bvh, BlocksHoldTheTrianglesLaneByLaneAndRepeatTheLast) {
   for (const std::uint32_t n : {1U, 2U, 3U, 4U, 5U, 63U, 65U}) {
     const Bvh bvh(soup_of(n));
     const Bvh::Data& data = bvh.data();
-    for (std::uint32_t i = 0; i < data.blocks.size() * block_width; ++i) {
-      const TriangleBlock& block = data.blocks[i / block_width];
+    for (std::uint32_t i = 0; i < data.block_count() * block_width; ++i) {
+      const CornerTriangle<Double4> block = triangles_of_block(data, i / block_width);
       const Triangle& t = data.corners[std::min(i, n - 1)];
       const Vec3 a = data.vertices[t[0]], ac = data.vertices[t[2]] - a;
-      EXPECT_EQ(block.a[1][i % block_width], a.y);
-      EXPECT_EQ(block.ac[2][i % block_width], ac.z);
+      EXPECT_EQ(block.a.y[i % block_width], a.y);
+      EXPECT_EQ(block.ac.z[i % block_width], ac.z);
     }
   }
 }
@@ -184,9 +185,9 @@ TEST(Bvh, EdgeOfManyTrianglesIsARing) {
   EXPECT_EQ(slot, 0U);
 }
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+template <class Vector>
+bool same_bytes(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
@@ -199,7 +200,6 @@ TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
     EXPECT_TRUE(same_bytes(a.neighbours, b.neighbours));
     EXPECT_TRUE(same_bytes(a.normals, b.normals));
     EXPECT_TRUE(same_bytes(a.triangle_of_slot, b.triangle_of_slot));
-    EXPECT_TRUE(same_bytes(a.blocks, b.blocks));
     EXPECT_TRUE(same_bytes(a.nodes, b.nodes));
     EXPECT_EQ(a.level_begin, b.level_begin);
     EXPECT_EQ(a.frame.error, b.frame.error);

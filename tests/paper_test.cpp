@@ -162,7 +162,7 @@ TEST(Paper, Eq8_Eq9_the_corners_of_a_box_bound_all_that_is_inside_never_looser_t
   const Bvh::Data &from = a.data(), &to = b.data();
   const Mapping map =
       mapping_between(from.frame, Eigen::Isometry3d::Identity(), to.frame, Eigen::Isometry3d::Identity());
-  for (std::uint32_t block = 0; block < from.blocks.size(); ++block) {
+  for (std::uint32_t block = 0; block < from.block_count(); ++block) {
     const Box box = node_box(from, 0, block);
     const Vec3 centre = map(0.5 * (box.lo + box.hi));
     Nearest q;

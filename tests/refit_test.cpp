@@ -55,14 +55,13 @@ void expect_overlap(const Bounds& a, const Bounds& b) {
   EXPECT_LE(b.lower, a.upper);
 }
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+template <class Vector>
+bool same_bytes(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 void expect_same_geometry(const Bvh& a, const Bvh& b) {
   EXPECT_TRUE(same_bytes(a.data().vertices, b.data().vertices));
-  EXPECT_TRUE(same_bytes(a.data().blocks, b.data().blocks));
   EXPECT_TRUE(same_bytes(a.data().nodes, b.data().nodes));
   EXPECT_TRUE(same_bytes(a.data().normals, b.data().normals));
   EXPECT_TRUE(same_bytes(a.data().corners, b.data().corners));

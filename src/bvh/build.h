@@ -17,13 +17,15 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 /// Where the longest edge of a triangle begins: corner 0, 1 or 2, the first of them when edges are equally long.
 std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Triangles by the Hilbert index of their centroids; ties by index, so the order is unique. `working` holds the
-/// working coordinates of the mesh's vertices, `box` bounds them.
-std::vector<std::uint32_t> hilbert_order(const MeshView& mesh, const std::vector<Vec3>& working, const Box& box,
-                                         int threads);
+/// `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so that the order is unique.
+void hilbert_order(Bvh::Data& data, const MeshView& mesh, int threads);
+
+/// `vertices`, `source_vertex`, `corners` with the longest edge first (what `closest_on_triangle` asks for), and the
+/// frame's error.
+void place_vertices(Bvh::Data& data, const MeshView& mesh, int threads);
 
 void build_adjacency(Bvh::Data& data, int threads);
-void build_blocks(Bvh::Data& data, int threads);
+void build_normals(Bvh::Data& data, int threads);
 void build_nodes(Bvh::Data& data, int threads);
 
 /// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.

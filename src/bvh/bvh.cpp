@@ -3,7 +3,6 @@
 
 #include <omp.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -17,8 +16,6 @@
 namespace meshbound {
 namespace {
 
-constexpr std::uint32_t unused = 0xffffffff;
-
 /// Slots are 30-bit numbers in the adjacency.
 constexpr std::size_t most_triangles = std::size_t{1} << 30;
 
@@ -30,63 +27,60 @@ void check_size(const MeshView& mesh) {
                        " triangles; a tree holds fewer than 2^30, split the mesh");
 }
 
-/// Working coordinates of all vertices (of unused ones too: they may be anything, and are dropped by `place`).
-std::vector<Vec3> working_vertices(const MeshView& mesh, const Frame& frame, int threads) {
-  std::vector<Vec3> working(mesh.vertex_count());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t i = 0; i < working.size(); ++i) working[i] = frame.to_working(to_vec3(mesh.vertex(i)));
-  return working;
-}
-
-/// The same triangle, turned so that its first edge is the longest (what `closest_on_triangle` asks for).
-Triangle longest_edge_first(const Triangle& t, const std::vector<Vec3>& working) {
-  const std::uint32_t first = longest_edge(working[t[0]], working[t[1]], working[t[2]]);
-  return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
-}
-
-/// Renumbers vertices by first use along the curve: neighbours in space become neighbours in memory.
-void place(Bvh::Data& data, const MeshView& mesh, const std::vector<Vec3>& working) {
-  std::vector<std::uint32_t> place_of(mesh.vertex_count(), unused);
-  data.corners.resize(mesh.triangle_count());
-  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
-    const Triangle t = longest_edge_first(mesh.triangle(data.triangle_of_slot[slot]), working);
-    for (int k = 0; k < 3; ++k) {
-      std::uint32_t& at = place_of[t[k]];
-      if (at == unused) {
-        at = static_cast<std::uint32_t>(data.vertices.size());
-        data.vertices.push_back(working[t[k]]);
-        data.source_vertex.push_back(t[k]);
-        data.frame.error = std::max(data.frame.error, data.frame.rounding_of(to_vec3(mesh.vertex(t[k]))));
+/// As `used_bounding_box` after `validate`, by all threads.
+Eigen::AlignedBox3d checked_box(const MeshView& mesh, int threads) {
+  const std::size_t triangles = mesh.triangle_count(), vertices = mesh.vertex_count();
+  Array<std::uint8_t> used(vertices);
+  bool sound = triangles > 0;
+  Eigen::AlignedBox3d box;
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp for schedule(static)
+    for (std::size_t v = 0; v < vertices; ++v) used[v] = 0;
+#pragma omp for schedule(static) reduction(&& : sound)
+    for (std::size_t i = 0; i < triangles; ++i) {
+      for (const std::uint32_t v : mesh.triangle(i)) {
+        if (v < vertices)
+          std::atomic_ref<std::uint8_t>(used[v]).store(1, std::memory_order_relaxed);
+        else
+          sound = false;
       }
-      data.corners[slot][k] = at;
     }
+    Eigen::AlignedBox3d own;
+#pragma omp for schedule(static) reduction(&& : sound)
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (used[v] == 0) continue;
+      const Eigen::Vector3d p = mesh.vertex(v);
+      sound = sound && std::abs(p.x()) <= largest_coordinate && std::abs(p.y()) <= largest_coordinate &&
+              std::abs(p.z()) <= largest_coordinate;
+      own.extend(p);
+    }
+#pragma omp critical(meshbound_box)
+    box.extend(own);
   }
+  if (!sound) validate(mesh);  // says what is wrong, and throws
+  // -0 and 0 are one position, whichever the threads met first.
+  return {box.min() + Eigen::Vector3d::Zero(), box.max() + Eigen::Vector3d::Zero()};
 }
 
 int thread_count(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
 
 std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
   check_floating_point_model();
-  validate(mesh);
   check_size(mesh);
   auto data = std::make_unique<Bvh::Data>();
-  set_frame(*data, used_bounding_box(mesh));
-  {
-    const std::vector<Vec3> working = working_vertices(mesh, data->frame, threads);
-    data->triangle_of_slot = hilbert_order(mesh, working, data->working_box, threads);
-    data->vertices.reserve(std::min(mesh.vertex_count(), 3 * mesh.triangle_count()));
-    data->source_vertex.reserve(data->vertices.capacity());
-    place(*data, mesh, working);
-  }
+  set_frame(*data, checked_box(mesh, threads));
+  hilbert_order(*data, mesh, threads);
+  place_vertices(*data, mesh, threads);
   build_adjacency(*data, threads);
-  build_blocks(*data, threads);
+  build_normals(*data, threads);
   build_nodes(*data, threads);
   return data;
 }
 
-template <class T>
-std::size_t bytes(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
+template <class Vector>
+std::size_t bytes(const Vector& v) {
+  return v.capacity() * sizeof(v[0]);
 }
 
 }  // namespace
@@ -101,12 +95,6 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};
 }
 
-std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double ab = squared_length(b - a), bc = squared_length(c - b), ca = squared_length(a - c);
-  if (ab >= bc && ab >= ca) return 0;
-  return bc >= ca ? 1 : 2;
-}
-
 Bvh::Bvh(const MeshView& mesh, const BvhOptions& options) : data_(build(mesh, thread_count(options.threads))) {}
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
@@ -119,7 +107,7 @@ double Bvh::bounding_box_diagonal() const { return data_->diagonal; }
 std::size_t Bvh::memory_bytes() const {
   const Data& d = *data_;
   return sizeof(Data) + bytes(d.vertices) + bytes(d.source_vertex) + bytes(d.corners) + bytes(d.neighbours) +
-         bytes(d.normals) + bytes(d.triangle_of_slot) + bytes(d.blocks) + bytes(d.nodes) + bytes(d.level_begin);
+         bytes(d.normals) + bytes(d.triangle_of_slot) + bytes(d.nodes) + bytes(d.level_begin);
 }
 
 }  // namespace meshbound

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bvh/array.h"
 #include "geometry/frame.h"
 #include "geometry/vec3.h"
 #include "meshbound/bvh.h"
@@ -17,13 +18,6 @@ namespace meshbound {
 inline constexpr std::uint32_t block_width = 4;  ///< triangles of a leaf (the paper's bound, section 4.3)
 inline constexpr std::uint32_t node_width = 8;   ///< children of a node
 inline constexpr std::uint32_t no_slot = 0x7fffffff;
-
-/// Four triangles, lane by lane; the last block repeats its last triangle in unused lanes.
-struct alignas(32) TriangleBlock {
-  double a[3][block_width];
-  double ab[3][block_width];
-  double ac[3][block_width];
-};
 
 /// Boxes of up to eight children, rounded outward; unused ones are empty (lo = +inf, hi = -inf).
 struct alignas(32) BvhNode {
@@ -52,19 +46,20 @@ struct Bvh::Data {
   Box working_box;
 
   // By vertex, in the order of first use along the curve. Only vertices that triangles use.
-  std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> source_vertex;  ///< index in the mesh that the tree was built from
+  Array<Vec3> vertices;
+  Array<std::uint32_t> source_vertex;  ///< index in the mesh that the tree was built from
   // By slot: the place of a triangle along the curve.
-  std::vector<Triangle> corners;
-  std::vector<std::array<Neighbour, 3>> neighbours;  ///< [k] across the edge from corner k to corner k + 1
-  std::vector<std::array<float, 3>> normals;         ///< unit, or 0 for zero area; a hint
-  std::vector<std::uint32_t> triangle_of_slot;
-  std::vector<TriangleBlock> blocks;
+  Array<Triangle> corners;
+  Array<std::array<Neighbour, 3>> neighbours;  ///< [k] across the edge from corner k to corner k + 1
+  Array<std::array<float, 3>> normals;         ///< unit, or 0 for zero area; a hint
+  Array<std::uint32_t> triangle_of_slot;
   // By level: nodes[level_begin[l] + i] has the children 8 i ... 8 i + 7 of level l - 1; level 0 are the blocks.
-  std::vector<BvhNode> nodes;
+  Array<BvhNode> nodes;
   std::vector<std::uint32_t> level_begin;
 
   [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(corners.size()); }
+  /// Leaves: block i has the slots 4 i ... 4 i + 3, as far as there are so many.
+  [[nodiscard]] std::uint32_t block_count() const { return (triangle_count() + block_width - 1) / block_width; }
   [[nodiscard]] std::uint32_t levels() const { return static_cast<std::uint32_t>(level_begin.size()) - 1; }
 };
 

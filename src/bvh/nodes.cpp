@@ -59,24 +59,12 @@ std::vector<std::uint32_t> level_sizes(std::uint32_t blocks) {
 
 }  // namespace
 
-void build_blocks(Bvh::Data& data, int threads) {
-  const std::uint32_t n = data.triangle_count(), count = (n + block_width - 1) / block_width;
-  data.blocks.resize(count);
-  data.normals.resize(n);
+void build_normals(Bvh::Data& data, int threads) {
+  data.normals.resize(data.triangle_count());
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::uint32_t i = 0; i < count * block_width; ++i) {
-    const std::uint32_t slot = std::min(i, n - 1), lane = i % block_width;
+  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
     const Triangle& t = data.corners[slot];
     const Vec3 a = data.vertices[t[0]], ab = data.vertices[t[1]] - a, ac = data.vertices[t[2]] - a;
-    TriangleBlock& block = data.blocks[i / block_width];
-    const auto store = [lane](double(&to)[3][block_width], const Vec3& v) {
-      to[0][lane] = v.x;
-      to[1][lane] = v.y;
-      to[2][lane] = v.z;
-    };
-    store(block.a, a);
-    store(block.ab, ab);
-    store(block.ac, ac);
     const Vec3 normal = cross(ab, ac);
     const double norm = length(normal), scale = norm > 0 ? 1 / norm : 0;
     data.normals[slot] = {static_cast<float>(normal.x * scale), static_cast<float>(normal.y * scale),
@@ -85,7 +73,7 @@ void build_blocks(Bvh::Data& data, int threads) {
 }
 
 void build_nodes(Bvh::Data& data, int threads) {
-  const std::vector<std::uint32_t> sizes = level_sizes(static_cast<std::uint32_t>(data.blocks.size()));
+  const std::vector<std::uint32_t> sizes = level_sizes(data.block_count());
   data.level_begin.assign(1, 0);
   data.level_begin.push_back(0);  // level 0 has no nodes: its members are the blocks
   for (std::size_t level = 1; level < sizes.size(); ++level)

@@ -55,14 +55,15 @@ Eigen::AlignedBox3d box_of(const Bvh::Data& data, const MeshView& moved) {
   return box;
 }
 
-void place_vertices(Bvh::Data& data, const MeshView& moved, int threads) {
+void move_vertices(Bvh::Data& data, const MeshView& moved, int threads) {
   const Frame frame = data.frame;
+  const FrameMap to_working(frame);
   double error = 0;
   data.vertices.resize(data.source_vertex.size());
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(max : error)
   for (std::size_t v = 0; v < data.vertices.size(); ++v) {
     const Eigen::Vector3d p = moved.vertex(data.source_vertex[v]);
-    data.vertices[v] = frame.to_working({p.x(), p.y(), p.z()});
+    data.vertices[v] = to_working({p.x(), p.y(), p.z()});
     error = std::max(error, frame.rounding_of({p.x(), p.y(), p.z()}));
   }
   data.frame.error = error;
@@ -110,9 +111,9 @@ void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
   next->corners = data_->corners;
   next->neighbours = data_->neighbours;
   next->triangle_of_slot = data_->triangle_of_slot;
-  place_vertices(*next, moved, threads);
+  move_vertices(*next, moved, threads);
   turn_triangles(*next, turned, threads);
-  build_blocks(*next, threads);
+  build_normals(*next, threads);
   build_nodes(*next, threads);
   data_ = std::move(next);
 }

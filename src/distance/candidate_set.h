@@ -44,7 +44,7 @@ inline void collect_candidates(const Bvh::Data& data, const TriangleCorners& cor
   const double reach = ball.reach_squared(upper_squared, slack);
   const double wider = std::sqrt(upper_squared) + 2 * slack;
   visit_near_triangle(data, corners, wider * wider, counters, [&](std::uint32_t block) {
-    const CornerTriangle<Double4> t = load4(data.blocks[block]);
+    const CornerTriangle<Double4> t = triangles_of_block(data, block);
     const Double4 from_centre = closest_on_triangle(t, broadcast4(ball.centre)).squared_distance;
     Double4 squared[3];
     for (int k = 0; k < 3; ++k) squared[k] = closest_on_triangle(t, broadcast4(corners[k])).squared_distance;

@@ -25,7 +25,7 @@ Triangle sorted(Triangle t) {
 
 }  // namespace
 
-PositionTable::PositionTable(const std::vector<Vec3>& vertices)
+PositionTable::PositionTable(std::span<const Vec3> vertices)
     : vertices_(vertices), table_(std::bit_ceil(2 * vertices.size() + 1), no_match) {
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
     std::uint32_t& entry = table_[place(vertices[v])];
@@ -40,7 +40,7 @@ std::size_t PositionTable::place(const Vec3& p) const {
   return i;
 }
 
-TriangleTable::TriangleTable(const std::vector<Triangle>& triangles, const std::vector<Vec3>& vertices,
+TriangleTable::TriangleTable(std::span<const Triangle> triangles, std::span<const Vec3> vertices,
                              const PositionTable& positions)
     : begin_(vertices.size() + 1, 0) {
   std::vector<std::uint32_t> first_at(vertices.size());

@@ -2,6 +2,7 @@
 /// Triangles of two meshes that are the same, bit for bit, however the meshes number them.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/vec3.h"
@@ -15,22 +16,21 @@ inline constexpr std::uint32_t no_match = 0xffffffff;
 class PositionTable {
  public:
   /// `vertices` must outlive this. O(n).
-  explicit PositionTable(const std::vector<Vec3>& vertices);
+  explicit PositionTable(std::span<const Vec3> vertices);
 
   [[nodiscard]] std::uint32_t find(const Vec3& p) const { return table_[place(p)]; }  ///< or `no_match`
 
  private:
   [[nodiscard]] std::size_t place(const Vec3& p) const;
 
-  const std::vector<Vec3>& vertices_;
+  std::span<const Vec3> vertices_;
   std::vector<std::uint32_t> table_;
 };
 
 /// Finds a triangle by its corners in any order. Vertices at one position count as one: the first of them.
 class TriangleTable {
  public:
-  TriangleTable(const std::vector<Triangle>& triangles, const std::vector<Vec3>& vertices,
-                const PositionTable& positions);
+  TriangleTable(std::span<const Triangle> triangles, std::span<const Vec3> vertices, const PositionTable& positions);
 
   /// A triangle with these corners, which are vertices that `PositionTable::find` gave; or `no_match`.
   [[nodiscard]] std::uint32_t find(const Triangle& corners) const;

@@ -14,7 +14,7 @@ inline namespace MESHBOUND_ISA {
 /// The twelve distances between three corners and a block of four triangles.
 inline void test_block(const Bvh::Data& data, std::uint32_t block, const TriangleCorners& corners,
                        GroupBounds& bounds) {
-  const CornerTriangle<Double4> t = load4(data.blocks[block]);
+  const CornerTriangle<Double4> t = triangles_of_block(data, block);
   const std::uint32_t first = block * block_width, last = data.triangle_count() - 1;
   Double4 squared[3];
   for (int k = 0; k < 3; ++k) squared[k] = closest_on_triangle(t, broadcast4(corners[k])).squared_distance;

@@ -8,7 +8,7 @@
 namespace meshbound {
 
 LevelSurface::LevelSurface(const Bvh::Data& tree, const MeshView& level)
-    : vertices(tree.vertices.size()), corners(tree.corners) {
+    : vertices(tree.vertices.size()), corners(tree.corners.begin(), tree.corners.end()) {
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const Eigen::Vector3d p = level.vertex(tree.source_vertex[v]);
     vertices[v] = {p.x(), p.y(), p.z()};

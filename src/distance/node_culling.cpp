@@ -77,7 +77,7 @@ class NodeTest {
 }  // namespace
 
 double OneSidedSearch::sampled_block_radius() const {
-  const auto n = static_cast<std::uint32_t>(a_.blocks.size());
+  const auto n = a_.block_count();
   const std::uint32_t samples = std::min(n, sampled_blocks);
   double sum = 0;
   for (std::uint32_t i = 0; i < samples; ++i)

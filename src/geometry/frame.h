@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
 #include "geometry/vec3.h"
 
 namespace meshbound {
@@ -23,6 +27,23 @@ struct Frame {
   [[nodiscard]] double length_down(double working) const;
   /// Model to working units: rounded down (safe as a tolerance).
   [[nodiscard]] double working_length_down(double model) const;
+};
+
+/// `Frame::to_working` for many points: a product with a power of two that is a normal number gives what `ldexp` gives.
+class FrameMap {
+ public:
+  explicit FrameMap(const Frame& frame)
+      : frame_(frame),
+        scale_(frame.exponent > -1023 && frame.exponent < 1023
+                   ? std::bit_cast<double>(static_cast<std::uint64_t>(1023 - frame.exponent) << 52)
+                   : 0) {}
+  [[nodiscard]] Vec3 operator()(const Vec3& p) const {
+    return scale_ != 0 ? scale_ * (p - frame_.center) : frame_.to_working(p);
+  }
+
+ private:
+  Frame frame_;
+  double scale_;  ///< 2^-exponent, or 0 where that is not a normal number
 };
 
 /// The frame for a model within the box [lo, hi] (model units, finite).

@@ -39,15 +39,37 @@ constexpr std::array<std::array<Step, 8>, 24> make_table() {
 
 constexpr auto table = make_table();
 
+/// Two levels at once. Column: bits 0-1 are x, 2-3 y, 4-5 z.
+constexpr std::array<std::array<Step, 64>, 24> make_double_table() {
+  std::array<std::array<Step, 64>, 24> result{};
+  for (unsigned state = 0; state < 24; ++state) {
+    for (unsigned cell = 0; cell < 64; ++cell) {
+      const Step upper = table[state][(cell >> 1 & 1U) | (cell >> 3 & 1U) << 1 | (cell >> 5 & 1U) << 2];
+      const Step lower = table[upper.state][(cell & 1U) | (cell >> 2 & 1U) << 1 | (cell >> 4 & 1U) << 2];
+      result[state][cell] = {static_cast<std::uint8_t>(upper.digit << 3 | lower.digit), lower.state};
+    }
+  }
+  return result;
+}
+
+constexpr auto double_table = make_double_table();
+
 }  // namespace
 
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bits) {
   std::uint64_t index = 0;
   unsigned state = 0;
-  for (int bit = bits - 1; bit >= 0; --bit) {
-    const unsigned octant = (x >> bit & 1U) | (y >> bit & 1U) << 1 | (z >> bit & 1U) << 2;
-    const Step step = table[state][octant];
-    index = index << 3 | step.digit;
+  int bit = bits;
+  if (bit % 2 != 0) {
+    --bit;
+    const Step step = table[state][(x >> bit & 1U) | (y >> bit & 1U) << 1 | (z >> bit & 1U) << 2];
+    index = step.digit;
+    state = step.state;
+  }
+  while (bit > 0) {
+    bit -= 2;
+    const Step step = double_table[state][(x >> bit & 3U) | (y >> bit & 3U) << 2 | (z >> bit & 3U) << 4];
+    index = index << 6 | step.digit;
     state = step.state;
   }
   return index;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -44,6 +46,28 @@ TriangleMesh normalised(const Recipe& recipe) {
   const Eigen::Vector3d corner = box.min();
   for (Eigen::Vector3d& p : mesh.vertices) p = (p - corner) / diagonal;
   return mesh;
+}
+
+void shuffle(TriangleMesh& mesh, std::mt19937& random) {
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  std::iota(place.begin(), place.end(), 0U);
+  std::shuffle(place.begin(), place.end(), random);
+  std::vector<Eigen::Vector3d> vertices(place.size());
+  for (std::size_t v = 0; v < place.size(); ++v) vertices[place[v]] = mesh.vertices[v];
+  mesh.vertices = std::move(vertices);
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v = place[v];
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+}
+
+void vary(TriangleMesh& mesh, Variation variation) {
+  std::mt19937 random(2009);
+  std::uniform_real_distribution<double> offset(-1e-9, 1e-9);
+  if (variation == Variation::OtherOrder) shuffle(mesh, random);
+  for (Eigen::Vector3d& p : mesh.vertices) {
+    if (variation == Variation::Jittered) p += Eigen::Vector3d(offset(random), offset(random), offset(random));
+    if (variation == Variation::Float) p = p.cast<float>().cast<double>();
+  }
 }
 
 TriangleMesh undecimated(const Recipe& recipe) { return midpoint_subdivision(normalised(recipe), recipe.subdivisions); }
@@ -107,6 +131,7 @@ TriangleMesh midpoint_subdivision(TriangleMesh mesh, int times) {
 
 TriangleMesh make(const Recipe& recipe, const fs::path& cache) {
   TriangleMesh mesh = recipe.ratio < 1 ? cached_decimation(recipe, cache) : undecimated(recipe);
+  vary(mesh, recipe.variation);
   for (Eigen::Vector3d& p : mesh.vertices) p += recipe.offset;
   return mesh;
 }

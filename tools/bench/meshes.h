@@ -19,12 +19,21 @@ namespace meshbound::bench {
 /// Files of one folder of the data sets, in order of their names; each mesh once.
 [[nodiscard]] std::vector<std::filesystem::path> list_dataset(const std::string& folder);
 
+/// A mesh that is nearly or exactly the same surface, met with other bits.
+enum class Variation {
+  None,
+  OtherOrder,  ///< triangles and vertices shuffled
+  Jittered,    ///< every coordinate moved by up to 1e-9
+  Float        ///< coordinates rounded to single precision
+};
+
 /// How a mesh of the benchmark is made from a file, in this order.
 struct Recipe {
   std::filesystem::path file{};
   std::filesystem::path frame{};  ///< the file whose box is mapped to a diagonal of 1; `file` itself when empty
   int subdivisions = 0;           ///< midpoint subdivisions: the same surface, four times the triangles each
   double ratio = 1;               ///< kept by decimation
+  Variation variation = Variation::None;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 

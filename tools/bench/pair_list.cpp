@@ -15,15 +15,29 @@ PairSpec with_decimation(const std::string& name, Recipe mesh, double ratio, dou
   return {name + " / its " + percent, ratio < 0.05 ? "coarse" : "decimation", mesh, reduced, reach};
 }
 
+/// The same surface twice, by other triangles or other bits.
+void add_near_zero_pairs(const std::string& name, const fs::path& file, std::vector<PairSpec>& pairs) {
+  const Recipe mesh{file};
+  Recipe subdivided = mesh, reordered = mesh, jittered = mesh, rounded = mesh;
+  subdivided.subdivisions = 1;
+  reordered.variation = Variation::OtherOrder;
+  jittered.variation = Variation::Jittered;
+  rounded.variation = Variation::Float;
+  const bool in_the_issue = name == "bunny";
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  pairs.push_back({name + " / its midpoint subdivision", "subdivision", mesh, subdivided, in_the_issue ? 0.2 : none});
+  pairs.push_back({name + " / itself", "identical", mesh, mesh, in_the_issue ? 0.03 : none});
+  pairs.push_back({name + " / itself in another order", "identical", mesh, reordered});
+  pairs.push_back({name + " / itself moved by 1e-9", "near-zero", mesh, jittered});
+  pairs.push_back({name + " / itself rounded to float", "near-zero", mesh, rounded});
+}
+
 void add_bunny_pairs(const fs::path& bunny, std::vector<PairSpec>& pairs) {
   const Recipe mesh{bunny};
-  Recipe subdivided = mesh, large = mesh;
-  subdivided.subdivisions = 1;
+  Recipe large = mesh;
   large.subdivisions = 2;
   pairs.push_back(with_decimation("bunny", mesh, 0.5, 0.15));
   pairs.push_back(with_decimation("bunny", mesh, 0.1, 0.06));
-  pairs.push_back({"bunny / its midpoint subdivision", "subdivision", mesh, subdivided, 0.2});
-  pairs.push_back({"bunny / itself", "identical", mesh, mesh, 0.03});
   pairs.push_back(with_decimation("bunny 1.1M", large, 0.5, 4));
   pairs.push_back(with_decimation("bunny 1.1M", large, 0.01, 0.8));
   PairSpec decision = with_decimation("bunny", mesh, 0.5, 0.1);
@@ -51,6 +65,9 @@ std::vector<PairSpec> table_pairs() {
   }
   if (armadillo) pairs.push_back(with_decimation("armadillo", {*armadillo}, 0.5, 0.16));
   if (bunny) add_bunny_pairs(*bunny, pairs);
+  if (fandisk) add_near_zero_pairs("fandisk", *fandisk, pairs);
+  if (armadillo) add_near_zero_pairs("armadillo", *armadillo, pairs);
+  if (bunny) add_near_zero_pairs("bunny", *bunny, pairs);
   if (bunny && armadillo) {
     Recipe apart{*armadillo};
     // The bunny has a diagonal of 1, so a longest dimension of at most 1: 3 of them.

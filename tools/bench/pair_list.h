@@ -11,13 +11,15 @@ namespace meshbound::bench {
 /// One line of the table.
 struct PairSpec {
   std::string name;
-  std::string kind;  ///< "decimation" (50% and 10%), "coarse" (1%), "subdivision", "identical", "real" or "apart"
+  /// "decimation" (50% and 10%), "coarse" (1%), "subdivision", "near-zero", "identical", "real" or "apart".
+  std::string kind;
   Recipe a, b;
   double reach_seconds = std::numeric_limits<double>::quiet_NaN();  ///< the issue's absolute figure for its machine
   double tolerance = -1;                                            ///< a decision, when not negative
 };
 
-/// The pairs of the table. What is not on this machine is left out and named on stderr.
+/// The pairs of the table, and more near-zero ones. What is not on this machine is left out and named on
+/// stderr.
 [[nodiscard]] std::vector<PairSpec> table_pairs();
 
 /// Every two meshes of a family of pairs/, and every mesh of cad, organic, scan and game with its decimations.
