@@ -4,10 +4,16 @@
 #include "meshbound/io.h"
 
 namespace meshbound {
+
 MeshFile read_mesh(const std::filesystem::path& path) {
-  const FileFormat format = format_of(path);
+  (void)format_of(path);  // an unknown extension is the better message where both are wrong
   const MappedFile file(path);
-  MeshSource source{path, file.bytes()};
+  return parse_mesh(path, file.bytes());
+}
+
+MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes) {
+  const FileFormat format = format_of(path);
+  MeshSource source{path, bytes};
   if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
   // The header of a binary STL may hold any bytes; its reader recognises text for itself.
   if (format == FileFormat::Stl) return read_stl(source);

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <filesystem>
+#include <string_view>
+
 #include "mesh/mesh_source.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
+
+/// `read_mesh` of a file with this name and these bytes, without the file system.
+[[nodiscard]] MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes);
 
 // One reader per format. Each throws `InvalidInput` for what is malformed; see `read_mesh`.
 [[nodiscard]] MeshFile read_off(const MeshSource& source);

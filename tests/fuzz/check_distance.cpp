@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+
+#include "fuzz/claims.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "reference/exact_distance.h"
+
+namespace meshbound::fuzz {
+namespace {
+
+using reference::exact_distance;
+using reference::ExactLength;
+
+void require(bool holds, const char* claim) {
+  if (!holds) throw std::logic_error(claim);
+}
+
+/// Takes values off the front; zeros once the bytes have run out.
+class Source {
+ public:
+  explicit Source(Bytes bytes) : bytes_(bytes) {}
+
+  template <class T>
+  T take() {
+    T value{};
+    const std::size_t size = std::min(sizeof value, bytes_.size());
+    std::memcpy(&value, bytes_.data(), size);
+    bytes_ = bytes_.subspan(size);
+    return value;
+  }
+
+  /// Any double there is, a float, a small multiple of 1/8 (ties), or that at an exponent from 2^-1016 to 2^1016.
+  double coordinate(unsigned kind) {
+    switch (kind % 4) {
+      case 0:
+        return take<double>();
+      case 1:
+        return static_cast<double>(take<float>());
+      case 2:
+        return take<std::int8_t>() / 8.0;
+      default:
+        const int mantissa = take<std::int8_t>();
+        return std::ldexp(mantissa, 8 * take<std::int8_t>());
+    }
+  }
+
+  /// Up to 8 vertices and 1 to 6 triangles over them, so that neighbours, duplicates and degenerate ones are common.
+  TriangleMesh mesh(unsigned kind) {
+    TriangleMesh mesh;
+    const unsigned shape = take<std::uint8_t>();
+    const unsigned vertices = 1 + shape % 8, triangles = 1 + shape / 8 % 6;
+    for (unsigned i = 0; i < vertices; ++i) {
+      const double x = coordinate(kind), y = coordinate(kind), z = coordinate(kind);
+      mesh.vertices.emplace_back(x, y, z);
+    }
+    for (unsigned i = 0; i < triangles; ++i) {
+      const std::uint32_t a = take<std::uint8_t>(), b = take<std::uint8_t>(), c = take<std::uint8_t>();
+      mesh.triangles.push_back({a % vertices, b % vertices, c % vertices});
+    }
+    return mesh;
+  }
+
+ private:
+  Bytes bytes_;
+};
+
+/// Exact lengths with `least <= h(A,B) <= most`: a corner of A is a point of A, and the distance to one triangle is
+/// convex, so that it is largest at a corner.
+struct Enclosure {
+  ExactLength least, most;
+};
+
+Enclosure enclosure(const TriangleMesh& a, const TriangleMesh& b) {
+  Enclosure result{{0, 1, 0}, {0, 1, 0}};
+  for (std::size_t i = 0; i < a.triangles.size(); ++i) {
+    const reference::Corners corners = reference::corners(a, i);
+    std::optional<ExactLength> covered;
+    for (std::size_t j = 0; j < b.triangles.size(); ++j) {
+      ExactLength furthest{0, 1, 0};
+      for (const Eigen::Vector3d& corner : corners)
+        furthest = std::max(furthest, exact_distance(corner, reference::corners(b, j)));
+      if (!covered || furthest < *covered) covered = furthest;
+    }
+    for (const Eigen::Vector3d& corner : corners) result.least = std::max(result.least, exact_distance(corner, b));
+    result.most = std::max(result.most, *covered);
+  }
+  return result;
+}
+
+void check_bounds(const Bounds& bounds, const Enclosure& exact) {
+  require(bounds.lower >= 0 && bounds.lower <= bounds.upper, "0 <= lower <= upper");
+  require(std::isinf(bounds.upper) || exact.least.compare(bounds.upper) <= 0, "a corner is further away than upper");
+  require(exact.most.compare(bounds.lower) >= 0, "no point is as far away as lower");
+}
+
+void check_verdict(const ToleranceCheck& check, const Enclosure& forward, const Enclosure& backward) {
+  const double tolerance = check.tolerance;
+  if (check.verdict == Verdict::Within)
+    require(forward.least.compare(tolerance) <= 0 && backward.least.compare(tolerance) <= 0, "within, but it exceeds");
+  if (check.verdict == Verdict::Exceeds)
+    require(forward.most.compare(tolerance) > 0 || backward.most.compare(tolerance) > 0, "exceeds, but it is within");
+}
+
+void check_closest_point(const Bvh& tree, const TriangleMesh& mesh, const Eigen::Vector3d& query) {
+  const ClosestPoint closest = closest_point(tree, query);
+  const ExactLength exact = exact_distance(query, mesh);
+  require(closest.point.triangle < mesh.triangles.size(), "the closest point names no triangle");
+  require(exact.compare(closest.distance.lower) >= 0, "closest point: lower is above the distance");
+  require(std::isinf(closest.distance.upper) || exact.compare(closest.distance.upper) <= 0,
+          "closest point: upper is below the distance");
+}
+
+}  // namespace
+
+void check_distance(Bytes content) {
+  Source source(content);
+  const unsigned kind = source.take<std::uint8_t>(), how = source.take<std::uint8_t>();
+  const TriangleMesh a = source.mesh(kind), b = source.mesh(kind / 4);
+  std::optional<Bvh> tree_a, tree_b;
+  try {
+    tree_a.emplace(a, BvhOptions{1});
+    tree_b.emplace(b, BvhOptions{1});
+  } catch (const InvalidInput&) {
+    return;  // a coordinate that is not finite or too large
+  }
+  DistanceOptions options;
+  options.threads = 1;
+  options.budget.subdivisions = 500;
+  options.method = how % 2 == 0 ? Method::CellWalking : Method::CrossCulling;
+  options.error_bound = std::ldexp(tree_a->bounding_box_diagonal(), -(static_cast<int>(how) / 2 % 64));
+  const Enclosure forward = enclosure(a, b), backward = enclosure(b, a);
+  const SymmetricDistance distance = symmetric_distance(*tree_a, *tree_b, options);
+  check_bounds(distance.a_to_b.bounds, forward);
+  check_bounds(distance.b_to_a.bounds, backward);
+  check_bounds(one_sided_distance(*tree_b, *tree_a, options).bounds, backward);
+  for (const double tolerance : {distance.bounds.upper, distance.bounds.lower, 0.5 * distance.bounds.lower}) {
+    if (!std::isfinite(tolerance)) continue;
+    check_verdict(check_symmetric(*tree_a, *tree_b, tolerance, options), forward, backward);
+  }
+  check_closest_point(*tree_b, b, a.vertices[a.triangles[0][0]]);
+}
+
+}  // namespace meshbound::fuzz
