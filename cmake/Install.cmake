@@ -21,7 +21,7 @@ if(TARGET meshbound_cgal)
     FILES_MATCHING PATTERN "*.h")
 endif()
 
-foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance)
+foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance verify_certificate)
   if(TARGET ${tool})
     install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()

@@ -12,9 +12,11 @@
 #include "common/affine_argument.h"
 #include "common/length.h"
 #include "common/output.h"
+#include "common/pending_file.h"
 #include "common/progress.h"
 #include "common/signals.h"
 #include "common/tool_main.h"
+#include "meshbound/certificate.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -34,6 +36,7 @@ struct Arguments {
   std::string transform_b;
   bool one_sided = false;
   bool profile = false;
+  std::string certificate;
   Method method = Method::CellWalking;
   CommonOptions common;
 };
@@ -84,6 +87,8 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--transform-b", arguments.transform_b,
                  "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
   app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
+  app.add_option("--certificate", arguments.certificate,
+                 "With --tolerance: write the proof that the distance is within it, for verify_certificate");
   const std::map<std::string, Method> methods{{"cell-walking", Method::CellWalking},
                                               {"cross-culling", Method::CrossCulling}};
   app.add_option("--method", arguments.method,
@@ -258,7 +263,27 @@ Question parse_question(const Arguments& arguments, std::optional<Length>& error
   question.error_bound_was_given = !arguments.error_bound.empty();
   if (!arguments.error_bound.empty()) error_bound = parse_length("--error-bound", arguments.error_bound);
   if (!arguments.tolerance.empty()) tolerance = parse_length("--tolerance", arguments.tolerance);
+  if (arguments.certificate.empty()) return question;
+  if (arguments.tolerance.empty() || arguments.one_sided || !arguments.transform_b.empty())
+    throw InvalidInput("--certificate needs --tolerance, both directions and the meshes as they are in the files");
   return question;
+}
+
+/// The proof of a tolerance that was found to hold. False when there was no time for it.
+bool write_certificate(const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b, double tolerance,
+                       const Stopwatch& watch) {
+  ProgressBar bar("proving", arguments.common.quiet);
+  CertificateOptions options;
+  options.threads = arguments.common.threads;
+  options.cancel = &watch_interrupts();
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  if (arguments.common.has_time_limit) options.seconds = std::max(0.0, arguments.common.time_limit - watch.total());
+  PendingFile file(arguments.certificate);
+  const auto certificate = build_certificate(a, b, tolerance, options);
+  if (!certificate) return false;
+  file.write(certificate->bytes);
+  file.publish();
+  return true;
 }
 
 int run(const Arguments& arguments) {
@@ -296,6 +321,11 @@ int run(const Arguments& arguments) {
     answer = answer_to(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));
   }
   report.seconds.query = watch.lap();
+  if (!arguments.certificate.empty() && answer.exit_code == ExitDone &&
+      !write_certificate(arguments, a.mesh, b.mesh, *question.tolerance, watch)) {
+    std::fprintf(stderr, "hausdorff_distance: no time was left for the certificate; it was not written\n");
+    answer.exit_code = ExitUndecided;
+  }
   report.verdict = answer.verdict;
   report.error_bound = question.error_bound;
   report.tolerance = question.tolerance;

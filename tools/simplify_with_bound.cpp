@@ -17,10 +17,12 @@
 #include "common/gated_output.h"
 #include "common/length.h"
 #include "common/output.h"
+#include "common/pending_file.h"
 #include "common/progress.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
 #include "common/tool_main.h"
+#include "meshbound/certificate.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/report.h"
@@ -35,7 +37,8 @@ constexpr double simplify_share = 0.7;
 constexpr double relative_error_bound = 1e-6;
 
 struct Options {
-  std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", effort = "normal", output_dir;
+  std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", effort = "normal", output_dir,
+                                        certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::optional<double> target_ratio;
@@ -61,6 +64,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--levels", options.levels, "Smaller tolerances to write levels for as well: T1,T2,...")
       ->delimiter(',');
   app.add_option("--output-dir", options.output_dir, "Folder for the levels (default: that of OUT)");
+  app.add_option("--certificate", options.certificate,
+                 "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
+                 "FILE_level_1 and so on");
   app.add_option("--cost", options.cost, "What makes a collapse cheap")
       ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
       ->capture_default_str();
@@ -87,6 +93,7 @@ class Run {
   void open_outputs();
   void simplify();
   void certify();
+  void write_certificates();
   [[nodiscard]] std::filesystem::path save_reproducer(GatedOutput& rejected, double tolerance) const;
   void publish();
   void report();
@@ -104,6 +111,7 @@ class Run {
   double largest_coordinate_ = 0;
   std::vector<double> tolerances_;  ///< ascending, without repetitions; the last is that of OUT
   std::vector<GatedOutput> outputs_;
+  std::vector<PendingFile> certificates_;  ///< of the outputs, when they are asked for
   cgal::SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
@@ -115,6 +123,7 @@ int Run::operator()() {
   open_outputs();
   simplify();
   certify();
+  if (verdict_ == Verdict::Within) write_certificates();
   if (verdict_ == Verdict::Within) publish();
   report();
   return exit_code(verdict_);
@@ -161,6 +170,14 @@ void Run::open_outputs() {
     }
   }
   outputs_.emplace_back(out);
+  if (options_.certificate.empty()) return;
+  const std::filesystem::path certificate = options_.certificate;
+  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) {
+    const std::string level = "_level_" + std::to_string(i + 1);
+    certificates_.emplace_back(certificate.parent_path() /
+                               (certificate.stem().string() + level + certificate.extension().string()));
+  }
+  certificates_.emplace_back(certificate);
 }
 
 void Run::simplify() {
@@ -248,8 +265,33 @@ std::filesystem::path Run::save_reproducer(GatedOutput& rejected, double toleran
   return folder;
 }
 
+/// Of the files as they read. What cannot be proven in time leaves the verdict open.
+void Run::write_certificates() {
+  if (certificates_.empty()) return;
+  watch_.lap();
+  ProgressBar bar("proving", options_.common.quiet);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    CertificateOptions options;
+    options.threads = options_.common.threads;
+    options.seconds = remaining(1);
+    options.cancel = &interrupted_;
+    options.progress = [&](double fraction) { bar.show(fraction); };
+    const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
+    const auto certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
+    if (!certificate) {
+      verdict_ = Verdict::Undecided;
+      return;
+    }
+    certificates_[i].write(certificate->bytes);
+    report_.certificates.push_back({certificates_[i].path().string(), certificate->bytes.size()});
+  }
+  report_.seconds.certificate = watch_.lap();
+}
+
+/// The certificates last: one that is there speaks of a mesh that is there.
 void Run::publish() {
   for (GatedOutput& output : outputs_) output.publish();
+  for (PendingFile& certificate : certificates_) certificate.publish();
 }
 
 void Run::report() {
@@ -315,6 +357,9 @@ void Run::print_summary() const {
     std::printf("wrote      %s, %zu faces, [%.6g, %.6g]\n", output.path().c_str(), output.summary().faces,
                 output.distance().bounds.lower, output.distance().bounds.upper);
   }
+  for (const CertificateReport& certificate : report_.certificates)
+    std::printf("wrote      %s, %zu bytes: a proof for verify_certificate\n", certificate.path.c_str(),
+                certificate.bytes);
 }
 
 }  // namespace

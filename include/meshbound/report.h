@@ -50,6 +50,12 @@ struct LevelReport {
   SymmetricDistance distance;  ///< a: the original, b: the level as written
 };
 
+/// A proof that was written for `verify_certificate`.
+struct CertificateReport {
+  std::string path;
+  std::size_t bytes = 0;
+};
+
 /// What `simplify_with_bound` says: schema "meshbound/simplify/1".
 struct SimplifyReport {
   Verdict verdict = Verdict::Undecided;
@@ -60,11 +66,12 @@ struct SimplifyReport {
   std::string stopped_by;      ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   std::string effort;          ///< "fast", "normal" or "high"
   std::vector<LevelReport> levels;
+  std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
   struct Collapses {
     std::uint64_t performed = 0, refused = 0;
   } collapses;
   struct Seconds {
-    double read = 0, simplify = 0, certify = 0, write = 0, total = 0;
+    double read = 0, simplify = 0, certify = 0, certificate = 0, write = 0, total = 0;
   } seconds;
   int threads = 1;
 };

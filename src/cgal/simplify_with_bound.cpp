@@ -89,8 +89,13 @@ void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLeve
   level.verdict = bounds.upper <= level.tolerance  ? Verdict::Within
                   : bounds.lower > level.tolerance ? Verdict::Exceeds
                                                    : Verdict::Undecided;
-  if (options.face_tolerances.empty() || level.verdict != Verdict::Within) return;
-  level.verdict = check_face_tolerances(original, options.face_tolerances, level.tolerance, level.mesh).verdict;
+  if (!options.face_tolerances.empty() && level.verdict == Verdict::Within)
+    level.verdict = check_face_tolerances(original, options.face_tolerances, level.tolerance, level.mesh).verdict;
+  if (!options.certificate || level.verdict != Verdict::Within) return;
+  CertificateOptions certificate;
+  certificate.threads = options.threads;
+  certificate.cancel = options.cancel;
+  level.certificate = build_certificate(original, level.mesh, level.tolerance, certificate);
 }
 
 SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options) {

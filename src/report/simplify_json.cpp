@@ -19,6 +19,11 @@ std::string to_json(const SimplifyReport& from) {
                               {"faces", level.faces},
                               {"distance", symmetric(level.distance)}});
   }
+  if (!from.certificates.empty()) {
+    json["certificates"] = Json::array();
+    for (const CertificateReport& certificate : from.certificates)
+      json["certificates"].push_back({{"path", certificate.path}, {"bytes", certificate.bytes}});
+  }
   json["collapses"] = {{"performed", from.collapses.performed}, {"refused", from.collapses.refused}};
   json["stats"] = stats({&from.distance.a_to_b, &from.distance.b_to_a});
   json["seconds"] = {{"read", number(from.seconds.read)},
@@ -26,6 +31,7 @@ std::string to_json(const SimplifyReport& from) {
                      {"certify", number(from.seconds.certify)},
                      {"write", number(from.seconds.write)},
                      {"total", number(from.seconds.total)}};
+  if (!from.certificates.empty()) json["seconds"]["certificate"] = number(from.seconds.certificate);
   json["threads"] = from.threads;
   return text(json);
 }

@@ -53,8 +53,10 @@ void GatedOutput::write(const TriangleMesh& mesh) {
   write_mesh(temporary_, rounded_for(temporary_, mesh));
 }
 
+TriangleMesh GatedOutput::written_mesh() const { return read_mesh(temporary_).mesh; }
+
 const SymmetricDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
-  const TriangleMesh mesh = read_mesh(temporary_).mesh;
+  const TriangleMesh mesh = written_mesh();
   summary_ = summarise(mesh);
   distance_ = symmetric_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
   verdict_ = distance_.bounds.upper <= *options.tolerance  ? Verdict::Within

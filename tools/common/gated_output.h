@@ -28,6 +28,9 @@ class GatedOutput {
   /// Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
   void write(const TriangleMesh& mesh);
 
+  /// What was written, as it reads. Throws as `read_mesh`.
+  [[nodiscard]] TriangleMesh written_mesh() const;
+
   /// Distance of the original (a) and the file as it reads (b). `options.tolerance` must be set.
   const SymmetricDistance& measure(const Bvh& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }

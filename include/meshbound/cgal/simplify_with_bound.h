@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "meshbound/certificate.h"
 #include "meshbound/cgal/surface_mesh.h"
 #include "meshbound/deviation_tracker.h"
 #include "meshbound/distance.h"
@@ -69,6 +70,8 @@ struct SimplifyOptions {
   double output_rounding = 0;
   /// Measure what comes out, against the original, and say so in `distance`. Without, the caller must do that.
   bool measure = true;
+  /// Make the certificate of each level that was measured to be within its tolerance.
+  bool certificate = false;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
   int threads = 0;                                              ///< of the measurement; 0: as many as OpenMP has
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
@@ -82,7 +85,8 @@ struct SimplifiedLevel {
   /// Of the original (a) and `mesh` (b), with the verdict on `tolerance`, when it was measured.
   std::optional<SymmetricDistance> distance;
   Verdict verdict = Verdict::Undecided;
-  std::uint64_t collapses_performed = 0;  ///< since the beginning of the run
+  std::optional<Certificate> certificate;  ///< of the original and `mesh`, when it was asked for
+  std::uint64_t collapses_performed = 0;   ///< since the beginning of the run
   std::uint64_t collapses_refused = 0;
 
   [[nodiscard]] std::size_t faces() const { return mesh.triangles.size(); }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "meshbound/mesh_view.h"
+
+namespace meshbound {
+
+struct CertificateOptions {
+  int threads = 0;  ///< 0: as many as OpenMP has. The bytes are the same for every value.
+  /// Steps of the search for the cuts of one triangle, after which it is given up.
+  std::uint64_t steps_per_triangle = 1'000'000;
+  double seconds = std::numeric_limits<double>::infinity();  ///< after which it is given up
+  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
+  std::function<void(double fraction)> progress;  ///< called from the calling thread
+};
+
+/// A proof, checkable without any of our code, that the symmetric Hausdorff distance between two meshes is at most a
+/// tolerance. The format is documented in tools/schema/certificate-1.md; `verify_certificate` checks it.
+struct Certificate {
+  std::vector<std::uint8_t> bytes;
+  struct Direction {
+    std::uint64_t pieces = 0;     ///< that the triangles were cut into
+    std::uint64_t by_degree = 0;  ///< those of them proven by the degree of a projection
+    std::uint64_t cuts = 0;
+    std::uint64_t bytes = 0;
+  };
+  Direction original_to_simplified, simplified_to_original;
+};
+
+/// Proves, for any two triangle soups, that each lies within `tolerance` (model units) of the other: vertices and
+/// triangles as they are in memory, so a certificate for files needs the meshes as `read_mesh` gives them back.
+/// Expected O(n log n) time; O(n) memory. Safe to call from several threads.
+///
+/// Throws `InvalidInput` for meshes that `validate` refuses and a tolerance that is not finite or negative; `Error`,
+/// with one line that names the triangle, when no proof was found: the distance exceeds the tolerance or is closer to
+/// it than double arithmetic can tell. Nothing when it was cancelled or ran out of time.
+[[nodiscard]] std::optional<Certificate> build_certificate(const MeshView& original, const MeshView& simplified,
+                                                           double tolerance, const CertificateOptions& options = {});
+
+}  // namespace meshbound

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/certificate.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "certificate/cut_search.h"
+#include "certificate/encoder.h"
+#include "distance/point_like.h"
+#include "distance/searcher.h"
+#include "meshbound/bvh.h"
+#include "meshbound/error.h"
+
+namespace meshbound {
+namespace {
+
+constexpr std::size_t triangles_per_chunk = 256;  ///< hints are handed on inside a chunk
+
+double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+using Clock = std::chrono::steady_clock;
+
+Clock::time_point deadline_after(double seconds) {
+  if (!(seconds < 1e9)) return Clock::time_point::max();  // about 30 years: no deadline, and no overflow
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/// A source triangle that could not be proven.
+struct Failure {
+  std::size_t triangle = 0;
+  CutSearch::Outcome outcome = CutSearch::Outcome::Proven;
+};
+
+/// Proves that `source` lies near `target`.
+class DirectionProof {
+ public:
+  DirectionProof(const MeshView& source, const MeshView& target, double tolerance, const CertificateOptions& options,
+                 Clock::time_point deadline, const std::string& source_name)
+      : source_(source),
+        target_(target),
+        tolerance_(tolerance),
+        options_(options),
+        source_name_(source_name),
+        tree_(target, BvhOptions{options.threads}) {
+    load_vertices();
+    goal_.deadline = deadline;
+    goal_.cancel = options.cancel;
+  }
+
+  /// Nothing when it was cancelled or ran out of time.
+  std::optional<EncodedSection> run(double progress_from);
+
+ private:
+  void load_vertices();
+  [[nodiscard]] Failure prove_chunk(std::size_t chunk, CutSearch& search);
+  [[nodiscard]] bool is_in_target(const Triangle& triangle, std::uint32_t slot) const;
+  [[noreturn]] void fail(const Failure& failure) const;
+
+  const MeshView& source_;
+  const MeshView& target_;
+  double tolerance_;
+  const CertificateOptions& options_;
+  std::string source_name_;
+  Bvh tree_;
+  Goal goal_;
+  std::vector<Vec3> vertices_;  ///< of the source, in the working frame of the tree
+  std::vector<std::vector<ProofNode>> chunks_;
+};
+
+void DirectionProof::load_vertices() {
+  const Frame& frame = tree_.data().frame;
+  double magnitude = 1, error = 0;
+  std::vector<bool> used(source_.vertex_count(), false);
+  for (std::size_t t = 0; t < source_.triangle_count(); ++t)
+    for (const std::uint32_t v : source_.triangle(t)) used[v] = true;
+  vertices_.resize(source_.vertex_count());
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    if (!used[v]) continue;
+    const Eigen::Vector3d p = source_.vertex(v);
+    const Vec3 model{p.x(), p.y(), p.z()};
+    vertices_[v] = frame.to_working(model);
+    magnitude = std::max(magnitude, largest(vertices_[v]));
+    error = std::max(error, frame.rounding_of(model));
+  }
+  if (!(magnitude <= largest_magnitude))
+    throw InvalidInput("the meshes differ too much in size, or lie too far apart, for a certificate");
+  goal_.decide_only = true;
+  goal_.tolerance = frame.working_length_down(tolerance_);
+  set_slack(goal_, magnitude, frame.error + error);
+}
+
+/// A triangle whose corners are corners of the target's triangle, bit for bit, needs no arithmetic.
+bool DirectionProof::is_in_target(const Triangle& triangle, std::uint32_t slot) const {
+  const Triangle near = target_.triangle(tree_.data().triangle_of_slot[slot]);
+  return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+    return std::any_of(near.begin(), near.end(),
+                       [&](std::uint32_t w) { return source_.vertex(v) == target_.vertex(w); });
+  });
+}
+
+Failure DirectionProof::prove_chunk(std::size_t chunk, CutSearch& search) {
+  std::uint32_t hint = 0;
+  const std::size_t begin = chunk * triangles_per_chunk;
+  const std::size_t end = std::min(source_.triangle_count(), begin + triangles_per_chunk);
+  for (std::size_t t = begin; t < end; ++t) {
+    const Triangle corners = source_.triangle(t);
+    const auto outcome = search.prove({vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]}, hint,
+                                      chunks_[chunk], options_.steps_per_triangle);
+    if (outcome == CutSearch::Outcome::Proven) continue;
+    const std::uint32_t same = search.nearest_to_middle();
+    if (!is_in_target(corners, same)) return {t, outcome};
+    ProofNode node;
+    node.target = tree_.data().triangle_of_slot[same];
+    chunks_[chunk].push_back(node);
+  }
+  return {};
+}
+
+std::optional<EncodedSection> DirectionProof::run(double progress_from) {
+  const std::size_t count = (source_.triangle_count() + triangles_per_chunk - 1) / triangles_per_chunk;
+  chunks_.resize(count);
+  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+  std::vector<Failure> failures(count);
+  std::size_t done = 0;
+  std::atomic<bool> stop = false;
+#pragma omp parallel num_threads(threads)
+  {
+    CutSearch search(tree_.data(), goal_);
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t chunk = 0; chunk < count; ++chunk) {
+      if (stop || goal_.out_of_time()) continue;
+      failures[chunk] = prove_chunk(chunk, search);
+      if (failures[chunk].outcome != CutSearch::Outcome::Proven) stop = true;
+#pragma omp atomic
+      ++done;
+      if (options_.progress && omp_get_thread_num() == 0)
+        options_.progress(progress_from + 0.5 * static_cast<double>(done) / static_cast<double>(count));
+    }
+  }
+  for (const Failure& failure : failures)
+    if (failure.outcome != CutSearch::Outcome::Proven) fail(failure);
+  if (done < count) return std::nullopt;
+  return encode(source_, chunks_);
+}
+
+void DirectionProof::fail(const Failure& failure) const {
+  const std::string where = "triangle " + std::to_string(failure.triangle) + " of the " + source_name_ + " mesh ";
+  if (failure.outcome == CutSearch::Outcome::TooFar)
+    throw Error("no certificate: " + where +
+                "has a point that is further from the other mesh than the tolerance, or too close to it for doubles");
+  throw Error("no certificate: " + where +
+              "could not be proven in pieces that the format allows; give a slightly larger tolerance");
+}
+
+Certificate::Direction counts_of(const EncodedSection& section) {
+  return {section.pieces, section.by_degree, section.cuts, section.bytes.size()};
+}
+
+}  // namespace
+
+std::optional<Certificate> build_certificate(const MeshView& original, const MeshView& simplified, double tolerance,
+                                             const CertificateOptions& options) {
+  if (!(std::isfinite(tolerance) && tolerance >= 0))
+    throw InvalidInput("the tolerance of a certificate must be a length in model units, 0 or more");
+  const Clock::time_point deadline = deadline_after(options.seconds);
+  const auto forward = DirectionProof(original, simplified, tolerance, options, deadline, "original").run(0);
+  if (!forward) return std::nullopt;
+  const auto backward = DirectionProof(simplified, original, tolerance, options, deadline, "simplified").run(0.5);
+  if (!backward) return std::nullopt;
+  Certificate certificate;
+  certificate.original_to_simplified = counts_of(*forward);
+  certificate.simplified_to_original = counts_of(*backward);
+  // + 0 turns the negative zero, which is a tolerance of 0, into the positive one.
+  certificate.bytes = assemble(original, simplified, tolerance + 0.0, *forward, *backward);
+  return certificate;
+}
+
+}  // namespace meshbound

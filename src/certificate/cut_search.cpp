@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "certificate/cut_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certificate/cell_planes.h"
+
+namespace meshbound {
+namespace {
+
+/// As in the walk of the engine.
+constexpr std::uint32_t steps_between_queries = 8;
+constexpr std::uint32_t halve_from_depth = 60, halve_from_rounds = 24;
+constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
+constexpr double noise = 1e-13;
+
+bool must_halve(const Piece& piece) {
+  return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds || piece.count > crowded_piece;
+}
+
+Vec3 middle_of(const Piece& piece) {
+  Vec3 sum;
+  for (std::uint32_t i = 0; i < piece.count; ++i) sum = sum + piece.corner(i);
+  return (1.0 / piece.count) * sum;
+}
+
+/// Whether the first part is the one on the negative side.
+bool first_is_inside(const Piece& piece, const PlaneSides& sides, const Chord& chord) {
+  double first = 0;
+  for (std::uint32_t i = chord.from.edge + 1; i <= chord.to.edge; ++i)
+    if (std::fabs(sides.value[i]) > std::fabs(first)) first = sides.value[i];
+  double second = 0;
+  for (std::uint32_t i = 0; i < piece.count; ++i)
+    if ((i <= chord.from.edge || i > chord.to.edge) && std::fabs(sides.value[i]) > std::fabs(second))
+      second = sides.value[i];
+  return first < second;
+}
+
+}  // namespace
+
+CutSearch::CutSearch(const Bvh::Data& target, const Goal& goal) : b_(target), tolerance_(goal.tolerance) {
+  accepted_ = goal.tolerance - goal.largest_slack();
+  // A length is rounded four times on its way from the offset, relative to itself.
+  accepted_squared_ = accepted_ > 0 ? accepted_ * accepted_ * (1 - 8 * 0x1p-53) : -1;
+}
+
+/// How far the ends of a cut may be moved to say them in few bits. Where that goes wrong, the next cuts are finer.
+double CutSearch::most_moved(const Piece& piece) const {
+  const double share = piece.depth < 8 ? 0x1p-4 : piece.depth < 24 ? 0x1p-8 : piece.depth < 48 ? 0x1p-16 : 0x1p-32;
+  return share * tolerance_;
+}
+
+void CutSearch::emit(std::uint32_t slot) {
+  last_ = slot;
+  ProofNode node;
+  node.target = b_.triangle_of_slot[slot];
+  nodes_->push_back(node);
+}
+
+bool CutSearch::try_near(const Piece& piece, std::uint32_t slot) {
+  if (!(farthest_corner(piece, triangle_at(slot)).squared <= accepted_squared_)) return false;
+  emit(slot);
+  return true;
+}
+
+Nearest CutSearch::nearest(const Vec3& p, std::uint32_t hint) {
+  Nearest best{closest_on_triangle(triangle_at(hint), p).squared_distance, hint};
+  find_nearest(b_, p, 0, best, counters_);
+  if (!(best.squared <= accepted_squared_)) too_far_ = true;
+  return best;
+}
+
+/// One triangle for the whole piece saves bytes: those nearest to its middle and corners, and their neighbours.
+bool CutSearch::try_candidates(const Piece& piece) {
+  std::array<std::uint32_t, 4> slots;
+  slots[0] = nearest_to_middle_ = nearest(middle_of(piece), piece.slot).slot;
+  for (std::uint32_t k = 0; k < 3; ++k) slots[k + 1] = nearest(piece.corner(k), slots[0]).slot;
+  if (too_far_) return false;
+  for (const std::uint32_t slot : slots)
+    if (try_near(piece, slot)) return true;
+  for (const std::uint32_t slot : slots)
+    for (const Neighbour& across : b_.neighbours[slot])
+      if (across.slot != no_slot && try_near(piece, across.slot)) return true;
+  return false;
+}
+
+CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint,
+                                    std::vector<ProofNode>& nodes, std::uint64_t most_steps) {
+  nodes_ = &nodes;
+  steps_left_ = most_steps;
+  too_far_ = false;
+  const std::size_t before = nodes.size();
+  Piece whole = whole_triangle(triangle[0], triangle[1], triangle[2], hint);
+  bool proven = try_near(whole, hint) || try_candidates(whole);
+  if (!proven && !too_far_) {
+    whole.slot = nearest_to_middle_;
+    proven = cover(whole);
+  }
+  hint = last_;
+  if (proven) return Outcome::Proven;
+  nodes.resize(before);
+  return too_far_ ? Outcome::TooFar : Outcome::GaveUp;
+}
+
+bool CutSearch::cover(Piece piece) {
+  while (steps_left_ > 0) {
+    --steps_left_;
+    const Farthest farthest = farthest_corner(piece, triangle_at(piece.slot));
+    if (farthest.squared <= accepted_squared_) {
+      emit(piece.slot);
+      return true;
+    }
+    if (piece.depth >= deepest_cut) return false;
+    const bool due = piece.age >= steps_between_queries;
+    if (must_halve(piece) || due) {
+      if (ask_near_worst(piece, farthest.corner)) return true;
+      if (too_far_) return false;
+      if (must_halve(piece)) return halve(piece);
+    }
+    const Walked walked = walk(piece);
+    if (walked.cut) return walked.covered;
+    if (walked.moved) continue;
+    if (due) return resolve(piece, farthest.corner);
+    piece.age = steps_between_queries;
+  }
+  return false;
+}
+
+bool CutSearch::cover_parts(const ChordCut& cut) {
+  ProofNode node;
+  node.kind = ProofNode::Kind::Cut;
+  node.chord = cut.chord;
+  nodes_->push_back(node);
+  return cover(cut.first) && cover(cut.second);
+}
+
+/// Takes the triangle nearest to a point of the piece near its worst corner, off the ties at shared edges. True when
+/// the whole piece is near that.
+bool CutSearch::ask_near_worst(Piece& piece, std::uint32_t worst) {
+  const Vec3 corner = piece.corner(worst);
+  const Vec3 probe = must_halve(piece) ? corner : corner + 0.25 * (middle_of(piece) - corner);
+  const Nearest found = nearest(probe, piece.slot);
+  ++piece.rounds;
+  piece.age = 0;
+  piece.slot = found.slot;
+  return try_near(piece, found.slot);
+}
+
+/// Cuts the piece by the cell of its candidate, pushed outward first so that most parts inside are near enough.
+CutSearch::Walked CutSearch::walk(Piece& piece) {
+  const CornerTriangle<double> t = triangle_at(piece.slot);
+  const double shift = most_moved(piece), margin = std::max(noise, 2 * shift);
+  const double outward = outward_slack(b_, piece, accepted_squared_);
+  for (const double push : {outward, 0.0}) {
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;
+      if (across == no_slot) continue;
+      const CellPlane plane = cell_plane(b_, piece.slot, t, edge);
+      const PlaneSides sides = sides_of(piece, plane.normal, plane.offset + push);
+      if (sides.most <= (push > 0 ? margin : noise)) continue;
+      if (sides.least >= -margin) {
+        piece.slot = across;
+        ++piece.age;
+        return {.moved = true};
+      }
+      auto cut = cut_by_chord(piece, sides, shift);
+      if (!cut) continue;
+      const bool inside_first = first_is_inside(piece, sides, cut->chord);
+      Piece& outside = inside_first ? cut->second : cut->first;
+      outside.slot = across;
+      ++outside.age;
+      return {.cut = true, .covered = cover_parts(*cut)};
+    }
+    if (outward == 0) break;
+  }
+  return {};
+}
+
+/// The piece is inside the cell of its candidate, yet a corner is too far from it: splits it between that candidate and
+/// the triangle that is nearest to a corner, of all corners the one furthest from here.
+bool CutSearch::resolve(const Piece& piece, std::uint32_t worst) {
+  const CornerTriangle<double> t = triangle_at(piece.slot);
+  const Vec3 here = piece.corner(worst) - closest_on_triangle(t, piece.corner(worst)).offset;
+  std::uint32_t other = piece.slot;
+  Vec3 there;
+  double apart = 0;
+  for (std::uint32_t i = 0; i < piece.count; ++i) {
+    const Vec3 corner = piece.corner(i);
+    const Nearest found = nearest(corner, piece.slot);
+    if (too_far_) return false;
+    if (found.slot == piece.slot) continue;
+    if (try_near(piece, found.slot)) return true;
+    const Vec3 point = corner - closest_on_triangle(triangle_at(found.slot), corner).offset;
+    if (squared_length(point - here) > apart) {
+      apart = squared_length(point - here);
+      there = point;
+      other = found.slot;
+    }
+  }
+  if (other == piece.slot) return halve(piece);
+  const Vec3 normal = there - here;
+  const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (here + there)));
+  auto cut = sides.least < 0 && sides.most > 0 ? cut_by_chord(piece, sides, most_moved(piece)) : std::nullopt;
+  if (!cut) return halve(piece);
+  const bool inside_first = first_is_inside(piece, sides, cut->chord);
+  (inside_first ? cut->second : cut->first).slot = other;
+  cut->first.age = cut->second.age = 1;
+  return cover_parts(*cut);
+}
+
+/// Last resort: cuts across the longest diagonal.
+bool CutSearch::halve(const Piece& piece) {
+  Vec3 from, to;
+  double longest = -1;
+  for (std::uint32_t i = 0; i < piece.count; ++i) {
+    for (std::uint32_t j = i + 1; j < piece.count; ++j) {
+      const double squared = squared_length(piece.corner(j) - piece.corner(i));
+      if (squared <= longest) continue;
+      longest = squared;
+      from = piece.corner(i);
+      to = piece.corner(j);
+    }
+  }
+  const Vec3 normal = to - from;
+  const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
+  const auto cut = cut_by_chord(piece, sides, most_moved(piece));
+  return cut && cover_parts(*cut);
+}
+
+}  // namespace meshbound

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bvh/nearest.h"
+#include "certificate/chord_cut.h"
+#include "certificate/proof_node.h"
+#include "distance/goal.h"
+#include "distance/piece.h"
+
+namespace meshbound {
+
+/// Finds the cuts after which each piece of a triangle is near one triangle of B: the walk over the cells of B
+/// (distance/cell_walker.h), with cuts that few bytes can say, and written down. Not thread-safe.
+class CutSearch {
+ public:
+  /// `goal` gives the tolerance and the slacks, in B's working frame. `target` must outlive this.
+  CutSearch(const Bvh::Data& target, const Goal& goal);
+
+  enum class Outcome {
+    Proven,
+    TooFar,  ///< a point is further than the tolerance, but for the slack
+    GaveUp   ///< not within the depth of the format or `most_steps`
+  };
+
+  /// Appends the tree for a triangle given in B's working frame; on failure leaves `nodes` as they were. Starts with
+  /// the triangle of B at `hint`, and leaves there the one that served last.
+  [[nodiscard]] Outcome prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
+                              std::uint64_t most_steps);
+
+  /// The triangle of B nearest to the middle of the triangle that `prove` was called for last.
+  [[nodiscard]] std::uint32_t nearest_to_middle() const { return nearest_to_middle_; }
+
+ private:
+  struct Walked {
+    bool moved = false;  ///< the piece lies in the cell of a neighbour, which is its candidate now
+    bool cut = false;
+    bool covered = false;  ///< after a cut: both parts were
+  };
+  [[nodiscard]] CornerTriangle<double> triangle_at(std::uint32_t slot) const {
+    return meshbound::triangle_at(b_, slot);
+  }
+  [[nodiscard]] bool try_near(const Piece& piece, std::uint32_t slot);
+  [[nodiscard]] bool try_candidates(const Piece& piece);
+  [[nodiscard]] bool cover(Piece piece);
+  [[nodiscard]] bool cover_parts(const ChordCut& cut);
+  [[nodiscard]] bool ask_near_worst(Piece& piece, std::uint32_t worst);
+  [[nodiscard]] Walked walk(Piece& piece);
+  [[nodiscard]] bool resolve(const Piece& piece, std::uint32_t worst);
+  [[nodiscard]] bool halve(const Piece& piece);
+  [[nodiscard]] Nearest nearest(const Vec3& p, std::uint32_t hint);
+  [[nodiscard]] double most_moved(const Piece& piece) const;
+  void emit(std::uint32_t slot);
+
+  const Bvh::Data& b_;
+  double tolerance_ = 0;
+  double accepted_ = 0, accepted_squared_ = 0;  ///< computed distances that prove; negative when none does
+  QueryCounters counters_;
+  std::vector<ProofNode>* nodes_ = nullptr;
+  std::uint64_t steps_left_ = 0;
+  std::uint32_t last_ = 0;
+  std::uint32_t nearest_to_middle_ = 0;
+  bool too_far_ = false;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "certificate/encoder.h"
+
+#include <algorithm>
+#include <bit>
+#include <string_view>
+
+#include "certificate/checksum.h"
+
+namespace meshbound {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+enum TokenKind : std::uint64_t { NearToken = 0, CutToken = 1, DegreeToken = 2, RecallToken = 3 };
+
+void put(Bytes& bytes, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+}
+
+/// LEB128.
+void put_variable(Bytes& bytes, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(0x80 | (value & 0x7f)));
+  bytes.push_back(static_cast<std::uint8_t>(value));
+}
+
+void put_token(Bytes& bytes, TokenKind kind, std::uint64_t payload) { put_variable(bytes, payload << 2 | kind); }
+
+/// 0, -1, 1, -2, 2, ... as 0, 1, 2, 3, 4, ...
+std::uint64_t zigzag(std::int64_t value) {
+  return value < 0 ? static_cast<std::uint64_t>(-(value + 1)) * 2 + 1 : static_cast<std::uint64_t>(value) * 2;
+}
+
+void put_cut(Bytes& bytes, const Chord& chord) {
+  const std::uint64_t size_class = chord.bits == 8 ? 0 : chord.bits == 16 ? 1 : chord.bits == 32 ? 2 : 3;
+  const std::uint64_t pair = std::uint64_t{chord.to.edge} * (chord.to.edge - 1) / 2 + chord.from.edge;
+  put_token(bytes, CutToken, pair << 2 | size_class);
+  put(bytes, chord.from.numerator, chord.bits / 8);
+  put(bytes, chord.to.numerator, chord.bits / 8);
+}
+
+/// Writes the trees one by one; what was written before says what the next triangles need not repeat.
+class SectionEncoder {
+ public:
+  explicit SectionEncoder(const MeshView& source) : source_(source), last_at_(source.vertex_count(), 0) {}
+
+  void add(const ProofNode& node) {
+    if (open_ == 0) {
+      corners_ = source_.triangle(next_++);
+      open_ = 1;
+    }
+    --open_;
+    if (node.kind == ProofNode::Kind::Cut) {
+      ++result_.cuts;
+      put_cut(result_.bytes, node.chord);
+      open_ += 2;
+    } else {
+      add_leaf(node);
+    }
+    if (open_ == 0)
+      for (const std::uint32_t vertex : corners_) last_at_[vertex] = last_;
+  }
+
+  [[nodiscard]] EncodedSection take() { return std::move(result_); }
+
+ private:
+  void add_leaf(const ProofNode& node) {
+    ++result_.pieces;
+    const std::uint64_t step = zigzag(static_cast<std::int64_t>(node.target) - static_cast<std::int64_t>(last_));
+    last_ = node.target;
+    if (node.kind == ProofNode::Kind::Degree) {
+      ++result_.by_degree;
+      return put_token(result_.bytes, DegreeToken, step);
+    }
+    const auto at = std::find_if(corners_.begin(), corners_.end(),
+                                 [&](std::uint32_t vertex) { return last_at_[vertex] == node.target; });
+    constexpr std::uint64_t most_in_one_byte = 31;
+    if (step > most_in_one_byte && at != corners_.end())
+      put_token(result_.bytes, RecallToken, static_cast<std::uint64_t>(at - corners_.begin()));
+    else
+      put_token(result_.bytes, NearToken, step);
+  }
+
+  const MeshView& source_;
+  std::vector<std::uint32_t> last_at_;
+  std::size_t next_ = 0;
+  Triangle corners_{};
+  std::uint64_t open_ = 0;  ///< nodes that the tree at hand still needs
+  std::uint32_t last_ = 0;
+  EncodedSection result_;
+};
+
+std::uint64_t checksum_of(const MeshView& mesh) {
+  Crc64 crc;
+  const auto add = [&](std::uint64_t word, int size) {
+    for (int i = 0; i < size; ++i) crc.add(static_cast<std::uint8_t>(word >> (8 * i)));
+  };
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Eigen::Vector3d p = mesh.vertex(v);
+    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(p[axis]), 8);
+  }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (const std::uint32_t vertex : mesh.triangle(t)) add(vertex, 4);
+  return crc.value();
+}
+
+void put_mesh(Bytes& bytes, const MeshView& mesh) {
+  put(bytes, mesh.vertex_count(), 8);
+  put(bytes, mesh.triangle_count(), 8);
+  put(bytes, checksum_of(mesh), 8);
+}
+
+}  // namespace
+
+EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofNode>> trees) {
+  SectionEncoder encoder(source);
+  for (const std::vector<ProofNode>& run : trees)
+    for (const ProofNode& node : run) encoder.add(node);
+  return encoder.take();
+}
+
+std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& simplified, double tolerance,
+                                   const EncodedSection& original_to_simplified,
+                                   const EncodedSection& simplified_to_original) {
+  constexpr std::string_view magic = "MESHCERT";
+  constexpr std::uint64_t version = 1;
+  Bytes bytes(magic.begin(), magic.end());
+  put(bytes, version, 4);
+  put(bytes, 0, 4);
+  put(bytes, std::bit_cast<std::uint64_t>(tolerance), 8);
+  put_mesh(bytes, original);
+  put_mesh(bytes, simplified);
+  for (const EncodedSection* section : {&original_to_simplified, &simplified_to_original}) {
+    put(bytes, section->bytes.size(), 8);
+    put(bytes, section->pieces, 8);
+  }
+  for (const EncodedSection* section : {&original_to_simplified, &simplified_to_original})
+    bytes.insert(bytes.end(), section->bytes.begin(), section->bytes.end());
+  Crc64 crc;
+  for (const std::uint8_t byte : bytes) crc.add(byte);
+  put(bytes, crc.value(), 8);
+  return bytes;
+}
+
+}  // namespace meshbound

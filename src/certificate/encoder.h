@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/// Turns proofs into the bytes of a certificate (tools/schema/certificate-1.md).
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "certificate/proof_node.h"
+#include "meshbound/mesh_view.h"
+
+namespace meshbound {
+
+/// The proof of one direction: a tree for each source triangle, one after the other.
+struct EncodedSection {
+  std::vector<std::uint8_t> bytes;
+  std::uint64_t pieces = 0, by_degree = 0, cuts = 0;
+};
+
+/// `trees` holds the nodes of all source triangles in their order, in any number of runs.
+[[nodiscard]] EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofNode>> trees);
+
+/// Header, both sections and the checksum.
+[[nodiscard]] std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& simplified, double tolerance,
+                                                 const EncodedSection& original_to_simplified,
+                                                 const EncodedSection& simplified_to_original);
+
+}  // namespace meshbound

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Certificates hold where the distance does: what the engine proves, the verifier confirms by exact arithmetic, and
+// what is not so cannot be certified.
+#include "meshbound/certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "datasets.h"
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "reference/small_meshes.h"
+#include "verify/verifier.h"
+
+namespace meshbound {
+namespace {
+
+struct Pair {
+  std::string name;
+  TriangleMesh a, b;
+};
+
+/// A copy whose vertices are off by up to `by`, in a way that repeats.
+TriangleMesh shaken(TriangleMesh mesh, double by) {
+  double angle = 0;
+  for (Eigen::Vector3d& p : mesh.vertices) {
+    angle += 2.4;
+    p += by * Eigen::Vector3d(std::sin(angle), std::sin(3 * angle), std::cos(5 * angle)) / 2;
+  }
+  return mesh;
+}
+
+TriangleMesh with_needles(TriangleMesh mesh) {
+  const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < n; i += 7) {
+    const Triangle t = mesh.triangles[i];
+    mesh.triangles.push_back({t[0], t[1], t[1]});  // a segment
+    mesh.triangles.push_back({t[2], t[2], t[2]});  // a point
+    mesh.triangles.push_back(t);                   // twice the same
+  }
+  return mesh;
+}
+
+std::vector<Pair> pairs() {
+  using namespace datasets;
+  const TriangleMesh soup = reference::random_soup(7, 40, 0.4);
+  const TriangleMesh far = reference::moved(icosphere(1, 2), {1e6, -3e6, 2e6});
+  return {
+      {"FineAndCoarseSphere", icosphere(1, 4), icosphere(1, 1)},
+      {"CoarseAndFineSphere", icosphere(1, 1), icosphere(1, 4)},
+      {"SphereWithPoles", uv_sphere(1, 20, 30), uv_sphere(1, 9, 11)},
+      {"Torus", torus(1, 0.3, 60, 24), torus(1, 0.3, 17, 9)},
+      {"Gear", gear(1, 0.4, 12, 8, 3), shaken(gear(1, 0.4, 12, 8, 3), 0.01)},
+      {"FineAndCoarseCube", cube(1, 9), cube(1.01, 1)},
+      {"ThinSheetAndSquare", thin_sheet(1, 0.02, 12), reference::unit_square(3)},
+      {"SpikesOnAPlane", spiked_plane(1, 0.1, 16, 4), reference::unit_square(1)},
+      {"Terrain", terrain(1, 24, 5), shaken(terrain(1, 12, 5), 0.02)},
+      {"Soups", soup, shaken(soup, 0.05)},
+      {"SoupAndSphere", soup, icosphere(1, 2)},
+      {"DegenerateTriangles", with_needles(icosphere(1, 2)), with_needles(icosphere(1, 3))},
+      {"OneTriangleAndTwo", reference::unit_square(1), reference::single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})},
+      {"FarFromTheOrigin", far, shaken(far, 0.01)},
+      {"Tiny", reference::scaled(icosphere(1, 3), 1e-150), reference::scaled(icosphere(1, 1), 1e-150)},
+      {"Huge", reference::scaled(icosphere(1, 3), 1e150), reference::scaled(icosphere(1, 1), 1e150)},
+      {"BelowTheNormalRange", reference::scaled(icosphere(1, 2), 1e-300), reference::scaled(icosphere(1, 1), 1e-300)}};
+}
+
+double distance_of(const Pair& pair) { return symmetric_distance(Bvh(pair.a), Bvh(pair.b)).bounds.upper; }
+
+verify::Proof proof_of(const Pair& pair, double tolerance) {
+  const auto certificate = build_certificate(pair.a, pair.b, tolerance);
+  EXPECT_TRUE(certificate);
+  const verify::Proof proof = verify::check_certificate(pair.a, pair.b, certificate->bytes);
+  EXPECT_EQ(proof.tolerance, tolerance);
+  EXPECT_EQ(proof.original_to_simplified.pieces, certificate->original_to_simplified.pieces);
+  EXPECT_EQ(proof.simplified_to_original.cuts, certificate->simplified_to_original.cuts);
+  return proof;
+}
+
+class CertificateOfPair : public testing::TestWithParam<Pair> {};
+
+TEST_P(CertificateOfPair, HoldsJustAboveTheDistance) {
+  const double distance = distance_of(GetParam());
+  const verify::Proof proof = proof_of(GetParam(), distance * (1 + 1e-5));
+  EXPECT_GE(proof.original_to_simplified.pieces, GetParam().a.triangles.size());
+  EXPECT_GE(proof.simplified_to_original.pieces, GetParam().b.triangles.size());
+}
+
+TEST_P(CertificateOfPair, HoldsFarAboveTheDistance) {
+  const verify::Proof proof = proof_of(GetParam(), 3 * distance_of(GetParam()));
+  EXPECT_GE(proof.original_to_simplified.pieces, GetParam().a.triangles.size());
+}
+
+TEST_P(CertificateOfPair, IsNotMadeBelowTheDistance) {
+  const double lower = symmetric_distance(Bvh(GetParam().a), Bvh(GetParam().b)).bounds.lower;
+  try {
+    (void)build_certificate(GetParam().a, GetParam().b, lower * (1 - 1e-9));
+    FAIL() << "a certificate of what is not so";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no certificate: triangle "), std::string::npos) << error.what();
+  }
+}
+
+TEST_P(CertificateOfPair, IsTheSameForAnyNumberOfThreads) {
+  const double tolerance = 1.5 * distance_of(GetParam());
+  CertificateOptions options;
+  options.threads = 1;
+  const auto one = build_certificate(GetParam().a, GetParam().b, tolerance, options);
+  options.threads = 3;
+  const auto three = build_certificate(GetParam().a, GetParam().b, tolerance, options);
+  EXPECT_EQ(one->bytes, three->bytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, CertificateOfPair, testing::ValuesIn(pairs()),
+                         [](const auto& of) { return of.param.name; });
+
+TEST(Certificate, OfAMeshAndItselfHoldsForATolerance0) {
+  for (const TriangleMesh& mesh : {datasets::icosphere(1, 2), with_needles(datasets::cube(1, 3)),
+                                   reference::moved(datasets::torus(1, 0.3, 20, 9), {1e7, 1e7, 1e7})}) {
+    EXPECT_EQ(proof_of({"", mesh, mesh}, 0).tolerance, 0);
+    EXPECT_EQ(proof_of({"", mesh, mesh}, -0.0).tolerance, 0);
+  }
+}
+
+TEST(Certificate, OfBuffersIsThatOfTheMeshTheyHold) {
+  const TriangleMesh mesh = datasets::icosphere(1, 2);
+  std::vector<float> positions;
+  std::vector<std::uint16_t> indices;
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(p[axis]));
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) indices.push_back(static_cast<std::uint16_t>(v));
+  const MeshView view(positions.data(), mesh.vertices.size(), 3 * sizeof(float), indices.data(), mesh.triangles.size());
+  const auto certificate = build_certificate(mesh, view, 1e-6);
+  EXPECT_NO_THROW((void)verify::check_certificate(mesh, to_triangle_mesh(view), certificate->bytes));
+  EXPECT_THROW((void)verify::check_certificate(mesh, mesh, certificate->bytes), verify::Rejected);
+}
+
+TEST(Certificate, EndsWhenItIsTold) {
+  const TriangleMesh fine = datasets::icosphere(1, 4), coarse = datasets::icosphere(1, 1);
+  const std::atomic<bool> cancel = true;
+  CertificateOptions cancelled, late, short_of_steps;
+  cancelled.cancel = &cancel;
+  late.seconds = 0;
+  short_of_steps.steps_per_triangle = 1;
+  EXPECT_FALSE(build_certificate(fine, coarse, 1, cancelled));
+  EXPECT_FALSE(build_certificate(fine, coarse, 1, late));
+  const double distance = symmetric_distance(Bvh(fine), Bvh(coarse)).bounds.upper;
+  EXPECT_THROW((void)build_certificate(fine, coarse, 1.001 * distance, short_of_steps), Error);
+}
+
+TEST(Certificate, RefusesTolerancesThatAreNoLengths) {
+  const TriangleMesh mesh = datasets::cube(1, 1);
+  for (const double tolerance : {-1.0, std::nan(""), HUGE_VAL})
+    EXPECT_THROW((void)build_certificate(mesh, mesh, tolerance), InvalidInput) << tolerance;
+}
+
+/// Real meshes against what another simplifier would make of them: here, every vertex a little off.
+TEST(Certificate, HoldsForFetchedMeshes) {
+  for (const char* name : {"cad/c3d_fandisk.obj", "scan/igl_bunny.off", "cad/c3d_rocker-arm.obj"}) {
+    SCOPED_TRACE(name);
+    const auto path = test::dataset(name);
+    if (!path) GTEST_SKIP() << name << " is not on this machine (MESHBOUND_DATASETS)";
+    const TriangleMesh mesh = read_mesh(*path).mesh;
+    const double step = 1e-3 * Bvh(mesh).bounding_box_diagonal();
+    const Pair pair{name, mesh, shaken(mesh, step)};
+    EXPECT_GE(proof_of(pair, distance_of(pair) * (1 + 1e-6)).original_to_simplified.pieces, mesh.triangles.size());
+  }
+}
+
+}  // namespace
+}  // namespace meshbound

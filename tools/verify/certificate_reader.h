@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/// Reads the bytes of a certificate (tools/schema/certificate-1.md). Knows nothing of meshes; whatever the bytes are,
+/// it allocates nothing and reads each byte once.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+namespace meshbound::verify {
+
+/// Why a certificate proves nothing: one line.
+class Rejected : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The mesh that a certificate speaks of.
+struct MeshIdentity {
+  std::uint64_t vertices = 0, triangles = 0, checksum = 0;
+  bool operator==(const MeshIdentity&) const = default;
+};
+
+/// The proof that one mesh lies near the other: a tree of tokens for each of its triangles.
+struct Section {
+  std::span<const std::uint8_t> tokens;
+  std::uint64_t pieces = 0;
+};
+
+struct Certificate {
+  double tolerance = 0;  ///< model units, finite, not negative
+  MeshIdentity original, simplified;
+  Section original_to_simplified, simplified_to_original;
+};
+
+/// Checks magic, version, sizes, tolerance and checksum. The sections point into `bytes`. Throws `Rejected`. O(size).
+[[nodiscard]] Certificate parse_certificate(std::span<const std::uint8_t> bytes);
+
+/// One node of a tree, in preorder.
+struct Token {
+  enum class Kind : std::uint8_t {
+    Near,    ///< the piece lies near one triangle of the other mesh
+    Cut,     ///< the piece is cut in two along a chord
+    Degree,  ///< the piece lies near the other mesh by the degree of a projection
+    Recall   ///< as Near, with the triangle that was last used at a corner of the source triangle
+  };
+  /// An end of a chord: on the edge from corner `edge` to the next, at the share numerator / 2^bits of the way.
+  struct End {
+    std::uint32_t edge = 0;
+    std::uint64_t numerator = 0;
+  };
+
+  Kind kind = Kind::Near;
+  std::int64_t step = 0;     ///< Near, Degree: triangle less the one before
+  std::uint32_t corner = 0;  ///< Recall
+  End from, to;              ///< Cut: from.edge < to.edge < `most_corners`
+  int bits = 0;
+};
+
+/// Corners that a piece may have. Each cut adds at most one.
+inline constexpr std::uint32_t most_corners = 16;
+
+class TokenReader {
+ public:
+  explicit TokenReader(std::span<const std::uint8_t> tokens) : rest_(tokens) {}
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+  /// Throws `Rejected` when the bytes end early or are none of a token.
+  [[nodiscard]] Token next();
+
+ private:
+  std::uint64_t little_endian(std::size_t size);
+  std::uint64_t variable_length();
+
+  std::span<const std::uint8_t> rest_;
+};
+
+}  // namespace meshbound::verify

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "verify/verifier.h"
+
+#include <bit>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "verify/checksum.h"
+#include "verify/degree_proof.h"
+#include "verify/near_triangle.h"
+#include "verify/pieces.h"
+
+namespace meshbound::verify {
+namespace {
+
+/// Cuts on the way to a piece: enough to halve the sides of a triangle forty times each.
+constexpr int deepest_cut = 128;
+
+Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+/// Walks over the trees of one direction, with the tokens at hand.
+class DirectionCheck {
+ public:
+  DirectionCheck(const TriangleMesh& source, const TriangleMesh& target, double tolerance, const Section& section,
+                 const char* source_name)
+      : source_(source),
+        target_(target),
+        tolerance_(tolerance),
+        section_(section),
+        source_name_(source_name),
+        tokens_(section.tokens),
+        last_at_(source.vertices.size(), 0) {}
+
+  Proof::Direction run() {
+    result_.bytes = section_.tokens.size();
+    for (triangle_ = 0; triangle_ < source_.triangles.size(); ++triangle_) {
+      shape_ = corners_of(source_, triangle_);
+      corners_.start(shape_);
+      check({0, 1, 2}, 0);
+      for (const std::uint32_t vertex : source_.triangles[triangle_]) last_at_[vertex] = last_;
+    }
+    if (!tokens_.at_end()) throw Rejected("the proof goes on after its last triangle");
+    if (result_.pieces != section_.pieces)
+      throw Rejected("the number of pieces in the header is not that of the proof");
+    return result_;
+  }
+
+ private:
+  /// A node of the tree and all below it.
+  void check(const Piece& piece, int depth) {
+    const Token token = tokens_.next();
+    if (token.kind == Token::Kind::Cut) {
+      if (depth == deepest_cut) fail("is cut too often");
+      ++result_.cuts;
+      const std::uint32_t size = corners_.size();
+      const auto [first, second] = corners_.cut(piece, token);
+      check(first, depth + 1);
+      check(second, depth + 1);
+      corners_.shrink(size);
+      return;
+    }
+    ++result_.pieces;
+    last_ = target_of(token);
+    if (token.kind == Token::Kind::Degree) {
+      ++result_.by_degree;
+      if (!degree_) degree_ = std::make_unique<DegreeProof>(target_, tolerance_);
+      if (!degree_->proves(shape_, corners_, piece, last_)) fail("has a piece whose proof by degree does not hold");
+      return;
+    }
+    const Corners near = corners_of(target_, last_);
+    for (const std::uint32_t corner : piece)
+      if (!corner_is_near(corner, near)) fail("has a piece that is not within the tolerance of its triangle");
+  }
+
+  std::uint32_t target_of(const Token& token) const {
+    if (token.kind == Token::Kind::Recall) return last_at_[source_.triangles[triangle_][token.corner]];
+    const std::int64_t index = static_cast<std::int64_t>(last_) + token.step;
+    if (index < 0 || index >= static_cast<std::int64_t>(target_.triangles.size()))
+      fail("names a triangle that the other mesh does not have");
+    return static_cast<std::uint32_t>(index);
+  }
+
+  bool corner_is_near(std::uint32_t corner, const Corners& near) {
+    const Eigen::Vector3d* const given = corners_.given(corner);
+    if (given != nullptr && (*given == near[0] || *given == near[1] || *given == near[2])) return true;
+    if (surely_near(corners_.rough(corner), near, tolerance_)) return true;
+    ++result_.exact_decisions;
+    return is_near(corners_.exact(corner), near, tolerance_);
+  }
+
+  [[noreturn]] void fail(const char* why) const {
+    throw Rejected("triangle " + std::to_string(triangle_) + " of the " + source_name_ + " mesh " + why);
+  }
+
+  const TriangleMesh& source_;
+  const TriangleMesh& target_;
+  double tolerance_;
+  Section section_;
+  const char* source_name_;
+  TokenReader tokens_;
+  std::vector<std::uint32_t> last_at_;  ///< by source vertex: the triangle used last there
+  std::uint32_t last_ = 0;
+  std::size_t triangle_ = 0;
+  Corners shape_;
+  PieceCorners corners_;
+  std::unique_ptr<DegreeProof> degree_;
+  Proof::Direction result_;
+};
+
+/// The meshes of a file are so already; those of a caller may not be.
+void require_mesh(const TriangleMesh& mesh, const char* name) {
+  const std::string which = std::string("the ") + name + " mesh ";
+  if (mesh.triangles.empty()) throw Rejected(which + "has no triangles");
+  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) throw Rejected(which + "is too large");
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t vertex : t)
+      if (vertex >= mesh.vertices.size() || !mesh.vertices[vertex].allFinite())
+        throw Rejected(which + "has a triangle without finite corners");
+}
+
+void require_identity(const TriangleMesh& mesh, const MeshIdentity& claimed, const char* name) {
+  if (identity_of(mesh) != claimed)
+    throw Rejected(std::string("the ") + name + " mesh is not the one that the certificate was made for");
+}
+
+/// Everything here relies on doubles rounded to nearest.
+void require_ieee_doubles() {
+  volatile double one = 1, half_step = 0x1p-53, least = std::numeric_limits<double>::denorm_min();
+  if (one + half_step != 1 || one - half_step == 1 || one + 3 * half_step <= 1 + half_step || least / 2 != 0 ||
+      least * 1 == 0)
+    throw std::runtime_error("this build or processor mode does not round doubles as IEEE 754 says");
+}
+
+}  // namespace
+
+MeshIdentity identity_of(const TriangleMesh& mesh) {
+  Checksum checksum;
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) checksum.add_little_endian(std::bit_cast<std::uint64_t>(p[axis]), 8);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t vertex : t) checksum.add_little_endian(vertex, 4);
+  return {mesh.vertices.size(), mesh.triangles.size(), checksum.value()};
+}
+
+Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
+                        std::span<const std::uint8_t> bytes) {
+  require_ieee_doubles();
+  const Certificate certificate = parse_certificate(bytes);
+  require_mesh(original, "original");
+  require_mesh(simplified, "simplified");
+  require_identity(original, certificate.original, "original");
+  require_identity(simplified, certificate.simplified, "simplified");
+  Proof proof;
+  proof.tolerance = certificate.tolerance;
+  proof.original_to_simplified =
+      DirectionCheck(original, simplified, proof.tolerance, certificate.original_to_simplified, "original").run();
+  proof.simplified_to_original =
+      DirectionCheck(simplified, original, proof.tolerance, certificate.simplified_to_original, "simplified").run();
+  return proof;
+}
+
+}  // namespace meshbound::verify

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// Checks certificates: that the symmetric Hausdorff distance between two meshes is at most a tolerance. Shares no code
+/// with the engine that makes them; every decision is exact (numbers.h).
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "meshbound/triangle_mesh.h"
+#include "verify/certificate_reader.h"
+
+namespace meshbound::verify {
+
+/// What was proven.
+struct Proof {
+  double tolerance = 0;  ///< model units
+  struct Direction {
+    std::uint64_t pieces = 0, by_degree = 0, cuts = 0, bytes = 0;
+    std::uint64_t exact_decisions = 0;  ///< distances that intervals of doubles could not decide
+  };
+  Direction original_to_simplified, simplified_to_original;
+};
+
+/// Counts, and a checksum of all coordinates and indices in the order of the file. O(n).
+[[nodiscard]] MeshIdentity identity_of(const TriangleMesh& mesh);
+
+/// Returns what the certificate proves of these two meshes; throws `Rejected`, with one line that says why, when it
+/// proves nothing. O(certificate) but for proofs by degree, which cost the triangles they use. Deterministic.
+[[nodiscard]] Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
+                                      std::span<const std::uint8_t> certificate);
+
+}  // namespace meshbound::verify

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// verify_certificate ORIGINAL SIMPLIFIED CERTIFICATE: exit 0 when the certificate proves that the two meshes are within
+// its tolerance of each other, 1 when it does not, 2 for bad usage and files that cannot be read.
+#include <Eigen/Geometry>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/length.h"
+#include "common/output.h"
+#include "common/tool_main.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "verify/verifier.h"
+
+namespace meshbound::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string original, simplified, certificate, tolerance, json;
+  bool quiet = false;
+};
+
+struct Inputs {
+  TriangleMesh original, simplified;
+  std::vector<std::uint8_t> certificate;
+};
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) throw IoError("cannot read " + path + ": " + std::strerror(errno));
+  return bytes;
+}
+
+/// The bounding-box diagonal of the vertices in use, for tolerances in percent.
+double diagonal_of(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t vertex : t) box.extend(mesh.vertices[vertex]);
+  const Eigen::Vector3d size = box.sizes();
+  return std::hypot(size.x(), size.y(), size.z());
+}
+
+/// A certificate for a larger tolerance than the wanted one is no proof of what was asked.
+void require_tolerance(const verify::Proof& proof, const Options& options, const TriangleMesh& original) {
+  if (options.tolerance.empty()) return;
+  const double wanted = parse_length("--tolerance", options.tolerance).in_model_units(diagonal_of(original));
+  if (proof.tolerance > wanted)
+    throw verify::Rejected("it proves a tolerance of " + short_number(proof.tolerance) + ", more than the wanted " +
+                           short_number(wanted));
+}
+
+Json to_json(const verify::Proof::Direction& direction) {
+  return {{"pieces", direction.pieces},
+          {"by_degree", direction.by_degree},
+          {"cuts", direction.cuts},
+          {"bytes", direction.bytes},
+          {"exact_decisions", direction.exact_decisions}};
+}
+
+struct Outcome {
+  std::optional<verify::Proof> proof;
+  std::string reason;  ///< why it was rejected
+  double read_seconds = 0, verify_seconds = 0;
+};
+
+void write_json(const Options& options, const Inputs& inputs, const Outcome& outcome) {
+  Json json = {{"schema", "meshbound/verify/1"},
+               {"verdict", outcome.proof ? "proven" : "rejected"},
+               {"reason", outcome.proof ? Json() : Json(outcome.reason)},
+               {"original", {{"path", options.original}, {"faces", inputs.original.triangles.size()}}},
+               {"simplified", {{"path", options.simplified}, {"faces", inputs.simplified.triangles.size()}}},
+               {"certificate", {{"path", options.certificate}, {"bytes", inputs.certificate.size()}}}};
+  if (outcome.proof) {
+    json["tolerance"] = outcome.proof->tolerance;
+    json["original_to_simplified"] = to_json(outcome.proof->original_to_simplified);
+    json["simplified_to_original"] = to_json(outcome.proof->simplified_to_original);
+  }
+  json["seconds"] = {{"read", outcome.read_seconds}, {"verify", outcome.verify_seconds}};
+  write_text(options.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void print(const Options& options, const Inputs& inputs, const Outcome& outcome) {
+  const verify::Proof::Direction &forward = outcome.proof->original_to_simplified,
+                                 &backward = outcome.proof->simplified_to_original;
+  std::printf("proven     %s and %s are within %.17g of each other\n", options.original.c_str(),
+              options.simplified.c_str(), outcome.proof->tolerance);
+  std::printf("pieces     %llu of the original, %llu of the simplified mesh, %llu of them by degree\n",
+              static_cast<unsigned long long>(forward.pieces), static_cast<unsigned long long>(backward.pieces),
+              static_cast<unsigned long long>(forward.by_degree + backward.by_degree));
+  std::printf("bytes      %zu, %s for each original triangle\n", inputs.certificate.size(),
+              short_number(static_cast<double>(inputs.certificate.size()) /
+                           static_cast<double>(inputs.original.triangles.size()))
+                  .c_str());
+  std::printf("seconds    read %.2f, verify %.2f\n", outcome.read_seconds, outcome.verify_seconds);
+}
+
+int run(const Options& options) {
+  Outcome outcome;
+  Clock::time_point start = Clock::now();
+  const Inputs inputs{read_mesh(options.original).mesh, read_mesh(options.simplified).mesh,
+                      bytes_of(options.certificate)};
+  outcome.read_seconds = seconds_since(start);
+  start = Clock::now();
+  try {
+    outcome.proof = verify::check_certificate(inputs.original, inputs.simplified, inputs.certificate);
+    require_tolerance(*outcome.proof, options, inputs.original);
+  } catch (const verify::Rejected& rejected) {
+    outcome.proof.reset();
+    outcome.reason = rejected.what();
+  }
+  outcome.verify_seconds = seconds_since(start);
+  if (!options.json.empty()) write_json(options, inputs, outcome);
+  if (!outcome.proof) {
+    std::fprintf(stderr, "verify_certificate: %s: rejected: %s\n", options.certificate.c_str(), outcome.reason.c_str());
+    return ExitExceeds;
+  }
+  if (!options.quiet && options.json != "-") print(options, inputs, outcome);
+  return ExitDone;
+}
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("ORIGINAL", options.original, "The mesh that was simplified")->required();
+  app.add_option("SIMPLIFIED", options.simplified, "The result")->required();
+  app.add_option("CERTIFICATE", options.certificate, "What simplify_with_bound --certificate wrote")->required();
+  app.add_option("--tolerance", options.tolerance,
+                 "Reject certificates of larger tolerances: model units, or 0.1% of the original's diagonal");
+  app.add_flag("--quiet", options.quiet, "Nothing on stdout; the exit code tells");
+  app.add_option_function<std::string>(
+         "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
+         "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
+      ->type_name("[FILE]")
+      ->expected(0, 1);
+  app.set_version_flag("--version", "verify_certificate " MESHBOUND_VERSION);
+}
+
+}  // namespace
+}  // namespace meshbound::tools
+
+int main(int argc, char** argv) {
+  CLI::App app("Checks a certificate that two meshes are within a tolerance of each other, by exact arithmetic.",
+               "verify_certificate");
+  meshbound::tools::Options options;
+  meshbound::tools::declare(app, options);
+  return meshbound::tools::tool_main(app, argc, argv, [&] { return meshbound::tools::run(options); });
+}
