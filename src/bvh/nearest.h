@@ -145,6 +145,17 @@ inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squ
   });
 }
 
+/// The edge of a triangle that p is furthest outside of, seen along its normal; 3 when p lies over the triangle.
+inline std::size_t edge_towards(const Bvh::Data& data, std::uint32_t slot, const CornerTriangle<double>& t,
+                                const Vec3& p) {
+  const auto& normal = data.normals[slot];
+  const Vec3 n{normal[0], normal[1], normal[2]}, ap = p - t.a;
+  const double outside[3] = {dot(cross(t.ab, n), ap), dot(cross(t.ac - t.ab, n), ap - t.ab), dot(cross(n, t.ac), ap)};
+  const std::size_t edge =
+      outside[0] >= outside[1] ? (outside[0] >= outside[2] ? 0 : 2) : (outside[1] >= outside[2] ? 1 : 2);
+  return outside[edge] > 0 ? edge : 3;
+}
+
 /// Steps over the surface towards p before the tree is asked: queries in spatial order start a few triangles away.
 inline constexpr int steps_towards_point = 8;
 
@@ -155,18 +166,27 @@ inline void step_towards(const Bvh::Data& data, const Vec3& p, double enough_squ
   std::uint32_t slot = best.slot;
   for (int step = 0; step < steps_towards_point && best.squared > enough_squared; ++step) {
     const CornerTriangle<double> t = triangle_at(data, slot);
-    const auto& normal = data.normals[slot];
-    const Vec3 n{normal[0], normal[1], normal[2]}, ap = p - t.a;
-    const double outside[3] = {dot(cross(t.ab, n), ap), dot(cross(t.ac - t.ab, n), ap - t.ab), dot(cross(n, t.ac), ap)};
-    const int edge = outside[0] >= outside[1] ? (outside[0] >= outside[2] ? 0 : 2) : (outside[1] >= outside[2] ? 1 : 2);
-    if (!(outside[edge] > 0)) return;
-    const Neighbour across = data.neighbours[slot][static_cast<std::size_t>(edge)];
+    const std::size_t edge = edge_towards(data, slot, t, p);
+    if (edge == 3) return;
+    const Neighbour across = data.neighbours[slot][edge];
     if (across.slot == no_slot) return;
     slot = across.slot;
     ++counters.triangles;
     const double squared = closest_on_triangle(triangle_at(data, slot), p).squared_distance;
     if (squared < best.squared) best = {squared, slot};
   }
+}
+
+/// Walks likewise, without looking at distances; returns where that ends.
+inline std::uint32_t step_over(const Bvh::Data& data, const Vec3& p, std::uint32_t slot) {
+  for (int step = 0; step < steps_towards_point; ++step) {
+    const std::size_t edge = edge_towards(data, slot, triangle_at(data, slot), p);
+    if (edge == 3) return slot;
+    const Neighbour across = data.neighbours[slot][edge];
+    if (across.slot == no_slot) return slot;
+    slot = across.slot;
+  }
+  return slot;
 }
 
 /// `separation` by the offset from the closest point. Where rounding spoils that direction: by the offset in extended

@@ -50,12 +50,38 @@ class CellWalker : public ProvenBounds {
     }
   }
 
+  /// Covers one triangle of A by at most `max_pieces` pieces, walking from triangle `slot` of B without any query, with
+  /// at most `max_cuts` cuts (0: one piece only). Returns the number of pieces; 0 when that is not enough: nothing is
+  /// proven then.
+  std::uint32_t cover_without_queries(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t slot,
+                                      std::uint32_t max_pieces, std::uint64_t max_cuts) {
+    cuts_left_ = max_cuts;
+    stack_.clear();
+    stack_.push_back(whole_triangle(a, b, c, slot));
+    std::uint32_t pieces = 0;
+    while (!stack_.empty()) {
+      const Piece piece = stack_.back();
+      stack_.pop_back();
+      ++pieces;
+      ++counters_.pieces;
+      counters_.deepest = std::max(counters_.deepest, piece.depth);
+      const CornerTriangle<double> t = triangle_at(b_, piece.slot);
+      if (done_with(quick_bound(piece, t), piece.slot) || done_with(farthest_corner(piece, t).squared, piece.slot))
+        continue;
+      const bool lost = pieces >= max_pieces || piece.age >= steps_between_queries || must_halve(piece);
+      if (lost || cuts_left_ == 0 || !walk(piece)) return 0;
+    }
+    return pieces;
+  }
+
  private:
   void step(const Piece& piece) {
     // A look at the clock costs as much as a piece; a thousand pieces take well under a millisecond.
     if ((++counters_.pieces & 1023) == 0 && goal_.out_of_time()) cuts_left_ = 0;
-    const Farthest farthest = farthest_corner(piece, triangle_at(b_, piece.slot));
     counters_.deepest = std::max(counters_.deepest, piece.depth);
+    const CornerTriangle<double> t = triangle_at(b_, piece.slot);
+    if (done_with(quick_bound(piece, t), piece.slot)) return;
+    const Farthest farthest = farthest_corner(piece, t);
     if (done_with(farthest.squared, piece.slot)) return;
     if (cuts_left_ == 0 || decided()) return give_up(farthest.squared);
     const bool due = piece.age >= steps_between_queries || must_halve(piece);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "distance/identical.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "distance/exact_match.h"
@@ -23,6 +24,18 @@ std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, s
     ++count;
   }
   return count;
+}
+
+bool same_triangle(const Bvh::Data& a, const Triangle& t, const Bvh::Data& b, const Triangle& u) {
+  const auto same = [&](std::uint32_t v, std::uint32_t w) {
+    const Vec3 &p = a.vertices[v], &q = b.vertices[w];
+    return p.x == q.x && p.y == q.y && p.z == q.z;
+  };
+  Triangle order{0, 1, 2};
+  do {
+    if (same(t[0], u[order[0]]) && same(t[1], u[order[1]]) && same(t[2], u[order[2]])) return true;
+  } while (std::next_permutation(order.begin(), order.end()));
+  return false;
 }
 
 std::uint32_t slot_using_vertex(const Bvh::Data& data, std::uint32_t vertex) {

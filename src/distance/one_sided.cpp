@@ -19,6 +19,7 @@ OneSidedDistance search_one_sided(const OneSidedTask& task) {
     search.run(&OneSidedSearch::drop_identical, &PhaseSeconds::matching);
     search.run(&OneSidedSearch::drop_proven, &PhaseSeconds::matching);
     search.run(&OneSidedSearch::cull_nodes, &PhaseSeconds::culling_on_a);
+    search.run(&OneSidedSearch::sweep, &PhaseSeconds::culling_on_b);
     search.run(&OneSidedSearch::query_vertices, &PhaseSeconds::culling_on_b);
     search.run(&OneSidedSearch::bound_triangles, &PhaseSeconds::culling_on_b);
   }

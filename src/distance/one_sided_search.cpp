@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t vertices_per_chunk = 256;   ///< hints are handed on inside a chunk, so not too few
 constexpr std::uint32_t triangles_per_chunk = 256;  ///< cheap bounds
+constexpr std::uint32_t swept_per_chunk = 512;      ///< each begins with a query
 constexpr std::uint32_t walks_per_chunk = 8;        ///< walks differ much in cost
 constexpr std::ptrdiff_t worst_first = 256;  ///< walks in the order of their bounds; a few of them set the lower bound
 constexpr std::uint32_t probes = 64;
@@ -113,6 +114,7 @@ void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::u
     std::uint32_t farthest = 0;
     for (std::uint32_t i = 0; i < size; ++i) {
       merge(found[i]);
+      stats_.walked += found[i].walks;
       if (found[i].farthest_squared > found[farthest].farthest_squared) farthest = i;
       open_.insert(open_.end(), found[i].open.begin(), found[i].open.end());
       remember_walk(found[i]);
@@ -142,9 +144,23 @@ void OneSidedSearch::offer_vertex(std::uint32_t v, const Nearest& nearest) {
   }
 }
 
+/// Whether B has one of a few triangles of A: comparing all costs as much as bounding them.
+bool OneSidedSearch::sample_is_identical() {
+  const std::uint32_t n = a_.triangle_count(), samples = std::min(probes, n);
+  Searcher& searcher = *searchers_.front();
+  std::uint32_t hint = 0;
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    const Triangle& t = a_.corners[std::uint64_t{i} * n / samples];
+    const Vec3 centroid = (1.0 / 3) * (vertex(t[0]) + vertex(t[1]) + vertex(t[2]));
+    hint = searcher.nearest(centroid, hint, 0).slot;
+    if (same_triangle(a_, t, b_, b_.corners[hint])) return true;
+  }
+  return false;
+}
+
 void OneSidedSearch::drop_identical() {
   const bool exact = map_.is_identity && map_.error == 0 && a_.frame.error == 0 && b_.frame.error == 0;
-  if (!exact || !probe_on_b_) return;
+  if (!exact || !probe_on_b_ || !sample_is_identical()) return;
   alive_.assign(a_.triangle_count(), 1);
   stats_.matched = drop_identical_triangles(a_, b_, alive_);
 }
@@ -168,14 +184,76 @@ void OneSidedSearch::probe() {
   offer_vertex(at, farthest);
 }
 
-/// The vertices of the triangles that are left. Their number decides the cost where whole nodes were culled; flags
-/// would touch all vertices.
+void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+  // Tries that fail cost about as much as a query does, so they end where most of them fail.
+  int worth_testing = 32, worth_walking = 16, queries = 4;
+  std::uint32_t hint = no_slot;
+  CoverRecord record;
+  searcher.record_in(task_.memory != nullptr ? &record : nullptr);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t slot = culled_ ? left_[i] : i;
+    if (!is_alive(slot)) continue;
+    if (worth_testing <= 0) {
+      found.open.push_back({0, slot, no_slot});
+      continue;
+    }
+    const Triangle& t = a_.corners[slot];
+    const TriangleCorners corners{vertex(t[0]), vertex(t[1]), vertex(t[2])};
+    const auto ask = [&] {
+      --queries;
+      hint = searcher.nearest((1.0 / 3) * (corners[0] + corners[1] + corners[2]), hint == no_slot ? 0 : hint, 0).slot;
+    };
+    if (hint == no_slot) ask();
+    record = {};
+    const std::uint64_t cuts = worth_walking > 0 ? cuts_left_ : 0;
+    Swept swept = searcher.sweep(corners, hint, cuts);
+    if (swept == Swept::NotNear && queries > 0) {
+      ask();
+      swept = searcher.sweep(corners, hint, cuts);
+    }
+    if (swept == Swept::ByOneTriangle || swept == Swept::ByWalk) {
+      worth_testing += 2;
+      if (swept == Swept::ByWalk) ++found.walks, ++worth_walking;
+      if (task_.memory != nullptr) found.walked.push_back({slot, record.squared, std::move(record.slots)});
+      continue;
+    }
+    --worth_testing;
+    if (swept == Swept::NotAtAll) worth_walking -= 2;
+    found.open.push_back({0, slot, no_slot});
+  }
+  searcher.record_in(nullptr);
+}
+
+void OneSidedSearch::sweep() {
+  if (decided() || culled_ || exhausted_) return;
+  const std::uint32_t n = a_.triangle_count();
+  const std::uint32_t chunks = (n + swept_per_chunk - 1) / swept_per_chunk;
+  run_chunks(chunks, 256, 256, 0.0, 0.1, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+    const std::uint32_t begin = chunk * swept_per_chunk;
+    sweep_chunk(searcher, begin, std::min(n, begin + swept_per_chunk), found);
+  });
+  left_.reserve(open_.size());
+  for (const Open& open : open_) left_.push_back(open.slot);
+  open_.clear();
+  culled_ = true;
+}
+
+/// The vertices of the triangles that are left. Their number decides the cost where whole nodes were culled: there
+/// flags would touch all vertices for nothing.
 void OneSidedSearch::list_wanted_vertices() {
   if (!some_dropped()) return;
   if (!culled_)
     for (std::uint32_t slot = 0; slot < a_.triangle_count(); ++slot)
       if (is_alive(slot)) left_.push_back(slot);
   culled_ = true;
+  if (left_.size() > a_.vertices.size() / 16) {
+    std::vector<std::uint8_t> wanted(a_.vertices.size(), 0);
+    for (const std::uint32_t slot : left_)
+      for (const std::uint32_t v : a_.corners[slot]) wanted[v] = 1;
+    for (std::uint32_t v = 0; v < wanted.size(); ++v)
+      if (wanted[v] != 0) wanted_.push_back(v);
+    return;
+  }
   wanted_.reserve(3 * left_.size());
   for (const std::uint32_t slot : left_)
     wanted_.insert(wanted_.end(), a_.corners[slot].begin(), a_.corners[slot].end());
@@ -285,7 +363,7 @@ void OneSidedSearch::refine_rest() {
   if (decided()) return;
   sort_open();
   const auto n = static_cast<std::uint32_t>(open_.size());
-  stats_.walked = n;
+  stats_.walked += n;
   const std::uint32_t chunks = (n + walks_per_chunk - 1) / walks_per_chunk;
   run_chunks(chunks, 1, 512, 0.3, 1.0, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * walks_per_chunk;

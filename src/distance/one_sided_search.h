@@ -22,6 +22,7 @@ class OneSidedSearch {
   void drop_identical();   ///< triangles that B has too, if a probe lay on B: at distance 0 without arithmetic
   void drop_proven();      ///< triangles that an earlier search has proven to be near enough
   void cull_nodes();       ///< paper, Alg. 1: whole nodes of A, best first
+  void sweep();            ///< triangles bounded by what bounded their neighbour along the curve, without queries
   void query_vertices();   ///< closest triangles of the vertices that are left
   void bound_triangles();  ///< paper, 4.4: triangles bounded by a closest triangle of one of their vertices
   void cross_cull();       ///< paper, section 4: whole nodes of A, then its triangles against the nodes of B
@@ -51,6 +52,7 @@ class OneSidedSearch {
     double farthest_squared = -1;
     std::vector<Open> open;
     std::vector<WalkedTriangle> walked;  ///< with a memory only
+    std::uint64_t walks = 0;             ///< triangles that were cut
   };
 
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
@@ -62,6 +64,8 @@ class OneSidedSearch {
                   Work&& work);
   void merge(const Found& found);
   void offer_vertex(std::uint32_t v, const Nearest& nearest);
+  bool sample_is_identical();
+  void sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   [[nodiscard]] double node_bound_squared(Searcher& searcher, std::uint32_t level, std::uint32_t index,

@@ -95,6 +95,16 @@ inline Farthest farthest_corner(const Piece& piece, const CornerTriangle<double>
   return farthest;
 }
 
+/// A bound of the squared distances of all corners at half the cost of `farthest_corner`: the first of the points that
+/// `closest_on_triangle` tries lies on the triangle, whether it is the closest or not.
+inline double quick_bound(const Piece& piece, const CornerTriangle<double>& triangle) {
+  const CornerTriangle<Double4> t = broadcast4(triangle);
+  Double4 most{};
+  for (std::uint32_t first = 0; first < piece.count; first += 4)
+    most = maximum(most, squared_length(offset_from_inside(t, corners4(piece, first))));
+  return horizontal_maximum(most);
+}
+
 /// Signed distances of the corners to the plane {x : normal . x = offset}, times the length of the normal.
 struct PlaneSides {
   alignas(32) double value[Piece::capacity];

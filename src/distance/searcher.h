@@ -13,6 +13,14 @@
 
 namespace meshbound {
 
+/// How `Searcher::sweep` bounded a triangle.
+enum class Swept {
+  NotAtAll,
+  NotNear,  ///< not even the centroid is within the target: the hint may have been a bad one
+  ByOneTriangle,
+  ByWalk
+};
+
 /// One thread's search against one tree: the inner loops behind one interface, so that the instruction set is chosen
 /// once, at run time. Points are in the working frame of the tree. Not thread-safe; the tree may be shared.
 class Searcher {
@@ -28,14 +36,19 @@ class Searcher {
   /// Offers a point of triangle `from_slot` of A, at a computed distance: raises the lower bound if it proves one.
   virtual void offer(const Vec3& p, const Nearest& nearest, std::uint32_t from_slot) = 0;
 
-  /// Largest squared distance of three points to the triangle at `slot` (the paper's Eq. 5 for one triangle of B).
+  /// Largest squared distance of three points to the triangle at `slot` (the paper's Eq. 5 for one triangle of B), or a
+  /// bound of it that is within the target.
   virtual double farthest_squared(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t slot) = 0;
 
   /// Covers a whole triangle of A starting from a candidate, with at most `max_cuts` cuts.
   virtual void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
                      std::uint64_t max_cuts) = 0;
 
-  /// From now on `cover` leaves the triangles of B that the pieces were accepted on here; null: nowhere.
+  /// Tries to bound a triangle of A without a query, by the triangle a few steps from `hint` towards the centroid,
+  /// which becomes the new hint, or by a short walk from there with at most `max_cuts` cuts.
+  virtual Swept sweep(const TriangleCorners& triangle, std::uint32_t& hint, std::uint64_t max_cuts) = 0;
+
+  /// From now on `cover` and `sweep` leave the triangles of B that the pieces were accepted on here; null: nowhere.
   virtual void record_in(CoverRecord* record) = 0;
 
   /// Bounds of h(T, B) for a triangle T of A, by one traversal (paper, Alg. 2); it ends early once the upper bound is

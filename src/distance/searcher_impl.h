@@ -30,12 +30,26 @@ class SearcherImpl final : public Searcher {
   }
 
   double farthest_squared(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t slot) override {
-    return farthest_corner(whole_triangle(a, b, c, slot), triangle_at(walker_.target(), slot)).squared;
+    const Piece piece = whole_triangle(a, b, c, slot);
+    const CornerTriangle<double> t = triangle_at(walker_.target(), slot);
+    const double bound = quick_bound(piece, t);
+    return walker_.accepts(bound) ? bound : farthest_corner(piece, t).squared;
   }
 
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
              std::uint64_t max_cuts) override {
     walker_.cover(a, b, c, from_slot, slot, max_cuts);
+  }
+
+  Swept sweep(const TriangleCorners& triangle, std::uint32_t& hint, std::uint64_t max_cuts) override {
+    constexpr std::uint32_t most_pieces = 32;  // a triangle that needs more is as well served by queries
+    const auto& [a, b, c] = triangle;
+    const Vec3 centroid = (1.0 / 3) * (a + b + c);
+    hint = step_over(walker_.target(), centroid, hint);
+    const std::uint32_t pieces = walker_.cover_without_queries(a, b, c, hint, most_pieces, max_cuts);
+    if (pieces > 0) return pieces == 1 ? Swept::ByOneTriangle : Swept::ByWalk;
+    const double squared = closest_on_triangle(triangle_at(walker_.target(), hint), centroid).squared_distance;
+    return walker_.accepts(squared) ? Swept::NotAtAll : Swept::NotNear;
   }
 
   void record_in(CoverRecord* record) override { walker_.record_in(record); }

@@ -47,6 +47,19 @@ void keep_nearer(TriangleOffset<Real>& best, const Vec<Real>& offset, const Real
 
 }  // namespace detail
 
+/// From the first candidate of `closest_on_triangle`, a point of the triangle, to p.
+template <class Real>
+[[gnu::always_inline]] inline Vec<Real> offset_from_inside(const CornerTriangle<Real>& t, const Vec<Real>& p) {
+  const Real one = Real{} + 1.0;
+  const Vec<Real> ap = p - t.a;
+  const Real along = detail::reciprocal(dot(t.ab, t.ab)), ab_ac = dot(t.ab, t.ac), ab_ap = dot(t.ab, ap);
+  const Vec<Real> across = t.ac - (ab_ac * along) * t.ab;
+  const Vec<Real> rest = ap - (ab_ap * along) * t.ab;
+  const Real w = detail::clamped(dot(rest, across) * detail::reciprocal(dot(across, across)), one);
+  const Real v = detail::clamped((ab_ap - w * ab_ac) * along, one - w);
+  return (ap - v * t.ab) - w * t.ac;
+}
+
 /// Best of three candidates that all lie on the triangle. The first goes along the longest edge to the foot of p, then
 /// across to the height of p, clamped into the triangle: exact for the inside and for the longest edge. Crossing from
 /// the foot, not from a, keeps the error at a few u M for slivers too: what the direction across is off (u M / height)
@@ -59,12 +72,7 @@ template <class Real>
                                                                        const Vec<Real>& p) {
   const Real one = Real{} + 1.0;
   const Vec<Real> ap = p - t.a;
-  const Real along = detail::reciprocal(dot(t.ab, t.ab)), ab_ac = dot(t.ab, t.ac), ab_ap = dot(t.ab, ap);
-  const Vec<Real> across = t.ac - (ab_ac * along) * t.ab;
-  const Vec<Real> rest = ap - (ab_ap * along) * t.ab;
-  const Real w = detail::clamped(dot(rest, across) * detail::reciprocal(dot(across, across)), one);
-  const Real v = detail::clamped((ab_ap - w * ab_ac) * along, one - w);
-  const Vec<Real> from_inside = (ap - v * t.ab) - w * t.ac;
+  const Vec<Real> from_inside = offset_from_inside(t, p);
   TriangleOffset<Real> best{from_inside, squared_length(from_inside)};
   const Vec<Real> from_ac = ap - detail::clamped(dot(t.ac, ap) * detail::reciprocal(dot(t.ac, t.ac)), one) * t.ac;
   detail::keep_nearer(best, from_ac, squared_length(from_ac));
