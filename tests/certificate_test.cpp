@@ -149,7 +149,7 @@ TEST(Certificate, EndsWhenItIsTold) {
   EXPECT_FALSE(build_certificate(fine, coarse, 1, cancelled));
   EXPECT_FALSE(build_certificate(fine, coarse, 1, late));
   const double distance = symmetric_distance(Bvh(fine), Bvh(coarse)).bounds.upper;
-  EXPECT_THROW((void)build_certificate(fine, coarse, 1.001 * distance, short_of_steps), Error);
+  EXPECT_THROW((void)build_certificate(fine, coarse, 1.00001 * distance, short_of_steps), Error);
 }
 
 TEST(Certificate, RefusesTolerancesThatAreNoLengths) {

@@ -67,13 +67,14 @@ class DirectionProof {
   std::string source_name_;
   Bvh tree_;
   Goal goal_;
+  double magnitude_ = 1;        ///< of all coordinates in the working frame
   std::vector<Vec3> vertices_;  ///< of the source, in the working frame of the tree
   std::vector<std::vector<ProofNode>> chunks_;
 };
 
 void DirectionProof::load_vertices() {
   const Frame& frame = tree_.data().frame;
-  double magnitude = 1, error = 0;
+  double error = 0;
   std::vector<bool> used(source_.vertex_count(), false);
   for (std::size_t t = 0; t < source_.triangle_count(); ++t)
     for (const std::uint32_t v : source_.triangle(t)) used[v] = true;
@@ -83,14 +84,14 @@ void DirectionProof::load_vertices() {
     const Eigen::Vector3d p = source_.vertex(v);
     const Vec3 model{p.x(), p.y(), p.z()};
     vertices_[v] = frame.to_working(model);
-    magnitude = std::max(magnitude, largest(vertices_[v]));
+    magnitude_ = std::max(magnitude_, largest(vertices_[v]));
     error = std::max(error, frame.rounding_of(model));
   }
-  if (!(magnitude <= largest_magnitude))
+  if (!(magnitude_ <= largest_magnitude))
     throw InvalidInput("the meshes differ too much in size, or lie too far apart, for a certificate");
   goal_.decide_only = true;
   goal_.tolerance = frame.working_length_down(tolerance_);
-  set_slack(goal_, magnitude, frame.error + error);
+  set_slack(goal_, magnitude_, frame.error + error);
 }
 
 /// A triangle whose corners are corners of the target's triangle, bit for bit, needs no arithmetic.
@@ -129,7 +130,7 @@ std::optional<EncodedSection> DirectionProof::run(double progress_from) {
   std::atomic<bool> stop = false;
 #pragma omp parallel num_threads(threads)
   {
-    CutSearch search(tree_.data(), goal_);
+    CutSearch search(tree_.data(), goal_, magnitude_);
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t chunk = 0; chunk < count; ++chunk) {
       if (stop || goal_.out_of_time()) continue;

@@ -39,7 +39,8 @@ bool first_is_inside(const Piece& piece, const PlaneSides& sides, const Chord& c
 
 }  // namespace
 
-CutSearch::CutSearch(const Bvh::Data& target, const Goal& goal) : b_(target), tolerance_(goal.tolerance) {
+CutSearch::CutSearch(const Bvh::Data& target, const Goal& goal, double magnitude)
+    : b_(target), tolerance_(goal.tolerance), degree_(target, goal, magnitude) {
   accepted_ = goal.tolerance - goal.largest_slack();
   // A length is rounded four times on its way from the offset, relative to itself.
   accepted_squared_ = accepted_ > 0 ? accepted_ * accepted_ * (1 - 8 * 0x1p-53) : -1;
@@ -51,9 +52,10 @@ double CutSearch::most_moved(const Piece& piece) const {
   return share * tolerance_;
 }
 
-void CutSearch::emit(std::uint32_t slot) {
+void CutSearch::emit(std::uint32_t slot, ProofNode::Kind kind) {
   last_ = slot;
   ProofNode node;
+  node.kind = kind;
   node.target = b_.triangle_of_slot[slot];
   nodes_->push_back(node);
 }
@@ -74,7 +76,8 @@ Nearest CutSearch::nearest(const Vec3& p, std::uint32_t hint) {
 /// One triangle for the whole piece saves bytes: those nearest to its middle and corners, and their neighbours.
 bool CutSearch::try_candidates(const Piece& piece) {
   std::array<std::uint32_t, 4> slots;
-  slots[0] = nearest_to_middle_ = nearest(middle_of(piece), piece.slot).slot;
+  slots[0] = nearest(middle_of(piece), piece.slot).slot;
+  if (piece.depth == 0) nearest_to_middle_ = slots[0];
   for (std::uint32_t k = 0; k < 3; ++k) slots[k + 1] = nearest(piece.corner(k), slots[0]).slot;
   if (too_far_) return false;
   for (const std::uint32_t slot : slots)
@@ -92,15 +95,75 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
   too_far_ = false;
   const std::size_t before = nodes.size();
   Piece whole = whole_triangle(triangle[0], triangle[1], triangle[2], hint);
+  triangle_ = triangle;
   bool proven = try_near(whole, hint) || try_candidates(whole);
   if (!proven && !too_far_) {
     whole.slot = nearest_to_middle_;
-    proven = cover(whole);
+    proven = try_degree(whole) || cover_interior_by_degree(whole) || (!too_far_ && cover(whole));
   }
   hint = last_;
   if (proven) return Outcome::Proven;
   nodes.resize(before);
   return too_far_ ? Outcome::TooFar : Outcome::GaveUp;
+}
+
+bool CutSearch::try_degree(const Piece& piece) {
+  const std::uint32_t seed = nearest(middle_of(piece), piece.slot).slot;
+  if (too_far_ || !degree_.proves(triangle_, piece, seed)) return false;
+  emit(seed, ProofNode::Kind::Degree);
+  return true;
+}
+
+/// A face that meets a crease a little beside it sticks out there, by up to the tolerance, and is no proof by degree;
+/// cut off along some of its sides it often is, and only the strips need pieces.
+bool CutSearch::cover_interior_by_degree(const Piece& piece) {
+  constexpr std::array<unsigned, 7> subsets_of_sides = {1, 2, 4, 3, 5, 6, 7};  // few strips first
+  for (const double width : {1.25, 4.0})
+    for (const unsigned sides : subsets_of_sides) {
+      const std::size_t before = nodes_->size();
+      if (try_trimmed(piece, sides, width * tolerance_)) return true;
+      nodes_->resize(before);
+      if (too_far_) return false;
+    }
+  return false;
+}
+
+bool CutSearch::try_trimmed(const Piece& piece, unsigned sides, double width) {
+  std::vector<Trim> trims;
+  Piece rest = piece;
+  const Vec3 normal = cross(triangle_[1] - triangle_[0], triangle_[2] - triangle_[0]);
+  for (std::size_t side = 0; side < 3; ++side) {
+    if ((sides >> side & 1) == 0) continue;
+    const Vec3 from = triangle_[side], outward = cross(triangle_[(side + 1) % 3] - from, normal);
+    const double norm = length(outward);
+    if (!(norm > 0)) return false;
+    const Vec3 unit = (1 / norm) * outward;
+    const PlaneSides distances = sides_of(rest, unit, dot(unit, from) - width);
+    if (!(distances.least < 0 && distances.most > 0)) return false;
+    auto cut = cut_by_chord(rest, distances, most_moved(rest));
+    if (!cut) return false;
+    trims.push_back({*cut, first_is_inside(rest, distances, cut->chord)});
+    rest = trims.back().rest();
+  }
+  const std::uint32_t seed = nearest(middle_of(rest), rest.slot).slot;
+  return !too_far_ && degree_.proves(triangle_, rest, seed) && emit_trimmed(trims, 0, seed);
+}
+
+bool CutSearch::emit_trimmed(const std::vector<Trim>& trims, std::size_t from, std::uint32_t seed) {
+  if (from == trims.size()) {
+    emit(seed, ProofNode::Kind::Degree);
+    return true;
+  }
+  const Trim& trim = trims[from];
+  emit_cut(trim.cut.chord);
+  if (trim.rest_is_first) return emit_trimmed(trims, from + 1, seed) && cover_strip(trim.strip());
+  return cover_strip(trim.strip()) && emit_trimmed(trims, from + 1, seed);
+}
+
+bool CutSearch::cover_strip(Piece strip) {
+  if (try_candidates(strip)) return true;
+  strip.slot = nearest(middle_of(strip), strip.slot).slot;
+  return !too_far_ && (try_degree(strip) || cover(strip));
 }
 
 bool CutSearch::cover(Piece piece) {
@@ -127,11 +190,15 @@ bool CutSearch::cover(Piece piece) {
   return false;
 }
 
-bool CutSearch::cover_parts(const ChordCut& cut) {
+void CutSearch::emit_cut(const Chord& chord) {
   ProofNode node;
   node.kind = ProofNode::Kind::Cut;
-  node.chord = cut.chord;
+  node.chord = chord;
   nodes_->push_back(node);
+}
+
+bool CutSearch::cover_parts(const ChordCut& cut) {
+  emit_cut(cut.chord);
   return cover(cut.first) && cover(cut.second);
 }
 

@@ -6,6 +6,7 @@
 
 #include "bvh/nearest.h"
 #include "certificate/chord_cut.h"
+#include "certificate/degree_search.h"
 #include "certificate/proof_node.h"
 #include "distance/goal.h"
 #include "distance/piece.h"
@@ -16,8 +17,9 @@ namespace meshbound {
 /// (distance/cell_walker.h), with cuts that few bytes can say, and written down. Not thread-safe.
 class CutSearch {
  public:
-  /// `goal` gives the tolerance and the slacks, in B's working frame. `target` must outlive this.
-  CutSearch(const Bvh::Data& target, const Goal& goal);
+  /// `goal` gives the tolerance and the slacks, in B's working frame, `magnitude` bounds all coordinates there.
+  /// `target` must outlive this.
+  CutSearch(const Bvh::Data& target, const Goal& goal, double magnitude);
 
   enum class Outcome {
     Proven,
@@ -34,6 +36,13 @@ class CutSearch {
   [[nodiscard]] std::uint32_t nearest_to_middle() const { return nearest_to_middle_; }
 
  private:
+  /// A strip cut off along a side of a piece.
+  struct Trim {
+    ChordCut cut;
+    bool rest_is_first = false;
+    [[nodiscard]] const Piece& rest() const { return rest_is_first ? cut.first : cut.second; }
+    [[nodiscard]] const Piece& strip() const { return rest_is_first ? cut.second : cut.first; }
+  };
   struct Walked {
     bool moved = false;  ///< the piece lies in the cell of a neighbour, which is its candidate now
     bool cut = false;
@@ -44,6 +53,11 @@ class CutSearch {
   }
   [[nodiscard]] bool try_near(const Piece& piece, std::uint32_t slot);
   [[nodiscard]] bool try_candidates(const Piece& piece);
+  [[nodiscard]] bool try_degree(const Piece& piece);
+  [[nodiscard]] bool cover_interior_by_degree(const Piece& piece);
+  [[nodiscard]] bool try_trimmed(const Piece& piece, unsigned sides, double width);
+  [[nodiscard]] bool emit_trimmed(const std::vector<Trim>& trims, std::size_t from, std::uint32_t seed);
+  [[nodiscard]] bool cover_strip(Piece strip);
   [[nodiscard]] bool cover(Piece piece);
   [[nodiscard]] bool cover_parts(const ChordCut& cut);
   [[nodiscard]] bool ask_near_worst(Piece& piece, std::uint32_t worst);
@@ -52,13 +66,16 @@ class CutSearch {
   [[nodiscard]] bool halve(const Piece& piece);
   [[nodiscard]] Nearest nearest(const Vec3& p, std::uint32_t hint);
   [[nodiscard]] double most_moved(const Piece& piece) const;
-  void emit(std::uint32_t slot);
+  void emit_cut(const Chord& chord);
+  void emit(std::uint32_t slot, ProofNode::Kind kind = ProofNode::Kind::Near);
 
   const Bvh::Data& b_;
   double tolerance_ = 0;
   double accepted_ = 0, accepted_squared_ = 0;  ///< computed distances that prove; negative when none does
+  DegreeSearch degree_;
   QueryCounters counters_;
   std::vector<ProofNode>* nodes_ = nullptr;
+  std::array<Vec3, 3> triangle_;
   std::uint64_t steps_left_ = 0;
   std::uint32_t last_ = 0;
   std::uint32_t nearest_to_middle_ = 0;

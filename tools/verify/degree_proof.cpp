@@ -41,6 +41,13 @@ std::vector<std::uint32_t> representatives(const TriangleMesh& mesh) {
   return first;
 }
 
+/// A power of two that takes the triangle to about size 1, so that products neither overflow nor underflow.
+double scale_of(const Corners& triangle) {
+  const double size =
+      std::max((triangle[1] - triangle[0]).cwiseAbs().maxCoeff(), (triangle[2] - triangle[0]).cwiseAbs().maxCoeff());
+  return size > 0 && std::isfinite(size) ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -960, 960)) : 1;
+}
+
 }  // namespace
 
 DegreeProof::DegreeProof(const TriangleMesh& mesh, double tolerance)
@@ -77,7 +84,7 @@ void DegreeProof::find_edges() {
 
 template <class Number>
 DegreeProof::Seen<Number> DegreeProof::see(const View<Number>& view, std::uint32_t vertex) const {
-  const Vec<Number> p = to_vec<Number>(mesh_.vertices[vertex]) - view.origin;
+  const Vec<Number> p = Number(scale_) * (to_vec<Number>(mesh_.vertices[vertex]) - view.origin);
   return {dot(view.x_axis, p), dot(view.y_axis, p), dot(view.z_axis, p)};
 }
 
@@ -87,15 +94,15 @@ template <class Number, class CornerAt>
 DegreeProof::View<Number> DegreeProof::make_view(const CornerAt& corner_at) const {
   View<Number> view;
   view.origin = to_vec<Number>((*triangle_)[0]);
-  view.x_axis = to_vec<Number>((*triangle_)[1]) - view.origin;
-  view.y_axis = to_vec<Number>((*triangle_)[2]) - view.origin;
+  view.x_axis = Number(scale_) * (to_vec<Number>((*triangle_)[1]) - view.origin);
+  view.y_axis = Number(scale_) * (to_vec<Number>((*triangle_)[2]) - view.origin);
   view.z_axis = cross(view.x_axis, view.y_axis);
-  const Number limit = Number(tolerance_) * Number(1 - drawn_in_share);
+  const Number limit = Number(scale_) * Number(tolerance_) * Number(1 - drawn_in_share);
   view.squared_limit = limit * limit * dot(view.z_axis, view.z_axis);
   const std::size_t n = piece_->size();
   const Vec<Number> middle = middle_of<Number>(n, corner_at);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec<Number> p = (corner_at(i) + Number(drawn_in_) * (middle - corner_at(i))) - view.origin;
+    const Vec<Number> p = Number(scale_) * ((corner_at(i) + Number(drawn_in_) * (middle - corner_at(i))) - view.origin);
     view.window.push_back({dot(view.x_axis, p), dot(view.y_axis, p), Number(0)});
   }
   return view;
@@ -106,9 +113,9 @@ template <class Number, class CornerAt>
 bool DegreeProof::drawn_in_enough(const CornerAt& corner_at) const {
   const std::size_t n = piece_->size();
   const Vec<Number> middle = middle_of<Number>(n, corner_at);
-  const Number allowed = Number(tolerance_) * Number(drawn_in_share);
+  const Number allowed = Number(scale_) * Number(tolerance_) * Number(drawn_in_share);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec<Number> moved = Number(drawn_in_) * (middle - corner_at(i));
+    const Vec<Number> moved = Number(scale_ * drawn_in_) * (middle - corner_at(i));
     const Number room = allowed * allowed - dot(moved, moved);
     if (!surely_not_negative(room)) return false;
   }
@@ -131,7 +138,7 @@ bool DegreeProof::draw_in(const PieceCorners& corners, const Piece& piece) {
     reach = std::max({reach, std::hypot(way.x.middle(), way.y.middle(), way.z.middle())});
   }
   const double wanted = 0.999 * drawn_in_share * tolerance_ / reach;
-  if (!(wanted > 0x1p-900)) return false;
+  if (!(wanted > 0x1p-60)) return false;  // with the least scale still a normal double: nothing is rounded
   drawn_in_ = std::min(0.5, std::ldexp(1.0, std::ilogb(wanted)));
   return drawn_in_enough<Interval>(rough) ||
          drawn_in_enough<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
@@ -247,6 +254,7 @@ bool DegreeProof::proves(const Corners& triangle, PieceCorners& corners, const P
   corners_ = &corners;
   piece_ = &piece;
   exact_.reset();
+  scale_ = scale_of(triangle);
   if (piece.size() < 3 || !draw_in(corners, piece)) return false;
   rough_ = make_view<Interval>([&](std::size_t i) -> const Vec<Interval>& { return corners.rough(piece[i]); });
   // A triangle without area has no normal to look along.

@@ -76,6 +76,7 @@ class DegreeProof {
   const Corners* triangle_ = nullptr;
   PieceCorners* corners_ = nullptr;
   const Piece* piece_ = nullptr;
+  double scale_ = 1;     ///< of the view, a power of two: its coordinates are of size 1
   double drawn_in_ = 0;  ///< share of the way to the middle, a power of two
   View<Interval> rough_;
   std::optional<View<Exact>> exact_;
