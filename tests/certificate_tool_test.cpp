@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Certificates through the command line: what the tools write, verify_certificate confirms for these files and for no
+// others.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "datasets.h"
+#include "datasets/analytic_meshes.h"
+#include "meshbound/io.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using testing_tools::run_tool;
+using testing_tools::TemporaryFolder;
+using testing_tools::ToolRun;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+class CertificateTools : public testing::Test {
+ protected:
+  CertificateTools() {
+    write_mesh(folder_ / "torus.off", datasets::torus(1, 0.4, 40, 20));
+    write_mesh(folder_ / "coarse.off", datasets::torus(1, 0.4, 20, 10));
+  }
+
+  /// Names of files are in the folder of the test.
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] ToolRun verify(const std::string& a, const std::string& b, const std::string& certificate,
+                               std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{in(a), in(b), in(certificate)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(VERIFY_CERTIFICATE, arguments);
+  }
+  [[nodiscard]] ToolRun simplify(const std::string& a, const std::string& b, std::vector<std::string> more) const {
+    std::vector<std::string> arguments{in(a), in(b), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(SIMPLIFY_WITH_BOUND, arguments);
+  }
+  [[nodiscard]] std::size_t file_count() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
+  }
+
+  TemporaryFolder folder_;
+};
+
+void expect_one_line(const ToolRun& run, int exit_code, const std::string& part) {
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
+  EXPECT_EQ(testing_tools::line_count(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+  EXPECT_EQ(run.out, "");
+}
+
+/// The written coordinates, whatever the precision and the order of the format.
+TEST_F(CertificateTools, SimplifierAndVerifierAgreeOnEveryFormat) {
+  for (const char* out : {"small.off", "small.obj", "small.ply", "small.stl"}) {
+    SCOPED_TRACE(out);
+    ASSERT_EQ(simplify("torus.off", out, {"--tolerance", "1%", "--certificate", in("small.cert")}).exit_code, 0);
+    const ToolRun run = verify("torus.off", out, "small.cert");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("proven"), std::string::npos) << run.out;
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+TEST_F(CertificateTools, VerifierTellsInJson) {
+  ASSERT_EQ(simplify("torus.off", "small.ply", {"--tolerance", "0.03", "--certificate", in("c"), "--json", in("j")})
+                .exit_code,
+            0);
+  const ToolRun run = verify("torus.off", "small.ply", "c", {"--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["schema"], "meshbound/verify/1");
+  EXPECT_EQ(json["verdict"], "proven");
+  EXPECT_EQ(json["tolerance"], 0.03);
+  EXPECT_EQ(json["certificate"]["bytes"], fs::file_size(in("c")));
+  EXPECT_EQ(json["original"]["faces"], 1600);
+  EXPECT_GE(json["original_to_simplified"]["pieces"], 1600);
+  const Json simplified = Json::parse(testing_tools::content_of(in("j")));
+  EXPECT_EQ(simplified["certificates"][0]["path"], in("c"));
+  EXPECT_EQ(simplified["certificates"][0]["bytes"], fs::file_size(in("c")));
+  const ToolRun rejected = verify("small.ply", "torus.off", "c", {"--json"});
+  EXPECT_EQ(rejected.exit_code, 1);
+  EXPECT_EQ(Json::parse(rejected.out)["verdict"], "rejected");
+  EXPECT_NE(Json::parse(rejected.out)["reason"].get<std::string>().find("not the one"), std::string::npos);
+  EXPECT_EQ(verify("torus.off", "small.ply", "c", {"--quiet"}).out, "");
+}
+
+TEST_F(CertificateTools, VerifierRejectsOtherMeshesDamageAndLargerTolerances) {
+  ASSERT_EQ(simplify("torus.off", "small.ply", {"--tolerance", "1%", "--certificate", in("c")}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "small.ply", "c", {"--tolerance", "1%"}).exit_code, 0);
+  expect_one_line(verify("torus.off", "small.ply", "c", {"--tolerance", "0.99%"}), 1, "more than the wanted");
+  expect_one_line(verify("coarse.off", "small.ply", "c"), 1, "the original mesh is not the one");
+  expect_one_line(verify("torus.off", "coarse.off", "c"), 1, "the simplified mesh is not the one");
+  expect_one_line(verify("torus.off", "small.ply", "small.ply"), 1, "not a meshbound certificate");
+  std::string bytes = testing_tools::content_of(in("c"));
+  bytes[bytes.size() / 2] ^= 4;
+  std::ofstream(in("damaged"), std::ios::binary) << bytes;
+  expect_one_line(verify("torus.off", "small.ply", "damaged"), 1, "damaged");
+  std::ofstream(in("empty"), std::ios::binary).flush();
+  expect_one_line(verify("torus.off", "small.ply", "empty"), 1, "not a meshbound certificate");
+}
+
+TEST_F(CertificateTools, VerifierTellsBadUsageFromRejection) {
+  ASSERT_EQ(simplify("torus.off", "small.ply", {"--tolerance", "1%", "--certificate", in("c")}).exit_code, 0);
+  expect_one_line(verify("torus.off", "small.ply", "none"), 2, "none");
+  expect_one_line(verify("none.off", "small.ply", "c"), 2, "none.off");
+  expect_one_line(verify("torus.off", "c", "c"), 2, "c");
+  expect_one_line(verify("torus.off", "small.ply", ""), 2, "");  // a folder
+  expect_one_line(verify("torus.off", "small.ply", "c", {"--tolerance", "much"}), 2, "--tolerance");
+  expect_one_line(run_tool(VERIFY_CERTIFICATE, {in("torus.off")}), 2, "SIMPLIFIED");
+  EXPECT_EQ(run_tool(VERIFY_CERTIFICATE, {"--version"}).exit_code, 0);
+  EXPECT_EQ(run_tool(VERIFY_CERTIFICATE, {"--help"}).exit_code, 0);
+}
+
+TEST_F(CertificateTools, EveryLevelHasItsOwn) {
+  ASSERT_EQ(simplify("torus.off", "small.ply",
+                     {"--levels", "0.3%,1%", "--tolerance", "2%", "--certificate", in("small.cert")})
+                .exit_code,
+            0);
+  EXPECT_EQ(verify("torus.off", "small_level_1.ply", "small_level_1.cert", {"--tolerance", "0.3%"}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "small_level_2.ply", "small_level_2.cert", {"--tolerance", "1%"}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "small.ply", "small.cert", {"--tolerance", "2%"}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "small.ply", "small_level_1.cert").exit_code, 1);
+}
+
+TEST_F(CertificateTools, NothingIsWrittenWhereTheCertificateCannotBe) {
+  const std::size_t before = file_count();
+  const ToolRun run = simplify("torus.off", "small.ply", {"--tolerance", "1%", "--certificate", in("no/such/c")});
+  expect_one_line(run, 2, "no such folder");
+  EXPECT_EQ(file_count(), before);
+}
+
+TEST_F(CertificateTools, AnyTwoMeshesCanBeCertified) {
+  const auto certify = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{in("torus.off"), in("coarse.off"), "--quiet", "--certificate", in("pair.cert")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(HAUSDORFF_DISTANCE, arguments);
+  };
+  EXPECT_EQ(certify({"--tolerance", "0.08"}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "coarse.off", "pair.cert", {"--tolerance", "0.08"}).exit_code, 0);
+  fs::remove(in("pair.cert"));
+  const std::size_t before = file_count();
+  EXPECT_EQ(certify({"--tolerance", "0.001"}).exit_code, 1);
+  EXPECT_EQ(certify({"--tolerance", "0.08", "--one-sided"}).exit_code, 2);
+  EXPECT_EQ(certify({"--tolerance", "0.08", "--transform-b", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"}).exit_code, 2);
+  EXPECT_EQ(certify({}).exit_code, 2);
+  EXPECT_EQ(file_count(), before);
+}
+
+TEST_F(CertificateTools, RealMeshesAreCertified) {
+  for (const char* name : {"cad/c3d_fandisk.obj", "scan/igl_bunny.off"}) {
+    SCOPED_TRACE(name);
+    const auto path = test::dataset(name);
+    if (!path) GTEST_SKIP() << name << " is not on this machine (MESHBOUND_DATASETS)";
+    ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, {path->string(), in("small.ply"), "--quiet", "--tolerance", "0.5%",
+                                             "--effort", "fast", "--certificate", in("c")})
+                  .exit_code,
+              0);
+    const ToolRun run = run_tool(VERIFY_CERTIFICATE, {path->string(), in("small.ply"), in("c"), "--tolerance", "0.5%"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+  }
+}
+
+}  // namespace
+}  // namespace meshbound
