@@ -7,13 +7,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <set>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
 #include "reference/small_meshes.h"
+#include "simplify/candidate_faces.h"
+#include "simplify/cover_assignment.h"
 #include "simplify/degree_cover.h"
 
 namespace meshbound {
@@ -240,6 +244,58 @@ TEST(DeviationTracker, RefusesTolerancesThatAreNoLengths) {
 }
 
 /// Random triangles near rough surfaces: the proof by degree may fail where the bound holds, never the other way.
+TEST(CoverAssignment, KeepsBothSidesOfTheRelationThroughCoversOfAnySize) {
+  constexpr std::uint32_t originals = 20, faces = 12;
+  CoverAssignment cover(originals);
+  std::vector<std::set<std::uint32_t>> expected(originals);
+  std::mt19937 random(3);
+  for (int step = 0; step < 2000; ++step) {
+    const auto t = static_cast<std::uint32_t>(random() % originals);
+    expected[t].clear();
+    for (auto k = random() % 7; k > 0; --k) expected[t].insert(static_cast<std::uint32_t>(random() % faces));
+    cover.assign(t, std::vector<std::uint32_t>(expected[t].begin(), expected[t].end()));
+  }
+  for (std::uint32_t t = 0; t < originals; ++t) {
+    const auto ids = cover.faces_of(t);
+    EXPECT_EQ(std::set<std::uint32_t>(ids.begin(), ids.end()), expected[t]);
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      const auto of_face = cover.originals_of(f);
+      EXPECT_EQ(std::count(of_face.begin(), of_face.end(), t), static_cast<std::ptrdiff_t>(expected[t].count(f)));
+    }
+  }
+}
+
+/// The slab test must not depend on the machine: the chosen one against plain arithmetic.
+TEST(CandidateFaces, HoldExactlyThoseThatAreNear) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
+  constexpr double tolerance = 0.3;
+  for (int round = 0; round < 200; ++round) {
+    CandidateFaces candidates;
+    candidates.clear(tolerance);
+    std::vector<std::array<Vec3, 3>> faces;
+    for (int k = 0; k < CandidateFaces::capacity; ++k) {
+      const Vec3 a = point(), b = point();
+      faces.push_back({a, b, k % 9 == 0 ? b : point()});  // some without area
+      candidates.add(faces.back());
+    }
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = point();
+      const FaceMask among = (FaceMask{random()} << 32) | random();
+      const FaceMask mask = candidates.holding(p, among);
+      EXPECT_EQ(mask & ~among, 0u);
+      for (int k = 0; k < CandidateFaces::capacity; ++k) {
+        const auto& f = faces[static_cast<std::size_t>(k)];
+        const double squared =
+            closest_on_triangle(CornerTriangle<double>{f[0], f[1] - f[0], f[2] - f[0]}, p).squared_distance;
+        if (std::abs(std::sqrt(squared) - tolerance) < 1e-6 || ((among >> k) & 1) == 0) continue;
+        EXPECT_EQ((mask >> k) & 1, squared < tolerance * tolerance ? 1u : 0u);
+      }
+    }
+  }
+}
+
 TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {
   for (const Shape& shape : shapes()) {
     SCOPED_TRACE(shape.name);

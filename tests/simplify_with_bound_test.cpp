@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <set>
 
 #include "datasets/analytic_meshes.h"
@@ -275,6 +276,18 @@ TEST(SimplifyWithBound, ChangesNothingAtToleranceZero) {
 }
 
 /// A shape and the same one tiny, huge, or far away for its size, are simplified alike.
+/// Inside, meshes are sorted along a curve.
+TEST(SimplifyWithBound, KeepsTheOrderOfTheInput) {
+  TriangleMesh shuffled = datasets::icosphere(1, 3);
+  std::mt19937 random(7);
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), random);
+  const TriangleMesh same = simplify_with_bound(shuffled, within(0)).last().mesh;
+  EXPECT_EQ(same.vertices, shuffled.vertices);
+  ASSERT_EQ(same.triangles.size(), shuffled.triangles.size());
+  for (std::size_t t = 0; t < same.triangles.size(); ++t)
+    EXPECT_TRUE(std::is_permutation(same.triangles[t].begin(), same.triangles[t].end(), shuffled.triangles[t].begin()));
+}
+
 TEST(SimplifyWithBound, HoldsAtExtremeScalesAndFarFromTheOrigin) {
   const TriangleMesh torus = datasets::torus(1, 0.3, 40, 16);
   for (const double scale : {1e-160, 1e-30, 1e30, 1e155}) {

@@ -27,8 +27,9 @@ class Proximity {
   [[nodiscard]] Verdict triangle_within(const std::array<Eigen::Vector3d, 3>& triangle, double tolerance,
                                         std::uint32_t& hint, std::uint64_t max_subdivisions = 10000);
 
-  /// Upper bound of the distance from `point` to the mesh, `hint` as above.
-  [[nodiscard]] double upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint);
+  /// Upper bound of the distance from `point` to the mesh, `hint` as above: the least one, or the first that is at most
+  /// `enough`.
+  [[nodiscard]] double upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint, double enough = 0);
 
  private:
   struct Impl;

@@ -67,10 +67,12 @@ class Decimation::Filter {
 };
 
 Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options)
-    : original_(original),
+    : input_vertices_(original.vertices.size()),
+      order_(spatial_order(original, options.threads)),
+      original_(order_.mesh),
       options_(options),
-      frame_(used_bounding_box(original)),
-      framed_original_(mapped(original, frame_)),
+      frame_(used_bounding_box(original_)),
+      framed_original_(mapped(original_, frame_)),
       copy_(manifold_copy(framed_original_)) {
   start_points_.reserve(copy_.mesh.number_of_vertices());
   for (const auto v : copy_.mesh.vertices()) {
@@ -93,7 +95,7 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
 
 void Decimation::lock_vertices() {
   if (options_.locked_vertices.empty() && !options_.feature_angle) return;
-  if (!options_.locked_vertices.empty() && options_.locked_vertices.size() != original_.vertices.size())
+  if (!options_.locked_vertices.empty() && options_.locked_vertices.size() != input_vertices_)
     throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
   const auto locked = locked_copies();
   monitor_->lock_vertices(boost::make_function_property_map<SurfaceMesh::Vertex_index>(
@@ -104,8 +106,8 @@ void Decimation::lock_vertices() {
 /// By vertex of the copy: several vertices of the original, at the same place, may have become one, or one several.
 std::vector<bool> Decimation::locked_copies() const {
   std::vector<bool> locked(start_points_.size(), false);
-  for (std::size_t v = 0; v < options_.locked_vertices.size(); ++v) {
-    if (!options_.locked_vertices[v]) continue;
+  for (std::size_t v = 0; v < order_.vertex.size() && !options_.locked_vertices.empty(); ++v) {
+    if (!options_.locked_vertices[order_.vertex[v]]) continue;
     const Eigen::Vector3d& p = framed_original_.vertices[v];
     const Kernel::Point_3 point(p.x(), p.y(), p.z());
     const auto before = [&](SurfaceMesh::Vertex_index a, const Kernel::Point_3& q) { return start_points_[a] < q; };
@@ -123,9 +125,13 @@ std::vector<bool> Decimation::locked_copies() const {
 
 void Decimation::limit_faces() {
   if (options_.face_tolerances.empty()) return;
+  if (options_.face_tolerances.size() != order_.triangle.size())
+    throw InvalidInput("tolerances of triangles must be given for every triangle of the original");
   std::vector<double> limits;
-  for (const double tolerance : options_.face_tolerances)
+  for (const std::uint32_t t : order_.triangle) {
+    const double tolerance = options_.face_tolerances[t];
     limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
+  }
   monitor_->limit_triangles(limits);
 }
 
@@ -246,18 +252,26 @@ Eigen::Vector3d Decimation::in_model(const Kernel::Point_3& p) const {
 }
 
 TriangleMesh Decimation::current_mesh() const {
+  const auto sorted_by = [](const auto& range, const auto& key) {
+    std::vector<std::decay_t<decltype(*range.begin())>> items(range.begin(), range.end());
+    std::sort(items.begin(), items.end(),
+              [&](auto a, auto b) { return std::make_pair(key(a), a) < std::make_pair(key(b), b); });
+    return items;
+  };
   TriangleMesh result;
   std::vector<std::uint32_t> index(start_points_.size());
-  for (const auto v : copy_.mesh.vertices()) {
+  for (const auto v :
+       sorted_by(copy_.mesh.vertices(), [&](auto u) { return order_.vertex[copy_.vertex_of_vertex[u]]; })) {
     index[v] = static_cast<std::uint32_t>(result.vertices.size());
     result.vertices.push_back(in_model(copy_.mesh.point(v)));
   }
-  for (const auto f : copy_.mesh.faces()) {
+  for (const auto f :
+       sorted_by(copy_.mesh.faces(), [&](auto g) { return order_.triangle[copy_.triangle_of_face[g]]; })) {
     const auto h = copy_.mesh.halfedge(f);
     result.triangles.push_back(
         {index[copy_.mesh.source(h)], index[copy_.mesh.target(h)], index[copy_.mesh.target(copy_.mesh.next(h))]});
   }
-  for (const std::uint32_t t : monitor_->uncovered()) {
+  for (const std::uint32_t t : sorted_by(monitor_->uncovered(), [&](auto u) { return order_.triangle[u]; })) {
     Triangle corners{};
     for (std::size_t i = 0; i < 3; ++i) {
       corners[i] = static_cast<std::uint32_t>(result.vertices.size());

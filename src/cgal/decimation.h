@@ -5,6 +5,7 @@
 
 #include "cgal/collapse_policies.h"
 #include "cgal/refinement.h"
+#include "cgal/spatial_order.h"
 #include "cgal/working_frame.h"
 #include "meshbound/cgal/deviation_monitor.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -16,14 +17,15 @@ class Decimation {
  public:
   using Monitor = DeviationMonitor<SurfaceMesh>;
 
-  /// `original` and `options` must outlive this.
+  /// `options` must outlive this.
   Decimation(const TriangleMesh& original, const SimplifyOptions& options);
 
   /// Collapses edges until nothing fits, `target_faces` are left or `seconds` have passed. `tolerance` in model units,
   /// not smaller than in the call before.
   EndedBy run(double tolerance, std::size_t target_faces, double seconds);
 
-  /// The mesh as it is now, in model coordinates, the triangles that are kept as they are included.
+  /// The mesh as it is now, in model coordinates, the triangles that are kept as they are included. What is left of the
+  /// original comes in its order.
   [[nodiscard]] TriangleMesh current_mesh() const;
   [[nodiscard]] const Monitor& monitor() const { return *monitor_; }
   void describe(SimplifyResult& result) const;
@@ -46,7 +48,9 @@ class Decimation {
   void refine();
   void show_progress(std::size_t faces);
 
-  const TriangleMesh& original_;
+  std::size_t input_vertices_;
+  SpatialOrder order_;
+  const TriangleMesh& original_;  ///< `order_.mesh`: all indices here are its
   const SimplifyOptions& options_;
   WorkingFrame frame_;
   TriangleMesh framed_original_;

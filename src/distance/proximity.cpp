@@ -90,12 +90,15 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
   return upper <= impl_->current.tolerance ? Verdict::Within : Verdict::Undecided;
 }
 
-double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint) {
+double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint, double enough) {
   double magnitude = 1, error = 0;
   const Vec3 p = impl_->load(point, magnitude, error);
   if (!(magnitude <= largest_magnitude)) return closest_point(impl_->bvh, point).distance.upper;
   Searcher& searcher = impl_->searcher_for(impl_->data.frame.length_down(impl_->current.tolerance), magnitude, error);
-  const Nearest nearest = searcher.nearest(p, impl_->slot_of_triangle[hint], 0);
+  // Less by the slack, and by the roundings below.
+  const double accepted =
+      std::max(0.0, impl_->data.frame.working_length_down(enough) * (1 - 16 * unit_roundoff) - impl_->current.slack);
+  const Nearest nearest = searcher.nearest(p, impl_->slot_of_triangle[hint], accepted * accepted);
   hint = impl_->data.triangle_of_slot[nearest.slot];
   const double upper = next_up(std::sqrt(nearest.squared) * (1 + 4 * unit_roundoff)) + impl_->current.slack;
   return impl_->data.frame.length_up(upper);

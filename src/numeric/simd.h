@@ -72,5 +72,15 @@ inline unsigned lane_bits(Mask8 mask) {
 #endif
 }
 
+inline unsigned lane_bits(Mask4 mask) {
+#if defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < 4; ++i) bits |= (mask[i] != 0 ? 1U : 0U) << i;
+  return bits;
+#endif
+}
+
 }  // namespace MESHBOUND_ISA
 }  // namespace meshbound

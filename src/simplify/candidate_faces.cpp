@@ -9,13 +9,6 @@
 
 namespace meshbound {
 
-void CandidateFaces::Plane::set(int k, Vec3 normal, Vec3 through) {
-  x[k] = normal.x;
-  y[k] = normal.y;
-  z[k] = normal.z;
-  offset[k] = -dot(normal, through);
-}
-
 void CandidateFaces::clear(double tolerance) {
   tolerance_ = tolerance;
   squared_tolerance_ = tolerance * tolerance;
@@ -35,49 +28,37 @@ void CandidateFaces::add(const std::array<Vec3, 3>& corners) {
   // of 24u (longest + tolerance) longest^2 / area in all. Beyond the slack, or at zero area, the planes are not used.
   const double displacement = 24 * unit_roundoff * (longest + tolerance_) * longest * longest;
   const bool flat = displacement < plane_slack * tolerance_ * area;
+  PlaneBlock& block = blocks_[static_cast<std::size_t>(k / PlaneBlock::lanes)];
+  const int lane = k % PlaneBlock::lanes;
   if (!flat) {
-    for (Plane* plane : {&face_, &side_[0], &side_[1], &side_[2]}) plane->set(k, {}, {});
+    for (int plane = 0; plane < PlaneBlock::planes; ++plane) block.set(lane, plane, {}, {});
     return;
   }
   flat_ |= FaceMask{1} << k;
   const Vec3 unit = (1 / area) * normal;
-  face_.set(k, unit, corners[0]);
-  const std::array<Vec3, 3> edges = {ab, bc, Vec3{-ac.x, -ac.y, -ac.z}};
-  for (int i = 0; i < 3; ++i) side_[i].set(k, (1 / length(edges[i])) * cross(edges[i], unit), corners[i]);
+  block.set(lane, face_plane, unit, corners[0]);
+  const std::array<Vec3, sides> edges = {ab, bc, Vec3{-ac.x, -ac.y, -ac.z}};
+  for (int i = 0; i < sides; ++i) block.set(lane, 1 + i, (1 / length(edges[i])) * cross(edges[i], unit), corners[i]);
 }
 
 bool CandidateFaces::holds(int k, Vec3 p) const {
   return closest_on_triangle(triangles_[k], p).squared_distance <= squared_tolerance_;
 }
 
-FaceMask CandidateFaces::holding(Vec3 p, int first, int last) const {
-  // Two passes: the first is straight-line arithmetic that compilers vectorise, the second looks at the few in doubt.
-  double height[capacity], outside[capacity];
-  for (int k = first; k < last; ++k) {
-    height[k] = std::abs(face_.at(k, p));
-    const double a = side_[0].at(k, p), b = side_[1].at(k, p), c = side_[2].at(k, p);
-    const double ab = a > b ? a : b;
-    outside[k] = ab > c ? ab : c;
-  }
-  FaceMask mask = 0;
-  const double reach = squared_tolerance_ * (1 + 2 * plane_slack);
-  for (int k = first; k < last; ++k) {
-    if (height[k] > tolerance_) continue;
-    const FaceMask bit = FaceMask{1} << k;
-    if (outside[k] <= 0 && (flat_ & bit)) {
-      mask |= bit;
-    } else if (outside[k] * outside[k] + height[k] * height[k] <= reach && holds(k, p)) {
-      mask |= bit;
-    }
-  }
-  return mask;
-}
-
 FaceMask CandidateFaces::holding(Vec3 p, FaceMask among) const {
+  const double squared_reach = squared_tolerance_ * (1 + 2 * plane_slack);
   FaceMask mask = 0;
-  for (; among != 0; among &= among - 1) {
-    const int k = std::countr_zero(among);
-    mask |= holding(p, k, k + 1);
+  for (int first = 0; (among >> first) != 0; first += PlaneBlock::lanes) {
+    const unsigned wanted = static_cast<unsigned>(among >> first) & 15U;
+    if (wanted == 0) continue;
+    const SlabBits bits = test_(block_of(first), p, tolerance_, squared_reach);
+    const unsigned inside = bits.inside & wanted & static_cast<unsigned>(flat_ >> first);
+    mask |= FaceMask{inside} << first;
+    for (unsigned doubtful = (bits.inside | bits.outside) & wanted & ~inside; doubtful != 0; doubtful &= doubtful - 1) {
+      const int k = first + std::countr_zero(doubtful);
+      if (holds(k, p)) mask |= FaceMask{1} << k;
+    }
+    if (first + PlaneBlock::lanes == capacity) break;
   }
   return mask;
 }
@@ -92,12 +73,14 @@ double CandidateFaces::reach(Vec3 p, Vec3 q, FaceMask mask) const {
       farthest = std::max(farthest, 0.5);
       continue;
     }
+    const PlaneBlock& block = block_of(k);
+    const int lane = k % PlaneBlock::lanes;
     double share = 1;
-    for (const Plane& side : side_) {
-      const double from = side.at(k, p), to = side.at(k, q);
+    for (int side = 1; side <= sides; ++side) {
+      const double from = block.at(lane, side, p), to = block.at(lane, side, q);
       if (to > rim) share = std::min(share, from >= rim ? 0 : (rim - from) / (to - from));
     }
-    const double from = face_.at(k, p), to = face_.at(k, q);
+    const double from = block.at(lane, face_plane, p), to = block.at(lane, face_plane, q);
     if (std::abs(to) > tolerance_) share = std::min(share, ((to > 0 ? tolerance_ : -tolerance_) - from) / (to - from));
     farthest = std::max(farthest, share);
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "geometry/point_triangle.h"
+#include "simplify/plane_block.h"
 
 namespace meshbound {
 
@@ -30,8 +31,6 @@ class CandidateFaces {
   void add(const std::array<Vec3, 3>& corners);
   [[nodiscard]] int size() const { return size_; }
 
-  /// Candidates [first, last) that are within the tolerance of p.
-  [[nodiscard]] FaceMask holding(Vec3 p, int first, int last) const;
   /// The members of `among` that are within the tolerance of p.
   [[nodiscard]] FaceMask holding(Vec3 p, FaceMask among) const;
 
@@ -40,17 +39,14 @@ class CandidateFaces {
   [[nodiscard]] double reach(Vec3 p, Vec3 q, FaceMask mask) const;
 
  private:
-  struct Plane {
-    double x[capacity], y[capacity], z[capacity], offset[capacity];
-    [[nodiscard]] double at(int k, Vec3 p) const { return x[k] * p.x + y[k] * p.y + z[k] * p.z + offset[k]; }
-    void set(int k, Vec3 normal, Vec3 through);
-  };
+  static constexpr int face_plane = 0, sides = 3;  ///< of `PlaneBlock`: the face, then its sides
+  [[nodiscard]] const PlaneBlock& block_of(int k) const { return blocks_[k / PlaneBlock::lanes]; }
   [[nodiscard]] bool holds(int k, Vec3 p) const;
 
+  SlabTest test_ = slab_test();
   double tolerance_ = 0, squared_tolerance_ = 0;
   int size_ = 0;
-  Plane face_;
-  std::array<Plane, 3> side_;  ///< outward
+  std::array<PlaneBlock, capacity / PlaneBlock::lanes> blocks_{};
   std::array<CornerTriangle<double>, capacity> triangles_;
   FaceMask flat_ = 0;  ///< those whose planes are accurate
 };

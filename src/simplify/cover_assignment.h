@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,17 +17,31 @@ class CoverAssignment {
   void reserve_face(std::uint32_t face) {
     if (face >= originals_of_.size()) originals_of_.resize(std::size_t{face} + 1);
   }
-  [[nodiscard]] const Ids& faces_of(std::uint32_t original) const { return faces_of_[original]; }
+  [[nodiscard]] std::span<const std::uint32_t> faces_of(std::uint32_t original) const {
+    const Faces& faces = faces_of_[original];
+    if (faces.size <= Faces::room) return {faces.ids.data(), faces.size};
+    return many_[faces.ids[0]];
+  }
   [[nodiscard]] std::span<const std::uint32_t> originals_of(std::uint32_t face) const {
     if (face >= originals_of_.size()) return {};
     return originals_of_[face];
   }
 
-  /// Replaces the cover of `original`; `faces` receives the old one.
-  void assign(std::uint32_t original, Ids& faces);
+  /// Replaces the cover of `original`.
+  void assign(std::uint32_t original, std::span<const std::uint32_t> faces);
 
  private:
-  std::vector<Ids> faces_of_;
+  /// Nearly all covers have three faces at most: these lie side by side, the others in `many_[ids[0]]`.
+  struct Faces {
+    static constexpr std::uint32_t room = 3;
+    std::uint32_t size = 0;
+    std::array<std::uint32_t, room> ids{};
+  };
+  void store(Faces& at, std::span<const std::uint32_t> faces);
+
+  std::vector<Faces> faces_of_;
+  std::vector<Ids> many_;
+  std::vector<std::uint32_t> unused_;  ///< of `many_`
   std::vector<Ids> originals_of_;
 };
 

@@ -27,6 +27,9 @@ constexpr std::uint64_t most_cuts_of_added_face = 300;
 using Corners = std::array<Vec3, 3>;
 
 Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Corners corners_of(const TrackedFace& face) {
+  return {to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])};
+}
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 std::vector<Vec3> vertices_of(const MeshView& mesh) {
@@ -84,7 +87,16 @@ struct DeviationTracker::Impl {
   std::uint32_t deviation_hint = 0;
   std::vector<Corners> deviation_faces;
   std::vector<std::uint32_t> deviation_originals;
-  MarkedIds removed_marks, kept_marks, affected_marks, ring_marks;
+  MarkedIds removed_marks, kept_marks, affected_marks;
+
+  /// Where a face is among the candidates of `forward` in the present round.
+  struct Candidate {
+    std::uint32_t round = 0;
+    int index = ForwardCover::no_room;
+  };
+  std::vector<Candidate> candidates;  ///< by face id
+  std::uint32_t candidate_round = 0;
+  FaceMask added_bits = 0;
 
   struct Pending {
     bool admitted = false;
@@ -125,6 +137,13 @@ struct DeviationTracker::Impl {
   [[nodiscard]] Refusal examine(const SurfaceChange& change);
   [[nodiscard]] bool moved_vertex_near(const SurfaceChange& change);
   [[nodiscard]] Refusal cover_affected(const SurfaceChange& change);
+  [[nodiscard]] bool is_current(std::uint32_t face) const {
+    return !removed_marks.contains(face) || kept_marks.contains(face);
+  }
+  FaceMask candidate_bit(std::uint32_t face);
+  void enter_added_faces();
+  [[nodiscard]] FaceMask added_of(std::uint32_t t) const;
+  FaceMask relied_on(std::uint32_t t);
   [[nodiscard]] bool cover_one(std::size_t i, const SurfaceChange& change);
   void find_ring(const SurfaceChange& change);
   [[nodiscard]] bool added_faces_near();
@@ -160,9 +179,10 @@ void DeviationTracker::Impl::put_face(std::uint32_t id, const Corners& at, std::
   if (id >= corners.size()) {
     corners.resize(std::size_t{id} + 1);
     nearest.resize(std::size_t{id} + 1, 0);
+    candidates.resize(std::max(candidates.size(), std::size_t{id} + 1));
   }
   cover.reserve_face(id);
-  for (MarkedIds* marks : {&removed_marks, &kept_marks, &ring_marks}) marks->reserve(id);
+  for (MarkedIds* marks : {&removed_marks, &kept_marks}) marks->reserve(id);
   corners[id] = at;
   nearest[id] = near;
 }
@@ -171,7 +191,7 @@ void DeviationTracker::Impl::put_face(std::uint32_t id, const Corners& at, std::
 /// corners, as around the fixed end of an edge that collapses onto it, keep their proofs.
 void DeviationTracker::Impl::select(const SurfaceChange& change) {
   const auto make_room = [&](std::uint32_t id) {
-    for (MarkedIds* marks : {&removed_marks, &kept_marks, &ring_marks}) marks->reserve(id);
+    for (MarkedIds* marks : {&removed_marks, &kept_marks}) marks->reserve(id);
   };
   removed_marks.clear();
   for (const std::uint32_t face : change.removed) {
@@ -206,7 +226,7 @@ void DeviationTracker::Impl::select(const SurfaceChange& change) {
 bool DeviationTracker::Impl::moved_vertex_near(const SurfaceChange& change) {
   if (!change.moved_vertex || pending.added.empty()) return true;
   std::uint32_t hint = pending.affected.empty() ? 0 : pending.affected.front();
-  return proximity.upper_distance(*change.moved_vertex, hint) <= limit;
+  return proximity.upper_distance(*change.moved_vertex, hint, limit) <= limit;
 }
 
 Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
@@ -221,15 +241,28 @@ Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
   return added_faces_near() ? Refusal::None : Refusal::NewFaceTooFar;
 }
 
-Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
+/// Index of the face among the candidates; they are entered as they are needed.
+FaceMask DeviationTracker::Impl::candidate_bit(std::uint32_t face) {
+  Candidate& candidate = candidates[face];
+  if (candidate.round != candidate_round) candidate = {candidate_round, forward.add(corners[face], face)};
+  return candidate.index == ForwardCover::no_room ? 0 : FaceMask{1} << candidate.index;
+}
+
+void DeviationTracker::Impl::enter_added_faces() {
   forward.begin(limit);
-  for (const TrackedFace& face : pending.added)
-    forward.add({to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])}, face.id);
-  forward.close_added();
+  ++candidate_round;
   pending.nearest.clear();
-  for (const TrackedFace& face : pending.added)
+  for (const TrackedFace& face : pending.added) {
+    if (face.id >= candidates.size()) candidates.resize(std::size_t{face.id} + 1);
+    candidates[face.id] = {candidate_round, forward.add(corners_of(face), face.id)};
     pending.nearest.push_back(face.id < nearest.size() ? nearest[face.id] : 0);
+  }
+  added_bits = ForwardCover::first(forward.size());
   ring_known = false;
+}
+
+Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
+  enter_added_faces();
   const auto fails = [&](std::size_t i) {
     if (cover_one(i, change)) return false;
     uncovered = pending.affected[i];
@@ -247,43 +280,53 @@ Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
   return Refusal::None;
 }
 
-/// Candidates beyond the added faces: those that the affected covers use already, then those around the change.
+/// Candidates beyond the added faces and those that covers use already: the faces around the change.
 void DeviationTracker::Impl::find_ring(const SurfaceChange& change) {
   ring_known = true;
   ++stats.ring_searches;
   ring.clear();
   if (change.ring) change.ring(ring);
-  ring_marks.clear();
-  for (const TrackedFace& face : pending.added) ring_marks.insert(face.id);
-  const auto offer = [&](std::uint32_t face) {
-    const bool current = !removed_marks.contains(face) || kept_marks.contains(face);
-    if (current && ring_marks.insert(face)) forward.add(corners[face], face);
-  };
-  for (const std::uint32_t t : pending.affected) {
-    for (const std::uint32_t face : cover.faces_of(t)) offer(face);
+  for (const std::uint32_t t : pending.affected) relied_on(t);
+  for (const std::uint32_t face : ring) {
+    if (is_current(face)) candidate_bit(face);
   }
-  for (const std::uint32_t face : ring) offer(face);
+}
+
+/// The faces beyond the added ones that the cover of an original triangle uses until now.
+FaceMask DeviationTracker::Impl::relied_on(std::uint32_t t) {
+  FaceMask bits = 0;
+  for (const std::uint32_t face : cover.faces_of(t)) {
+    if (is_current(face)) bits |= candidate_bit(face);
+  }
+  return bits;
+}
+
+FaceMask DeviationTracker::Impl::added_of(std::uint32_t t) const {
+  FaceMask bits = 0;
+  for (const std::uint32_t face : cover.faces_of(t)) {
+    const Candidate& candidate = candidates[face];
+    if (candidate.round == candidate_round && candidate.index != ForwardCover::no_room)
+      bits |= FaceMask{1} << candidate.index;
+  }
+  return bits & added_bits;
 }
 
 bool DeviationTracker::Impl::cover_one(std::size_t i, const SurfaceChange& change) {
   const std::uint32_t t = pending.affected[i];
   ++stats.originals_tested;
-  const CoverAssignment::Ids& old = cover.faces_of(t);
-  FaceMask preferred = 0;
-  for (int k = 0; k < forward.added(); ++k) {
-    if (std::find(old.begin(), old.end(), forward.face(k)) != old.end()) preferred |= FaceMask{1} << k;
-  }
-  FaceMask used = forward.cover(t, false, preferred);
+  const FaceMask preferred = added_of(t);
+  FaceMask used = forward.cover_whole(t, added_bits, preferred);
+  if (used == 0) used = forward.cover(t, added_bits | relied_on(t), preferred);
   if (used == 0) {
     if (!ring_known) find_ring(change);
-    if (forward.size() > forward.added()) used = forward.cover(t, true, preferred);
+    used = forward.cover(t, ForwardCover::first(forward.size()), preferred);
   }
   CoverAssignment::Ids& ids = pending.covers[i];
   ids.clear();
   for (FaceMask rest = used; rest != 0; rest &= rest - 1) {
     const int k = std::countr_zero(rest);
     ids.push_back(forward.face(k));
-    if (k < forward.added()) pending.nearest[static_cast<std::size_t>(k)] = t;
+    if ((added_bits >> k) & 1) pending.nearest[static_cast<std::size_t>(k)] = t;
   }
   return used != 0;
 }
@@ -293,7 +336,7 @@ bool DeviationTracker::Impl::added_faces_near() {
     const auto& at = pending.added[k].corners;
     std::uint32_t& hint = pending.nearest[k];
     ++stats.faces_tested;
-    const Corners face{to_vec3(at[0]), to_vec3(at[1]), to_vec3(at[2])};
+    const Corners face = corners_of(pending.added[k]);
     if (degree.covers(face, limit, magnitude, hint)) {
       ++stats.faces_by_degree;
       continue;
@@ -343,15 +386,13 @@ std::vector<std::uint32_t> DeviationTracker::cover_the_rest() {
   std::vector<std::uint32_t> uncovered;
   for (const std::uint32_t t : rest) {
     impl_->forward.begin(std::max(impl_->working_tolerance, 0.0));
-    impl_->ring_marks.clear();
+    ++impl_->candidate_round;
     for (const std::uint32_t v : impl_->triangles[t]) {
-      for (const std::uint32_t face : faces_at[v]) {
-        if (impl_->ring_marks.insert(face)) impl_->forward.add(impl_->corners[face], face);
-      }
+      for (const std::uint32_t face : faces_at[v]) impl_->candidate_bit(face);
     }
-    impl_->forward.close_added();
     CoverAssignment::Ids ids;
-    for (FaceMask used = impl_->forward.cover(t, false, 0); used != 0; used &= used - 1)
+    const FaceMask all = ForwardCover::first(impl_->forward.size());
+    for (FaceMask used = impl_->forward.cover(t, all, 0); used != 0; used &= used - 1)
       ids.push_back(impl_->forward.face(std::countr_zero(used)));
     if (ids.empty())
       uncovered.push_back(t);
@@ -395,8 +436,7 @@ void DeviationTracker::commit() {
   pending.admitted = false;
   for (std::size_t k = 0; k < pending.added.size(); ++k) {
     const TrackedFace& face = pending.added[k];
-    const Corners at{to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])};
-    impl_->put_face(face.id, at, pending.nearest[k]);
+    impl_->put_face(face.id, corners_of(face), pending.nearest[k]);
   }
   for (std::size_t i = 0; i < pending.affected.size(); ++i) impl_->cover.assign(pending.affected[i], pending.covers[i]);
 }

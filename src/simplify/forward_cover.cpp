@@ -26,51 +26,54 @@ ForwardCover::ForwardCover(const std::vector<Vec3>& vertices,
 
 void ForwardCover::begin(double tolerance) {
   candidates_.clear(tolerance);
-  added_ = 0;
   const double shortest = shortest_edge_share * tolerance;
   shortest_squared_edge_ = shortest * shortest;
   ++round_;
 }
 
-bool ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
-  if (candidates_.size() == CandidateFaces::capacity) return false;
-  faces_[static_cast<std::size_t>(candidates_.size())] = face;
+int ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
+  const int k = candidates_.size();
+  if (k == CandidateFaces::capacity) return no_room;
+  faces_[static_cast<std::size_t>(k)] = face;
   candidates_.add(corners);
-  return true;
+  return k;
 }
 
-FaceMask ForwardCover::mask_of(std::uint32_t vertex, bool with_ring) {
+FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
   CachedMask& cached = cache_[vertex];
   if (cached.round != round_) cached = {round_, 0, 0};
-  const int wanted = with_ring ? candidates_.size() : added_;
-  if (cached.known < wanted) {
-    cached.mask |= candidates_.holding(vertices_[vertex], cached.known, wanted);
-    cached.known = static_cast<std::uint8_t>(wanted);
+  if (const FaceMask missing = allowed & ~cached.known; missing != 0) {
+    cached.mask |= candidates_.holding(vertices_[vertex], missing);
+    cached.known |= missing;
   }
-  if (wanted == CandidateFaces::capacity) return cached.mask;
-  return cached.mask & ((FaceMask{1} << wanted) - 1);
+  return cached.mask & allowed;
 }
 
-bool ForwardCover::corner_out_of_reach(std::uint32_t triangle) {
+bool ForwardCover::corner_out_of_reach(std::uint32_t triangle, FaceMask allowed) {
   const auto& corners = triangles_[triangle];
-  return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return mask_of(v, true) == 0; });
+  return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return mask_of(v, allowed) == 0; });
 }
 
-FaceMask ForwardCover::cover(std::uint32_t triangle, bool with_ring, FaceMask preferred) {
+FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
+  const auto& t = triangles_[triangle];
+  const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
+  return lowest((common & preferred) != 0 ? common & preferred : common);
+}
+
+FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
+  if (const FaceMask one = cover_whole(triangle, allowed, preferred); one != 0) return one;
   const auto& t = triangles_[triangle];
   Piece whole;
   for (std::size_t i = 0; i < 3; ++i) {
-    whole.masks[i] = mask_of(t[i], with_ring);
+    whole.corners[i] = vertices_[t[i]];
+    whole.masks[i] = mask_of(t[i], allowed);
     if (whole.masks[i] == 0) return 0;
   }
-  const FaceMask common = whole.masks[0] & whole.masks[1] & whole.masks[2];
-  if (common != 0) return lowest((common & preferred) != 0 ? common & preferred : common);
-  for (std::size_t i = 0; i < 3; ++i) whole.corners[i] = vertices_[t[i]];
   ++splits;
-  return cover_in_pieces(whole, with_ring);
+  return cover_in_pieces(whole, allowed);
 }
 
-FaceMask ForwardCover::cover_in_pieces(const Piece& whole, bool with_ring) {
+FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed) {
   open_.assign(1, whole);
   FaceMask used = 0;
   for (int spent = 0; !open_.empty();) {
@@ -81,12 +84,12 @@ FaceMask ForwardCover::cover_in_pieces(const Piece& whole, bool with_ring) {
       if ((common & used) == 0) used |= lowest(common);
       continue;
     }
-    if (++spent > deepest_cut || !cut(piece, with_ring)) return 0;
+    if (++spent > deepest_cut || !cut(piece, allowed)) return 0;
   }
   return used;
 }
 
-bool ForwardCover::cut(const Piece& piece, bool with_ring) {
+bool ForwardCover::cut(const Piece& piece, FaceMask allowed) {
   std::size_t from = 0;
   double longest = -1, squared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -105,7 +108,10 @@ bool ForwardCover::cut(const Piece& piece, bool with_ring) {
   }
   const Vec3 middle = p + share * (q - p);
   ++cuts;
-  const FaceMask mask = mask_at(middle, with_ring);
+  // A candidate that holds no corner holds no part that is cut here: it is asked only when the others fail.
+  const FaceMask likely = piece.masks[0] | piece.masks[1] | piece.masks[2];
+  FaceMask mask = candidates_.holding(middle, likely);
+  if (mask == 0) mask = candidates_.holding(middle, allowed & ~likely);
   if (mask == 0) return false;
   open_.push_back(piece);
   open_.back().corners[to] = middle;

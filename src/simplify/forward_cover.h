@@ -25,20 +25,23 @@ class ForwardCover {
 
   /// Begins a new set of candidates; masks of earlier ones are forgotten.
   void begin(double tolerance);
-  /// False when there is no room for more.
-  bool add(const std::array<Vec3, 3>& corners, std::uint32_t face);
-  /// Candidates so far are the added faces, later ones the ring.
-  void close_added() { added_ = candidates_.size(); }
-  [[nodiscard]] int added() const { return added_; }
+  /// Index of the new candidate, `no_room` when there are 64 already.
+  int add(const std::array<Vec3, 3>& corners, std::uint32_t face);
+  static constexpr int no_room = -1;
   [[nodiscard]] int size() const { return candidates_.size(); }
   [[nodiscard]] std::uint32_t face(int k) const { return faces_[static_cast<std::size_t>(k)]; }
+  /// Candidates [0, size).
+  [[nodiscard]] static FaceMask first(int size) {
+    return size == CandidateFaces::capacity ? ~FaceMask{0} : (FaceMask{1} << size) - 1;
+  }
 
-  /// Mask of the candidates used when the triangle is covered by the added faces alone (`with_ring` false) or by all,
-  /// 0 when it is not. `preferred` are tried first.
-  [[nodiscard]] FaceMask cover(std::uint32_t triangle, bool with_ring, FaceMask preferred);
-
-  /// True when no candidate, ring included, holds some corner of the triangle.
-  [[nodiscard]] bool corner_out_of_reach(std::uint32_t triangle);
+  /// Mask of the candidates used when the triangle is covered by those of `allowed`, 0 when it is not. `preferred` are
+  /// tried first.
+  [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// The same by a single candidate, without cutting the triangle.
+  [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// True when no candidate of `allowed` holds some corner of the triangle.
+  [[nodiscard]] bool corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
 
   std::uint64_t splits = 0, cuts = 0;
 
@@ -47,16 +50,13 @@ class ForwardCover {
     std::array<Vec3, 3> corners;
     std::array<FaceMask, 3> masks;
   };
-  [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, bool with_ring);
-  [[nodiscard]] FaceMask mask_at(Vec3 p, bool with_ring) const {
-    return candidates_.holding(p, 0, with_ring ? candidates_.size() : added_);
-  }
-  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, bool with_ring);
-  [[nodiscard]] bool cut(const Piece& piece, bool with_ring);
+  [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, FaceMask allowed);
+  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed);
+  [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed);
 
   struct CachedMask {
     std::uint32_t round = 0;
-    std::uint8_t known = 0;  ///< candidates [0, known) are in `mask`
+    FaceMask known = 0;  ///< candidates that have been asked
     FaceMask mask = 0;
   };
 
@@ -64,7 +64,6 @@ class ForwardCover {
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
   CandidateFaces candidates_;
   std::array<std::uint32_t, CandidateFaces::capacity> faces_{};
-  int added_ = 0;
   double shortest_squared_edge_ = 0;
   std::uint32_t round_ = 0;
   std::vector<CachedMask> cache_;
