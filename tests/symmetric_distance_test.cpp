@@ -2,6 +2,7 @@
 // H(A,B) = max(h(A,B), h(B,A)), and the decision H(A,B) <= tolerance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -57,6 +58,53 @@ TEST(SymmetricDistance, IsTheLargerDirection) {
   const TriangleMesh plane = unit_square(4);
   expect_distance(plane, both(plane, moved(plane, {0, 0, 0.5})), {0.5, 0.5});
   expect_distance(both(plane, moved(plane, {0, 0, 0.5})), plane, {0.5, 0.5});
+}
+
+/// The same triangles, numbered, ordered and turned otherwise.
+TriangleMesh renumbered(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  result.vertices.assign(mesh.vertices.rbegin(), mesh.vertices.rend());
+  for (auto t = mesh.triangles.rbegin(); t != mesh.triangles.rend(); ++t)
+    result.triangles.push_back({n - 1 - (*t)[2], n - 1 - (*t)[0], n - 1 - (*t)[1]});
+  return result;
+}
+
+TEST(SymmetricDistance, OfMeshesOfTheSameTrianglesIsZeroWithoutTrees) {
+  const TriangleMesh soup = random_soup(5, 300, 0.4);
+  for (const TriangleMesh& mesh : {icosphere(3), soup, both(soup, cube(1))}) {
+    for (const TriangleMesh& twin : {mesh, renumbered(mesh)}) {
+      EXPECT_TRUE(same_surface(mesh, twin));
+      const SymmetricDistance result = symmetric_distance(mesh, twin);
+      EXPECT_EQ(result.bounds.upper, 0);
+      EXPECT_EQ(result.a_to_b.stats.nodes_visited, 0U);
+      expect_witness(mesh, twin, result.a_to_b);
+      expect_witness(twin, mesh, result.b_to_a);
+    }
+  }
+}
+
+TEST(SymmetricDistance, OfMeshesWithOneOtherTriangleIsThatOfTheirTrees) {
+  const TriangleMesh mesh = icosphere(3);
+  TriangleMesh nudged = renumbered(mesh), repeated = mesh, doubled = both(mesh, mesh), missing = doubled;
+  nudged.vertices[7].x() = std::nextafter(nudged.vertices[7].x(), 2.0);
+  repeated.triangles[5] = repeated.triangles[900];
+  missing.triangles[5] = missing.triangles[900];  // its twin of the second half is still there
+  for (TriangleMesh* m : {&doubled, &missing})
+    std::rotate(m->triangles.begin(), m->triangles.begin() + 7, m->triangles.end());
+  EXPECT_FALSE(same_surface(mesh, nudged));
+  EXPECT_FALSE(same_surface(mesh, repeated));
+  EXPECT_FALSE(same_surface(repeated, mesh));
+  EXPECT_TRUE(same_surface(doubled, missing));
+  const SymmetricDistance whole = symmetric_distance(mesh, repeated),
+                          trees = symmetric_distance(Bvh(mesh), Bvh(repeated));
+  EXPECT_GT(whole.bounds.lower, 0);
+  EXPECT_EQ(whole.bounds.lower, trees.bounds.lower);
+  EXPECT_EQ(whole.bounds.upper, trees.bounds.upper);
+  DistanceOptions negative;
+  negative.error_bound = -1;
+  EXPECT_THROW((void)symmetric_distance(mesh, mesh, negative), InvalidInput);
+  EXPECT_THROW((void)same_surface(mesh, TriangleMesh{}), InvalidInput);
 }
 
 TEST(SymmetricDistance, OfConcentricSpheresIsTheGapUpToFaceting) {

@@ -107,6 +107,16 @@ struct ToleranceCheck {
 [[nodiscard]] SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
                                                    const DistanceOptions& options = {});
 
+/// The same for two meshes where they are: builds their trees only if they are not the same surface (`same_surface`),
+/// whose distance is exactly 0. Throws as `Bvh` and as above. O(n log n) for the trees. Any number of threads may call
+/// it.
+[[nodiscard]] SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b,
+                                                   const DistanceOptions& options = {});
+
+/// Whether two meshes have the same triangles, bit for bit, however they number, order, turn and repeat them; -0 and 0
+/// are one coordinate. Throws as `Bvh`. O(n), and hardly more than a look where the meshes differ in size.
+[[nodiscard]] bool same_surface(const MeshView& a, const MeshView& b);
+
 /// Decides H(A,B) <= tolerance: stops at the first point known to be further, refines nothing below it.
 [[nodiscard]] ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                              const DistanceOptions& options = {});
