@@ -2,6 +2,7 @@
 #include "distance/level_surface.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "distance/exact_match.h"
 
@@ -18,7 +19,7 @@ LevelSurface::LevelSurface(const Bvh::Data& tree, const MeshView& level)
 Successors::Successors(const LevelSurface& from, const LevelSurface& to)
     : slot(from.corners.size(), no_slot), vertex(from.vertices.size(), no_slot) {
   const PositionTable positions(to.vertices);
-  const TriangleTable triangles(to.corners, to.vertices, positions);
+  std::optional<TriangleTable> triangles;  // built when the first triangle has all its corners in the next level
   for (std::size_t v = 0; v < vertex.size(); ++v) {
     const std::uint32_t found = positions.find(from.vertices[v]);
     if (found != no_match) vertex[v] = found;
@@ -33,7 +34,8 @@ Successors::Successors(const LevelSurface& from, const LevelSurface& to)
     for (const std::uint32_t v : there)
       if (v != no_slot) near_slot[s] = slot_at[v];
     if (there[0] == no_slot || there[1] == no_slot || there[2] == no_slot) continue;
-    const std::uint32_t found = triangles.find(there);
+    if (!triangles) triangles.emplace(to.corners, to.vertices, positions);
+    const std::uint32_t found = triangles->find(there);
     if (found != no_match) slot[s] = near_slot[s] = found;
   }
 }

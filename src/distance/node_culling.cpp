@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::uint32_t sampled_blocks = 64;
 
+/// Radius of blocks, in units of the target, from which a sweep over all triangles costs less than the queries that
+/// cull nodes: measured on models that approach each other (section 7.1 of the paper).
+constexpr double largest_block = 0.2;
+
 struct NodeOfA {
   double bound_squared;  ///< of the distance of all its triangles to B
   std::uint32_t level;
@@ -89,8 +93,7 @@ void OneSidedSearch::cull_nodes() {
   if (decided() || stats_.matched == stats_.triangles) return;
   Searcher& searcher = *searchers_.front();
   searcher.begin(lower_);
-  // Where even blocks are larger than the target, every test would be a query spent for nothing.
-  if (sampled_block_radius() > 0.5 * std::sqrt(searcher.accepted_squared())) return;
+  if (sampled_block_radius() > largest_block * std::sqrt(searcher.accepted_squared())) return;
   NodeTest test(a_, map_, searcher);
   std::priority_queue<NodeOfA> queue;
   queue.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
@@ -99,9 +102,7 @@ void OneSidedSearch::cull_nodes() {
     queue.pop();
     if (node.bound_squared <= searcher.accepted_squared()) {
       searcher.accept(node.bound_squared);
-      const auto [begin, end] = slots_below(a_, node.level, node.index);
-      for (std::uint32_t slot = begin; task_.memory != nullptr && slot < end; ++slot)
-        if (is_alive(slot)) remember(slot, node.bound_squared, node.slot);
+      remember_node(node.level, node.index, node.bound_squared, node.slot);
       continue;
     }
     if (node.level == 0) {  // too far for its size: its vertices may raise the lower bound
@@ -133,6 +134,14 @@ void OneSidedSearch::cull_nodes() {
   std::sort(left_.begin(), left_.end());
   culled_ = true;
   stats_.culled_by_node = stats_.triangles - stats_.matched - stats_.proven_before - left_.size();
+}
+
+void OneSidedSearch::remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face) {
+  if (task_.memory == nullptr) return;
+  const double bound = b_.frame.length_up(proven_length(squared, 0));
+  const auto [begin, end] = slots_below(a_, level, index);
+  for (std::uint32_t slot = begin; slot < end; ++slot)
+    if (is_alive(slot)) task_.memory->improve(slot, bound, face);
 }
 
 void OneSidedSearch::keep_slots_below(std::uint32_t level, std::uint32_t index) {

@@ -54,12 +54,16 @@ void OneSidedSearch::cover_and_record(Searcher& searcher, std::uint32_t slot, st
   searcher.record_in(&record);
   searcher.cover(vertex(t[0]), vertex(t[1]), vertex(t[2]), slot, start, cuts_left_);
   searcher.record_in(nullptr);
-  if (record.complete && !record.slots.empty()) found.walked.push_back({slot, record.squared, std::move(record.slots)});
+  found.covers.add(slot, record);
 }
 
 void OneSidedSearch::remember_walk(const Found& found) {
-  for (const WalkedTriangle& walked : found.walked)
-    task_.memory->improve(walked.slot, b_.frame.length_up(proven_length(walked.squared, deepest_cut)), walked.faces);
+  std::uint32_t begin = 0;
+  for (const FoundCovers::Cover& cover : found.covers.covers) {
+    const std::span used(found.covers.faces.data() + begin, cover.end - begin);
+    task_.memory->improve(cover.slot, b_.frame.length_up(proven_length(cover.squared, deepest_cut)), used);
+    begin = cover.end;
+  }
 }
 
 void OneSidedSearch::remember_hints() {

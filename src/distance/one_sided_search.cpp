@@ -204,7 +204,7 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
       hint = searcher.nearest((1.0 / 3) * (corners[0] + corners[1] + corners[2]), hint == no_slot ? 0 : hint, 0).slot;
     };
     if (hint == no_slot) ask();
-    record = {};
+    record.clear();
     const std::uint64_t cuts = worth_walking > 0 ? cuts_left_ : 0;
     Swept swept = searcher.sweep(corners, hint, cuts);
     if (swept == Swept::NotNear && queries > 0) {
@@ -214,7 +214,7 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
     if (swept == Swept::ByOneTriangle || swept == Swept::ByWalk) {
       worth_testing += 2;
       if (swept == Swept::ByWalk) ++found.walks, ++worth_walking;
-      if (task_.memory != nullptr) found.walked.push_back({slot, record.squared, std::move(record.slots)});
+      if (task_.memory != nullptr) found.covers.add(slot, record);
       continue;
     }
     --worth_testing;

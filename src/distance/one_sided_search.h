@@ -51,8 +51,8 @@ class OneSidedSearch {
     std::uint32_t farthest_vertex = 0;
     double farthest_squared = -1;
     std::vector<Open> open;
-    std::vector<WalkedTriangle> walked;  ///< with a memory only
-    std::uint64_t walks = 0;             ///< triangles that were cut
+    FoundCovers covers;       ///< with a memory only
+    std::uint64_t walks = 0;  ///< triangles that were cut
   };
 
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
@@ -80,6 +80,7 @@ class OneSidedSearch {
   void list_wanted_vertices();
   void probe_start();
   [[nodiscard]] double proven_length(double squared, std::uint32_t cuts) const;
+  void remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face);
   void remember(std::uint32_t slot, double squared, std::uint32_t face);
   void cover_and_record(Searcher& searcher, std::uint32_t slot, std::uint32_t start, Found& found) const;
   void remember_walk(const Found& found);

@@ -23,7 +23,7 @@ void SearchMemory::improve(std::uint32_t slot, double bound, std::uint32_t used)
   if (bound < proofs[slot].bound) proofs[slot] = {bound, 1, used};
 }
 
-void SearchMemory::improve(std::uint32_t slot, double bound, const std::vector<std::uint32_t>& used) {
+void SearchMemory::improve(std::uint32_t slot, double bound, std::span<const std::uint32_t> used) {
   if (!(bound < proofs[slot].bound)) return;
   if (used.size() == 1) return improve(slot, bound, used.front());
   proofs[slot] = {bound, static_cast<std::uint32_t>(used.size()), static_cast<std::uint32_t>(faces.size())};

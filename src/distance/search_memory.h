@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bvh/bvh_data.h"
@@ -16,15 +17,31 @@ struct CoverRecord {
   bool complete = true;
   std::vector<std::uint32_t> slots;  ///< each once
 
+  void clear() {
+    squared = 0;
+    complete = true;
+    slots.clear();
+  }
   /// `no_slot`: a piece whose triangle is not known, so the cover proves nothing for later.
   void add(double squared_distance, std::uint32_t slot);
 };
 
-/// A cover that a search has found; `faces` are slots of B.
-struct WalkedTriangle {
-  std::uint32_t slot = 0;  ///< of A
-  double squared = 0;
-  std::vector<std::uint32_t> faces;
+/// Covers that a chunk of a search has found.
+struct FoundCovers {
+  struct Cover {
+    std::uint32_t slot = 0;  ///< of A
+    std::uint32_t end = 0;   ///< of its slots in `faces`; they begin where those of the cover before end
+    double squared = 0;
+  };
+  std::vector<Cover> covers;
+  std::vector<std::uint32_t> faces;  ///< slots of B
+
+  /// Leaves out a record that proves nothing for later.
+  void add(std::uint32_t slot, const CoverRecord& record) {
+    if (!record.complete || record.slots.empty()) return;
+    faces.insert(faces.end(), record.slots.begin(), record.slots.end());
+    covers.push_back({slot, static_cast<std::uint32_t>(faces.size()), record.squared});
+  }
 };
 
 /// No point of a triangle of A is further than `bound` from the union of some triangles of B. True for as long as those
@@ -51,7 +68,7 @@ struct SearchMemory {
   /// Without proofs, for a model A of that size.
   void reset(const Bvh::Data& a);
   /// Replaces the proof of a triangle if the new bound is lower. `used` are slots of B.
-  void improve(std::uint32_t slot, double bound, const std::vector<std::uint32_t>& used);
+  void improve(std::uint32_t slot, double bound, std::span<const std::uint32_t> used);
   void improve(std::uint32_t slot, double bound, std::uint32_t used);
 };
 
