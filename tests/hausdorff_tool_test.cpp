@@ -122,7 +122,7 @@ TEST_F(HausdorffTool, TakesPercentagesOfTheDiagonalOfA) {
 
 TEST_F(HausdorffTool, TransformsB) {
   std::ofstream(folder_ / "matrix.txt") << "1 0 0 0.25\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
-  for (const std::string& matrix : {shifted, folder_ / "matrix.txt"}) {
+  for (const std::string& matrix : {shifted, std::string(folder_ / "matrix.txt")}) {
     const json document = parsed(run({cube_, cube_, "--transform-b", matrix, "--json", "-"}));
     EXPECT_LE(document["distance"]["lower"], 0.25);
     EXPECT_GE(document["distance"]["upper"], 0.25);

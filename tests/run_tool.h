@@ -2,40 +2,19 @@
 /// Runs a built tool as a user would, through the shell, and keeps what it said.
 #pragma once
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace meshbound::testing_tools {
 
-/// A folder of its own that goes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static std::atomic<int> count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("meshbound_test_" + std::to_string(getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 struct ToolRun {
   int exit_code = -1;  ///< 124: ran into the timeout; 128 + n: ended by signal n
@@ -54,17 +33,29 @@ inline std::string shell_quoted(const std::string& word) {
   return quoted + "'";
 }
 
-inline ToolRun run_tool(const std::string& tool, const std::vector<std::string>& arguments, int timeout_seconds = 120) {
+/// What the shell makes of `command`, killed after the timeout.
+inline ToolRun run_shell(const std::string& command, int timeout_seconds = 120) {
   const TemporaryFolder folder;
-  std::string command = "timeout -s KILL " + std::to_string(timeout_seconds) + " " + shell_quoted(tool);
-  for (const std::string& argument : arguments) command += " " + shell_quoted(argument);
-  command += " >" + shell_quoted(folder / "out") + " 2>" + shell_quoted(folder / "err") + " </dev/null";
-  const int status = std::system(command.c_str());
+  const std::string limited = "timeout -s KILL " + std::to_string(timeout_seconds) + " sh -c " + shell_quoted(command) +
+                              " >" + shell_quoted(folder / "out") + " 2>" + shell_quoted(folder / "err") +
+                              " </dev/null";
+  const int status = std::system(limited.c_str());
   ToolRun run;
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.out = content_of(folder / "out");
   run.err = content_of(folder / "err");
   return run;
+}
+
+/// The command line of a tool, for the shell. `exec` hands its signals and its exit code through.
+inline std::string command_line(const std::string& tool, const std::vector<std::string>& arguments) {
+  std::string command = "exec " + shell_quoted(tool);
+  for (const std::string& argument : arguments) command += " " + shell_quoted(argument);
+  return command;
+}
+
+inline ToolRun run_tool(const std::string& tool, const std::vector<std::string>& arguments, int timeout_seconds = 120) {
+  return run_shell(command_line(tool, arguments), timeout_seconds);
 }
 
 inline std::ptrdiff_t line_count(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }

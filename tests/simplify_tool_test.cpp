@@ -206,22 +206,67 @@ TEST_F(SimplifyTool, RefusesBadUsageInOneLine) {
   expect_refused(run("sphere.off nowhere/out.off --tolerance 1"), "nowhere/out.off");
 }
 
-/// What can be proven within the time is written, else the old file stays.
-TEST_F(SimplifyTool, WritesNothingUnprovenWhenItIsOutOfTime) {
+/// The best mesh that was proven in time, at worst the original itself.
+TEST_F(SimplifyTool, WritesWhatIsProvenWhenItIsOutOfTime) {
   write_mesh(in("terrain.off"), datasets::terrain(1, 100, 5));
-  for (const char* limit : {"0", "0.01", "0.1"}) {
+  for (const char* limit : {"0", "0.01", "0.1", "0.5"}) {
     SCOPED_TRACE(limit);
-    std::ofstream(in("out.off")) << "old";
-    const Result result = run(std::string("terrain.off out.off --tolerance 0.01 --time-limit ") + limit);
-    if (result.exit_code == 0) {
-      EXPECT_EQ(check(in("terrain.off"), in("out.off"), 0.01), Verdict::Within);
-    } else {
-      EXPECT_EQ(result.exit_code, 3);
-      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-      EXPECT_EQ(content(in("out.off")).substr(0, 10), "old");
-    }
+    const Result result = run(std::string("terrain.off out.off --tolerance 0.01 --json r.json --time-limit ") + limit);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(check(in("terrain.off"), in("out.off"), 0.01), Verdict::Within);
+    EXPECT_EQ(Json::parse(content(in("r.json")))["simplified"]["faces"],
+              read_mesh(in("out.off")).mesh.triangles.size());
     EXPECT_TRUE(is_clean());
   }
+}
+
+TEST_F(SimplifyTool, WritesTheOriginalInEveryFormatAndLevelWhenThereIsNoTimeAtAll) {
+  for (const char* name : {"out.off", "out.obj", "out.ply", "out.stl"}) {
+    SCOPED_TRACE(name);
+    const Result result = run(std::string("sphere.off ") + name +
+                              " --tolerance 0.02 --levels 0.005,0.01 --certificate proof --json r.json --time-limit 0");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("time limit came"), std::string::npos) << result.out;
+    const Json json = Json::parse(content(in("r.json")));
+    EXPECT_EQ(json["stopped_by"], "time_limit");
+    EXPECT_EQ(json["verdict"], "within");
+    EXPECT_EQ(json["collapses"]["performed"], 0);
+    EXPECT_EQ(json["simplified"]["faces"], 1280);
+    ASSERT_EQ(json["levels"].size(), 2u);
+    for (const Json& level : json["levels"])
+      EXPECT_EQ(check(in("sphere.off"), in(level["path"]), level["tolerance"]), Verdict::Within);
+    EXPECT_EQ(check(in("sphere.off"), in(name), 0.02), Verdict::Within);
+  }
+}
+
+/// A level that was proven serves the next one when its own proof was not finished.
+TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  const Bvh tree(sphere);
+  TriangleMesh near = sphere;
+  near.vertices[17] *= 1.001;
+  DistanceOptions options;
+  options.tolerance = 0.002;
+  tools::GatedOutput proven(in("proven.off")), late(in("late.off")), first(in("first.off"));
+  proven.write(near);
+  proven.measure(tree, options);
+  ASSERT_EQ(proven.verdict(), Verdict::Within);
+  const TriangleMesh coarse = datasets::icosphere(1, 1);
+  options.tolerance = symmetric_distance(tree, Bvh(coarse)).bounds.upper;
+  options.budget.seconds = 0;
+  late.write(coarse);
+  late.measure(tree, options);
+  ASSERT_EQ(late.verdict(), Verdict::Undecided);
+  late.fall_back(&proven, sphere, tree, options);
+  ASSERT_EQ(late.verdict(), Verdict::Within);
+  EXPECT_EQ(late.distance().bounds.upper, proven.distance().bounds.upper);
+  late.publish();
+  EXPECT_EQ(read_mesh(in("late.off")).mesh.vertices[17], near.vertices[17]);
+  first.write(coarse);
+  first.measure(tree, options);
+  first.fall_back(nullptr, sphere, tree, options);
+  first.publish();
+  EXPECT_EQ(read_mesh(in("first.off")).mesh.vertices, sphere.vertices);
 }
 
 /// Coordinates with 17 digits cannot be held by floats: the file would be further away than the tolerance.

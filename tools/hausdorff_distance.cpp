@@ -286,8 +286,16 @@ bool write_certificate(const Arguments& arguments, const TriangleMesh& a, const 
   return true;
 }
 
+/// What was proven until then may have taken an hour, so it is said.
+[[noreturn]] void throw_interrupted(const Bounds& bounds) {
+  char proven[80];
+  std::snprintf(proven, sizeof proven, "%.17g <= distance <= %.17g", bounds.lower, bounds.upper);
+  throw Error(std::string("interrupted; proven until then: ") + proven);
+}
+
 int run(const Arguments& arguments) {
   Stopwatch watch;
+  const std::atomic<bool>& interrupted = watch_interrupts();
   std::optional<Length> error_bound;
   std::optional<Length> tolerance;
   Question question = parse_question(arguments, error_bound, tolerance);
@@ -320,9 +328,11 @@ int run(const Arguments& arguments) {
     ProgressBar bar("measuring", arguments.common.quiet);
     answer = answer_to(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));
   }
+  if (interrupted && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
   report.seconds.query = watch.lap();
   if (!arguments.certificate.empty() && answer.exit_code == ExitDone &&
       !write_certificate(arguments, a.mesh, b.mesh, *question.tolerance, watch)) {
+    if (interrupted) throw Error("interrupted before the certificate was complete; it was not written");
     std::fprintf(stderr, "hausdorff_distance: no time was left for the certificate; it was not written\n");
     answer.exit_code = ExitUndecided;
   }

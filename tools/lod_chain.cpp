@@ -127,15 +127,17 @@ int Run::operator()() {
   choose_tolerances();
   open_outputs();
   make_levels();
-  if (report_.verdict == Verdict::Within) publish();
+  if (report_.verdict == Verdict::Within)
+    publish();
+  else if (interrupted_)
+    throw Error("interrupted before every level was proven; nothing was written");
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
   if (report_.verdict != Verdict::Within) {
     std::fprintf(stderr, "lod_chain: %s; nothing was written\n",
-                 interrupted_ ? "interrupted before every level was proven"
-                 : report_.verdict == Verdict::Exceeds
+                 report_.verdict == Verdict::Exceeds
                      ? "a tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ"
-                     : "the time limit ended before every level was proven");
+                     : "doubles cannot decide whether a level is within its tolerance; give a larger one");
   }
   return exit_code(report_.verdict);
 }
@@ -212,6 +214,7 @@ void Run::make_levels() {
 
 /// Writes the level under a temporary name, reads it back and measures that. The chain ends where this fails.
 bool Run::take(std::size_t index, const cgal::LodLevel& level) {
+  if (interrupted_) throw Error("interrupted before every level was proven; nothing was written");
   report_.seconds.simplify += watch_.lap();
   GatedOutput& output = outputs_[index];
   output.write(level.mesh);
@@ -223,6 +226,8 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   distance.threads = options_.common.threads;
   distance.cancel = &interrupted_;
   output.measure(*tree_, distance);
+  const bool fell_back = output.verdict() == Verdict::Undecided && options_.common.has_time_limit && !interrupted_;
+  if (fell_back) output.fall_back(index > 0 ? &outputs_[index - 1] : nullptr, original_, *tree_, distance);
   report_.seconds.certify += watch_.lap();
   report_.verdict = output.verdict();
   if (report_.verdict == Verdict::Exceeds && level.ended_by != cgal::EndedBy::Rounding)
@@ -239,7 +244,7 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
   entry.distance = output.distance();
-  entry.stopped_by = to_string(level.ended_by);
+  entry.stopped_by = to_string(fell_back ? cgal::EndedBy::TimeLimit : level.ended_by);
   return true;
 }
 

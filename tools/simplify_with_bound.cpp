@@ -94,6 +94,7 @@ class Run {
   void simplify();
   void certify();
   void write_certificates();
+  void end_if_interrupted() const;
   [[nodiscard]] std::filesystem::path save_reproducer(GatedOutput& rejected, double tolerance) const;
   void publish();
   void report();
@@ -115,6 +116,8 @@ class Run {
   cgal::SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
+  bool certificate_was_late_ = false;
+  bool fell_back_ = false;  ///< the time ended before the result was proven: OUT is the best mesh that was
 };
 
 int Run::operator()() {
@@ -122,9 +125,13 @@ int Run::operator()() {
   choose_tolerances();
   open_outputs();
   simplify();
+  end_if_interrupted();
   certify();
   if (verdict_ == Verdict::Within) write_certificates();
-  if (verdict_ == Verdict::Within) publish();
+  if (verdict_ == Verdict::Within)
+    publish();
+  else
+    end_if_interrupted();
   report();
   return exit_code(verdict_);
 }
@@ -227,6 +234,10 @@ void Run::certify() {
     distance.cancel = &interrupted_;
     distance.progress = [&](double fraction) { bar.show(fraction); };
     outputs_[i].measure(original, distance);
+    if (outputs_[i].verdict() == Verdict::Undecided && options_.common.has_time_limit && !interrupted_) {
+      outputs_[i].fall_back(i > 0 ? &outputs_[i - 1] : nullptr, original_, original, distance);
+      fell_back_ = true;
+    }
     verdict_ = outputs_[i].verdict();
     report_.seconds.certify += watch_.lap();
     if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
@@ -235,6 +246,10 @@ void Run::certify() {
           "written under its name. Please report this with the folder " +
           save_reproducer(outputs_[i], tolerances_[level]).string());
   }
+}
+
+void Run::end_if_interrupted() const {
+  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
 }
 
 /// The folder OUT.reproducer: the original, the mesh that was rejected, and everything that led from one to the other.
@@ -273,13 +288,16 @@ void Run::write_certificates() {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     CertificateOptions options;
     options.threads = options_.common.threads;
-    options.seconds = remaining(1);
+    // An original that is still as it was is proven in one pass.
+    const bool is_original = fell_back_ || result_.last().collapses_performed == 0;
+    if (!is_original) options.seconds = remaining(1);
     options.cancel = &interrupted_;
     options.progress = [&](double fraction) { bar.show(fraction); };
     const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
     const auto certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
     if (!certificate) {
       verdict_ = Verdict::Undecided;
+      certificate_was_late_ = true;
       return;
     }
     certificates_[i].write(certificate->bytes);
@@ -297,6 +315,7 @@ void Run::publish() {
 void Run::report() {
   const GatedOutput& out = outputs_.back();
   report_.verdict = verdict_;
+  if (fell_back_) report_.stopped_by = to_string(cgal::EndedBy::TimeLimit);
   report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
   report_.distance = out.distance();
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
@@ -307,10 +326,11 @@ void Run::report() {
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
   if (verdict_ == Verdict::Within) return;
-  const char* const why = interrupted_                   ? "interrupted before the result was proven"
-                          : verdict_ == Verdict::Exceeds ? "the tolerance is smaller than the rounding of the output "
-                                                           "format; use PLY, OFF or OBJ"
-                                                         : "the time limit ended before the result was proven";
+  const char* const why = verdict_ == Verdict::Exceeds
+                              ? "the tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ"
+                          : certificate_was_late_
+                              ? "the time limit ended before the certificate was complete"
+                              : "doubles cannot decide whether the result is within the tolerance; give a larger one";
   std::fprintf(stderr, "simplify_with_bound: %s; nothing was written\n", why);
 }
 
@@ -319,9 +339,9 @@ std::string Run::end_reason() const {
   const bool had_target = options_.target_faces || options_.target_ratio;
   if (result_.tolerance_below_rounding)
     return "the tolerance is below the rounding of the coordinates: nothing collapsed";
+  if (fell_back_) return "the time limit came before a smaller mesh was proven";
   if (ended == cgal::EndedBy::Target) return "the target was reached first, within the tolerance";
   if (ended == cgal::EndedBy::TimeLimit) return "the time limit came first";
-  if (ended == cgal::EndedBy::Cancelled) return "interrupted";
   const std::string tolerance = ended == cgal::EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
                                                                   : "no further collapse fits the tolerance";
   return had_target ? tolerance + ": it came before the target" : tolerance;

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "bvh/build.h"
+#include "numeric/first_error.h"
 
 namespace meshbound {
 namespace {
@@ -103,8 +104,10 @@ class AdjacencyBuild {
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (std::uint32_t r = 0; r < runs_; ++r) first_vertex_[r + 1] = vertices_used(r);
     for (std::uint32_t r = 0; r < runs_; ++r) first_vertex_[r + 1] = std::max(first_vertex_[r], first_vertex_[r + 1]);
+    FirstError error;
 #pragma omp parallel for num_threads(threads_) schedule(static)
-    for (std::uint32_t r = 0; r < runs_; ++r) add_edges(r);
+    for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { add_edges(r); });
+    error.rethrow();
     // Edges on the seams between runs: few, and by order of the runs so that ids ascend.
     for (std::uint32_t r = 1; r < runs_; ++r)
       for (const HalfEdge& edge : of_earlier_[r]) lists_[owner(edge.near)]->add(edge);

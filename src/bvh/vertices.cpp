@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "bvh/build.h"
+#include "numeric/first_error.h"
 
 namespace meshbound {
 namespace {
@@ -22,6 +23,7 @@ class Renumbering {
     place_of_.resize(mesh_.vertex_count());
     first_run_.resize(runs_ > 1 ? mesh_.vertex_count() : 0);
     used_.resize(runs_);
+    FirstError error;
 #pragma omp parallel num_threads(threads_)
     {
 #pragma omp for schedule(static)
@@ -32,21 +34,23 @@ class Renumbering {
 #pragma omp for schedule(static)
       for (std::uint32_t r = 0; r < runs_; ++r) gather_corners(r);
 #pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) number_vertices(r);
+      for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { number_vertices(r); });
     }
+    error.rethrow();
     std::vector<std::uint32_t> base(runs_ + 1, 0);
     for (std::uint32_t r = 0; r < runs_; ++r) base[r + 1] = base[r] + static_cast<std::uint32_t>(used_[r].size());
     data_.vertices.resize(base[runs_]);
     data_.source_vertex.resize(base[runs_]);
-    double error = 0;
+    double largest_rounding = 0;
 #pragma omp parallel num_threads(threads_)
     {
-#pragma omp for schedule(static) reduction(max : error)
-      for (std::uint32_t r = 0; r < runs_; ++r) error = std::max(error, store_vertices(r, base[r]));
+#pragma omp for schedule(static) reduction(max : largest_rounding)
+      for (std::uint32_t r = 0; r < runs_; ++r)
+        largest_rounding = std::max(largest_rounding, store_vertices(r, base[r]));
 #pragma omp for schedule(static)
       for (std::uint32_t r = 0; r < runs_; ++r) renumber_corners(r, base);
     }
-    data_.frame.error = error;
+    data_.frame.error = largest_rounding;
   }
 
  private:

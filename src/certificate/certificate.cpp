@@ -14,6 +14,7 @@
 #include "distance/searcher.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
+#include "numeric/first_error.h"
 
 namespace meshbound {
 namespace {
@@ -128,13 +129,15 @@ std::optional<EncodedSection> DirectionProof::run(double progress_from) {
   std::vector<Failure> failures(count);
   std::size_t done = 0;
   std::atomic<bool> stop = false;
+  FirstError error;
 #pragma omp parallel num_threads(threads)
   {
-    CutSearch search(tree_.data(), goal_, magnitude_);
+    std::optional<CutSearch> search;
+    error.guard([&] { search.emplace(tree_.data(), goal_, magnitude_); });
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t chunk = 0; chunk < count; ++chunk) {
-      if (stop || goal_.out_of_time()) continue;
-      failures[chunk] = prove_chunk(chunk, search);
+      if (stop || !search || goal_.out_of_time()) continue;
+      error.guard([&] { failures[chunk] = prove_chunk(chunk, *search); });
       if (failures[chunk].outcome != CutSearch::Outcome::Proven) stop = true;
 #pragma omp atomic
       ++done;
@@ -142,6 +145,7 @@ std::optional<EncodedSection> DirectionProof::run(double progress_from) {
         options_.progress(progress_from + 0.5 * static_cast<double>(done) / static_cast<double>(count));
     }
   }
+  error.rethrow();
   for (const Failure& failure : failures)
     if (failure.outcome != CutSearch::Outcome::Proven) fail(failure);
   if (done < count) return std::nullopt;

@@ -149,6 +149,7 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
   target_faces_ = target_faces;
   seconds_ = seconds;
   began_ = Clock::now();
+  stop_checks_ = 0;  // the first look is at the first collapse: without any time there is none
   ended_by_.reset();
   below_rounding_ = !(frame_tolerance_ > 2 * room());
   if (below_rounding_) return EndedBy::Rounding;
@@ -203,7 +204,7 @@ bool Decimation::must_stop(std::size_t faces) {
   if (stop_checks_++ % checks_between_looks != 0) return false;
   if (options_.cancel != nullptr && options_.cancel->load())
     ended_by_ = EndedBy::Cancelled;
-  else if (std::chrono::duration<double>(Clock::now() - began_).count() > seconds_)
+  else if (std::chrono::duration<double>(Clock::now() - began_).count() >= seconds_)
     ended_by_ = EndedBy::TimeLimit;
   show_progress(faces);
   return ended_by_.has_value();

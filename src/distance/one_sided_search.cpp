@@ -8,6 +8,7 @@
 
 #include "bvh/build.h"
 #include "distance/identical.h"
+#include "numeric/first_error.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -103,14 +104,16 @@ void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::u
     const std::uint32_t size = std::min(batch, count - begin);
     found.assign(size, {});
     out_of_budget();
+    FirstError error;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(searchers_.size()))
     for (std::uint32_t i = 0; i < size; ++i) {
       Searcher& searcher = *searchers_[static_cast<std::size_t>(omp_get_thread_num())];
       searcher.begin(lower_);
-      work(searcher, begin + i, found[i]);
+      error.guard([&] { work(searcher, begin + i, found[i]); });
       found[i].lower = searcher.lower();
       found[i].upper_squared = searcher.upper_squared();
     }
+    error.rethrow();
     std::uint32_t farthest = 0;
     for (std::uint32_t i = 0; i < size; ++i) {
       merge(found[i]);

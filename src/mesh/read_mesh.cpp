@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/mapped_file.h"
+#include "mesh/file_bytes.h"
 #include "mesh/readers.h"
 #include "meshbound/io.h"
 
@@ -7,7 +7,7 @@ namespace meshbound {
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
-  const MappedFile file(path);
+  const FileBytes file(path);
   return parse_mesh(path, file.bytes());
 }
 

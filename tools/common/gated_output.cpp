@@ -65,6 +65,22 @@ const SymmetricDistance& GatedOutput::measure(const Bvh& original, const Distanc
   return distance_;
 }
 
+void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& original, const Bvh& tree,
+                            DistanceOptions options) {
+  if (smaller == nullptr) {
+    write(original);
+    options.budget = {};
+    measure(tree, options);
+    return;
+  }
+  std::error_code error;
+  std::filesystem::copy_file(smaller->temporary_, temporary_, std::filesystem::copy_options::overwrite_existing, error);
+  if (error) throw IoError("cannot write " + path_.string() + ": " + error.message());
+  verdict_ = smaller->verdict_;
+  distance_ = smaller->distance_;
+  summary_ = smaller->summary_;
+}
+
 void GatedOutput::publish() {
   if (verdict_ != Verdict::Within)
     throw Error(path_.string() + " is not proven to be within the tolerance: not written");

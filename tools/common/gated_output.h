@@ -37,6 +37,11 @@ class GatedOutput {
   [[nodiscard]] const SymmetricDistance& distance() const { return distance_; }
   [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
 
+  /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
+  /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the
+  /// time limit no longer counts, as an original that is matched with itself costs one pass.
+  void fall_back(const GatedOutput* smaller, const TriangleMesh& original, const Bvh& tree, DistanceOptions options);
+
   /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
   void publish();
 

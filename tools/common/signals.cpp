@@ -22,4 +22,6 @@ const std::atomic<bool>& watch_interrupts() {
   return interrupted;
 }
 
+void ignore_file_size_signal() { std::signal(SIGXFSZ, SIG_IGN); }
+
 }  // namespace meshbound::tools

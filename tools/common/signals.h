@@ -8,4 +8,7 @@ namespace meshbound::tools {
 /// proven; a second one ends the process as usual.
 const std::atomic<bool>& watch_interrupts();
 
+/// Writing past a limit on the size of files becomes an error like a full disk, instead of the end of the process.
+void ignore_file_size_signal();
+
 }  // namespace meshbound::tools

@@ -2,10 +2,15 @@
 #include "common/tool_main.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <new>
+
+#include "common/signals.h"
+#include "common/threads.h"
 
 namespace meshbound::tools {
 namespace {
@@ -46,10 +51,12 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
       ->type_name("[FILE]")
       ->expected(0, 1);
+  app.final_callback([&options] { options.threads = start_threads(options.threads); });
   app.set_version_flag("--version", app.get_name() + " " MESHBOUND_VERSION);
 }
 
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  ignore_file_size_signal();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -58,7 +65,10 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
     return complain(app, std::string(error.what()) + " (see --help)");
   }
   try {
-    return run();
+    const int code = run();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return complain(app, std::string("cannot write to standard output: ") + std::strerror(errno));
+    return code;
   } catch (const std::bad_alloc&) {
     return complain(app, "out of memory");
   } catch (const std::exception& error) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/mapped_file.h"
+#include "mesh/file_bytes.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,7 +34,7 @@ class FileDescriptor {
 
 }  // namespace
 
-MappedFile::MappedFile(const std::filesystem::path& path) {
+FileBytes::FileBytes(const std::filesystem::path& path) {
   // O_NONBLOCK: opening a fifo must not wait for somebody to write into it.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) refuse(path, std::strerror(errno));
@@ -43,17 +42,15 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   if (::fstat(file.get(), &status) != 0) refuse(path, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder, not a mesh file");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file; copy the data into one first");
-  if (status.st_size == 0) return;  // mmap refuses a length of zero
-
   const auto size = static_cast<std::size_t>(status.st_size);
-  void* const data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.get(), 0);
-  if (data == MAP_FAILED) refuse(path, std::strerror(errno));
-  data_ = static_cast<const char*>(data);
-  size_ = size;
-}
-
-MappedFile::~MappedFile() {
-  if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+  data_ = std::make_unique_for_overwrite<char[]>(size);
+  while (size_ < size) {
+    const ssize_t count = ::read(file.get(), data_.get() + size_, size - size_);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse(path, std::strerror(errno));
+    if (count == 0) refuse(path, "it became shorter while it was read; wait until it is complete");
+    size_ += static_cast<std::size_t>(count);
+  }
 }
 
 }  // namespace meshbound

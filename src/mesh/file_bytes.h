@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace meshbound {
+
+/// The bytes of a regular file, copied into memory: a mapping would be as fast, but the process dies of SIGBUS when
+/// somebody shortens the file while it is parsed, and no message can be given.
+class FileBytes {
+ public:
+  /// Throws `IoError` when `path` is missing, unreadable, anything but a regular file, or shortened meanwhile. Never
+  /// blocks.
+  explicit FileBytes(const std::filesystem::path& path);
+
+  [[nodiscard]] std::string_view bytes() const { return {data_.get(), size_}; }
+
+ private:
+  std::unique_ptr<char[]> data_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace meshbound::tools {
+
+/// Starts the threads of OpenMP while memory is plentiful, and makes every parallel part of the process use them:
+/// `wanted` of them (0: as many as OpenMP has by default), or as many as the machine lets the process start. OpenMP
+/// itself would end the process at the first thread that it cannot start. Returns the number.
+int start_threads(int wanted);
+
+}  // namespace meshbound::tools
