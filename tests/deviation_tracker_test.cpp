@@ -19,6 +19,7 @@
 #include "simplify/candidate_faces.h"
 #include "simplify/cover_assignment.h"
 #include "simplify/degree_cover.h"
+#include "simplify/sampled_slope.h"
 
 namespace meshbound {
 namespace {
@@ -241,6 +242,61 @@ TEST(DeviationTracker, RefusesTolerancesThatAreNoLengths) {
   EXPECT_THROW(DeviationTracker(square, bvh, -1), InvalidInput);
   EXPECT_THROW(DeviationTracker(square, bvh, std::numeric_limits<double>::quiet_NaN()), InvalidInput);
   EXPECT_THROW(DeviationTracker(reference::cube(1), bvh, 1), InvalidInput);
+}
+
+/// The guide of searches: its slope is the change of its sum when the vertex goes a little, and the two kinds of inner
+/// loop agree to the bit.
+TEST(LocalDeviation, KnowsItsSlopeOnEveryProcessor) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  const Bvh bvh(sphere);
+  DeviationTracker tracker(sphere, bvh, 0.1);
+  for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t) tracker.start(t, t);
+  std::vector<std::uint32_t> star;
+  std::vector<TrackedFace> faces;
+  std::vector<std::size_t> moved_corner;
+  for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t) {
+    const Triangle& corners = sphere.triangles[t];
+    const auto found = std::find(corners.begin(), corners.end(), 200u);
+    if (found == corners.end()) continue;
+    star.push_back(t);
+    moved_corner.push_back(static_cast<std::size_t>(found - corners.begin()));
+    faces.push_back({t, {sphere.vertices[corners[0]], sphere.vertices[corners[1]], sphere.vertices[corners[2]]}});
+  }
+  tracker.sample(star);
+  const auto at = [&](const Eigen::Vector3d& p) {
+    for (std::size_t i = 0; i < faces.size(); ++i) faces[i].corners[moved_corner[i]] = p;
+    return tracker.sampled_deviation(faces, moved_corner);
+  };
+  EXPECT_LT(at(sphere.vertices[200]).sum, 1e-3);
+  const Eigen::Vector3d away = sphere.vertices[200] * 1.15 + Eigen::Vector3d(0.01, 0.02, -0.01);
+  const SampledDeviation there = at(away);
+  EXPECT_GT(there.worst, 0.5);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d step = 1e-3 * Eigen::Vector3d::Unit(k);
+    EXPECT_NEAR((at(away + step).sum - at(away - step).sum) / 2e-3, there.gradient[k], 0.02 * there.gradient.norm());
+  }
+  EXPECT_GT(there.curvature.trace(), 0);
+
+  SamplePoints points;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 40; ++i) points.add({unit(random), unit(random), unit(random)}, 1);
+  const std::vector<SampleFace> triangles = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                                             SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
+                                             SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  SlopeSums one, two;
+  SamplePoints near = points, nearby = points;
+  portable_slope_kernel().drop_far(near, triangles, 0.5F);
+  fastest_slope_kernel().drop_far(nearby, triangles, 0.5F);
+  EXPECT_EQ(near.weight, nearby.weight);
+  EXPECT_EQ(std::count(near.weight.begin(), near.weight.end(), 0.0F) % 40 > 0, true);
+  portable_slope_kernel().add_slope(near, triangles, 2, one);
+  fastest_slope_kernel().add_slope(near, triangles, 2, two);
+  EXPECT_EQ(one.sum, two.sum);
+  EXPECT_EQ(one.worst_squared, two.worst_squared);
+  EXPECT_LE(one.worst_squared, 1);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(one.gradient[k], two.gradient[k]);
+  for (int k = 0; k < 6; ++k) EXPECT_EQ(one.curvature[k], two.curvature[k]);
 }
 
 /// Random triangles near rough surfaces: the proof by degree may fail where the bound holds, never the other way.

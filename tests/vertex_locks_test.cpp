@@ -113,7 +113,7 @@ TEST(VertexLocks, RefuseEveryEdit) {
     for (const auto v : mesh.vertices()) {
       const auto p = mesh.point(v);
       moved += monitor.move_vertex(v, {p.x(), p.y(), p.z() + 0.01}) ? 1 : 0;
-      moved += monitor.relocate_vertex(v, 0.01, 0.01) ? 1 : 0;
+      moved += monitor.relocate_vertex(v) ? 1 : 0;
     }
     for (const auto e : mesh.edges()) flipped += monitor.flip_edge(e) ? 1 : 0;
     return std::pair(moved, flipped);

@@ -61,6 +61,15 @@ struct TrackerStats {
   std::uint64_t faces_by_degree = 0;  ///< of these, proven by projecting the original onto them
 };
 
+/// How far faces and the part of the original that they are to stand for are apart, as one number to choose by: the sum
+/// of (distance / tolerance)^6 over sample points of both, which follows the worst of them and is smooth. No bound.
+struct SampledDeviation {
+  double sum = 0;
+  double worst = 0;                                     ///< largest distance / tolerance
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();   ///< of `sum`, when the moved vertex goes
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< its second derivative, but for that of directions
+};
+
 /// Keeps a proof that a mesh under local edits stays within a tolerance of a fixed original, both ways:
 ///
 ///     every point of the original lies within the tolerance of a face that its triangle is assigned to, and
@@ -111,12 +120,11 @@ class DeviationTracker {
   /// Makes the change that the last call of `admits` admitted. Throws `Error` when there is none.
   void commit();
 
-  /// For choosing among changes of the same faces, `removed`: how far the added faces and the part of the original that
-  /// the removed ones stand for are apart, as the sum of (distance / tolerance)^6 over sample points of both. A guide,
-  /// not a bound. `sample` first; `sampled_deviation` gives up once the sum has reached `enough`.
+  /// For choosing among changes of the same faces, `removed`: `sample` takes points of the part of the original that
+  /// they stand for. `moved_corner` has the place, 0 to 2, of the corner that is to be moved in each of `added`.
   void sample(std::span<const std::uint32_t> removed);
-  [[nodiscard]] double sampled_deviation(std::span<const TrackedFace> added,
-                                         double enough = std::numeric_limits<double>::infinity());
+  [[nodiscard]] SampledDeviation sampled_deviation(std::span<const TrackedFace> added,
+                                                   std::span<const std::size_t> moved_corner);
 
   /// A larger tolerance keeps every proof made so far. Throws `InvalidInput` for a smaller one.
   void grow_tolerance(double tolerance);

@@ -16,9 +16,8 @@ namespace {
 /// pays for looking at every edge again.
 constexpr double least_gain_of_pass = 0.01;
 
-/// Refinement ends where this many rounds together gain less than the share: a single one may gain nothing by chance.
-constexpr int rounds_between_looks_at_gain = 8;
-constexpr double least_gain_of_rounds = 0.01;
+/// Refinement ends where as much work as all passes before it gains less than this share of the faces.
+constexpr double least_gain_of_refinement = 0.015;
 
 /// With Effort::Fast, of those that `DeviationMonitor` knows: the middle and the ends of the edge.
 constexpr int fast_fallback_placements = 3;
@@ -154,8 +153,9 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
   below_rounding_ = !(frame_tolerance_ > 2 * room());
   if (below_rounding_) return EndedBy::Rounding;
   monitor_->grow_tolerance(frame_tolerance_ - room());
+  const std::uint64_t before = work();
   passes_until_nothing_fits();
-  if (options_.effort == Effort::High && options_.on_exceed == OnExceed::Skip && !ended_by_) refine();
+  if (options_.effort == Effort::High && options_.on_exceed == OnExceed::Skip && !ended_by_) refine(work() - before);
   return ended_by_.value_or(EndedBy::NothingFits);
 }
 
@@ -170,18 +170,22 @@ void Decimation::passes_until_nothing_fits() {
   }
 }
 
-/// Rounds of edits, each followed by passes over the edges that they changed.
-void Decimation::refine() {
+/// Rounds of edits, each followed by passes over the edges that they changed. Work is counted, not timed, so that the
+/// result is the same on every machine.
+void Decimation::refine(std::uint64_t work_of_passes) {
   monitor_->search_placements = true;
   monitor_->begin_pass();
-  std::size_t before = monitor_->faces();
-  for (int round = 1; !ended_by_; ++round) {
+  std::size_t faces = monitor_->faces();
+  std::uint64_t looked_at = work(), before = 0;
+  while (!ended_by_ && work() > before) {
+    before = work();
     refinement_->round();
     if (ended_by_) break;
     passes_until_nothing_fits();
-    if (round % rounds_between_looks_at_gain != 0) continue;
-    if (static_cast<double>(before - monitor_->faces()) < least_gain_of_rounds * static_cast<double>(before)) break;
-    before = monitor_->faces();
+    if (work() - looked_at < work_of_passes) continue;
+    looked_at = work();
+    if (static_cast<double>(faces - monitor_->faces()) < least_gain_of_refinement * static_cast<double>(faces)) break;
+    faces = monitor_->faces();
   }
   monitor_->search_placements = false;
 }

@@ -45,7 +45,9 @@ class Decimation {
   [[nodiscard]] KeptParts kept_parts() const;
   void pass();
   void passes_until_nothing_fits();
-  void refine();
+  void refine(std::uint64_t work_of_passes);
+  /// Proofs of original triangles so far: what most of the time goes with.
+  [[nodiscard]] std::uint64_t work() const { return monitor_->tracker().stats().originals_tested; }
   void show_progress(std::size_t faces);
 
   std::size_t input_vertices_;

@@ -21,9 +21,10 @@ class Refinement {
   void round();
 
  private:
-  void relocate(double normal_step);
+  void relocate();
   void flip();
   void shake();
+  void shake(SurfaceMesh::Vertex_index v);
   [[nodiscard]] double mean_edge(SurfaceMesh::Vertex_index v) const;
   [[nodiscard]] double uniform();  ///< in -1 to 1
 
@@ -31,7 +32,6 @@ class Refinement {
   Monitor& monitor_;
   std::function<bool()> stop_;
   std::mt19937_64 random_;  ///< the standard fixes what it yields, so results are the same everywhere
-  int rounds_ = 0;
 };
 
 }  // namespace meshbound::cgal

@@ -84,7 +84,6 @@ struct DeviationTracker::Impl {
   ForwardCover forward;
   DegreeCover degree;
   LocalDeviation deviation;
-  std::uint32_t deviation_hint = 0;
   std::vector<Corners> deviation_faces;
   std::vector<std::uint32_t> deviation_originals;
   MarkedIds removed_marks, kept_marks, affected_marks;
@@ -442,22 +441,35 @@ void DeviationTracker::commit() {
 }
 
 void DeviationTracker::sample(std::span<const std::uint32_t> removed) {
-  impl_->deviation_faces.clear();
-  impl_->deviation_originals.clear();
+  std::vector<Corners>& faces = impl_->deviation_faces;
+  std::vector<std::uint32_t>& originals = impl_->deviation_originals;
+  faces.clear();
+  originals.clear();
+  std::uint32_t hint = 0;
   for (const std::uint32_t face : removed) {
-    impl_->deviation_faces.push_back(impl_->corners[face]);
-    impl_->deviation_hint = impl_->nearest[face];
-    const auto originals = impl_->cover.originals_of(face);
-    impl_->deviation_originals.insert(impl_->deviation_originals.end(), originals.begin(), originals.end());
+    faces.push_back(impl_->corners[face]);
+    hint = impl_->nearest[face];
+    const auto of_face = impl_->cover.originals_of(face);
+    originals.insert(originals.end(), of_face.begin(), of_face.end());
   }
-  impl_->deviation.begin(impl_->tolerance, impl_->deviation_originals, impl_->deviation_faces);
+  impl_->deviation.begin(impl_->tolerance, originals, faces, hint);
 }
 
-double DeviationTracker::sampled_deviation(std::span<const TrackedFace> added, double enough) {
+SampledDeviation DeviationTracker::sampled_deviation(std::span<const TrackedFace> added,
+                                                     std::span<const std::size_t> moved_corner) {
   impl_->deviation_faces.clear();
-  for (const TrackedFace& face : added)
-    impl_->deviation_faces.push_back({to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])});
-  return impl_->deviation.of(impl_->deviation_faces, impl_->proximity, impl_->deviation_hint, enough);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const auto corner = [&](std::size_t k) { return to_vec3(added[i].corners[(moved_corner[i] + k) % 3]); };
+    impl_->deviation_faces.push_back({corner(0), corner(1), corner(2)});
+  }
+  const SlopeSums sums = impl_->deviation.of(impl_->deviation_faces, impl_->proximity);
+  SampledDeviation result{sums.sum, std::sqrt(sums.worst_squared), {}, {}};
+  const double scale = 1 / impl_->tolerance;
+  const auto& c = sums.curvature;
+  result.gradient = scale * Eigen::Vector3d(sums.gradient[0], sums.gradient[1], sums.gradient[2]);
+  result.curvature << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2];
+  result.curvature *= scale * scale;
+  return result;
 }
 
 void DeviationTracker::grow_tolerance(double tolerance) {

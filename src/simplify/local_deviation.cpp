@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/point_triangle.h"
+
 namespace meshbound {
 namespace {
 
@@ -12,92 +14,58 @@ constexpr std::size_t most_samples = 192;
 
 }  // namespace
 
-void LocalDeviation::set_faces(std::span<const std::array<Vec3, 3>> faces) {
-  faces_.resize((faces.size() + 3) / 4);
-  const auto put = [](Vec<Double4>& four, std::size_t lane, Vec3 one) {
-    four.x[lane] = one.x;
-    four.y[lane] = one.y;
-    four.z[lane] = one.z;
-  };
-  for (std::size_t i = 0; i < 4 * faces_.size(); ++i) {
-    const auto& c = faces[std::min(i, faces.size() - 1)];
-    put(faces_[i / 4].a, i % 4, c[0]);
-    put(faces_[i / 4].ab, i % 4, c[1] - c[0]);
-    put(faces_[i / 4].ac, i % 4, c[2] - c[0]);
-  }
+void LocalDeviation::set_faces(std::span<const Corners> faces) {
+  faces_.clear();
+  for (const Corners& c : faces) faces_.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
 }
 
-double LocalDeviation::squared_distance(Vec3 p) const {
-  const Vec<Double4> four{broadcast4(p.x), broadcast4(p.y), broadcast4(p.z)};
-  Double4 best = broadcast4(HUGE_VAL);
-  for (const CornerTriangle<Double4>& faces : faces_)
-    best = minimum(best, closest_on_triangle(faces, four).squared_distance);
-  return std::min(std::min(best[0], best[1]), std::min(best[2], best[3]));
-}
-
-void LocalDeviation::begin(double tolerance, std::span<const std::uint32_t> originals,
-                           std::span<const std::array<Vec3, 3>> faces) {
-  squared_tolerance_ = tolerance * tolerance;
+void LocalDeviation::begin(double tolerance, std::span<const std::uint32_t> originals, std::span<const Corners> faces,
+                           std::uint32_t hint) {
+  by_tolerance_ = 1 / tolerance;
   samples_.clear();
+  hints_.clear();
+  hint_ = hint;
+  if (faces.empty()) return;
+  origin_ = faces.front()[0];
   set_faces(faces);
-  if (faces_.empty()) return;
   ++round_;
+  found_.clear();
   for (const std::uint32_t t : originals) {
     for (const std::uint32_t v : triangles_[t]) {
       if (seen_[v] == round_) continue;
       seen_[v] = round_;
-      samples_.push_back(vertices_[v]);
+      found_.push_back(v);
     }
   }
-  if (samples_.size() > most_samples) {
-    const std::size_t stride = (samples_.size() + most_samples - 1) / most_samples;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < samples_.size(); i += stride) samples_[kept++] = samples_[i];
-    samples_.resize(kept);
-  }
+  const std::size_t stride = (found_.size() + most_samples - 1) / most_samples;
+  for (std::size_t i = 0; i < found_.size(); i += stride) samples_.add(vertices_[found_[i]] - origin_, 1);
+  while (samples_.size() % 8 != 0) samples_.add({}, 0);
   // Triangles that reach over the rim of the change have corners that other faces answer for.
-  std::erase_if(samples_, [&](Vec3 p) { return squared_distance(p) > squared_tolerance_; });
+  kernel_.drop_far(samples_, faces_, static_cast<float>(tolerance));
 }
 
-double LocalDeviation::of(std::span<const std::array<Vec3, 3>> faces, Proximity& original, std::uint32_t hint,
-                          double enough) {
+void LocalDeviation::add_to_original(Vec3 p, double share, std::size_t which, Proximity& original, SlopeSums& sums) {
+  if (which >= hints_.size()) hints_.resize(which + 1, hint_);
+  (void)original.upper_distance({p.x, p.y, p.z}, hints_[which]);
+  const auto& t = triangles_[hints_[which]];
+  const CornerTriangle<double> nearest{vertices_[t[0]], vertices_[t[1]] - vertices_[t[0]],
+                                       vertices_[t[2]] - vertices_[t[0]]};
+  const Vec3 offset = closest_on_triangle(nearest, p).offset;
+  // It is the point of the face that moves here, not the closest one.
+  sums.add(by_tolerance_ * offset, -share);
+}
+
+SlopeSums LocalDeviation::of(std::span<const Corners> faces, Proximity& original) {
+  SlopeSums sums;
+  if (faces.empty()) return sums;
   set_faces(faces);
-  if (faces_.empty()) return 0;
-  double sum = 0;
-  const auto add = [&](double squared) {
-    const double relative = squared / squared_tolerance_;
-    sum += relative * relative * relative;
-  };
-  double worst = 0;
-  for (Vec3& p : samples_) {
-    const double squared = squared_distance(p);
-    add(squared);
-    // Those that decide come first the next time.
-    if (squared > worst) {
-      worst = squared;
-      std::swap(p, samples_.front());
-    }
-    if (sum >= enough) return sum;
+  kernel_.add_slope(samples_, faces_, static_cast<float>(by_tolerance_), sums);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Corners& c = faces[i];
+    add_to_original((1.0 / 3) * (c[0] + c[1] + c[2]), 1.0 / 3, 2 * i, original, sums);
+    add_to_original(0.5 * (c[0] + c[1]), 0.5, 2 * i + 1, original, sums);
   }
-  const auto add_point = [&](Vec3 p) {
-    const double distance = original.upper_distance({p.x, p.y, p.z}, hint);
-    add(distance * distance);
-    return sum < enough;
-  };
-  middles_.clear();
-  for (const auto& c : faces) {
-    if (!add_point((1.0 / 3) * (c[0] + c[1] + c[2]))) return sum;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 middle = 0.5 * (c[i] + c[(i + 1) % 3]);
-      const auto same = [&](Vec3 p) { return p.x == middle.x && p.y == middle.y && p.z == middle.z; };
-      if (std::none_of(middles_.begin(), middles_.end(), same)) {
-        middles_.push_back(middle);  // of the rim, which stays, unless it comes again
-      } else if (!add_point(middle)) {
-        return sum;
-      }
-    }
-  }
-  return sum;
+  return sums;
 }
 
 }  // namespace meshbound

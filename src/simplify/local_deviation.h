@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "geometry/point_triangle.h"
+#include "geometry/vec3.h"
 #include "meshbound/proximity.h"
+#include "simplify/sampled_slope.h"
 
 namespace meshbound {
 
@@ -15,30 +16,36 @@ namespace meshbound {
 /// deviation while it stays smooth. A guide, not a bound.
 class LocalDeviation {
  public:
+  using Corners = std::array<Vec3, 3>;
+
   LocalDeviation(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
-      : vertices_(vertices), triangles_(triangles), seen_(vertices.size(), 0) {}
+      : vertices_(vertices), triangles_(triangles), seen_(vertices.size(), 0), kernel_(fastest_slope_kernel()) {}
 
   /// Samples the corners of the given original triangles that lie within the tolerance of `faces`, those that the
-  /// change takes away.
-  void begin(double tolerance, std::span<const std::uint32_t> originals, std::span<const std::array<Vec3, 3>> faces);
+  /// change takes away. `hint` is an original triangle near them.
+  void begin(double tolerance, std::span<const std::uint32_t> originals, std::span<const Corners> faces,
+             std::uint32_t hint);
 
-  /// Sum over the samples, and over the middles of `faces` and of the edges between them against the original. `hint`
-  /// is an original triangle near them. Gives up, returning `enough` or more, once the sum has reached that.
-  [[nodiscard]] double of(std::span<const std::array<Vec3, 3>> faces, Proximity& original, std::uint32_t hint,
-                          double enough);
+  /// Sum and slope over the samples, and over the middles of `faces` and of the edges from their first corner to the
+  /// second against the original, where the first corners move together. Lengths in tolerances.
+  [[nodiscard]] SlopeSums of(std::span<const Corners> faces, Proximity& original);
 
  private:
-  [[nodiscard]] double squared_distance(Vec3 p) const;
-  void set_faces(std::span<const std::array<Vec3, 3>> faces);
+  void set_faces(std::span<const Corners> faces);
+  void add_to_original(Vec3 p, double share, std::size_t which, Proximity& original, SlopeSums& sums);
 
   const std::vector<Vec3>& vertices_;
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
   std::vector<std::uint32_t> seen_;
   std::uint32_t round_ = 0;
-  double squared_tolerance_ = 0;
-  std::vector<Vec3> samples_;
-  std::vector<Vec3> middles_;                   ///< of edges, seen once
-  std::vector<CornerTriangle<Double4>> faces_;  ///< four in each, the last one repeated
+  SlopeKernel kernel_;
+  double by_tolerance_ = 0;
+  Vec3 origin_;
+  SamplePoints samples_;
+  std::vector<SampleFace> faces_;
+  std::vector<std::uint32_t> found_;
+  std::uint32_t hint_ = 0;
+  std::vector<std::uint32_t> hints_;  ///< original triangle near each point of the faces
 };
 
 }  // namespace meshbound

@@ -151,7 +151,7 @@ class DeviationMonitor {
   /// sampled around it (but for `move_vertex`), passes the guard and keeps the bound; false: the mesh is as it was.
   /// Vertices of the border and locked ones stay, and so do edges at locked ones. Edits make room for further
   /// collapses: edges around them are tried again.
-  bool relocate_vertex(Vertex v, double normal_step, double tangent_step);
+  bool relocate_vertex(Vertex v);
   bool move_vertex(Vertex v, const Point& to);
   bool flip_edge(Edge e);
 
@@ -198,18 +198,21 @@ class DeviationMonitor {
   void place(const Eigen::Vector3d& p);
   [[nodiscard]] bool admits_gathered(Vertex v0, Vertex v1, const Eigen::Vector3d& placement, std::uint32_t try_first);
   [[nodiscard]] Eigen::Vector3d normal_before() const;
-  /// Goes from p, along the normal and across, to where the sampled deviation of the gathered star is lower.
+  /// Goes from p, in steps of at most `reach`, to where the sampled deviation of the gathered star is lower.
   struct Sampled {
     Eigen::Vector3d point;
-    double at_start = 0, lowest = 0;
+    SampledDeviation lowest;
+    double at_start = 0;
   };
-  [[nodiscard]] Sampled lower_deviation(Eigen::Vector3d p, double normal_step, double tangent_step);
+  [[nodiscard]] Sampled lower_deviation(const Eigen::Vector3d& p, double reach);
+  [[nodiscard]] double mean_edge() const;
   [[nodiscard]] bool gather_flip(Halfedge h);
   void commit_move(Vertex v, const Point& to);
   void touch_around(Vertex v);
   /// The k-th of the fallback placements beside `wanted`, for the edge whose star was gathered last.
   [[nodiscard]] Point fallback(int k, const Point& p0, const Point& p1, const Point& wanted) const;
-  [[nodiscard]] Point searched_placement(const Point& p0, const Point& p1, const Point& wanted);
+  [[nodiscard]] bool is_promising(const Eigen::Vector3d& placement);
+  [[nodiscard]] std::optional<Point> searched_placement(const Point& p0, const Point& p1);
   void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) const;
   [[nodiscard]] bool nothing_changed_since(const EdgeMemory& memory, Vertex v0, Vertex v1) const;
   void collapsed_into(Vertex v);
@@ -239,6 +242,8 @@ class DeviationMonitor {
   std::optional<Halfedge> selected_;                    ///< popped from the queue, its placement not yet asked for
   std::optional<std::pair<Halfedge, Point>> refused_;   ///< by the placement, for the filter that follows
   bool refused_by_bound_ = false;
+  bool must_sample_ = false;                                        ///< another edge than the last time
+  std::optional<std::pair<Eigen::Vector3d, double>> best_sampled_;  ///< placement of this edge, and its sum
   std::optional<std::pair<Halfedge, Point>> admitted_;
   bool collapsing_ = false;
   bool collapsing_locked_ = false;  ///< one of the ends is locked

@@ -8,21 +8,26 @@
 namespace meshbound::cgal {
 namespace internal {
 
-/// Rounds of six steps each, the steps halved after a round without gain.
-constexpr int most_search_rounds = 6;
-constexpr int most_halvings = 3;
-/// A step or an edit that gains a smaller share is not worth its proof.
-constexpr double least_step_gain = 1e-3;
+/// Newton steps of a search, and how often a step that gains nothing is shortened.
+constexpr int most_newton_steps = 8;
+constexpr int most_shorter_steps = 3;
+constexpr double shorter_step = 0.35;
+/// The curvature across the normal vanishes where the surface is flat; this share of the mean one is added to all.
+constexpr double damping = 1e-3;
+/// A step that gains a smaller share ends the search.
+constexpr double least_step_gain = 0.01;
+/// An edit that gains a smaller share is not worth its proof.
 constexpr double least_relocation_gain = 0.02;
 constexpr double least_flip_gain = 0.05;
-/// A collapse whose deviation is above this after a round, the worst sample at about three times the tolerance, is
-/// given up.
-constexpr double hopeless_deviation = 1000;
 /// Where the worst sample is at a tenth of the tolerance there is nothing to gain.
 constexpr double low_deviation = 1e-6;
-/// Of the searched placement of a collapse: the step along the normal in tolerances, across in edge lengths.
-constexpr double search_normal_step = 0.4;
-constexpr double search_tangent_step = 0.15;
+/// Some original vertex is further from the searched placement's faces than this, in tolerances: not worth a proof.
+constexpr double largest_promising_deviation = 1.05;
+/// Where no placement tried has a smaller sum, the worst sample at about twice the tolerance, a search finds none that
+/// keeps the bound.
+constexpr double hopeless_deviation = 50;
+/// A step goes at most this share of the mean length of the edges.
+constexpr double longest_step = 0.5;
 
 }  // namespace internal
 
@@ -53,49 +58,72 @@ Eigen::Vector3d DeviationMonitor<Mesh, VertexPointMap>::normal_before() const {
   return normal / length;
 }
 
+/// Newton's method with shorter steps where a whole one does not lower the sum or the guard forbids it.
 template <class Mesh, class VertexPointMap>
-auto DeviationMonitor<Mesh, VertexPointMap>::lower_deviation(Eigen::Vector3d p, double normal_step, double tangent_step)
-    -> Sampled {
+auto DeviationMonitor<Mesh, VertexPointMap>::lower_deviation(const Eigen::Vector3d& p, double reach) -> Sampled {
   place(p);
-  Sampled result{p, tracker_.sampled_deviation(added_)};
-  result.lowest = result.at_start;
-  const Eigen::Vector3d normal = normal_before();
-  const Eigen::Vector3d first = normal.unitOrthogonal(), second = normal.cross(first);
-  int halvings = 0;
-  for (int round = 0; round < internal::most_search_rounds && result.lowest > internal::low_deviation; ++round) {
-    const double before = result.lowest;
-    for (const Eigen::Vector3d& step : {Eigen::Vector3d(normal_step * normal), Eigen::Vector3d(tangent_step * first),
-                                        Eigen::Vector3d(tangent_step * second)}) {
-      for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector3d q = result.point + sign * step;
-        place(q);
-        if (!passes_guards()) continue;
-        const double sum = tracker_.sampled_deviation(added_, result.lowest);
-        if (sum < (1 - internal::least_step_gain) * result.lowest) {
-          result.point = q;
-          result.lowest = sum;
-          break;
-        }
-      }
+  Sampled result{p, tracker_.sampled_deviation(added_, moved_corner_), 0};
+  result.at_start = result.lowest.sum;
+  bool gains = result.lowest.sum > internal::low_deviation;
+  for (int k = 0; k < internal::most_newton_steps && gains; ++k) {
+    gains = false;
+    Eigen::Matrix3d curvature = result.lowest.curvature;
+    const double mean = curvature.trace() / 3;
+    if (!(mean > 0)) break;
+    curvature.diagonal().array() += internal::damping * mean;
+    Eigen::Vector3d step = -curvature.ldlt().solve(result.lowest.gradient);
+    const double length = step.norm();
+    if (!(length > 0)) break;
+    if (length > reach) step *= reach / length;
+    for (int shorter = 0; shorter <= internal::most_shorter_steps; ++shorter, step *= internal::shorter_step) {
+      const Eigen::Vector3d q = result.point + step;
+      place(q);
+      if (!passes_guards()) continue;
+      const SampledDeviation there = tracker_.sampled_deviation(added_, moved_corner_);
+      if (!(there.sum < result.lowest.sum)) continue;
+      gains = there.sum < (1 - internal::least_step_gain) * result.lowest.sum;
+      result.point = q;
+      result.lowest = there;
+      break;
     }
-    if (result.lowest > internal::hopeless_deviation) break;
-    if (result.lowest < 0.9 * before) continue;
-    if (++halvings > internal::most_halvings) break;
-    normal_step *= 0.5;
-    tangent_step *= 0.5;
   }
   place(result.point);
   return result;
 }
 
+/// Of the edges that end in the vertex that moves, as they are in `added_`.
 template <class Mesh, class VertexPointMap>
-auto DeviationMonitor<Mesh, VertexPointMap>::searched_placement(const Point& p0, const Point& p1, const Point& wanted)
-    -> Point {
-  tracker_.sample(removed_);
-  const double edge = (to_eigen(p0) - to_eigen(p1)).norm();
-  return to_point(lower_deviation(to_eigen(wanted), internal::search_normal_step * tracker_.tolerance(),
-                                  internal::search_tangent_step * edge)
-                      .point);
+double DeviationMonitor<Mesh, VertexPointMap>::mean_edge() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < added_.size(); ++i) {
+    const std::size_t k = moved_corner_[i];
+    sum += (added_[i].corners[(k + 1) % 3] - added_[i].corners[k]).norm();
+  }
+  return added_.empty() ? 0 : sum / static_cast<double>(added_.size());
+}
+
+/// False where a sample says that a proof of the gathered star would fail. Notes the best placement seen.
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::is_promising(const Eigen::Vector3d& placement) {
+  if (std::exchange(must_sample_, false)) {
+    tracker_.sample(removed_);
+    best_sampled_.reset();
+  }
+  if (!passes_guards()) return false;
+  const SampledDeviation there = tracker_.sampled_deviation(added_, moved_corner_);
+  if (!best_sampled_ || there.sum < best_sampled_->second) best_sampled_.emplace(placement, there.sum);
+  return there.worst <= internal::largest_promising_deviation;
+}
+
+/// Where the sampled deviation around the edge tested last is least; none where that is no good.
+template <class Mesh, class VertexPointMap>
+auto DeviationMonitor<Mesh, VertexPointMap>::searched_placement(const Point& p0, const Point& p1)
+    -> std::optional<Point> {
+  if (!best_sampled_ || best_sampled_->second > internal::hopeless_deviation) return std::nullopt;
+  const double reach = internal::longest_step * (to_eigen(p0) - to_eigen(p1)).norm();
+  const Sampled found = lower_deviation(best_sampled_->first, reach);
+  if (found.lowest.worst > internal::largest_promising_deviation) return std::nullopt;
+  return to_point(found.point);
 }
 
 template <class Mesh, class VertexPointMap>
@@ -107,12 +135,12 @@ void DeviationMonitor<Mesh, VertexPointMap>::commit_move(Vertex v, const Point& 
 }
 
 template <class Mesh, class VertexPointMap>
-bool DeviationMonitor<Mesh, VertexPointMap>::relocate_vertex(Vertex v, double normal_step, double tangent_step) {
+bool DeviationMonitor<Mesh, VertexPointMap>::relocate_vertex(Vertex v) {
   if (is_border(v) || is_locked(v)) return false;
   gather_star(v, Graph::null_vertex(), get(points_, v));
   tracker_.sample(removed_);
-  const Sampled found = lower_deviation(at(v), normal_step, tangent_step);
-  if (found.lowest > (1 - internal::least_relocation_gain) * found.at_start || found.point == at(v)) return false;
+  const Sampled found = lower_deviation(at(v), internal::longest_step * mean_edge());
+  if (found.lowest.sum > (1 - internal::least_relocation_gain) * found.at_start || found.point == at(v)) return false;
   if (!admits_gathered(v, v, found.point, SurfaceChange::no_triangle)) return false;
   commit_move(v, to_point(found.point));
   return true;
@@ -145,12 +173,13 @@ bool DeviationMonitor<Mesh, VertexPointMap>::gather_flip(Halfedge h) {
       return false;
   }
   tracker_.sample(removed_);
-  const double now = tracker_.sampled_deviation(added_);
+  moved_corner_ = {0, 0};  // their edge to the next corner is the one that both have
+  const double now = tracker_.sampled_deviation(added_, moved_corner_).sum;
   if (now < internal::low_deviation) return false;
   added_[0].corners = after[0];
   added_[1].corners = after[1];
-  const double enough = (1 - internal::least_flip_gain) * now;
-  return tracker_.sampled_deviation(added_, enough) < enough;
+  moved_corner_ = {1, 2};
+  return tracker_.sampled_deviation(added_, moved_corner_).sum < (1 - internal::least_flip_gain) * now;
 }
 
 template <class Mesh, class VertexPointMap>

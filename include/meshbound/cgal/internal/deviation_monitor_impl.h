@@ -133,6 +133,7 @@ bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex 
                                                   std::uint32_t try_first) {
   if (!locks_allow(v0, v1, placement)) return false;
   gather_star(v0, v1, placement);
+  if (search_placements && !is_promising(to_eigen(placement))) return false;
   if (!admits_gathered(v0, v1, to_eigen(placement), try_first)) return false;
   admitted_.emplace(h, placement);
   return true;
@@ -163,6 +164,7 @@ bool DeviationMonitor<Mesh, VertexPointMap>::admits(const Profile& profile, cons
   refused_.reset();
   if (refused) return false;
   refused_by_bound_ = false;
+  must_sample_ = true;
   const Edge e = edge(profile.v0_v1(), mesh_);
   const EdgeMemory memory = get(edge_memory_, e);
   if (nothing_changed_since(memory, profile.v0(), profile.v1())) {
@@ -191,17 +193,29 @@ DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profil
   EdgeMemory memory = get(edge_memory_, e);
   const bool tested = memory.refused_at == clock_;
   const bool movable = !preserve_boundary || !(is_border(profile.v0()) || is_border(profile.v1()));
-  const int others = !tested || !movable ? 0 : fallback_placements + (search_placements ? 1 : 0);
-  for (int k = 0; k < others; ++k) {
-    const Point other = k < fallback_placements ? fallback(k, profile.p0(), profile.p1(), wanted)
-                                                : searched_placement(profile.p0(), profile.p1(), wanted);
-    if (other == wanted) continue;
+  std::optional<Point> placement;
+  const auto admitted = [&](const Point& other) {
+    if (other == wanted) return false;
     if (test(profile.v0_v1(), profile.v0(), profile.v1(), other, memory.uncovered)) {
-      --counts_.refused;
-      put(edge_memory_, e, EdgeMemory{});
-      return other;
+      placement = other;
+      return true;
     }
     if (refused_by_bound_) memory.uncovered = tracker_.last_uncovered();
+    return false;
+  };
+  bool found = false;
+  if (tested && movable) {
+    for (int k = 0; k < fallback_placements && !found; ++k)
+      found = admitted(fallback(k, profile.p0(), profile.p1(), wanted));
+    if (!found && search_placements) {
+      const std::optional<Point> other = searched_placement(profile.p0(), profile.p1());
+      found = other && admitted(*other);
+    }
+  }
+  if (found) {
+    --counts_.refused;
+    put(edge_memory_, e, EdgeMemory{});
+    return placement;
   }
   put(edge_memory_, e, memory);
   refused_.emplace(profile.v0_v1(), wanted);

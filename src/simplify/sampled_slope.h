@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "geometry/vec3.h"
+
+namespace meshbound {
+
+/// Points in single precision, in blocks of eight, near an origin of their own: a guide needs no more.
+struct SamplePoints {
+  std::vector<float> x, y, z;
+  std::vector<float> weight;  ///< 0 for those that fill up the last block
+
+  void clear() {
+    for (std::vector<float>* all : {&x, &y, &z, &weight}) all->clear();
+  }
+  void add(Vec3 p, float share) {
+    x.push_back(static_cast<float>(p.x));
+    y.push_back(static_cast<float>(p.y));
+    z.push_back(static_cast<float>(p.z));
+    weight.push_back(share);
+  }
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+};
+
+/// A triangle a, a + ab, a + ac with what is the same for all points.
+struct SampleFace {
+  Vec<float> a, ab, ac;
+  float ab_ab = 0, ab_ac = 0, ac_ac = 0;
+  float by_area = 0, by_ab = 0, by_ac = 0, by_bc = 0;  ///< reciprocals of squares, 0 where these are
+
+  SampleFace(Vec3 corner, Vec3 second, Vec3 third);
+};
+
+/// The sum over points of (distance / tolerance)^6, with its slope when corner a of every face is moved: for Newton's
+/// method, distances as to a plane through the closest point.
+struct SlopeSums {
+  double sum = 0, worst_squared = 0;  ///< the largest (distance / tolerance)^2
+  double gradient[3] = {0, 0, 0};
+  double curvature[6] = {0, 0, 0, 0, 0, 0};  ///< xx, yy, zz, xy, yz, zx
+
+  /// A point `offset` (in tolerances) off its closest one, which moves by `share` of what the corner does.
+  void add(Vec3 offset, double share);
+};
+
+/// The inner loops, chosen once, by processor; all give the same result to the bit.
+struct SlopeKernel {
+  /// Weight 0 for points further than `tolerance` from all faces.
+  void (*drop_far)(SamplePoints& points, std::span<const SampleFace> faces, float tolerance);
+  /// Adds the points, each against the face nearest to it. `by_tolerance` is 1 / tolerance.
+  void (*add_slope)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance, SlopeSums& sums);
+};
+[[nodiscard]] SlopeKernel portable_slope_kernel();
+[[nodiscard]] SlopeKernel fastest_slope_kernel();
+
+}  // namespace meshbound

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+/// Compiled once per instruction set.
+#pragma once
+#include <cmath>
+
+#include "numeric/simd.h"
+#include "simplify/sampled_slope.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+inline Float8 load8(const std::vector<float>& all, std::size_t first) {
+  Float8 eight;
+  for (std::size_t i = 0; i < 8; ++i) eight[static_cast<int>(i)] = all[first + i];
+  return eight;
+}
+
+inline Float8 clamped(Float8 x) {
+  x = x > 0.0F ? x : Float8{};
+  return x < 1.0F ? x : broadcast8(1);
+}
+
+/// The nearest so far: squared distance, offset from the closest point, and the share that corner a has of it.
+struct Closest8 {
+  Float8 squared, x, y, z, share;
+
+  void offer(Float8 ox, Float8 oy, Float8 oz, Float8 corner_share, Mask8 valid) {
+    const Float8 square = ox * ox + oy * oy + oz * oz;
+    const Mask8 nearer = (square < squared) & valid;
+    squared = nearer ? square : squared;
+    x = nearer ? ox : x;
+    y = nearer ? oy : y;
+    z = nearer ? oz : z;
+    share = nearer ? corner_share : share;
+  }
+};
+
+inline void offer_face(const SampleFace& f, Float8 x, Float8 y, Float8 z, Closest8& closest) {
+  const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
+  const Float8 on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
+  const Float8 on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
+  const auto offer = [&](Float8 v, Float8 w, Mask8 valid) {
+    closest.offer(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
+                  1.0F - v - w, valid);
+  };
+  const Mask8 all = Mask8{} == Mask8{};
+  const Float8 zero{};
+  offer(clamped(on_ab * f.by_ab), zero, all);
+  offer(zero, clamped(on_ac * f.by_ac), all);
+  const Float8 along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc);
+  offer(1.0F - along, along, all);
+  const Float8 v = (f.ac_ac * on_ab - f.ab_ac * on_ac) * f.by_area;
+  const Float8 w = (f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area;
+  offer(v, w, (v >= 0.0F) & (w >= 0.0F) & (v + w <= 1.0F));
+}
+
+inline Closest8 closest_of(const SamplePoints& points, std::size_t first, std::span<const SampleFace> faces) {
+  Closest8 at{broadcast8(HUGE_VALF), {}, {}, {}, {}};
+  const Float8 x = load8(points.x, first), y = load8(points.y, first), z = load8(points.z, first);
+  for (const SampleFace& face : faces) offer_face(face, x, y, z, at);
+  return at;
+}
+
+inline void drop_far(SamplePoints& points, std::span<const SampleFace> faces, float tolerance) {
+  for (std::size_t i = 0; i < points.size(); i += 8) {
+    const Closest8 at = closest_of(points, i, faces);
+    for (int k = 0; k < 8; ++k) {
+      if (!(at.squared[k] <= tolerance * tolerance)) points.weight[i + static_cast<std::size_t>(k)] = 0;
+    }
+  }
+}
+
+inline void add_slope(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
+                      SlopeSums& sums) {
+  Float8 sum{}, worst{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+  for (std::size_t i = 0; i < points.size(); i += 8) {
+    const Closest8 at = closest_of(points, i, faces);
+    const Float8 weight = load8(points.weight, i);
+    const Float8 square = weight * at.squared * (by_tolerance * by_tolerance);
+    const Float8 ox = at.x * by_tolerance, oy = at.y * by_tolerance, oz = at.z * by_tolerance;
+    const Float8 fourth = weight * square * square;
+    const Float8 first = at.share * fourth, second = at.share * at.share * square;
+    sum += fourth * square;
+    worst = maximum(worst, square);
+    gx += first * ox, gy += first * oy, gz += first * oz;
+    xx += second * ox * ox, yy += second * oy * oy, zz += second * oz * oz;
+    xy += second * ox * oy, yz += second * oy * oz, zx += second * oz * ox;
+  }
+  for (int k = 0; k < 8; ++k) {
+    sums.sum += double{sum[k]};
+    sums.worst_squared = std::fmax(sums.worst_squared, double{worst[k]});
+    sums.gradient[0] -= 6 * double{gx[k]}, sums.gradient[1] -= 6 * double{gy[k]}, sums.gradient[2] -= 6 * double{gz[k]};
+    sums.curvature[0] += 30 * double{xx[k]}, sums.curvature[1] += 30 * double{yy[k]};
+    sums.curvature[2] += 30 * double{zz[k]}, sums.curvature[3] += 30 * double{xy[k]};
+    sums.curvature[4] += 30 * double{yz[k]}, sums.curvature[5] += 30 * double{zx[k]};
+  }
+}
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound
