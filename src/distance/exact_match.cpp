@@ -56,7 +56,7 @@ TriangleTable::TriangleTable(std::span<const Triangle> triangles, std::span<cons
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   for (std::uint32_t i = 0; i < all.size(); ++i) entries_[next[all[i][0]]++] = {all[i], i};
   for (std::size_t v = 0; v < vertices.size(); ++v)
-    std::sort(entries_.begin() + begin_[v], entries_.begin() + begin_[v + 1]);
+    if (begin_[v + 1] - begin_[v] > 1) std::sort(entries_.begin() + begin_[v], entries_.begin() + begin_[v + 1]);
 }
 
 std::uint32_t TriangleTable::find(const Triangle& corners) const {

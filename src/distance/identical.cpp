@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 #include "distance/exact_match.h"
 
@@ -17,24 +16,29 @@ bool same_bytes(const Array<T>& a, const Array<T>& b) {
 
 }  // namespace
 
-std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive) {
+std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive,
+                                       int threads) {
   if (same_bytes(a.corners, b.corners) && same_bytes(a.vertices, b.vertices)) {
     std::fill(alive.begin(), alive.end(), std::uint8_t{0});
     return a.triangle_count();
   }
   const PositionTable positions(b.vertices);
-  std::vector<std::uint32_t> twin(a.vertices.size());
-  for (std::size_t v = 0; v < twin.size(); ++v) twin[v] = positions.find(a.vertices[v]);
-  std::optional<TriangleTable> triangles;  // built when the first triangle has all its corners in B
+  const TriangleTable triangles(b.corners, b.vertices, positions);
+  Array<std::uint32_t> twin(a.vertices.size());
   std::uint64_t count = 0;
-  for (std::uint32_t slot = 0; slot < a.triangle_count(); ++slot) {
-    const Triangle& t = a.corners[slot];
-    const Triangle there{twin[t[0]], twin[t[1]], twin[t[2]]};
-    if (there[0] == no_match || there[1] == no_match || there[2] == no_match) continue;
-    if (!triangles) triangles.emplace(b.corners, b.vertices, positions);
-    if (triangles->find(there) == no_match) continue;
-    alive[slot] = 0;
-    ++count;
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp for schedule(static)
+    for (std::size_t v = 0; v < twin.size(); ++v) twin[v] = positions.find(a.vertices[v]);
+#pragma omp for schedule(static) reduction(+ : count)
+    for (std::uint32_t slot = 0; slot < a.triangle_count(); ++slot) {
+      const Triangle& t = a.corners[slot];
+      const Triangle there{twin[t[0]], twin[t[1]], twin[t[2]]};
+      if (there[0] == no_match || there[1] == no_match || there[2] == no_match) continue;
+      if (triangles.find(there) == no_match) continue;
+      alive[slot] = 0;
+      ++count;
+    }
   }
   return count;
 }

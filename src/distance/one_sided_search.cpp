@@ -165,7 +165,7 @@ void OneSidedSearch::drop_identical() {
   const bool exact = map_.is_identity && map_.error == 0 && a_.frame.error == 0 && b_.frame.error == 0;
   if (!exact || !probe_on_b_ || !sample_is_identical()) return;
   alive_.assign(a_.triangle_count(), 1);
-  stats_.matched = drop_identical_triangles(a_, b_, alive_);
+  stats_.matched = drop_identical_triangles(a_, b_, alive_, static_cast<int>(searchers_.size()));
 }
 
 void OneSidedSearch::probe() {
