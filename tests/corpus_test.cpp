@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "fuzz/claims.h"
+#include "meshbound/certificate.h"
+#include "meshbound/distance.h"
 
 namespace meshbound {
 namespace {
@@ -22,6 +24,7 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
 
 void replay(const std::string& target, const std::vector<std::uint8_t>& bytes) {
   if (target == "fuzz_distance") return fuzz::check_distance(bytes);
+  if (target == "fuzz_certificate") return fuzz::check_certificate(bytes);
   const std::string reader = "fuzz_read_";
   ASSERT_EQ(target.substr(0, reader.size()), reader) << "a folder of the corpus that no target belongs to";
   fuzz::check_reader("." + target.substr(reader.size()), bytes);
@@ -38,6 +41,18 @@ int replay_all(const fs::path& corpus) {
     }
   }
   return files;
+}
+
+TEST(Corpus, HasASeedThatIsACertificate) {
+  const auto [original, simplified] = fuzz::certificate_pair();
+  const double tolerance = 1.01 * symmetric_distance(Bvh(original), Bvh(simplified)).bounds.upper;
+  const auto certificate = build_certificate(original, simplified, tolerance);
+  ASSERT_TRUE(certificate);
+  std::vector<std::uint8_t> seed = {0};
+  seed.insert(seed.end(), certificate->bytes.begin(), certificate->bytes.end());
+  EXPECT_NO_THROW(fuzz::check_certificate(seed));
+  seed[0] = 1;
+  EXPECT_NO_THROW(fuzz::check_certificate(seed));
 }
 
 TEST(Corpus, HoldsWhatTheFuzzersCheck) {

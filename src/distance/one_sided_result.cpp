@@ -95,7 +95,8 @@ OneSidedDistance OneSidedSearch::result() {
   else if (narrow || (result.bounds.upper <= task_.tolerance && task_.decide_only))
     result.outcome = Outcome::Converged;
   else
-    result.outcome = exhausted_ ? Outcome::BudgetExhausted : Outcome::PrecisionReached;
+    // Asked once more: it may have run out within the last batch.
+    result.outcome = out_of_budget() ? Outcome::BudgetExhausted : Outcome::PrecisionReached;
   fill_stats();
   result.stats = stats_;
   return result;

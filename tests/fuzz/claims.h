@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "meshbound/triangle_mesh.h"
+
 namespace meshbound::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -16,5 +18,15 @@ void check_reader(const std::string& extension, Bytes content);
 
 /// The bytes as two soups of a few triangles: every bound and verdict on their distance agrees with exact arithmetic.
 void check_distance(Bytes content);
+
+/// The two meshes that `check_certificate` is about, and that its seeds were made for.
+struct CertificatePair {
+  TriangleMesh original, simplified;
+};
+[[nodiscard]] CertificatePair certificate_pair();
+
+/// The bytes after the first as a certificate for `certificate_pair`, sealed again for it when the first byte is odd:
+/// it is rejected in one line, or what it proves is true of every vertex.
+void check_certificate(Bytes content);
 
 }  // namespace meshbound::fuzz

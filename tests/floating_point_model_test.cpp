@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Where the arithmetic is not the one that the bounds are proven for, no bound is given; coordinates at the ends of the
+// range of doubles get a bound that holds or a clear refusal.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+
+#include "mesh_files.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "reference/claims.h"
+#include "reference/small_meshes.h"
+#include "run_tool.h"
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace meshbound {
+namespace {
+
+using namespace reference;
+
+/// Why no tree is built here; empty when one is.
+std::string refusal_of_a_tree() {
+  const TriangleMesh mesh = cube(1);
+  try {
+    const Bvh tree(mesh);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+#if defined(__SSE2__)
+TEST(FloatingPointModel, FlushToZeroIsRefused) {
+  const unsigned before = _mm_getcsr();
+  constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  for (const unsigned mode : {flush_to_zero, denormals_are_zero, flush_to_zero | denormals_are_zero}) {
+    _mm_setcsr(before | mode);
+    const std::string reason = refusal_of_a_tree();
+    _mm_setcsr(before);
+    EXPECT_NE(reason.find("flushed to zero"), std::string::npos) << reason;
+  }
+  EXPECT_EQ(refusal_of_a_tree(), "");
+}
+#endif
+
+TEST(FloatingPointModel, AnotherRoundingModeIsRefused) {
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    ASSERT_EQ(std::fesetround(mode), 0);
+    const std::string reason = refusal_of_a_tree();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_NE(reason.find("rounding mode"), std::string::npos) << reason;
+  }
+  EXPECT_EQ(refusal_of_a_tree(), "");
+}
+
+#if defined(__x86_64__)
+TEST(FloatingPointModel, AProgramLinkedWithFastMathIsRefused) {
+  const testing_tools::ToolRun run = testing_tools::run_tool(FAST_MATH_PROGRAM, {});
+  EXPECT_EQ(run.exit_code, 2) << "this linker sets no flush to zero for -ffast-math";
+  EXPECT_NE(run.err.find("flushed to zero"), std::string::npos) << run.err;
+}
+#endif
+
+#if defined(CONTRACTING_PROGRAM)
+TEST(FloatingPointModel, FusedMultiplyAddsAreRefused) {
+  if (!__builtin_cpu_supports("fma")) GTEST_SKIP() << "this processor has no fused multiply-add";
+  const testing_tools::ToolRun run = testing_tools::run_tool(CONTRACTING_PROGRAM, {});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("fused"), std::string::npos) << run.err;
+}
+#endif
+
+TEST(FloatingPointModel, DoesNotCompileWithFastMath) {
+  const std::string source = MESHBOUND_SOURCE_DIR "/src/numeric/floating_point_model.cpp";
+  const std::vector<std::string> plain = {"-std=c++20", "-fsyntax-only", "-I" MESHBOUND_SOURCE_DIR "/src",
+                                          "-I" MESHBOUND_SOURCE_DIR "/include", source};
+  std::vector<std::string> fast = plain;
+  fast.emplace_back("-ffast-math");
+  EXPECT_EQ(testing_tools::run_tool(COMPILER, plain).exit_code, 0);
+  const testing_tools::ToolRun refused = testing_tools::run_tool(COMPILER, fast);
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_NE(refused.err.find("without -ffast-math"), std::string::npos) << refused.err;
+}
+
+TEST(CoordinateRange, BoundsHoldAtItsEnds) {
+  for (const double scale : {5e-324, 1e-320, 1e-310, 1e-300, 1e-160, 1e155, 1e300, largest_coordinate / 2}) {
+    SCOPED_TRACE(scale);
+    const TriangleMesh a = scaled(cube(1), scale), b = scaled(cube(2), scale);
+    for (const Method method : {Method::CellWalking, Method::CrossCulling}) {
+      DistanceOptions options;
+      options.method = method;
+      const SymmetricDistance result = symmetric_distance(Bvh(a), Bvh(b), options);
+      // Furthest is a corner of the larger cube; the distance to one triangle is largest at a corner.
+      const ExactLength truth = exact_distance(b.vertices[0], a);
+      EXPECT_GE(truth.compare(result.bounds.lower), 0);
+      EXPECT_LE(truth.compare(result.bounds.upper), 0);
+      EXPECT_TRUE(std::isfinite(result.bounds.upper));
+    }
+  }
+}
+
+TEST(CoordinateRange, BoundsHoldBetweenMeshesFromBothEnds) {
+  const TriangleMesh small = scaled(cube(1), 1e-310), large = scaled(cube(1), 1e300);
+  for (const auto& [a, b] : {std::pair(small, large), std::pair(large, small)}) {
+    const OneSidedDistance result = one_sided_distance(Bvh(a), Bvh(b));
+    ExactLength least = exact_distance(a.vertices[0], b);
+    for (const Eigen::Vector3d& v : a.vertices) least = std::max(least, exact_distance(v, b));
+    EXPECT_LE(least.compare(result.bounds.upper), 0);
+    EXPECT_LE(result.bounds.lower, result.bounds.upper);
+    EXPECT_LE(result.bounds.lower, 1e300 * 1.7320508075688774);
+  }
+}
+
+TEST(CoordinateRange, WhatIsBeyondItIsRefused) {
+  for (const double beyond : {1e302, 1.7e308, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    TriangleMesh mesh = cube(1);
+    mesh.vertices[3].y() = beyond;
+    EXPECT_THROW(Bvh{mesh}, InvalidInput);
+  }
+  for (const std::string coordinate : {"1e302", "1e999", "-1e308", "inf", "nan"}) {
+    const std::string file = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 " + coordinate + " 0\n3 0 1 2\n";
+    EXPECT_CONTAINS(test::refusal("mesh.off", file), "line ");
+  }
+  // Smaller than the smallest denormal is 0, to the nearest double: what the file says is what is measured.
+  EXPECT_EQ(test::read_content("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e-400 0\n3 0 1 2\n").mesh.vertices[2].y(), 0);
+}
+
+}  // namespace
+}  // namespace meshbound
