@@ -26,7 +26,8 @@ int grid_bits(std::size_t triangles, int index_bits) {
 /// Stable least-significant-digit radix sort by the bits from `first` to below `end`. Each thread counts and moves one
 /// run of the items; where a run's items of a digit begin follows from the counts, so the result is the one order.
 void sort_by_key(Array<Keyed>& items, int first, int end, int threads) {
-  const std::size_t runs = static_cast<std::size_t>(threads), passes = (end - first + digit_bits - 1) / digit_bits;
+  const std::size_t runs = static_cast<std::size_t>(threads),
+                    passes = static_cast<std::size_t>((end - first + digit_bits - 1) / digit_bits);
   Array<Keyed> scratch(items.size());
   std::vector<std::array<std::uint32_t, digits>> start(runs);
   const auto run_begin = [&](std::size_t run) { return items.size() * run / runs; };
