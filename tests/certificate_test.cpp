@@ -139,6 +139,25 @@ TEST(Certificate, OfBuffersIsThatOfTheMeshTheyHold) {
   EXPECT_THROW((void)verify::check_certificate(mesh, mesh, certificate->bytes), verify::Rejected);
 }
 
+/// Tolerances around a distance that doubles cannot tell from it: a certificate is made or not, but never a wrong one.
+TEST(Certificate, KeepsAMarginForTheVerifier) {
+  const TriangleMesh square = reference::unit_square(2);
+  const TriangleMesh above = reference::moved(reference::unit_square(3), {0, 0, 0.1});
+  int made = 0, refused = 0;
+  for (int step = -600; step <= 600; ++step) {
+    const double tolerance = 0.1 * (1 + step * 1e-15);
+    try {
+      const auto certificate = build_certificate(square, above, tolerance);
+      EXPECT_NO_THROW((void)verify::check_certificate(square, above, certificate->bytes)) << step;
+      ++made;
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(made, 200);
+  EXPECT_GT(refused, 300);
+}
+
 TEST(Certificate, EndsWhenItIsTold) {
   const TriangleMesh fine = datasets::icosphere(1, 4), coarse = datasets::icosphere(1, 1);
   const std::atomic<bool> cancel = true;

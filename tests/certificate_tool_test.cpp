@@ -80,6 +80,9 @@ TEST_F(CertificateTools, VerifierTellsInJson) {
   EXPECT_EQ(json["certificate"]["bytes"], fs::file_size(in("c")));
   EXPECT_EQ(json["original"]["faces"], 1600);
   EXPECT_GE(json["original_to_simplified"]["pieces"], 1600);
+  const Json schema = Json::parse(testing_tools::content_of(MESHBOUND_SOURCE_DIR "/tools/schema/verify-1.schema.json"));
+  for (const auto& key : schema["required"]) EXPECT_TRUE(json.contains(key)) << key;
+  for (const auto& [key, value] : json.items()) EXPECT_TRUE(schema["properties"].contains(key)) << key;
   const Json simplified = Json::parse(testing_tools::content_of(in("j")));
   EXPECT_EQ(simplified["certificates"][0]["path"], in("c"));
   EXPECT_EQ(simplified["certificates"][0]["bytes"], fs::file_size(in("c")));
@@ -126,6 +129,34 @@ TEST_F(CertificateTools, EveryLevelHasItsOwn) {
   EXPECT_EQ(verify("torus.off", "small_level_2.ply", "small_level_2.cert", {"--tolerance", "1%"}).exit_code, 0);
   EXPECT_EQ(verify("torus.off", "small.ply", "small.cert", {"--tolerance", "2%"}).exit_code, 0);
   EXPECT_EQ(verify("torus.off", "small.ply", "small_level_1.cert").exit_code, 1);
+}
+
+TEST_F(CertificateTools, ATolerance0IsCertifiedWhereNothingChanged) {
+  for (const char* out : {"same.off", "same.ply"}) {
+    ASSERT_EQ(simplify("torus.off", out, {"--tolerance", "0", "--certificate", in("c")}).exit_code, 0);
+    EXPECT_EQ(verify("torus.off", out, "c", {"--tolerance", "0"}).exit_code, 0);
+  }
+}
+
+/// An interrupted proof is no proof, and no mesh appears without the certificate that was asked for.
+TEST_F(CertificateTools, NothingIsWrittenWhenTheTimeIsUp) {
+  const std::size_t before = file_count();
+  const ToolRun run =
+      simplify("torus.off", "small.ply", {"--tolerance", "1%", "--certificate", in("c"), "--time-limit", "0"});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(file_count(), before);
+}
+
+TEST_F(CertificateTools, ACertificateDoesNotReplaceAMesh) {
+  const std::string original = testing_tools::content_of(in("torus.off"));
+  for (const char* name : {"small.ply", "torus.off"}) {
+    const ToolRun run = simplify("torus.off", "small.ply", {"--tolerance", "1%", "--certificate", in(name)});
+    expect_one_line(run, 2, "--certificate");
+  }
+  expect_one_line(run_tool(HAUSDORFF_DISTANCE, {in("torus.off"), in("coarse.off"), "--tolerance", "1", "--quiet",
+                                                "--certificate", in("coarse.off")}),
+                  2, "--certificate");
+  EXPECT_EQ(testing_tools::content_of(in("torus.off")), original);
 }
 
 TEST_F(CertificateTools, NothingIsWrittenWhereTheCertificateCannotBe) {

@@ -270,15 +270,14 @@ Question parse_question(const Arguments& arguments, std::optional<Length>& error
 }
 
 /// The proof of a tolerance that was found to hold. False when there was no time for it.
-bool write_certificate(const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b, double tolerance,
-                       const Stopwatch& watch) {
+bool write_certificate(PendingFile& file, const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
+                       double tolerance, const Stopwatch& watch) {
   ProgressBar bar("proving", arguments.common.quiet);
   CertificateOptions options;
   options.threads = arguments.common.threads;
   options.cancel = &watch_interrupts();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   if (arguments.common.has_time_limit) options.seconds = std::max(0.0, arguments.common.time_limit - watch.total());
-  PendingFile file(arguments.certificate);
   const auto certificate = build_certificate(a, b, tolerance, options);
   if (!certificate) return false;
   file.write(certificate->bytes);
@@ -299,6 +298,10 @@ int run(const Arguments& arguments) {
   std::optional<Length> error_bound;
   std::optional<Length> tolerance;
   Question question = parse_question(arguments, error_bound, tolerance);
+  std::optional<PendingFile> certificate;
+  if (!arguments.certificate.empty()) certificate.emplace(arguments.certificate);
+  if (certificate && (certificate->is_at(arguments.a) || certificate->is_at(arguments.b)))
+    throw InvalidInput("--certificate: " + arguments.certificate + " is one of the meshes");
   std::optional<Eigen::Affine3d> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
 
@@ -330,8 +333,8 @@ int run(const Arguments& arguments) {
   }
   if (interrupted && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
   report.seconds.query = watch.lap();
-  if (!arguments.certificate.empty() && answer.exit_code == ExitDone &&
-      !write_certificate(arguments, a.mesh, b.mesh, *question.tolerance, watch)) {
+  if (certificate && answer.exit_code == ExitDone &&
+      !write_certificate(*certificate, arguments, a.mesh, b.mesh, *question.tolerance, watch)) {
     if (interrupted) throw Error("interrupted before the certificate was complete; it was not written");
     std::fprintf(stderr, "hausdorff_distance: no time was left for the certificate; it was not written\n");
     answer.exit_code = ExitUndecided;

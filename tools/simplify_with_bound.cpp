@@ -185,6 +185,11 @@ void Run::open_outputs() {
                                (certificate.stem().string() + level + certificate.extension().string()));
   }
   certificates_.emplace_back(certificate);
+  for (const PendingFile& file : certificates_) {
+    bool is_mesh = file.is_at(options_.input);
+    for (const GatedOutput& output : outputs_) is_mesh = is_mesh || file.is_at(output.path());
+    if (is_mesh) throw InvalidInput("--certificate: " + file.path().string() + " is one of the meshes");
+  }
 }
 
 void Run::simplify() {

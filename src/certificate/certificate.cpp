@@ -46,7 +46,8 @@ class DirectionProof {
         tolerance_(tolerance),
         options_(options),
         source_name_(source_name),
-        tree_(target, BvhOptions{options.threads}) {
+        tree_(target, BvhOptions{options.threads}),
+        neighbours_(tree_.data()) {
     load_vertices();
     goal_.deadline = deadline;
     goal_.cancel = options.cancel;
@@ -67,6 +68,7 @@ class DirectionProof {
   const CertificateOptions& options_;
   std::string source_name_;
   Bvh tree_;
+  PatchNeighbours neighbours_;
   Goal goal_;
   double magnitude_ = 1;        ///< of all coordinates in the working frame
   std::vector<Vec3> vertices_;  ///< of the source, in the working frame of the tree
@@ -133,7 +135,7 @@ std::optional<EncodedSection> DirectionProof::run(double progress_from) {
 #pragma omp parallel num_threads(threads)
   {
     std::optional<CutSearch> search;
-    error.guard([&] { search.emplace(tree_.data(), goal_, magnitude_); });
+    error.guard([&] { search.emplace(tree_.data(), neighbours_, goal_, magnitude_); });
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t chunk = 0; chunk < count; ++chunk) {
       if (stop || !search || goal_.out_of_time()) continue;

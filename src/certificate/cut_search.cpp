@@ -39,11 +39,13 @@ bool first_is_inside(const Piece& piece, const PlaneSides& sides, const Chord& c
 
 }  // namespace
 
-CutSearch::CutSearch(const Bvh::Data& target, const Goal& goal, double magnitude)
-    : b_(target), tolerance_(goal.tolerance), degree_(target, goal, magnitude) {
-  accepted_ = goal.tolerance - goal.largest_slack();
-  // A length is rounded four times on its way from the offset, relative to itself.
-  accepted_squared_ = accepted_ > 0 ? accepted_ * accepted_ * (1 - 8 * 0x1p-53) : -1;
+CutSearch::CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude)
+    : b_(target), tolerance_(goal.tolerance), degree_(target, neighbours, goal, magnitude) {
+  for (std::uint32_t depth = 0; depth <= deepest_cut; ++depth) {
+    const double accepted = goal.tolerance - goal.slack - depth * goal.cut_slack;
+    // A length is rounded four times on its way from the offset, relative to itself.
+    accepted_squared_[depth] = accepted > 0 ? accepted * accepted * (1 - 8 * 0x1p-53) : -1;
+  }
 }
 
 /// How far the ends of a cut may be moved to say them in few bits. Where that goes wrong, the next cuts are finer.
@@ -61,7 +63,7 @@ void CutSearch::emit(std::uint32_t slot, ProofNode::Kind kind) {
 }
 
 bool CutSearch::try_near(const Piece& piece, std::uint32_t slot) {
-  if (!(farthest_corner(piece, triangle_at(slot)).squared <= accepted_squared_)) return false;
+  if (!(farthest_corner(piece, triangle_at(slot)).squared <= accepted_squared_[piece.depth])) return false;
   emit(slot);
   return true;
 }
@@ -69,7 +71,7 @@ bool CutSearch::try_near(const Piece& piece, std::uint32_t slot) {
 Nearest CutSearch::nearest(const Vec3& p, std::uint32_t hint) {
   Nearest best{closest_on_triangle(triangle_at(hint), p).squared_distance, hint};
   find_nearest(b_, p, 0, best, counters_);
-  if (!(best.squared <= accepted_squared_)) too_far_ = true;
+  if (!(best.squared <= accepted_squared_[0])) too_far_ = true;
   return best;
 }
 
@@ -170,7 +172,7 @@ bool CutSearch::cover(Piece piece) {
   while (steps_left_ > 0) {
     --steps_left_;
     const Farthest farthest = farthest_corner(piece, triangle_at(piece.slot));
-    if (farthest.squared <= accepted_squared_) {
+    if (farthest.squared <= accepted_squared_[piece.depth]) {
       emit(piece.slot);
       return true;
     }
@@ -218,7 +220,7 @@ bool CutSearch::ask_near_worst(Piece& piece, std::uint32_t worst) {
 CutSearch::Walked CutSearch::walk(Piece& piece) {
   const CornerTriangle<double> t = triangle_at(piece.slot);
   const double shift = most_moved(piece), margin = std::max(noise, 2 * shift);
-  const double outward = outward_slack(b_, piece, accepted_squared_);
+  const double outward = outward_slack(b_, piece, accepted_squared_[piece.depth]);
   for (const double push : {outward, 0.0}) {
     for (std::size_t edge = 0; edge < 3; ++edge) {
       const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;

@@ -18,8 +18,9 @@ namespace meshbound {
 class CutSearch {
  public:
   /// `goal` gives the tolerance and the slacks, in B's working frame, `magnitude` bounds all coordinates there.
-  /// `target` must outlive this.
-  CutSearch(const Bvh::Data& target, const Goal& goal, double magnitude);
+  /// `target` and
+  /// `neighbours` must outlive this.
+  CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude);
 
   enum class Outcome {
     Proven,
@@ -71,7 +72,8 @@ class CutSearch {
 
   const Bvh::Data& b_;
   double tolerance_ = 0;
-  double accepted_ = 0, accepted_squared_ = 0;  ///< computed distances that prove; negative when none does
+  /// By the cuts behind a piece: squared distances that prove as computed; negative where none does.
+  std::array<double, deepest_cut + 1> accepted_squared_{};
   DegreeSearch degree_;
   QueryCounters counters_;
   std::vector<ProofNode>* nodes_ = nullptr;

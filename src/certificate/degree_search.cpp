@@ -26,36 +26,29 @@ constexpr std::size_t most_clipped = Piece::capacity + 4;
 
 }  // namespace
 
-DegreeSearch::DegreeSearch(const Bvh::Data& target, const Goal& goal, double magnitude)
-    : b_(target),
-      tolerance_(goal.tolerance),
-      slack_(goal.largest_slack()),
-      magnitude_(magnitude),
-      visited_(target.triangle_count(), 0) {
-  find_neighbours();
-}
-
 /// Vertices of equal coordinates are one vertex, triangles with two equal corners are left out, as for the reader.
 /// Places that the working frame makes equal may differ in the model; there the edges are taken for boundary.
-void DegreeSearch::find_neighbours() {
+PatchNeighbours::PatchNeighbours(const Bvh::Data& target) {
   struct Side {
     std::uint32_t low, high, slot, corner;
   };
-  std::vector<std::uint32_t> order(b_.vertices.size()), first(b_.vertices.size());
+  std::vector<std::uint32_t> order(target.vertices.size()), first(target.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  const auto key = [&](std::uint32_t v) { return std::tuple(b_.vertices[v].x, b_.vertices[v].y, b_.vertices[v].z); };
+  const auto key = [&](std::uint32_t v) {
+    return std::tuple(target.vertices[v].x, target.vertices[v].y, target.vertices[v].z);
+  };
   std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) { return key(v) < key(w); });
   for (std::size_t i = 0; i < order.size(); ++i)
     first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
 
-  neighbours_.assign(b_.triangle_count(), {boundary, boundary, boundary});
-  usable_.assign(b_.triangle_count(), false);
+  across.assign(target.triangle_count(), {boundary, boundary, boundary});
+  usable.assign(target.triangle_count(), false);
   std::vector<Side> sides;
-  sides.reserve(3 * std::size_t{b_.triangle_count()});
-  for (std::uint32_t slot = 0; slot < b_.triangle_count(); ++slot) {
-    const Triangle& c = b_.corners[slot];
+  sides.reserve(3 * std::size_t{target.triangle_count()});
+  for (std::uint32_t slot = 0; slot < target.triangle_count(); ++slot) {
+    const Triangle& c = target.corners[slot];
     if (first[c[0]] == first[c[1]] || first[c[1]] == first[c[2]] || first[c[2]] == first[c[0]]) continue;
-    usable_[slot] = true;
+    usable[slot] = true;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(first[c[k]], first[c[(k + 1) % 3]]);
       sides.push_back({low, high, slot, k});
@@ -66,10 +59,19 @@ void DegreeSearch::find_neighbours() {
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
     while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
     if (j - i != 2) continue;
-    neighbours_[sides[i].slot][sides[i].corner] = sides[i + 1].slot;
-    neighbours_[sides[i + 1].slot][sides[i + 1].corner] = sides[i].slot;
+    across[sides[i].slot][sides[i].corner] = sides[i + 1].slot;
+    across[sides[i + 1].slot][sides[i + 1].corner] = sides[i].slot;
   }
 }
+
+DegreeSearch::DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal,
+                           double magnitude)
+    : b_(target),
+      neighbours_(neighbours),
+      tolerance_(goal.tolerance),
+      slack_(goal.largest_slack()),
+      magnitude_(magnitude),
+      visited_(target.triangle_count(), 0) {}
 
 DegreeSearch::Seen DegreeSearch::see(const Vec3& p) const {
   const Vec3 q = p - origin_;
@@ -180,7 +182,7 @@ bool DegreeSearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piec
   bool odd = false;
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const std::uint32_t slot = patch_[i];
-    if (!usable_[slot]) return false;
+    if (!neighbours_.usable[slot]) return false;
     SeenTriangle corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = see(b_.vertices[b_.corners[slot][k]]);
     if (!heights_hold(corners)) return false;
@@ -189,8 +191,8 @@ bool DegreeSearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piec
       if (crosses_ray(p, q)) odd = !odd;
       const Passage way = passage(p, q);
       if (way == Passage::Clear) continue;
-      const std::uint32_t next = neighbours_[slot][k];
-      if (way == Passage::Unclear || next == boundary || patch_.size() == largest_patch) return false;
+      const std::uint32_t next = neighbours_.across[slot][k];
+      if (way == Passage::Unclear || next == PatchNeighbours::boundary || patch_.size() == largest_patch) return false;
       if (visited_[next] == round_) continue;
       visited_[next] = round_;
       patch_.push_back(next);

@@ -10,6 +10,17 @@
 
 namespace meshbound {
 
+/// Which triangle lies across each edge, vertices at the same place being one.
+struct PatchNeighbours {
+  static constexpr std::uint32_t boundary = 0xffffffff;  ///< not an edge of exactly two triangles
+
+  /// O(n log n).
+  explicit PatchNeighbours(const Bvh::Data& target);
+
+  std::vector<std::array<std::uint32_t, 3>> across;  ///< by slot, from corner k to k + 1
+  std::vector<bool> usable;                          ///< by slot: no two corners at the same place
+};
+
 /// Tells in floating point, with room to spare, whether a reader will find a piece proven by degree
 /// (tools/schema/certificate-1.md): the patch P, grown from a seed, has nothing too high over the piece, no edge with
 /// one triangle across it, and an odd degree. Whatever comes near a limit counts as a failure, so that the reader's
@@ -17,8 +28,8 @@ namespace meshbound {
 class DegreeSearch {
  public:
   /// `goal` gives the tolerance and the slack, in B's working frame; `magnitude` bounds all coordinates there. `target`
-  /// must outlive this. O(n log n).
-  DegreeSearch(const Bvh::Data& target, const Goal& goal, double magnitude);
+  /// and `neighbours` must outlive this. O(n).
+  DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude);
 
   /// For a piece of `triangle`, with the triangle of B at `seed`, all in B's working frame. O(size of the patch).
   [[nodiscard]] bool proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed);
@@ -31,7 +42,6 @@ class DegreeSearch {
   using SeenTriangle = std::array<Seen, 3>;
   enum class Passage { Clear, Across, Unclear };
 
-  void find_neighbours();
   [[nodiscard]] bool set_view(const std::array<Vec3, 3>& triangle, const Piece& piece);
   [[nodiscard]] bool set_window(const Piece& piece);
   [[nodiscard]] Seen see(const Vec3& p) const;
@@ -45,12 +55,9 @@ class DegreeSearch {
   [[nodiscard]] Passage passage(const Seen& p, const Seen& q) const;
   [[nodiscard]] bool crosses_ray(const Seen& p, const Seen& q) const;
 
-  static constexpr std::uint32_t boundary = 0xffffffff;  ///< not an edge of exactly two triangles
-
   const Bvh::Data& b_;
+  const PatchNeighbours& neighbours_;
   double tolerance_ = 0, slack_ = 0, magnitude_ = 1;
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< by slot, across the edge from corner k to k + 1
-  std::vector<bool> usable_;                              ///< by slot: no two corners at the same place
 
   Vec3 origin_, x_axis_, y_axis_, z_axis_;
   double rim_ = 0, tilt_ = 0, height_limit_ = 0;

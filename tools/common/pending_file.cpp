@@ -24,6 +24,10 @@ PendingFile::PendingFile(std::filesystem::path path) : path_(std::move(path)), t
     throw IoError("cannot write " + path_.string() + ": the folder is not writable");
 }
 
+bool PendingFile::is_at(const std::filesystem::path& other) const {
+  return std::filesystem::weakly_canonical(target_) == std::filesystem::weakly_canonical(other);
+}
+
 PendingFile::PendingFile(PendingFile&& other) noexcept
     : path_(std::move(other.path_)),
       target_(std::move(other.target_)),

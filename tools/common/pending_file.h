@@ -12,6 +12,9 @@ class PendingFile {
  public:
   /// Throws when the folder does not exist or is not writable: known now, not after an hour of work.
   explicit PendingFile(std::filesystem::path path);
+
+  /// Whether publishing would replace this file.
+  [[nodiscard]] bool is_at(const std::filesystem::path& other) const;
   PendingFile(PendingFile&& other) noexcept;
   PendingFile& operator=(PendingFile&&) = delete;
   ~PendingFile();
