@@ -68,19 +68,20 @@ bool CutSearch::try_near(const Piece& piece, std::uint32_t slot) {
   return true;
 }
 
-Nearest CutSearch::nearest(const Vec3& p, std::uint32_t hint) {
+/// Of a point of a piece: where it is too far, no triangle will do, and further cuts only add rounding.
+Nearest CutSearch::nearest(const Vec3& p, const Piece& piece, std::uint32_t hint) {
   Nearest best{closest_on_triangle(triangle_at(hint), p).squared_distance, hint};
   find_nearest(b_, p, 0, best, counters_);
-  if (!(best.squared <= accepted_squared_[0])) too_far_ = true;
+  if (!(best.squared <= accepted_squared_[piece.depth])) too_far_ = true;
   return best;
 }
 
 /// One triangle for the whole piece saves bytes: those nearest to its middle and corners, and their neighbours.
 bool CutSearch::try_candidates(const Piece& piece) {
   std::array<std::uint32_t, 4> slots;
-  slots[0] = nearest(middle_of(piece), piece.slot).slot;
+  slots[0] = nearest(middle_of(piece), piece, piece.slot).slot;
   if (piece.depth == 0) nearest_to_middle_ = slots[0];
-  for (std::uint32_t k = 0; k < 3; ++k) slots[k + 1] = nearest(piece.corner(k), slots[0]).slot;
+  for (std::uint32_t k = 0; k < 3; ++k) slots[k + 1] = nearest(piece.corner(k), piece, slots[0]).slot;
   if (too_far_) return false;
   for (const std::uint32_t slot : slots)
     if (try_near(piece, slot)) return true;
@@ -101,7 +102,13 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
   bool proven = try_near(whole, hint) || try_candidates(whole);
   if (!proven && !too_far_) {
     whole.slot = nearest_to_middle_;
-    proven = try_degree(whole) || cover_interior_by_degree(whole) || (!too_far_ && cover(whole));
+    proven =
+        try_degree(whole) || (degree_.patch_was_too_large() ? halve_by_degree(whole) : cover_interior_by_degree(whole));
+    if (!proven) {
+      nodes.resize(before);
+      too_far_ = false;  // perhaps only by the rounding of these cuts
+      proven = cover(whole);
+    }
   }
   hint = last_;
   if (proven) return Outcome::Proven;
@@ -110,7 +117,7 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
 }
 
 bool CutSearch::try_degree(const Piece& piece) {
-  const std::uint32_t seed = nearest(middle_of(piece), piece.slot).slot;
+  const std::uint32_t seed = nearest(middle_of(piece), piece, piece.slot).slot;
   if (too_far_ || !degree_.proves(triangle_, piece, seed)) return false;
   emit(seed, ProofNode::Kind::Degree);
   return true;
@@ -147,7 +154,7 @@ bool CutSearch::try_trimmed(const Piece& piece, unsigned sides, double width) {
     trims.push_back({*cut, first_is_inside(rest, distances, cut->chord)});
     rest = trims.back().rest();
   }
-  const std::uint32_t seed = nearest(middle_of(rest), rest.slot).slot;
+  const std::uint32_t seed = nearest(middle_of(rest), rest, rest.slot).slot;
   return !too_far_ && degree_.proves(triangle_, rest, seed) && emit_trimmed(trims, 0, seed);
 }
 
@@ -158,14 +165,23 @@ bool CutSearch::emit_trimmed(const std::vector<Trim>& trims, std::size_t from, s
   }
   const Trim& trim = trims[from];
   emit_cut(trim.cut.chord);
-  if (trim.rest_is_first) return emit_trimmed(trims, from + 1, seed) && cover_strip(trim.strip());
-  return cover_strip(trim.strip()) && emit_trimmed(trims, from + 1, seed);
+  if (trim.rest_is_first) return emit_trimmed(trims, from + 1, seed) && cover_part(trim.strip());
+  return cover_part(trim.strip()) && emit_trimmed(trims, from + 1, seed);
 }
 
-bool CutSearch::cover_strip(Piece strip) {
-  if (try_candidates(strip)) return true;
-  strip.slot = nearest(middle_of(strip), strip.slot).slot;
-  return !too_far_ && (try_degree(strip) || cover(strip));
+/// A patch of too many triangles is several small enough.
+bool CutSearch::halve_by_degree(const Piece& piece) {
+  const auto cut = halves_of(piece);
+  if (!cut) return false;
+  emit_cut(cut->chord);
+  return cover_part(cut->first) && cover_part(cut->second);
+}
+
+bool CutSearch::cover_part(Piece part) {
+  if (try_candidates(part)) return true;
+  part.slot = nearest(middle_of(part), part, part.slot).slot;
+  if (too_far_) return false;
+  return try_degree(part) || (degree_.patch_was_too_large() ? halve_by_degree(part) : cover(part));
 }
 
 bool CutSearch::cover(Piece piece) {
@@ -209,7 +225,7 @@ bool CutSearch::cover_parts(const ChordCut& cut) {
 bool CutSearch::ask_near_worst(Piece& piece, std::uint32_t worst) {
   const Vec3 corner = piece.corner(worst);
   const Vec3 probe = must_halve(piece) ? corner : corner + 0.25 * (middle_of(piece) - corner);
-  const Nearest found = nearest(probe, piece.slot);
+  const Nearest found = nearest(probe, piece, piece.slot);
   ++piece.rounds;
   piece.age = 0;
   piece.slot = found.slot;
@@ -219,8 +235,10 @@ bool CutSearch::ask_near_worst(Piece& piece, std::uint32_t worst) {
 /// Cuts the piece by the cell of its candidate, pushed outward first so that most parts inside are near enough.
 CutSearch::Walked CutSearch::walk(Piece& piece) {
   const CornerTriangle<double> t = triangle_at(piece.slot);
-  const double shift = most_moved(piece), margin = std::max(noise, 2 * shift);
   const double outward = outward_slack(b_, piece, accepted_squared_[piece.depth]);
+  // Moved by more than there is room beside the triangle, the ends of a cut would leave parts that are not near enough.
+  const double shift = outward > 0 ? std::min(most_moved(piece), outward / 4) : most_moved(piece);
+  const double margin = std::max(noise, 2 * shift);
   for (const double push : {outward, 0.0}) {
     for (std::size_t edge = 0; edge < 3; ++edge) {
       const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;
@@ -256,7 +274,7 @@ bool CutSearch::resolve(const Piece& piece, std::uint32_t worst) {
   double apart = 0;
   for (std::uint32_t i = 0; i < piece.count; ++i) {
     const Vec3 corner = piece.corner(i);
-    const Nearest found = nearest(corner, piece.slot);
+    const Nearest found = nearest(corner, piece, piece.slot);
     if (too_far_) return false;
     if (found.slot == piece.slot) continue;
     if (try_near(piece, found.slot)) return true;
@@ -278,8 +296,14 @@ bool CutSearch::resolve(const Piece& piece, std::uint32_t worst) {
   return cover_parts(*cut);
 }
 
-/// Last resort: cuts across the longest diagonal.
+/// Last resort: smaller pieces.
 bool CutSearch::halve(const Piece& piece) {
+  const auto cut = halves_of(piece);
+  return cut && cover_parts(*cut);
+}
+
+/// Across the longest diagonal.
+std::optional<ChordCut> CutSearch::halves_of(const Piece& piece) const {
   Vec3 from, to;
   double longest = -1;
   for (std::uint32_t i = 0; i < piece.count; ++i) {
@@ -293,8 +317,7 @@ bool CutSearch::halve(const Piece& piece) {
   }
   const Vec3 normal = to - from;
   const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
-  const auto cut = cut_by_chord(piece, sides, most_moved(piece));
-  return cut && cover_parts(*cut);
+  return cut_by_chord(piece, sides, most_moved(piece));
 }
 
 }  // namespace meshbound

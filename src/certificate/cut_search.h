@@ -58,14 +58,16 @@ class CutSearch {
   [[nodiscard]] bool cover_interior_by_degree(const Piece& piece);
   [[nodiscard]] bool try_trimmed(const Piece& piece, unsigned sides, double width);
   [[nodiscard]] bool emit_trimmed(const std::vector<Trim>& trims, std::size_t from, std::uint32_t seed);
-  [[nodiscard]] bool cover_strip(Piece strip);
+  [[nodiscard]] bool halve_by_degree(const Piece& piece);
+  [[nodiscard]] bool cover_part(Piece part);
   [[nodiscard]] bool cover(Piece piece);
   [[nodiscard]] bool cover_parts(const ChordCut& cut);
   [[nodiscard]] bool ask_near_worst(Piece& piece, std::uint32_t worst);
   [[nodiscard]] Walked walk(Piece& piece);
   [[nodiscard]] bool resolve(const Piece& piece, std::uint32_t worst);
   [[nodiscard]] bool halve(const Piece& piece);
-  [[nodiscard]] Nearest nearest(const Vec3& p, std::uint32_t hint);
+  [[nodiscard]] std::optional<ChordCut> halves_of(const Piece& piece) const;
+  [[nodiscard]] Nearest nearest(const Vec3& p, const Piece& piece, std::uint32_t hint);
   [[nodiscard]] double most_moved(const Piece& piece) const;
   void emit_cut(const Chord& chord);
   void emit(std::uint32_t slot, ProofNode::Kind kind = ProofNode::Kind::Near);

@@ -18,9 +18,6 @@ constexpr double rim_share = 0x1p-20;
 /// in the sheared coordinates of the verifier's intervals, loses the squared ratio of length to width on top.
 constexpr double view_error = 0x1p-46;
 
-/// Half of what a reader must accept.
-constexpr std::size_t largest_patch = 32768;
-
 /// A triangle clipped by the sides of a piece.
 constexpr std::size_t most_clipped = Piece::capacity + 4;
 
@@ -175,6 +172,7 @@ bool DegreeSearch::crosses_ray(const Seen& p, const Seen& q) const {
 }
 
 bool DegreeSearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed) {
+  patch_.clear();
   if (!set_view(triangle, piece)) return false;
   ++round_;
   patch_.assign(1, seed);

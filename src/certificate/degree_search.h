@@ -34,7 +34,13 @@ class DegreeSearch {
   /// For a piece of `triangle`, with the triangle of B at `seed`, all in B's working frame. O(size of the patch).
   [[nodiscard]] bool proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed);
 
+  /// Whether `proves` gave up last because the patch grew too large: parts of the piece may do.
+  [[nodiscard]] bool patch_was_too_large() const { return patch_.size() == largest_patch; }
+
  private:
+  /// Half of what a reader must accept.
+  static constexpr std::size_t largest_patch = 32768;
+
   /// A vertex as seen along the normal of the source triangle: x and y in its plane, h above it.
   struct Seen {
     double x = 0, y = 0, h = 0;
