@@ -116,6 +116,19 @@ TEST(CoordinateRange, BoundsHoldBetweenMeshesFromBothEnds) {
   }
 }
 
+/// In units of a model of size 2^900 a coordinate of 1e-318 is nothing, but the meshes are not the same for that.
+TEST(CoordinateRange, MeshesThatDifferByWhatUnderflowsAreNotIdentical) {
+  const Eigen::Vector3d far(0x1p900, 0, 0);
+  const TriangleMesh a = single_triangle({0, 1e-318, 0}, far, {0, 0x1p900, 0}),
+                     b = single_triangle({0, 0, 0}, far, {0, 0x1p900, 0});
+  const TriangleMesh flat = single_triangle({0, 0, 1e-318}, far, far), line = single_triangle({0, 0, 0}, far, far);
+  for (const auto& [x, y] : {std::pair(a, b), std::pair(flat, line)}) {
+    const SymmetricDistance result = symmetric_distance(Bvh(x), Bvh(y));
+    EXPECT_LE(exact_distance(x.vertices[0], y).compare(result.a_to_b.bounds.upper), 0);
+    EXPECT_LE(exact_distance(y.vertices[0], x).compare(result.b_to_a.bounds.upper), 0);
+  }
+}
+
 TEST(CoordinateRange, WhatIsBeyondItIsRefused) {
   for (const double beyond : {1e302, 1.7e308, std::numeric_limits<double>::infinity(), std::nan("")}) {
     TriangleMesh mesh = cube(1);

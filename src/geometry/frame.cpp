@@ -27,6 +27,15 @@ double difference_residual(double x, double c) {
   return std::fabs((x - back) + ((back - d) - c));
 }
 
+/// What scaling d by 2^-exponent loses: nothing, but where a coordinate becomes a denormal number, which then is off by
+/// at most 2^-1075. sqrt(3) 2^-1075 < 2^-1074.
+double underflow(const Vec3& d, int exponent) {
+  if (exponent <= 0) return 0;
+  const double least = std::ldexp(1.0, exponent - 1022);
+  const auto is_lost = [least](double x) { return x != 0 && std::fabs(x) < least; };
+  return is_lost(d.x) || is_lost(d.y) || is_lost(d.z) ? 0x1p-1074 : 0;
+}
+
 /// Multiples of a power of two no smaller than the size: c has few bits, so x - c is exact for |x - c| <= |x|.
 double coarse_center(double lo, double hi, double size) {
   const double middle = lo / 2 + hi / 2;
@@ -43,10 +52,11 @@ Vec3 Frame::to_working(const Vec3& p) const { return scaled(p - center, -exponen
 Vec3 Frame::to_model(const Vec3& w) const { return scaled(w, exponent) + center; }
 
 double Frame::rounding_of(const Vec3& p) const {
-  if (center.x == 0 && center.y == 0 && center.z == 0) return 0;
+  const double lost = underflow(p - center, exponent);
+  if (center.x == 0 && center.y == 0 && center.z == 0) return lost;
   const double residual =
       difference_residual(p.x, center.x) + difference_residual(p.y, center.y) + difference_residual(p.z, center.z);
-  return residual > 0 ? next_up(std::ldexp(next_up(residual), -exponent)) : 0;
+  return residual > 0 ? next_up(std::ldexp(next_up(residual), -exponent) + lost) : lost;
 }
 
 double Frame::length_up(double working) const {
