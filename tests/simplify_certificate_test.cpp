@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The certificate as part of the library's simplification.
+#include <gtest/gtest.h>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/cgal/simplify_with_bound.h"
+#include "verify/verifier.h"
+
+namespace meshbound::cgal {
+namespace {
+
+TEST(SimplifyWithBound, GivesEachLevelItsCertificate) {
+  const TriangleMesh original = datasets::torus(1, 0.3, 40, 16);
+  SimplifyOptions options;
+  options.tolerance = 0.05;
+  options.levels = {0.01};
+  EXPECT_FALSE(simplify_with_bound(original, options).last().certificate);
+  options.certificate = true;
+  const SimplifyResult result = simplify_with_bound(original, options);
+  EXPECT_EQ(result.levels.size(), 2U);
+  for (const SimplifiedLevel& level : result.levels) {
+    ASSERT_TRUE(level.certificate);
+    EXPECT_EQ(verify::check_certificate(original, level.mesh, level.certificate->bytes).tolerance, level.tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace meshbound::cgal
