@@ -316,6 +316,19 @@ TEST_F(SimplifyTool, CatchesAFaultyMonitorAndSavesAReproducer) {
   EXPECT_TRUE(fs::exists(in("out.ply")));
 }
 
+TEST_F(SimplifyTool, DropsComponentsAndCountsThemWhenAsked) {
+  const TriangleMesh speck = reference::moved(datasets::icosphere(0.004, 1), {0, 0, 1});
+  write_mesh(in("two.off"), reference::both(datasets::icosphere(1, 3), speck));
+  const Result kept = run("two.off out.off --tolerance 0.02 --json -");
+  EXPECT_EQ(Json::parse(kept.out).at("pruned"), Json({{"components", 0}, {"faces", 0}}));
+  const Result pruned = run("two.off out.off --tolerance 0.02 --prune --json -");
+  ASSERT_EQ(pruned.exit_code, 0) << pruned.err;
+  EXPECT_EQ(Json::parse(pruned.out).at("pruned"), Json({{"components", 1}, {"faces", 80}}));
+  EXPECT_EQ(check(in("two.off"), in("out.off"), 0.02), Verdict::Within);
+  EXPECT_NE(run("two.off out.off --tolerance 0.02 --prune").out.find("pruned     1 components of 80"),
+            std::string::npos);
+}
+
 TEST_F(SimplifyTool, FindsFewerFacesWithMoreEffort) {
   write_mesh(in("torus.off"), datasets::torus(1, 0.3, 90, 36));
   std::vector<std::size_t> faces;

@@ -251,6 +251,79 @@ TEST(SimplifyWithBound, EndsAtTheTargetWithHighEffort) {
   expect_within(torus, result.last());
 }
 
+/// A speck on the surface, one beside it, a square that reaches out of it, and a shell.
+TEST(Pruning, DropsComponentsThatTheRestStandsForAndNoOthers) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  const TriangleMesh speck = datasets::icosphere(0.004, 1);
+  struct Case {
+    const char* name;
+    TriangleMesh part;
+    std::size_t dropped;
+  };
+  const std::vector<Case> cases = {{"on the surface", reference::moved(speck, {0, 0, 1}), 1},
+                                   {"beside it", reference::moved(speck, {0, 0, 1.03}), 0},
+                                   {"reaches out", reference::moved(reference::unit_square(4), {0, 0, 0.995}), 0},
+                                   {"a shell", datasets::icosphere(1.008, 3), 1},
+                                   {"a shell too far", datasets::icosphere(1.05, 3), 0}};
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.name);
+    for (const Effort effort : {Effort::Fast, Effort::Normal}) {
+      const TriangleMesh both = reference::both(sphere, one.part);
+      SimplifyOptions options = within(0.02);
+      options.levels = {0.015};
+      options.effort = effort;
+      const SimplifyResult kept = simplify_with_bound(both, options);
+      EXPECT_EQ(kept.pruned_components, 0u);
+      options.prune = true;
+      const SimplifyResult result = simplify_with_bound(both, options);
+      EXPECT_EQ(result.pruned_components, one.dropped);
+      EXPECT_EQ(result.pruned_faces > 0, one.dropped > 0);
+      expect_within(both, result.levels.front());
+      expect_within(both, result.last());
+      EXPECT_EQ(summarise(result.last().mesh).components, 2 - one.dropped);
+      if (one.dropped > 0) {
+        EXPECT_LT(result.last().faces(), kept.last().faces());
+      }
+    }
+  }
+}
+
+/// All specks lie within the tolerance of another, and no order may drop the last of a chain.
+TEST(Pruning, NeverDropsAllThatStandForOneAnother) {
+  TriangleMesh chain = datasets::icosphere(0.01, 1);
+  for (int i = 1; i < 12; ++i)
+    chain = reference::both(chain, reference::moved(datasets::icosphere(0.01, 1), {0.015 * i, 0, 0}));
+  SimplifyOptions options = within(0.02);
+  options.prune = true;
+  const SimplifyResult result = simplify_with_bound(chain, options);
+  EXPECT_GT(result.pruned_components, 0u);
+  EXPECT_LT(result.pruned_components, 11u);
+  expect_within(chain, result.last());
+}
+
+TEST(Pruning, LeavesWhatIsToStay) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  const TriangleMesh shells = reference::both(sphere, datasets::icosphere(1.005, 2));
+  SimplifyOptions options = within(0.05);
+  options.prune = true;
+  EXPECT_EQ(simplify_with_bound(shells, options).pruned_components, 1u);
+  options.locked_vertices.assign(shells.vertices.size(), false);
+  options.locked_vertices.front() = options.locked_vertices.back() = true;
+  EXPECT_EQ(simplify_with_bound(shells, options).pruned_components, 0u);
+  options.locked_vertices.clear();
+  options.target_faces = shells.triangles.size() - 100;
+  EXPECT_GE(simplify_with_bound(shells, options).last().faces(), *options.target_faces - 2);
+  options.target_faces.reset();
+  options.face_tolerances.assign(shells.triangles.size(), 1e-3);
+  EXPECT_EQ(simplify_with_bound(shells, options).pruned_components, 0u);
+  options.face_tolerances.clear();
+  const TriangleMesh sheets =
+      reference::both(reference::unit_square(8), reference::moved(reference::unit_square(4), {0, 0, 0.01}));
+  EXPECT_EQ(simplify_with_bound(sheets, options).pruned_components, 1u);
+  options.preserve_boundary = true;
+  EXPECT_EQ(simplify_with_bound(sheets, options).pruned_components, 0u);
+}
+
 /// A vertex dragged over the edges around it turns faces over, within the plane and so within any bound.
 TEST(DeviationMonitor, MovesNoVertexThroughTheNormalGuard) {
   SurfaceMesh mesh = to_surface_mesh(reference::unit_square(8));

@@ -42,7 +42,7 @@ struct Options {
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::optional<double> target_ratio;
-  bool preserve_boundary = false;
+  bool preserve_boundary = false, prune = false;
   std::optional<double> feature_angle;
   CommonOptions common;
 };
@@ -74,6 +74,7 @@ void declare(CLI::App& app, Options& options) {
                  "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
       ->check(CLI::IsMember({"fast", "normal", "high"}))
       ->capture_default_str();
+  app.add_flag("--prune", options.prune, "Drop whole components that lie within the tolerance of what remains");
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
   app.add_option("--feature-angle", options.feature_angle,
                  "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
@@ -206,6 +207,7 @@ void Run::simplify() {
                     : options_.effort == "high" ? cgal::Effort::High
                                                 : cgal::Effort::Normal;
   simplify.preserve_boundary = options_.preserve_boundary;
+  simplify.prune = options_.prune;
   if (options_.feature_angle) simplify.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
   // A vertex may leave the box by the tolerance.
   simplify.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
@@ -216,6 +218,7 @@ void Run::simplify() {
   simplify.progress = [&](double fraction) { bar.show(fraction); };
   result_ = cgal::simplify_with_bound(original_, simplify);
   report_.effort = options_.effort;
+  report_.pruned = {result_.pruned_components, result_.pruned_faces};
   report_.stopped_by = to_string(result_.last().ended_by);
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused};
   report_.seconds.simplify = watch_.lap();
@@ -276,6 +279,7 @@ std::filesystem::path Run::save_reproducer(GatedOutput& rejected, double toleran
                             {"cost", options_.cost},
                             {"effort", options_.effort},
                             {"preserve_boundary", options_.preserve_boundary},
+                            {"prune", options_.prune},
                             {"threads", options_.common.threads}};
   if (options_.target_faces) options["target_faces"] = *options_.target_faces;
   if (options_.feature_angle) options["feature_angle"] = *options_.feature_angle;
@@ -371,6 +375,8 @@ void Run::print_summary() const {
               to_string(verdict_).c_str());
   print_direction("original to simplified", out.distance().a_to_b);
   print_direction("simplified to original", out.distance().b_to_a);
+  if (options_.prune)
+    std::printf("pruned     %zu components of %zu faces\n", result_.pruned_components, result_.pruned_faces);
   if (result_.split) std::printf("input      not an oriented 2-manifold: cut into one for decimation\n");
   if (result_.dropped_triangles + result_.kept_triangles > 0)
     std::printf("input      %zu duplicate or degenerate triangles dropped, %zu kept as they are\n",

@@ -117,6 +117,11 @@ class DeviationTracker {
 
   /// True when the bound is proven to survive the change. Nothing changes until `commit`.
   [[nodiscard]] bool admits(const SurfaceChange& change);
+  /// True when the bound is proven to survive the removal of current faces without a substitute: what they stand for is
+  /// within the tolerance of other faces. Those that held a part of the original at `begin_removals`, O(n log n), and
+  /// still do are tried.
+  void begin_removals();
+  [[nodiscard]] bool admits_removal(std::span<const std::uint32_t> removed);
   /// Makes the change that the last call of `admits` admitted. Throws `Error` when there is none.
   void commit();
 

@@ -64,7 +64,10 @@ struct SimplifyReport {
   MeshReport simplified;       ///< as written
   SymmetricDistance distance;  ///< a: the original, b: the simplified mesh as written
   std::string stopped_by;      ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
-  std::string effort;          ///< "fast", "normal" or "high"
+  struct Pruned {
+    std::size_t components = 0, faces = 0;  ///< as of when they were dropped
+  } pruned;
+  std::string effort;  ///< "fast", "normal" or "high"
   std::vector<LevelReport> levels;
   std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
   struct Collapses {

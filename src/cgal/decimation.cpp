@@ -153,10 +153,20 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
   below_rounding_ = !(frame_tolerance_ > 2 * room());
   if (below_rounding_) return EndedBy::Rounding;
   monitor_->grow_tolerance(frame_tolerance_ - room());
+  prune();
   const std::uint64_t before = work();
   passes_until_nothing_fits();
   if (options_.effort == Effort::High && options_.on_exceed == OnExceed::Skip && !ended_by_) refine(work() - before);
+  if (!ended_by_) prune();
   return ended_by_.value_or(EndedBy::NothingFits);
+}
+
+/// Before the passes, while the other components are still as the original has them, and once more after.
+void Decimation::prune() {
+  if (!options_.prune) return;
+  const Monitor::Dropped dropped = monitor_->drop_components(target_faces_);
+  pruned_.components += dropped.components;
+  pruned_.faces += dropped.faces;
 }
 
 void Decimation::passes_until_nothing_fits() {
@@ -291,6 +301,8 @@ void Decimation::describe(SimplifyResult& result) const {
   result.kept_triangles = monitor_->uncovered().size();
   result.dropped_triangles = copy_.dropped_triangles - result.kept_triangles;
   result.split = copy_.split;
+  result.pruned_components = pruned_.components;
+  result.pruned_faces = pruned_.faces;
   result.tolerance_below_rounding = below_rounding_;
   result.stats = monitor_->tracker().stats();
 }

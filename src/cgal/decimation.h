@@ -43,6 +43,7 @@ class Decimation {
   [[nodiscard]] double room() const;
   [[nodiscard]] std::vector<bool> locked_copies() const;
   [[nodiscard]] KeptParts kept_parts() const;
+  void prune();
   void pass();
   void passes_until_nothing_fits();
   void refine(std::uint64_t work_of_passes);
@@ -72,6 +73,7 @@ class Decimation {
   std::optional<EndedBy> ended_by_;
   bool below_rounding_ = false;
   bool has_locks_ = false;
+  Monitor::Dropped pruned_;
 };
 
 }  // namespace meshbound::cgal

@@ -12,6 +12,7 @@ std::string to_json(const SimplifyReport& from) {
   json["distance"] = symmetric(from.distance);
   json["stopped_by"] = from.stopped_by;
   json["effort"] = from.effort;
+  json["pruned"] = {{"components", from.pruned.components}, {"faces", from.pruned.faces}};
   json["levels"] = Json::array();
   for (const LevelReport& level : from.levels) {
     json["levels"].push_back({{"tolerance", number(level.tolerance)},

@@ -8,6 +8,7 @@
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
 #include "numeric/rounding.h"
+#include "simplify/box_tree.h"
 #include "simplify/cover_assignment.h"
 #include "simplify/degree_cover.h"
 #include "simplify/forward_cover.h"
@@ -29,6 +30,11 @@ using Corners = std::array<Vec3, 3>;
 Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Corners corners_of(const TrackedFace& face) {
   return {to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])};
+}
+Eigen::AlignedBox3d box_of(const Corners& corners) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3 p : corners) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+  return box;
 }
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -97,6 +103,9 @@ struct DeviationTracker::Impl {
   std::uint32_t candidate_round = 0;
   FaceMask added_bits = 0;
 
+  std::optional<BoxTree> face_boxes;        ///< at the last `begin_removals`
+  std::vector<std::uint32_t> boxed, found;  ///< faces of the boxes; indices of boxes
+
   struct Pending {
     bool admitted = false;
     std::vector<TrackedFace> added;            ///< those that differ from the current face of their id
@@ -146,6 +155,8 @@ struct DeviationTracker::Impl {
   [[nodiscard]] bool cover_one(std::size_t i, const SurfaceChange& change);
   void find_ring(const SurfaceChange& change);
   [[nodiscard]] bool added_faces_near();
+  [[nodiscard]] Refusal examine_removal();
+  [[nodiscard]] bool cover_by_others(std::size_t i);
 };
 
 /// What must be proven in doubles so that `value` holds in real arithmetic.
@@ -427,6 +438,62 @@ bool DeviationTracker::admits(const SurfaceChange& change) {
   else
     ++impl_->stats.refused[static_cast<std::size_t>(impl_->refusal)];
   return impl_->pending.admitted;
+}
+
+void DeviationTracker::begin_removals() {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  impl_->boxed.clear();
+  for (std::uint32_t face = 0; face < impl_->corners.size(); ++face) {
+    if (impl_->cover.originals_of(face).empty()) continue;
+    impl_->boxed.push_back(face);
+    boxes.push_back(box_of(impl_->corners[face]));
+  }
+  impl_->face_boxes.emplace(std::move(boxes));
+}
+
+bool DeviationTracker::admits_removal(std::span<const std::uint32_t> removed) {
+  SurfaceChange change;
+  change.removed = removed;
+  impl_->select(change);
+  impl_->uncovered = SurfaceChange::no_triangle;
+  impl_->refusal = impl_->examine_removal();
+  impl_->pending.admitted = impl_->refusal == Refusal::None;
+  return impl_->pending.admitted;
+}
+
+/// Of the original triangles that `select` found.
+Refusal DeviationTracker::Impl::examine_removal() {
+  if (pending.affected.empty()) return Refusal::None;
+  limit = limit_of_change();
+  if (!(limit > 0)) return Refusal::ToleranceBelowRounding;
+  for (std::size_t i = 0; i < pending.affected.size(); ++i) {
+    if (cover_by_others(i)) continue;
+    uncovered = pending.affected[i];
+    return Refusal::OriginalUncovered;
+  }
+  return Refusal::None;
+}
+
+/// The faces nearest to the middle of the triangle where there are too many.
+bool DeviationTracker::Impl::cover_by_others(std::size_t i) {
+  const Triangle& t = triangles[pending.affected[i]];
+  const Eigen::AlignedBox3d box = box_of({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+  const Eigen::Vector3d middle = box.center();
+  found.clear();
+  if (face_boxes) face_boxes->find({box.min().array() - tolerance, box.max().array() + tolerance}, found);
+  std::erase_if(found, [&](std::uint32_t k) { return !is_current(boxed[k]) || cover.originals_of(boxed[k]).empty(); });
+  const auto distance = [&](std::uint32_t k) { return box_of(corners[boxed[k]]).squaredExteriorDistance(middle); };
+  if (found.size() > CandidateFaces::capacity)
+    std::stable_sort(found.begin(), found.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+  forward.begin(limit);
+  ++candidate_round;
+  for (const std::uint32_t k : found) candidate_bit(boxed[k]);
+  CoverAssignment::Ids& ids = pending.covers[i];
+  ids.clear();
+  for (FaceMask used = forward.cover(pending.affected[i], ForwardCover::first(forward.size()), 0); used != 0;
+       used &= used - 1)
+    ids.push_back(forward.face(std::countr_zero(used)));
+  return !ids.empty();
 }
 
 void DeviationTracker::commit() {

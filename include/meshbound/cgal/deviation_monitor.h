@@ -155,6 +155,14 @@ class DeviationMonitor {
   bool move_vertex(Vertex v, const Point& to);
   bool flip_edge(Edge e);
 
+  struct Dropped {
+    std::size_t components = 0, faces = 0;
+  };
+  /// Removes components, the smallest first, as long as `least_faces` are left: those whose part of the original is
+  /// proven to lie within the tolerance of what remains. Ones with locked vertices, and with `preserve_boundary` ones
+  /// with a border, stay. Between two runs of `edge_collapse`. O(n log n + size of the original).
+  Dropped drop_components(std::size_t least_faces = 0);
+
   [[nodiscard]] std::size_t faces() const { return faces_; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   /// True when the last collapse that was refused broke the bound: not the normal guard, nor an unchanged repetition.
@@ -208,6 +216,8 @@ class DeviationMonitor {
   [[nodiscard]] double mean_edge() const;
   [[nodiscard]] bool gather_flip(Halfedge h);
   void commit_move(Vertex v, const Point& to);
+  [[nodiscard]] std::vector<std::vector<Face>> components() const;
+  void remove_component(const std::vector<Face>& component);
   void touch_around(Vertex v);
   /// The k-th of the fallback placements beside `wanted`, for the edge whose star was gathered last.
   [[nodiscard]] Point fallback(int k, const Point& p0, const Point& p1, const Point& wanted) const;
@@ -251,6 +261,7 @@ class DeviationMonitor {
 
 }  // namespace meshbound::cgal
 
+#include "meshbound/cgal/internal/deviation_monitor_components.h"
 #include "meshbound/cgal/internal/deviation_monitor_edits.h"
 #include "meshbound/cgal/internal/deviation_monitor_handles.h"
 #include "meshbound/cgal/internal/deviation_monitor_impl.h"

@@ -56,6 +56,9 @@ struct SimplifyOptions {
   std::vector<double> levels;
   Effort effort = Effort::Normal;
   CollapseCost cost = CollapseCost::GarlandHeckbert;
+  /// Whole components whose every point lies within the tolerance of what remains are dropped, the smallest first. Not
+  /// those with locked vertices or, with `preserve_boundary`, with a border.
+  bool prune = false;
   bool preserve_boundary = false;  ///< edges with one face stay as they are
   /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.
   std::vector<bool> locked_vertices;
@@ -96,6 +99,8 @@ struct SimplifyResult {
   std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
   std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
   std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: part of every level as they are
+  std::size_t pruned_components = 0;      ///< dropped as wholes, `SimplifyOptions::prune`
+  std::size_t pruned_faces = 0;           ///< that these had when they were dropped
   bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
   bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
   TrackerStats stats;
