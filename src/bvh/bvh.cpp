@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -63,7 +64,13 @@ Eigen::AlignedBox3d checked_box(const MeshView& mesh, int threads) {
   return {box.min() + Eigen::Vector3d::Zero(), box.max() + Eigen::Vector3d::Zero()};
 }
 
-int thread_count(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
+/// A build has some twenty parallel steps; below this many triangles each is over before another thread has woken up.
+constexpr std::size_t triangles_per_thread = 4096;
+
+int thread_count(int wanted, std::size_t triangles) {
+  const int most = wanted > 0 ? wanted : omp_get_max_threads();
+  return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(most), 1 + triangles / triangles_per_thread));
+}
 
 std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
   check_floating_point_model();
@@ -95,7 +102,8 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};
 }
 
-Bvh::Bvh(const MeshView& mesh, const BvhOptions& options) : data_(build(mesh, thread_count(options.threads))) {}
+Bvh::Bvh(const MeshView& mesh, const BvhOptions& options)
+    : data_(build(mesh, thread_count(options.threads, mesh.triangle_count()))) {}
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 Bvh::~Bvh() = default;

@@ -42,8 +42,13 @@ Goal make_goal(const OneSidedTask& task, const Mapping& map) {
   return goal;
 }
 
+/// Where both models are small a search is over before another thread has woken up.
+constexpr std::size_t triangles_per_thread = 1024;
+
 int thread_count(const OneSidedTask& task) {
-  return task.options.threads > 0 ? task.options.threads : omp_get_max_threads();
+  const int most = task.options.threads > 0 ? task.options.threads : omp_get_max_threads();
+  const std::size_t larger = std::max(task.a.bvh->triangle_count(), task.b.bvh->triangle_count());
+  return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(most), 1 + larger / triangles_per_thread));
 }
 
 }  // namespace
