@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "distance/exact_match.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 
@@ -18,21 +19,6 @@ bool same_arrays(const MeshView& a, const MeshView& b) {
   for (std::size_t v = 0; v < a.vertex_count(); ++v)
     if (a.vertex(v) != b.vertex(v)) return false;
   return true;
-}
-
-std::vector<Vec3> positions_of(const MeshView& mesh) {
-  std::vector<Vec3> positions(mesh.vertex_count());
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Eigen::Vector3d p = mesh.vertex(v);
-    positions[v] = {p.x(), p.y(), p.z()};
-  }
-  return positions;
-}
-
-std::vector<Triangle> triangles_of(const MeshView& mesh) {
-  std::vector<Triangle> triangles(mesh.triangle_count());
-  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = mesh.triangle(i);
-  return triangles;
 }
 
 /// Finds the triangles of one mesh in another.

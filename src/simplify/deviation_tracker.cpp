@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
 #include "numeric/rounding.h"
@@ -37,18 +38,6 @@ Eigen::AlignedBox3d box_of(const Corners& corners) {
   return box;
 }
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-std::vector<Vec3> vertices_of(const MeshView& mesh) {
-  std::vector<Vec3> vertices(mesh.vertex_count());
-  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = to_vec3(mesh.vertex(i));
-  return vertices;
-}
-
-std::vector<Triangle> triangles_of(const MeshView& mesh) {
-  std::vector<Triangle> triangles(mesh.triangle_count());
-  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = mesh.triangle(i);
-  return triangles;
-}
 
 /// Marks for sets of ids that are emptied in O(1).
 class MarkedIds {
@@ -121,7 +110,7 @@ struct DeviationTracker::Impl {
   TrackerStats stats;
 
   Impl(const MeshView& original, const Bvh& bvh)
-      : vertices(vertices_of(original)),
+      : vertices(positions_of(original)),
         triangles(triangles_of(original)),
         proximity(bvh),
         cover(triangles.size()),

@@ -9,20 +9,12 @@
 #include <system_error>
 #include <utility>
 
+#include "common/output_target.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
 
-PendingFile::PendingFile(std::filesystem::path path) : path_(std::move(path)), target_(path_) {
-  std::error_code none;
-  if (std::filesystem::is_symlink(path_, none)) target_ = std::filesystem::weakly_canonical(path_);
-  if (std::filesystem::is_directory(target_, none)) throw IoError(path_.string() + " is a folder; name a file in it");
-  const std::filesystem::path folder = target_.parent_path().empty() ? "." : target_.parent_path();
-  if (!std::filesystem::is_directory(folder, none))
-    throw IoError("cannot write " + path_.string() + ": no such folder");
-  if (access(folder.c_str(), W_OK) != 0)
-    throw IoError("cannot write " + path_.string() + ": the folder is not writable");
-}
+PendingFile::PendingFile(std::filesystem::path path) : path_(std::move(path)), target_(output_target(path_)) {}
 
 bool PendingFile::is_at(const std::filesystem::path& other) const {
   return std::filesystem::weakly_canonical(target_) == std::filesystem::weakly_canonical(other);
