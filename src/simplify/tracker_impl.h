@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+/// What `DeviationTracker` keeps; the members are defined by concept: tracker_start.cpp (faces of the beginning),
+/// tracker_examine.cpp (changes), tracker_removal.cpp, and the public face in deviation_tracker.cpp.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "meshbound/deviation_tracker.h"
+#include "meshbound/proximity.h"
+#include "simplify/box_tree.h"
+#include "simplify/cover_assignment.h"
+#include "simplify/degree_cover.h"
+#include "simplify/forward_cover.h"
+#include "simplify/local_deviation.h"
+#include "simplify/local_tolerance.h"
+#include "simplify/marked_ids.h"
+
+namespace meshbound {
+
+/// Corners of a face in our own vectors.
+using FaceCorners = std::array<Vec3, 3>;
+
+inline Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+inline FaceCorners corners_of(const TrackedFace& face) {
+  return {to_vec3(face.corners[0]), to_vec3(face.corners[1]), to_vec3(face.corners[2])};
+}
+inline Eigen::AlignedBox3d box_of(const FaceCorners& corners) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3 p : corners) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+  return box;
+}
+
+struct DeviationTracker::Impl {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  Proximity proximity;
+  double tolerance = 0;
+  double working_tolerance = 0;         ///< what is proven, see `set_tolerance`
+  double magnitude = 0;                 ///< largest coordinate seen
+  std::optional<LocalTolerance> local;  ///< where triangles have tolerances of their own
+  double limit = 0;                     ///< what must be proven for the change under test
+  bool covered_with_room = false;       ///< `cover_the_rest` has used a tolerance above 0
+
+  CoverAssignment cover;
+  std::vector<FaceCorners> corners;    ///< of current faces, by id
+  std::vector<std::uint32_t> nearest;  ///< original triangle near each current face: hint of the backward check
+
+  ForwardCover forward;
+  DegreeCover degree;
+  LocalDeviation deviation;
+  std::vector<FaceCorners> deviation_faces;
+  std::vector<std::uint32_t> deviation_originals;
+  MarkedIds removed_marks, kept_marks, affected_marks;
+
+  /// Where a face is among the candidates of `forward` in the present round.
+  struct Candidate {
+    std::uint32_t round = 0;
+    int index = ForwardCover::no_room;
+  };
+  std::vector<Candidate> candidates;  ///< by face id
+  std::uint32_t candidate_round = 0;
+  FaceMask added_bits = 0;
+
+  std::optional<BoxTree> face_boxes;        ///< at the last `begin_removals`
+  std::vector<std::uint32_t> boxed, found;  ///< faces of the boxes; indices of boxes
+
+  struct Pending {
+    bool admitted = false;
+    std::vector<TrackedFace> added;            ///< those that differ from the current face of their id
+    std::vector<std::uint32_t> nearest;        ///< original triangle near each of `added`
+    std::vector<std::uint32_t> affected;       ///< original triangles that lost a face
+    std::vector<CoverAssignment::Ids> covers;  ///< new cover of each of `affected`; grows, never shrinks
+  } pending;
+  std::vector<std::uint32_t> ring;
+  bool ring_known = false;
+
+  Refusal refusal = Refusal::None;
+  std::uint32_t uncovered = SurfaceChange::no_triangle;
+  TrackerStats stats;
+
+  Impl(const MeshView& original, const Bvh& bvh);
+  void set_tolerance(double value);
+  [[nodiscard]] double provable(double value) const;
+  [[nodiscard]] double limit_of_change() const;
+  void put_face(std::uint32_t id, const FaceCorners& at, std::uint32_t near);
+
+  void select(const SurfaceChange& change);
+  [[nodiscard]] Refusal examine(const SurfaceChange& change);
+  [[nodiscard]] bool moved_vertex_near(const SurfaceChange& change);
+  [[nodiscard]] Refusal cover_affected(const SurfaceChange& change);
+  [[nodiscard]] bool is_current(std::uint32_t face) const {
+    return !removed_marks.contains(face) || kept_marks.contains(face);
+  }
+  FaceMask candidate_bit(std::uint32_t face);
+  void enter_added_faces();
+  [[nodiscard]] FaceMask added_of(std::uint32_t t) const;
+  FaceMask relied_on(std::uint32_t t);
+  [[nodiscard]] bool cover_one(std::size_t i, const SurfaceChange& change);
+  void find_ring(const SurfaceChange& change);
+  [[nodiscard]] bool added_faces_near();
+  [[nodiscard]] Refusal examine_removal();
+  [[nodiscard]] bool cover_by_others(std::size_t i);
+};
+
+}  // namespace meshbound
