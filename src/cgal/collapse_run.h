@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "cgal/collapse_policies.h"
+#include "cgal/refinement.h"
+#include "meshbound/cgal/deviation_monitor.h"
+#include "meshbound/cgal/simplify_with_bound.h"
+
+namespace meshbound::cgal {
+
+/// When a `CollapseRun` ends, beside where nothing fits. Lengths as in its mesh.
+struct CollapseGoal {
+  using Clock = std::chrono::steady_clock;
+
+  double tolerance = 0;
+  double room = 0;  ///< taken off the tolerance before anything is proven
+  std::size_t target_faces = 0;
+  Clock::time_point began;
+  double seconds = 0;  ///< from `began`
+};
+
+/// A mesh under collapses: the monitor that proves them, their cost and placement, and the passes over the edges.
+class CollapseRun {
+ public:
+  using Monitor = DeviationMonitor<SurfaceMesh>;
+
+  /// `copy` was made from `original`, and `locked` tells by vertex of the copy, or is empty, which of them stay where
+  /// they are. `original` and `options` must outlive this.
+  CollapseRun(ManifoldCopy copy, const TriangleMesh& original, const SimplifyOptions& options,
+              const std::vector<bool>& locked);
+  CollapseRun(const CollapseRun&) = delete;
+  CollapseRun& operator=(const CollapseRun&) = delete;
+
+  /// Collapses edges until nothing fits or the goal is reached. The tolerance, less the room, must be above 0 and not
+  /// smaller than in the call before.
+  EndedBy run(const CollapseGoal& goal);
+
+  [[nodiscard]] const ManifoldCopy& copy() const { return copy_; }
+  [[nodiscard]] Monitor& monitor() { return *monitor_; }
+  [[nodiscard]] const Monitor& monitor() const { return *monitor_; }
+  [[nodiscard]] const Monitor::Dropped& pruned() const { return pruned_; }
+
+ private:
+  /// `edge_collapse` filter: the monitor's, and for OnExceed::Stop the end of the run where a refusal is confirmed.
+  class Filter;
+
+  [[nodiscard]] bool must_stop(std::size_t faces);
+  [[nodiscard]] bool truly_exceeds();
+  [[nodiscard]] TriangleMesh after_refused_collapse() const;
+  void lock_vertices(const std::vector<bool>& locked);
+  [[nodiscard]] KeptParts kept_parts() const;
+  void prune();
+  void pass();
+  void passes_until_nothing_fits();
+  void refine(std::uint64_t work_of_passes);
+  /// Proofs of original triangles so far: what most of the time goes with.
+  [[nodiscard]] std::uint64_t work() const { return monitor_->tracker().stats().originals_tested; }
+  void show_progress(std::size_t faces);
+
+  const TriangleMesh& original_;
+  const SimplifyOptions& options_;
+  ManifoldCopy copy_;
+  std::optional<Monitor> monitor_;
+  std::optional<CollapsePolicies> policies_;
+  std::optional<Refinement> refinement_;
+  bool has_locks_ = false;
+
+  CollapseGoal goal_;
+  std::uint64_t stop_checks_ = 0;
+  std::optional<EndedBy> ended_by_;
+  Monitor::Dropped pruned_;
+};
+
+}  // namespace meshbound::cgal
