@@ -8,6 +8,8 @@
 #include <array>
 #include <numeric>
 
+#include "cgal/oriented_manifold.h"
+
 namespace meshbound::cgal {
 namespace {
 
@@ -97,7 +99,7 @@ ManifoldCopy manifold_copy(const TriangleMesh& soup) {
     }
     polygons.push_back(polygon);
   }
-  if (!PMP::is_polygon_soup_a_polygon_mesh(polygons)) {
+  if (!is_oriented_manifold(polygons, points.size())) {
     copy.split = true;
     const std::size_t before = points.size();
     PMP::orient_polygon_soup(points, polygons);
@@ -112,7 +114,7 @@ ManifoldCopy manifold_copy(const TriangleMesh& soup) {
         }
       }
     }
-    if (!PMP::is_polygon_soup_a_polygon_mesh(polygons))
+    if (!is_oriented_manifold(polygons, points.size()))
       throw InvalidInput("the triangles cannot be arranged as a 2-manifold, which decimation needs; repair the mesh");
   }
   PMP::polygon_soup_to_polygon_mesh(points, polygons, copy.mesh);
