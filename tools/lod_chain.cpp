@@ -3,42 +3,23 @@
 // them has been written, read back and measured.
 #include "meshbound/cgal/lod_chain.h"
 
-#include <omp.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include "common/gated_output.h"
 #include "common/length.h"
 #include "common/output.h"
-#include "common/progress.h"
-#include "common/signals.h"
-#include "common/stopwatch.h"
-#include "common/tool_main.h"
+#include "decimation/decimation_run.h"
 #include "meshbound/error.h"
-#include "meshbound/io.h"
-#include "meshbound/report.h"
 
 namespace meshbound::tools {
 namespace {
 
-/// Share of the time limit that decimation may use; the rest is for the proof of what came out.
-constexpr double simplify_share = 0.7;
-
-/// Width of the measured interval, as a share of the original's diagonal.
-constexpr double relative_error_bound = 1e-6;
-
-struct Options {
-  std::string input, folder, format = "ply", cost = "garland-heckbert";
+struct Options : DecimationOptions {
+  std::string folder, format = "ply";
   std::vector<std::string> levels, distances;
   std::optional<double> pixels, screen_height, fov;
-  bool preserve_boundary = false;
-  std::optional<double> feature_angle;
-  CommonOptions common;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -56,14 +37,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--format", options.format, "Format of the level files")
       ->check(CLI::IsMember({"ply", "obj", "off", "stl"}))
       ->capture_default_str();
-  app.add_option("--cost", options.cost, "What makes a collapse cheap")
-      ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
-      ->capture_default_str();
-  app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
-  app.add_option("--feature-angle", options.feature_angle,
-                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
-      ->check(CLI::Range(0.0, 180.0));
-  add_common_options(app, options.common);
+  add_decimation_options(app, options);
 }
 
 /// The folder of the chain; one that was made for it goes again when nothing came to stand in it.
@@ -89,9 +63,9 @@ class OutputFolder {
 };
 
 /// One run of the tool, in the order of its phases.
-class Run {
+class Run : DecimationRun {
  public:
-  explicit Run(const Options& options) : options_(options), interrupted_(watch_interrupts()) {}
+  explicit Run(const Options& options) : DecimationRun(options), options_(options) {}
   int operator()();
 
  private:
@@ -100,22 +74,12 @@ class Run {
   void choose_tolerances();
   void open_outputs();
   void make_levels();
-  [[nodiscard]] cgal::LodOptions chain_options(ProgressBar& bar) const;
   [[nodiscard]] bool take(std::size_t index, const cgal::LodLevel& level);
   void publish();
   void print_summary() const;
-  [[nodiscard]] double remaining(double share) const {
-    return options_.common.has_time_limit ? std::max(0.0, share * options_.common.time_limit - watch_.seconds())
-                                          : std::numeric_limits<double>::infinity();
-  }
 
   const Options& options_;
-  const std::atomic<bool>& interrupted_;
-  Stopwatch watch_;
-  TriangleMesh original_;
-  double largest_coordinate_ = 0;
   std::optional<Bvh> tree_;
-  std::vector<double> tolerances_;  ///< ascending, without repetitions
   std::optional<OutputFolder> folder_;
   std::vector<GatedOutput> outputs_;  ///< one for each tolerance
   LodReport report_;
@@ -156,27 +120,20 @@ void Run::check_usage() const {
 }
 
 void Run::read() {
-  original_ = read_mesh(options_.input).mesh;
-  validate(original_);
-  report_.original = {options_.input, summarise(original_)};
-  const Eigen::AlignedBox3d box = used_bounding_box(original_);
-  largest_coordinate_ = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  read_original(report_.original);
   report_.seconds.read = watch_.lap();
 }
 
 void Run::choose_tolerances() {
-  const double diagonal = report_.original.summary.bbox_diagonal;
-  for (const std::string& level : options_.levels)
-    tolerances_.push_back(parse_length("--levels", level).in_model_units(diagonal));
+  add_tolerances("--levels", options_.levels);
   if (options_.pixels) {
     const Screen screen{*options_.screen_height, *options_.fov / 180 * std::numbers::pi};
     report_.view = LodReport::View{*options_.pixels, screen};
     for (const std::string& distance : options_.distances)
       tolerances_.push_back(screen_space_tolerance(screen, *options_.pixels,
-                                                   parse_length("--distances", distance).in_model_units(diagonal)));
+                                                   parse_length("--distances", distance).in_model_units(diagonal_)));
   }
-  std::sort(tolerances_.begin(), tolerances_.end());
-  tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
+  sort_tolerances();
 }
 
 void Run::open_outputs() {
@@ -185,30 +142,14 @@ void Run::open_outputs() {
     outputs_.emplace_back(folder_->path() / ("lod_" + std::to_string(i) + "." + options_.format));
 }
 
-cgal::LodOptions Run::chain_options(ProgressBar& bar) const {
-  cgal::LodOptions chain;
-  chain.cost =
-      options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
-  chain.preserve_boundary = options_.preserve_boundary;
-  if (options_.feature_angle) chain.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
-  // A vertex may leave the box by the tolerance.
-  chain.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
-  chain.measure = false;  // the file is what counts: `take` measures that
-  chain.time_limit = remaining(simplify_share);
-  chain.threads = options_.common.threads;
-  chain.cancel = &interrupted_;
-  chain.progress = [&bar](double fraction) { bar.show(fraction); };
-  return chain;
-}
-
 void Run::make_levels() {
   ProgressBar bar("simplifying and measuring", options_.common.quiet);
   report_.verdict = Verdict::Within;
   tree_.emplace(original_, BvhOptions{options_.common.threads});
   report_.seconds.certify += watch_.lap();
-  cgal::build_lod_chain(original_, tolerances_, chain_options(bar),
+  cgal::build_lod_chain(original_, tolerances_, decimation(outputs_.back(), bar),
                         [&](std::size_t index, cgal::LodLevel&& level) { return take(index, level); });
-  report_.threads = options_.common.threads > 0 ? options_.common.threads : omp_get_max_threads();
+  report_.threads = threads();
   report_.seconds.total = watch_.seconds();
 }
 
@@ -219,14 +160,9 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   GatedOutput& output = outputs_[index];
   output.write(level.mesh);
   report_.seconds.write += watch_.lap();
-  DistanceOptions distance;
-  distance.error_bound = relative_error_bound * report_.original.summary.bbox_diagonal;
-  distance.tolerance = level.tolerance;
-  distance.budget.seconds = remaining(1);
-  distance.threads = options_.common.threads;
-  distance.cancel = &interrupted_;
+  const DistanceOptions distance = measurement(level.tolerance);
   output.measure(*tree_, distance);
-  const bool fell_back = output.verdict() == Verdict::Undecided && options_.common.has_time_limit && !interrupted_;
+  const bool fell_back = must_fall_back(output);
   if (fell_back) output.fall_back(index > 0 ? &outputs_[index - 1] : nullptr, original_, *tree_, distance);
   report_.seconds.certify += watch_.lap();
   report_.verdict = output.verdict();
@@ -255,18 +191,16 @@ void Run::publish() {
 }
 
 void Run::print_summary() const {
-  const double diagonal = report_.original.summary.bbox_diagonal;
   std::printf("original   %s, %zu faces\n", options_.input.c_str(), report_.original.summary.faces);
   for (const LodReport::Level& level : report_.levels) {
     std::printf("%-10s %zu faces, tolerance %s, distance [%.6g, %.6g]", level.file.c_str(), level.faces,
-                both_units(level.tolerance, diagonal).c_str(), level.distance.bounds.lower,
+                both_units(level.tolerance, diagonal_).c_str(), level.distance.bounds.lower,
                 level.distance.bounds.upper);
     if (level.view_distance) std::printf(", from view distance %s on", short_number(*level.view_distance).c_str());
     std::printf("\n");
   }
   std::printf("verdict    %s\n", to_string(report_.verdict).c_str());
-  std::printf("seconds    read %.2f, simplify %.2f, write %.2f, certify %.2f, total %.2f\n", report_.seconds.read,
-              report_.seconds.simplify, report_.seconds.write, report_.seconds.certify, report_.seconds.total);
+  print_seconds(report_.seconds);
 }
 
 }  // namespace

@@ -3,48 +3,30 @@
 // appears under OUT has been written, read back and measured against IN before.
 #include "meshbound/cgal/simplify_with_bound.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <vector>
 
-#include "common/gated_output.h"
 #include "common/length.h"
 #include "common/output.h"
 #include "common/pending_file.h"
-#include "common/progress.h"
-#include "common/signals.h"
-#include "common/stopwatch.h"
-#include "common/tool_main.h"
+#include "decimation/decimation_run.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
-#include "meshbound/io.h"
-#include "meshbound/report.h"
 
 namespace meshbound::tools {
 namespace {
 
-/// Share of the time limit that decimation may use; the rest is for the proof of what came out.
-constexpr double simplify_share = 0.7;
-
-/// Width of the measured interval, as a share of the original's diagonal.
-constexpr double relative_error_bound = 1e-6;
-
-struct Options {
-  std::string input, output, tolerance, on_exceed = "skip", cost = "garland-heckbert", effort = "normal", output_dir,
-                                        certificate;
+struct Options : DecimationOptions {
+  std::string output, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::optional<double> target_ratio;
-  bool preserve_boundary = false, prune = false;
-  std::optional<double> feature_angle;
-  CommonOptions common;
+  bool prune = false;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -67,25 +49,18 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--certificate", options.certificate,
                  "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
                  "FILE_level_1 and so on");
-  app.add_option("--cost", options.cost, "What makes a collapse cheap")
-      ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
-      ->capture_default_str();
   app.add_option("--effort", options.effort,
                  "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
       ->check(CLI::IsMember({"fast", "normal", "high"}))
       ->capture_default_str();
   app.add_flag("--prune", options.prune, "Drop whole components that lie within the tolerance of what remains");
-  app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
-  app.add_option("--feature-angle", options.feature_angle,
-                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
-      ->check(CLI::Range(0.0, 180.0));
-  add_common_options(app, options.common);
+  add_decimation_options(app, options);
 }
 
 /// One run of the tool, in the order of its phases.
-class Run {
+class Run : DecimationRun {
  public:
-  explicit Run(const Options& options) : options_(options), interrupted_(watch_interrupts()) {}
+  explicit Run(const Options& options) : DecimationRun(options), options_(options) {}
   int operator()();
 
  private:
@@ -101,17 +76,8 @@ class Run {
   void report();
   void print_summary() const;
   [[nodiscard]] std::string end_reason() const;
-  [[nodiscard]] double remaining(double share) const {
-    return options_.common.has_time_limit ? std::max(0.0, share * options_.common.time_limit - watch_.seconds())
-                                          : std::numeric_limits<double>::infinity();
-  }
 
   const Options& options_;
-  const std::atomic<bool>& interrupted_;
-  Stopwatch watch_;
-  TriangleMesh original_;
-  double largest_coordinate_ = 0;
-  std::vector<double> tolerances_;  ///< ascending, without repetitions; the last is that of OUT
   std::vector<GatedOutput> outputs_;
   std::vector<PendingFile> certificates_;  ///< of the outputs, when they are asked for
   cgal::SimplifyResult result_;
@@ -138,28 +104,23 @@ int Run::operator()() {
 }
 
 void Run::read() {
-  original_ = read_mesh(options_.input).mesh;
-  validate(original_);
-  report_.original = {options_.input, summarise(original_)};
-  const Eigen::AlignedBox3d box = used_bounding_box(original_);
-  largest_coordinate_ = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  read_original(report_.original);
   report_.seconds.read = watch_.lap();
 }
 
+/// The last is that of OUT.
 void Run::choose_tolerances() {
-  const double diagonal = report_.original.summary.bbox_diagonal;
-  for (const std::string& level : options_.levels)
-    tolerances_.push_back(parse_length("--levels", level).in_model_units(diagonal));
-  std::sort(tolerances_.begin(), tolerances_.end());
+  add_tolerances("--levels", options_.levels);
+  sort_tolerances();
   if (!options_.tolerance.empty()) {
-    const double tolerance = parse_length("--tolerance", options_.tolerance).in_model_units(diagonal);
-    if (!tolerances_.empty() && tolerances_.back() > tolerance)
+    const double largest_level = tolerances_.empty() ? 0 : tolerances_.back();
+    add_tolerances("--tolerance", {options_.tolerance});
+    if (tolerances_.back() < largest_level)
       throw InvalidInput("--levels: a level is larger than --tolerance, which is that of OUT");
-    tolerances_.push_back(tolerance);
   } else if (tolerances_.empty()) {
     throw InvalidInput("--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%");
   }
-  tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
+  sort_tolerances();
   report_.tolerance = tolerances_.back();
 }
 
@@ -195,27 +156,16 @@ void Run::open_outputs() {
 
 void Run::simplify() {
   ProgressBar bar("simplifying", options_.common.quiet);
-  cgal::SimplifyOptions simplify;
+  cgal::SimplifyOptions simplify = decimation(outputs_.back(), bar);
   simplify.tolerance = tolerances_.back();
   simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
   if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
   simplify.target_ratio = options_.target_ratio;
   simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
-  simplify.cost =
-      options_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
   simplify.effort = options_.effort == "fast"   ? cgal::Effort::Fast
                     : options_.effort == "high" ? cgal::Effort::High
                                                 : cgal::Effort::Normal;
-  simplify.preserve_boundary = options_.preserve_boundary;
   simplify.prune = options_.prune;
-  if (options_.feature_angle) simplify.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
-  // A vertex may leave the box by the tolerance.
-  simplify.output_rounding = outputs_.back().largest_rounding(largest_coordinate_ + tolerances_.back());
-  simplify.measure = false;
-  simplify.time_limit = remaining(simplify_share);
-  simplify.threads = options_.common.threads;
-  simplify.cancel = &interrupted_;
-  simplify.progress = [&](double fraction) { bar.show(fraction); };
   result_ = cgal::simplify_with_bound(original_, simplify);
   report_.effort = options_.effort;
   report_.pruned = {result_.pruned_components, result_.pruned_faces};
@@ -234,15 +184,10 @@ void Run::certify() {
     outputs_[i].write(result_.levels[level].mesh);
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
-    DistanceOptions distance;
-    distance.error_bound = relative_error_bound * report_.original.summary.bbox_diagonal;
-    distance.tolerance = tolerances_[level];
-    distance.budget.seconds = remaining(1);
-    distance.threads = options_.common.threads;
-    distance.cancel = &interrupted_;
+    DistanceOptions distance = measurement(tolerances_[level]);
     distance.progress = [&](double fraction) { bar.show(fraction); };
     outputs_[i].measure(original, distance);
-    if (outputs_[i].verdict() == Verdict::Undecided && options_.common.has_time_limit && !interrupted_) {
+    if (must_fall_back(outputs_[i])) {
       outputs_[i].fall_back(i > 0 ? &outputs_[i - 1] : nullptr, original_, original, distance);
       fell_back_ = true;
     }
@@ -330,7 +275,7 @@ void Run::report() {
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back(
         {tolerances_[i], outputs_[i].path().string(), outputs_[i].summary().faces, outputs_[i].distance()});
-  report_.threads = options_.common.threads > 0 ? options_.common.threads : omp_get_max_threads();
+  report_.threads = threads();
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
@@ -364,13 +309,12 @@ void print_direction(const char* label, const OneSidedDistance& side) {
 
 void Run::print_summary() const {
   const GatedOutput& out = outputs_.back();
-  const double diagonal = report_.original.summary.bbox_diagonal;
   std::printf("faces      %zu -> %zu (%s%%): %s\n", report_.original.summary.faces, out.summary().faces,
               short_number(100.0 * static_cast<double>(out.summary().faces) /
                            static_cast<double>(report_.original.summary.faces))
                   .c_str(),
               end_reason().c_str());
-  std::printf("tolerance  %s\n", both_units(report_.tolerance, diagonal).c_str());
+  std::printf("tolerance  %s\n", both_units(report_.tolerance, diagonal_).c_str());
   std::printf("distance   [%.9g, %.9g], %s\n", out.distance().bounds.lower, out.distance().bounds.upper,
               to_string(verdict_).c_str());
   print_direction("original to simplified", out.distance().a_to_b);
@@ -381,8 +325,7 @@ void Run::print_summary() const {
   if (result_.dropped_triangles + result_.kept_triangles > 0)
     std::printf("input      %zu duplicate or degenerate triangles dropped, %zu kept as they are\n",
                 result_.dropped_triangles, result_.kept_triangles);
-  std::printf("seconds    read %.2f, simplify %.2f, write %.2f, certify %.2f, total %.2f\n", report_.seconds.read,
-              report_.seconds.simplify, report_.seconds.write, report_.seconds.certify, report_.seconds.total);
+  print_seconds(report_.seconds);
   if (verdict_ != Verdict::Within) return;
   for (const GatedOutput& output : outputs_) {
     std::printf("wrote      %s, %zu faces, [%.6g, %.6g]\n", output.path().c_str(), output.summary().faces,

@@ -112,6 +112,14 @@ Json stats(const std::vector<const OneSidedDistance*>& directions) {
             {"subdivision", number(sum.phases.subdivision)}}}};
 }
 
+Json seconds(const SimplifyReport::Seconds& seconds) {
+  return {{"read", number(seconds.read)},
+          {"simplify", number(seconds.simplify)},
+          {"certify", number(seconds.certify)},
+          {"write", number(seconds.write)},
+          {"total", number(seconds.total)}};
+}
+
 std::string text(const Json& document) { return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
 }  // namespace meshbound::report

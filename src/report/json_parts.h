@@ -35,6 +35,9 @@ using Json = nlohmann::ordered_json;
 /// Statistics over the directions that were searched: sums, and means weighted by what they count.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);
 
+/// {"read":..,"simplify":..,"certify":..,"write":..,"total":..}
+[[nodiscard]] Json seconds(const SimplifyReport::Seconds& seconds);
+
 /// The document as text, see `to_json`.
 [[nodiscard]] std::string text(const Json& document);
 

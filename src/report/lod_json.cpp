@@ -36,11 +36,7 @@ std::string to_json(const LodReport& from) {
   json["levels"] = Json::array();
   for (const LodReport::Level& level : from.levels)
     json["levels"].push_back(level_json(json["levels"].size(), level, from.original.summary.bbox_diagonal));
-  json["seconds"] = {{"read", number(from.seconds.read)},
-                     {"simplify", number(from.seconds.simplify)},
-                     {"certify", number(from.seconds.certify)},
-                     {"write", number(from.seconds.write)},
-                     {"total", number(from.seconds.total)}};
+  json["seconds"] = seconds(from.seconds);
   json["threads"] = from.threads;
   return text(json);
 }

@@ -27,11 +27,7 @@ std::string to_json(const SimplifyReport& from) {
   }
   json["collapses"] = {{"performed", from.collapses.performed}, {"refused", from.collapses.refused}};
   json["stats"] = stats({&from.distance.a_to_b, &from.distance.b_to_a});
-  json["seconds"] = {{"read", number(from.seconds.read)},
-                     {"simplify", number(from.seconds.simplify)},
-                     {"certify", number(from.seconds.certify)},
-                     {"write", number(from.seconds.write)},
-                     {"total", number(from.seconds.total)}};
+  json["seconds"] = seconds(from.seconds);
   if (!from.certificates.empty()) json["seconds"]["certificate"] = number(from.seconds.certificate);
   json["threads"] = from.threads;
   return text(json);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decimation/decimation_options.h"
+
+namespace meshbound::tools {
+
+void add_decimation_options(CLI::App& app, DecimationOptions& options) {
+  app.add_option("--cost", options.cost, "What makes a collapse cheap")
+      ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
+      ->capture_default_str();
+  app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
+  app.add_option("--feature-angle", options.feature_angle,
+                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
+      ->check(CLI::Range(0.0, 180.0));
+  add_common_options(app, options.common);
+}
+
+}  // namespace meshbound::tools

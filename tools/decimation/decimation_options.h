@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Options that every tool that decimates has.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "common/tool_main.h"
+
+namespace meshbound::tools {
+
+struct DecimationOptions {
+  std::string input, cost = "garland-heckbert";
+  bool preserve_boundary = false;
+  std::optional<double> feature_angle;  ///< degrees
+  CommonOptions common;
+};
+
+/// Adds --cost, --preserve-boundary, --feature-angle and what `add_common_options` adds.
+void add_decimation_options(CLI::App& app, DecimationOptions& options);
+
+}  // namespace meshbound::tools
