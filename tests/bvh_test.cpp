@@ -248,6 +248,20 @@ TEST(Bvh, BuildsAFanOfAHundredThousandTriangles) {
   EXPECT_NEAR(closest_point(bvh, {0.5, 0.2, 3}).distance.upper, 3, 1e-9);
 }
 
+TEST(Array, BeginsOnALargePageFromTheSizeOfOne) {
+  constexpr std::size_t page = large_page / sizeof(double);
+  for (const std::size_t n : {page - 1, page, page + 1, 3 * page + 5}) {
+    // Several at once: by chance one may begin there anyway.
+    std::vector<Array<double>> arrays(4, Array<double>(n));
+    for (Array<double>& array : arrays) {
+      EXPECT_TRUE(n < page || reinterpret_cast<std::uintptr_t>(array.data()) % large_page == 0) << n;
+      for (std::size_t i = 0; i < n; ++i) array[i] = static_cast<double>(i);
+      array.resize(2 * n);  // moves what is there
+      EXPECT_EQ(array[n - 1], static_cast<double>(n - 1));
+    }
+  }
+}
+
 TEST(Bvh, KeepsDegenerateAndSingleTriangles) {
   for (const TriangleMesh& mesh :
        {single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), single_triangle({0, 0, 0}, {0, 0, 0}, {0, 1, 0}),

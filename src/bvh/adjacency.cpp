@@ -82,8 +82,8 @@ class EdgeLists {
 
   Bvh::Data& data_;
   std::uint32_t first_vertex_;
-  std::vector<std::uint32_t> head_;  ///< by vertex, in `met_`
-  std::vector<Met> met_;
+  Array<std::uint32_t> head_;  ///< by vertex, in `met_`
+  Array<Met> met_;
   std::vector<HalfEdge> crowded_;
 };
 

@@ -74,7 +74,7 @@ class Renumbering {
   }
 
   void number_vertices(std::uint32_t run) {
-    std::vector<std::uint32_t>& used = used_[run];
+    Array<std::uint32_t>& used = used_[run];
     used.reserve((begin(run + 1) - begin(run)) / 2 + 64);  // a closed surface has half as many vertices as triangles
     for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
       for (const std::uint32_t v : data_.corners[slot]) {
@@ -114,7 +114,7 @@ class Renumbering {
   std::uint32_t runs_;
   Array<std::uint32_t> place_of_;   ///< by the mesh's vertex: its number among those of its run
   Array<std::uint32_t> first_run_;  ///< by the mesh's vertex; empty where there is one run only
-  std::vector<std::vector<std::uint32_t>> used_;
+  std::vector<Array<std::uint32_t>> used_;
 };
 
 }  // namespace
