@@ -10,7 +10,7 @@
 namespace meshbound {
 
 void* allocate_on_large_pages(std::size_t bytes) {
-  void* const storage = ::operator new (bytes);
+  void* const storage = ::operator new (bytes, std::align_val_t{large_page});
 #if defined(__linux__)
   // Only pages that the array fills: a last one in part would cost memory that nobody uses. A kernel that has none to
   // give refuses, which costs time only.
