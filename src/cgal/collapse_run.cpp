@@ -51,7 +51,7 @@ CollapseRun::CollapseRun(ManifoldCopy copy, const TriangleMesh& original, const 
   if (options.effort == Effort::Fast) monitor_->fallback_placements = fast_fallback_placements;
   monitor_->should_stop = [this](std::size_t faces) { return must_stop(faces); };
   if (!locked.empty()) lock_vertices(locked);
-  policies_.emplace(copy_.mesh, options.cost, kept_parts());
+  policies_.emplace(options.cost, kept_parts());
   refinement_.emplace(copy_.mesh, *monitor_, [this] { return must_stop(monitor_->faces()); });
 }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The quadric error metric of Garland and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH
+/// 1997, with planes weighted as CGAL's `GarlandHeckbert_plane_policies` weights them.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "meshbound/cgal/surface_mesh.h"
+
+namespace meshbound::cgal {
+
+/// Sum of squared distances to planes, x.A x + 2 b.x + c with a symmetric A.
+struct Quadric {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  ///< A
+  double x = 0, y = 0, z = 0;                             ///< b
+  double constant = 0;
+
+  /// `weight` times the squared distance to the plane through `p` with the unit vector `normal`.
+  static Quadric of_plane(const Kernel::Vector_3& normal, const Kernel::Point_3& p, double weight);
+  Quadric& operator+=(const Quadric& other);
+  [[nodiscard]] double at(const Kernel::Point_3& p) const;
+  /// Where it is least; none where A is singular.
+  [[nodiscard]] std::optional<Kernel::Point_3> minimum() const;
+};
+
+/// Quadrics of the vertices of a mesh that is being decimated, and the cost and placement of its edges. CGAL asks for
+/// both of every edge in the two rings around a collapse, though they change for those at the new vertex only: they are
+/// kept by edge. Memory: O(vertices + edges).
+class Quadrics {
+ public:
+  /// Of the mesh as it is now: the planes of the faces around a vertex, and through border edges, perpendicular to
+  /// their face. Vertices and edges must keep their indices from now on.
+  explicit Quadrics(const SurfaceMesh& mesh);
+
+  struct Collapse {
+    Kernel::Point_3 placement;
+    double cost = 0;
+  };
+  /// Of the edge, with ends v0 and v1 at p0 and p1. The placement is where the sum of their quadrics is least; where
+  /// that is too far away to be believed, the best of the middle and the ends.
+  const Collapse& of_edge(SurfaceMesh::Edge_index edge, SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1,
+                          const Kernel::Point_3& p0, const Kernel::Point_3& p1);
+  /// Cost of another placement for both ends.
+  [[nodiscard]] double cost(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, const Kernel::Point_3& p) const;
+
+  void collapsed(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, SurfaceMesh::Vertex_index kept);
+  /// Vertices may have moved and edges been flipped.
+  void forget_edges() { forgotten_at_ = ++clock_; }
+
+ private:
+  struct Known {
+    Collapse collapse;
+    std::uint64_t at = 0;  ///< clock, 0: never
+  };
+
+  std::vector<Quadric> of_vertex_;
+  std::vector<std::uint64_t> changed_at_;  ///< clock, by vertex
+  std::vector<Known> known_;               ///< by edge
+  std::uint64_t clock_ = 1, forgotten_at_ = 1;
+};
+
+}  // namespace meshbound::cgal
