@@ -425,6 +425,30 @@ TEST(DeviationMonitor, BoundsAPlainEdgeCollapseCallUnderAStackedFilter) {
   EXPECT_LE(symmetric_distance(Bvh(original), Bvh(to_triangle_mesh(mesh))).bounds.upper, 0.02);
 }
 
+/// Made elsewhere, without a bound, and unrelated to the original but by its place.
+TEST(DeviationMonitor, GoesOnFromAnApproximation) {
+  const TriangleMesh original = datasets::torus(1, 0.3, 120, 48);
+  SurfaceMesh mesh = to_surface_mesh(datasets::torus(1, 0.3, 70, 30));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, original, Bvh(original), 0.02, get(CGAL::vertex_point, mesh), 2);
+  ASSERT_TRUE(monitor.unproven().empty());
+  const int removed = SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                                         CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor()));
+  EXPECT_GT(removed, 500);
+  mesh.collect_garbage();
+  EXPECT_LE(symmetric_distance(Bvh(original), Bvh(to_triangle_mesh(mesh))).bounds.upper, 0.02);
+}
+
+TEST(DeviationMonitor, AdmitsNothingFromAnApproximationThatItCouldNotProve) {
+  const TriangleMesh original = datasets::torus(1, 0.3, 120, 48);
+  SurfaceMesh mesh = to_surface_mesh(datasets::torus(1, 0.3, 30, 12));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, original, Bvh(original), 0.002, get(CGAL::vertex_point, mesh));
+  EXPECT_FALSE(monitor.unproven().empty());
+  EXPECT_THROW(SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                                  CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor())),
+               Error);
+  EXPECT_THROW((void)monitor.drop_components(), Error);
+}
+
 TEST(DeviationMonitor, RefusesAMeshWithAnEdgeOfNoLength) {
   TriangleMesh square = reference::unit_square(2);
   square.vertices[4] = square.vertices[3];

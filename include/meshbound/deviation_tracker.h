@@ -50,6 +50,13 @@ enum class Refusal {
   ToleranceBelowRounding  ///< the tolerance is so small that doubles cannot prove anything but the unchanged mesh
 };
 
+/// What could not be proven of a mesh that is to stand for an original.
+struct Unproven {
+  std::vector<std::uint32_t> originals;  ///< triangles with a part that no face is near enough to, ascending
+  std::vector<std::uint32_t> faces;      ///< ids of those that are too far from the original, in the order given
+  [[nodiscard]] bool empty() const { return originals.empty() && faces.empty(); }
+};
+
 struct TrackerStats {
   std::uint64_t admitted = 0;                 ///< calls of `admits` that returned true
   std::array<std::uint64_t, 6> refused = {};  ///< by `Refusal`
@@ -104,6 +111,12 @@ class DeviationTracker {
   /// Finds covers for the original triangles that no face was started from (duplicates, degenerate ones), among the
   /// faces that share vertices with them. Returns those that it found none for: start them too, or give up.
   [[nodiscard]] std::vector<std::uint32_t> cover_the_rest();
+
+  /// Makes `faces` the current mesh, in place of whatever it was: one that approximates the original, made by anything,
+  /// whose bound is proven here from nothing. Original triangles that the mesh leaves out can be given as faces too.
+  /// Returns what could not be proven; unless that is empty, the tracker stays as it was. The same for any number of
+  /// threads; 0: as many as OpenMP has. Throws `InvalidInput` when an id comes twice. Expected O(n log n).
+  [[nodiscard]] Unproven start_from(std::span<const TrackedFace> faces, int threads = 0);
 
   /// Tolerances of single original triangles beside the one for all, infinity where there is none. From now on
   ///

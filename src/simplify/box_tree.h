@@ -12,6 +12,8 @@ class BoxTree {
   /// O(n log n).
   explicit BoxTree(std::vector<Eigen::AlignedBox3d> boxes);
 
+  [[nodiscard]] const Eigen::AlignedBox3d& box(std::uint32_t index) const { return boxes_[index]; }
+
   /// Appends the indices of the boxes that meet `box`, in an order that depends on the boxes alone.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 

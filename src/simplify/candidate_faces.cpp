@@ -63,6 +63,18 @@ FaceMask CandidateFaces::holding(Vec3 p, FaceMask among) const {
   return mask;
 }
 
+FaceMask CandidateFaces::nearest(Vec3 p, FaceMask among) const {
+  FaceMask best = 0;
+  double least = HUGE_VAL;
+  for (FaceMask rest = among; rest != 0; rest &= rest - 1) {
+    const double squared = closest_on_triangle(triangles_[std::countr_zero(rest)], p).squared_distance;
+    if (best != 0 && !(squared < least)) continue;
+    least = squared;
+    best = rest & (~rest + 1);
+  }
+  return best;
+}
+
 double CandidateFaces::reach(Vec3 p, Vec3 q, FaceMask mask) const {
   // Past the side planes by this share of the tolerance a point is still well within it unless it is also high above.
   const double rim = 0.3 * tolerance_;

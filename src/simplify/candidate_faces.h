@@ -34,6 +34,9 @@ class CandidateFaces {
   /// The members of `among` that are within the tolerance of p.
   [[nodiscard]] FaceMask holding(Vec3 p, FaceMask among) const;
 
+  /// The member of `among` that is nearest to p.
+  [[nodiscard]] FaceMask nearest(Vec3 p, FaceMask among) const;
+
   /// How far one can go from p towards q without leaving the slab around one of the faces of `mask`, as a share of the
   /// way: a guess where to cut, not a bound.
   [[nodiscard]] double reach(Vec3 p, Vec3 q, FaceMask mask) const;

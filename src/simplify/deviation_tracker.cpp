@@ -10,10 +10,11 @@
 
 namespace meshbound {
 
-DeviationTracker::Impl::Impl(const MeshView& original, const Bvh& bvh)
-    : vertices(positions_of(original)),
+DeviationTracker::Impl::Impl(const MeshView& original, const Bvh& tree)
+    : bvh(tree),
+      vertices(positions_of(original)),
       triangles(triangles_of(original)),
-      proximity(bvh),
+      proximity(tree),
       cover(triangles.size()),
       forward(vertices, triangles),
       degree(vertices, triangles),

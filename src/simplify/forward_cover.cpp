@@ -61,7 +61,22 @@ FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, Fac
 }
 
 FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
-  if (const FaceMask one = cover_whole(triangle, allowed, preferred); one != 0) return one;
+  const FaceMask one = cover_whole(triangle, allowed, preferred);
+  return one != 0 ? one : cover_in_pieces(triangle, allowed, Asked::LikelyOnes);
+}
+
+FaceMask ForwardCover::cover_thoroughly(std::uint32_t triangle, FaceMask allowed) {
+  const auto& t = triangles_[triangle];
+  const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
+  if (common == 0) {
+    const FaceMask pieces = cover_in_pieces(triangle, allowed, Asked::LikelyOnes);
+    return pieces != 0 ? pieces : cover_in_pieces(triangle, allowed, Asked::All);
+  }
+  if (common == lowest(common)) return common;
+  return candidates_.nearest((1.0 / 3) * (vertices_[t[0]] + vertices_[t[1]] + vertices_[t[2]]), common);
+}
+
+FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed, Asked asked) {
   const auto& t = triangles_[triangle];
   Piece whole;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -70,10 +85,6 @@ FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask 
     if (whole.masks[i] == 0) return 0;
   }
   ++splits;
-  return cover_in_pieces(whole, allowed);
-}
-
-FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed) {
   open_.assign(1, whole);
   FaceMask used = 0;
   for (int spent = 0; !open_.empty();) {
@@ -84,12 +95,12 @@ FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed) {
       if ((common & used) == 0) used |= lowest(common);
       continue;
     }
-    if (++spent > deepest_cut || !cut(piece, allowed)) return 0;
+    if (++spent > deepest_cut || !cut(piece, allowed, asked)) return 0;
   }
   return used;
 }
 
-bool ForwardCover::cut(const Piece& piece, FaceMask allowed) {
+bool ForwardCover::cut(const Piece& piece, FaceMask allowed, Asked asked) {
   std::size_t from = 0;
   double longest = -1, squared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,8 +119,9 @@ bool ForwardCover::cut(const Piece& piece, FaceMask allowed) {
   }
   const Vec3 middle = p + share * (q - p);
   ++cuts;
-  // A candidate that holds no corner holds no part that is cut here: it is asked only when the others fail.
-  const FaceMask likely = piece.masks[0] | piece.masks[1] | piece.masks[2];
+  // A candidate that holds no corner holds no part that is cut here, unless it is smaller than the piece: it is asked
+  // only when the others fail.
+  const FaceMask likely = asked == Asked::All ? allowed : piece.masks[0] | piece.masks[1] | piece.masks[2];
   FaceMask mask = candidates_.holding(middle, likely);
   if (mask == 0) mask = candidates_.holding(middle, allowed & ~likely);
   if (mask == 0) return false;

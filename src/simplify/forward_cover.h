@@ -40,6 +40,9 @@ class ForwardCover {
   [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
   /// The same by a single candidate, without cutting the triangle.
   [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// The same where nothing is known: by the candidate nearest to the middle of the triangle of those that hold it, or
+  /// in pieces, small candidates too.
+  [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
   /// True when no candidate of `allowed` holds some corner of the triangle.
   [[nodiscard]] bool corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
 
@@ -51,8 +54,9 @@ class ForwardCover {
     std::array<FaceMask, 3> masks;
   };
   [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, FaceMask allowed);
-  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed);
-  [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed);
+  enum class Asked { LikelyOnes, All };  ///< whether a point of a cut is near candidates that hold no corner, too
+  [[nodiscard]] FaceMask cover_in_pieces(std::uint32_t triangle, FaceMask allowed, Asked asked);
+  [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
 
   struct CachedMask {
     std::uint32_t round = 0;

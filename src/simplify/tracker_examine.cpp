@@ -34,6 +34,10 @@ void DeviationTracker::Impl::set_tolerance(double value) {
   working_tolerance = provable(value) * internal::tracker_fault;
 }
 
+double DeviationTracker::Impl::limit_around(const Eigen::AlignedBox3d& box) const {
+  return local ? provable(local->sufficient_around(box, tolerance)) : working_tolerance;
+}
+
 /// The box holds all that the change touches, the original triangles that need another cover included.
 double DeviationTracker::Impl::limit_of_change() const {
   if (!local) return working_tolerance;
@@ -44,7 +48,7 @@ double DeviationTracker::Impl::limit_of_change() const {
   for (const std::uint32_t t : pending.affected) {
     for (const std::uint32_t v : triangles[t]) box.extend(Eigen::Vector3d(vertices[v].x, vertices[v].y, vertices[v].z));
   }
-  return provable(local->sufficient_around(box, tolerance));
+  return limit_around(box);
 }
 
 /// Which faces really change, and which original triangles lose a face of their cover by that. Faces that keep id and

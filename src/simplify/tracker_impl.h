@@ -33,6 +33,7 @@ inline Eigen::AlignedBox3d box_of(const FaceCorners& corners) {
 }
 
 struct DeviationTracker::Impl {
+  const Bvh& bvh;
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
   Proximity proximity;
@@ -80,9 +81,10 @@ struct DeviationTracker::Impl {
   std::uint32_t uncovered = SurfaceChange::no_triangle;
   TrackerStats stats;
 
-  Impl(const MeshView& original, const Bvh& bvh);
+  Impl(const MeshView& original, const Bvh& tree);
   void set_tolerance(double value);
   [[nodiscard]] double provable(double value) const;
+  [[nodiscard]] double limit_around(const Eigen::AlignedBox3d& box) const;
   [[nodiscard]] double limit_of_change() const;
   void put_face(std::uint32_t id, const FaceCorners& at, std::uint32_t near);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "meshbound/error.h"
+#include "simplify/approximation_proof.h"
 #include "simplify/tracker_impl.h"
 
 namespace meshbound {
@@ -24,6 +26,33 @@ void DeviationTracker::start(std::uint32_t id, std::uint32_t triangle) {
   impl_->put_face(id, {impl_->vertices[t[0]], impl_->vertices[t[1]], impl_->vertices[t[2]]}, triangle);
   CoverAssignment::Ids itself{id};
   impl_->cover.assign(triangle, itself);
+}
+
+Unproven DeviationTracker::start_from(std::span<const TrackedFace> faces, int threads) {
+  std::vector<std::uint32_t> ids;
+  for (const TrackedFace& face : faces) ids.push_back(face.id);
+  std::sort(ids.begin(), ids.end());
+  if (std::adjacent_find(ids.begin(), ids.end()) != ids.end())
+    throw InvalidInput("two faces that a tracker is to start from have the same id");
+  const ProofOriginal original{impl_->vertices,
+                               impl_->triangles,
+                               impl_->bvh,
+                               impl_->degree,
+                               impl_->magnitude,
+                               impl_->tolerance,
+                               [this](const Eigen::AlignedBox3d& box) { return impl_->limit_around(box); }};
+  ApproximationProof proof(original, faces, threads);
+  proof.run();
+  if (!proof.unproven().empty()) return proof.unproven();
+  for (std::size_t i = 0; i < faces.size(); ++i) impl_->put_face(faces[i].id, corners_of(faces[i]), proof.nearest()[i]);
+  proof.for_each_cover([&](std::uint32_t t, std::span<const std::uint32_t> cover) { impl_->cover.assign(t, cover); });
+  impl_->pending.admitted = false;
+  impl_->forward.splits += proof.splits;
+  impl_->forward.cuts += proof.cuts;
+  impl_->stats.originals_tested += impl_->triangles.size();
+  impl_->stats.faces_tested += faces.size();
+  impl_->stats.faces_by_degree += proof.faces_by_degree;
+  return {};
 }
 
 std::vector<std::uint32_t> DeviationTracker::cover_the_rest() {

@@ -72,6 +72,15 @@ class DeviationMonitor {
   DeviationMonitor(Mesh& mesh, const TriangleMesh& original, const std::vector<std::uint32_t>& triangle_of_face,
                    double tolerance, VertexPointMap points);
 
+  /// `mesh` need have nothing in common with the original but its place: it is an approximation, made by anything, that
+  /// is proven here from nothing. `unproven` says where that failed; unless it is empty, a call that would prove an
+  /// edit throws `Error`. `tree` must be built from `original`. The same for any number of threads; 0: as many as
+  /// OpenMP has. Throws `InvalidInput` as above. Expected O(n log n).
+  DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree, double tolerance, VertexPointMap points,
+                   int threads = 0);
+  /// Triangles of the original and faces, by their place in the range of faces.
+  [[nodiscard]] const Unproven& unproven() const { return unproven_; }
+
   DeviationMonitor(const DeviationMonitor&) = delete;
   DeviationMonitor& operator=(const DeviationMonitor&) = delete;
 
@@ -189,6 +198,9 @@ class DeviationMonitor {
   }
   [[nodiscard]] static Point to_point(const Eigen::Vector3d& p) { return Point(p.x(), p.y(), p.z()); }
   [[nodiscard]] Eigen::Vector3d at(Vertex v) const { return to_eigen(get(points_, v)); }
+  DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree, VertexPointMap points, double tolerance);
+  void start_from_approximation(int threads);
+  void refuse_unproven() const;
   void number_faces(const std::vector<std::uint32_t>& triangle_of_face);
   void refuse_zero_length_edges() const;
   template <class Visit>
@@ -240,6 +252,7 @@ class DeviationMonitor {
   typename boost::property_map<Mesh, CGAL::dynamic_edge_property_t<EdgeMemory>>::type edge_memory_;
   typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<VertexMemory>>::type vertex_memory_;
   std::vector<std::uint32_t> uncovered_;
+  Unproven unproven_;
   std::size_t faces_ = 0;
   std::uint64_t clock_ = 1, pass_start_ = 1, tolerance_start_ = 1;
   Counts counts_;

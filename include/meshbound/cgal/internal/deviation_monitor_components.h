@@ -53,6 +53,7 @@ void DeviationMonitor<Mesh, VertexPointMap>::remove_component(const std::vector<
 
 template <class Mesh, class VertexPointMap>
 auto DeviationMonitor<Mesh, VertexPointMap>::drop_components(std::size_t least_faces) -> Dropped {
+  refuse_unproven();
   Dropped dropped;
   const std::vector<std::vector<Face>> all = components();
   if (all.size() < 2) return dropped;

@@ -6,12 +6,11 @@
 namespace meshbound::cgal {
 
 template <class Mesh, class VertexPointMap>
-DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const TriangleMesh& original,
-                                                         const std::vector<std::uint32_t>& triangle_of_face,
-                                                         double tolerance, VertexPointMap points)
+DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree,
+                                                         VertexPointMap points, double tolerance)
     : mesh_(mesh),
       points_(points),
-      bvh_(MeshView(original)),
+      bvh_(std::move(tree)),
       tracker_(MeshView(original), bvh_, tolerance),
       face_ids_(get(CGAL::dynamic_face_property_t<std::uint32_t>(), mesh)),
       edge_memory_(get(CGAL::dynamic_edge_property_t<EdgeMemory>(), mesh)),
@@ -19,7 +18,39 @@ DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const Trian
   for (const Edge e : edges(mesh_)) put(edge_memory_, e, EdgeMemory{});
   for (const Vertex v : vertices(mesh_)) put(vertex_memory_, v, VertexMemory{});
   refuse_zero_length_edges();
+}
+
+template <class Mesh, class VertexPointMap>
+DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const TriangleMesh& original,
+                                                         const std::vector<std::uint32_t>& triangle_of_face,
+                                                         double tolerance, VertexPointMap points)
+    : DeviationMonitor(mesh, original, Bvh(MeshView(original)), points, tolerance) {
   number_faces(triangle_of_face);
+}
+
+template <class Mesh, class VertexPointMap>
+DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree,
+                                                         double tolerance, VertexPointMap points, int threads)
+    : DeviationMonitor(mesh, original, std::move(tree), points, tolerance) {
+  start_from_approximation(threads);
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::start_from_approximation(int threads) {
+  std::vector<TrackedFace> faces;
+  for (const Face f : CGAL::faces(mesh_)) {
+    const auto id = static_cast<std::uint32_t>(faces_++);
+    put(face_ids_, f, id);
+    const std::array<Vertex, 3> v = corners(f);
+    faces.push_back({id, {at(v[0]), at(v[1]), at(v[2])}});
+  }
+  unproven_ = tracker_.start_from(faces, threads);
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::refuse_unproven() const {
+  if (!unproven_.empty())
+    throw Error("the mesh that the deviation monitor was given is not proven to be within the tolerance");
 }
 
 template <class Mesh, class VertexPointMap>
@@ -142,6 +173,7 @@ bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex 
 template <class Mesh, class VertexPointMap>
 bool DeviationMonitor<Mesh, VertexPointMap>::admits_gathered(Vertex v0, Vertex v1, const Eigen::Vector3d& placement,
                                                              std::uint32_t try_first) {
+  refuse_unproven();
   if (!passes_guards()) return false;
   SurfaceChange change;
   change.removed = removed_;
