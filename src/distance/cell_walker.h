@@ -23,6 +23,10 @@ namespace meshbound {
 
 /// Steps without a query: long enough to cross a fan, short enough not to get lost where adjacency misleads.
 inline constexpr std::uint32_t steps_between_queries = 8;
+/// Steps of a walk that has no queries: across a triangle of A that lies on a thousand of B.
+inline constexpr std::uint32_t steps_of_sweep = 32;
+/// Corners more than so many targets off the first point that is tried on a triangle are rarely near another one of it.
+inline constexpr double hopeless_targets = 3;
 /// Cuts, and queries, after which a piece is only halved: it walks in circles. What is left to `deepest_cut` halves its
 /// diameter thirty times.
 inline constexpr std::uint32_t halve_from_depth = 60;
@@ -66,9 +70,11 @@ class CellWalker : public ProvenBounds {
       ++counters_.pieces;
       counters_.deepest = std::max(counters_.deepest, piece.depth);
       const CornerTriangle<double> t = triangle_at(b_, piece.slot);
-      if (done_with(quick_bound(piece, t), piece.slot) || done_with(farthest_corner(piece, t).squared, piece.slot))
-        continue;
-      const bool lost = pieces >= max_pieces || piece.age >= steps_between_queries || must_halve(piece);
+      const double quick = quick_bound(piece, t);
+      if (done_with(quick, piece.slot)) continue;
+      const bool hopeful = quick <= hopeless_targets * hopeless_targets * accepted_squared_;
+      if (hopeful && done_with(largest_squared_distance(piece, t), piece.slot)) continue;
+      const bool lost = pieces >= max_pieces || piece.age >= steps_of_sweep || must_halve(piece);
       if (lost || cuts_left_ == 0 || !walk(piece)) return 0;
     }
     return pieces;

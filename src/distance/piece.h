@@ -95,6 +95,15 @@ inline Farthest farthest_corner(const Piece& piece, const CornerTriangle<double>
   return farthest;
 }
 
+/// As `farthest_corner`, without saying which.
+inline double largest_squared_distance(const Piece& piece, const CornerTriangle<double>& triangle) {
+  const CornerTriangle<Double4> t = broadcast4(triangle);
+  Double4 most{};
+  for (std::uint32_t first = 0; first < piece.count; first += 4)
+    most = maximum(most, closest_on_triangle(t, corners4(piece, first)).squared_distance);
+  return horizontal_maximum(most);
+}
+
 /// A bound of the squared distances of all corners at half the cost of `farthest_corner`: the first of the points that
 /// `closest_on_triangle` tries lies on the triangle, whether it is the closest or not.
 inline double quick_bound(const Piece& piece, const CornerTriangle<double>& triangle) {

@@ -42,7 +42,7 @@ class SearcherImpl final : public Searcher {
   }
 
   Swept sweep(const TriangleCorners& triangle, std::uint32_t& hint, std::uint64_t max_cuts) override {
-    constexpr std::uint32_t most_pieces = 32;  // a triangle that needs more is as well served by queries
+    constexpr std::uint32_t most_pieces = 256;  // beyond it the queries of a cover cost little
     const auto& [a, b, c] = triangle;
     const Vec3 centroid = (1.0 / 3) * (a + b + c);
     hint = step_over(walker_.target(), centroid, hint);
