@@ -199,6 +199,38 @@ TEST(DeviationTracker, IsTheSameAfterARefusalAsBefore) {
   EXPECT_EQ(plain.current().triangles, disturbed.current().triangles);
 }
 
+/// What placements of one edge share is kept between them; a tolerance that grows by nothing makes a tracker forget.
+TEST(DeviationTracker, AnswersForEachPlacementOfAnEdgeAsIfItWereTheFirst) {
+  for (const Shape& shape : shapes()) {
+    TrackedSoup soup(shape.mesh, shape.tolerance), forgetful(shape.mesh, shape.tolerance);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    int admitted = 0, refused = 0, admitted_after_refusal = 0;
+    for (int round = 0; round < 150; ++round) {
+      const auto f = static_cast<std::uint32_t>(random() % soup.mesh().triangles.size());
+      const auto k = random() % 3;
+      if (!soup.alive(f)) continue;
+      const std::uint32_t u = soup.mesh().triangles[f][k], v = soup.mesh().triangles[f][(k + 1) % 3];
+      if (u == v) continue;
+      const Vector3d p = soup.mesh().vertices[u], q = soup.mesh().vertices[v];
+      for (int placement = 0; placement < 8; ++placement) {
+        const double reach = placement % 2 == 0 ? 4 * shape.tolerance : 0.3 * shape.tolerance;
+        Vector3d to = 0.5 * (p + q) + reach * Vector3d(unit(random), unit(random), unit(random));
+        if (placement == 4) to = p;
+        forgetful.tracker.grow_tolerance(shape.tolerance);
+        const bool answer = forgetful.collapse(u, v, to);
+        ASSERT_EQ(soup.collapse(u, v, to), answer) << shape.name << ", round " << round << ", placement " << placement;
+        ++(answer ? admitted : refused);
+        if (answer && placement > 0) ++admitted_after_refusal;
+        if (answer) break;
+      }
+    }
+    EXPECT_GT(admitted, 5) << shape.name;
+    EXPECT_GT(refused, 50) << shape.name;
+    EXPECT_GT(admitted_after_refusal, 3) << shape.name;
+  }
+}
+
 TEST(DeviationTracker, CommitsOnlyWhatItAdmitted) {
   TrackedSoup soup(reference::unit_square(4), 0.01);
   EXPECT_THROW(soup.tracker.commit(), Error);

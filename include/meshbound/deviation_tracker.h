@@ -34,7 +34,7 @@ struct SurfaceChange {
   std::optional<Eigen::Vector3d> moved_vertex;  ///< w above, where there is one: checked before anything else
   std::uint32_t try_first = no_triangle;        ///< original triangle whose cover is most likely to fail
   /// Appends ids of current faces around the change, `removed` excluded. Called only when the added faces do not
-  /// suffice.
+  /// suffice, and once for changes of the same `removed` that follow each other.
   std::function<void(std::vector<std::uint32_t>&)> ring;
 
   static constexpr std::uint32_t no_triangle = 0xffffffff;

@@ -16,8 +16,7 @@ void CandidateFaces::clear(double tolerance) {
   flat_ = 0;
 }
 
-void CandidateFaces::add(const std::array<Vec3, 3>& corners) {
-  const int k = size_++;
+void CandidateFaces::put(int k, const std::array<Vec3, 3>& corners) {
   const Vec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], bc = corners[2] - corners[1];
   triangles_[k] = {corners[0], ab, ac};
   const Vec3 normal = cross(ab, ac);
@@ -30,6 +29,7 @@ void CandidateFaces::add(const std::array<Vec3, 3>& corners) {
   const bool flat = displacement < plane_slack * tolerance_ * area;
   PlaneBlock& block = blocks_[static_cast<std::size_t>(k / PlaneBlock::lanes)];
   const int lane = k % PlaneBlock::lanes;
+  flat_ &= ~(FaceMask{1} << k);
   if (!flat) {
     for (int plane = 0; plane < PlaneBlock::planes; ++plane) block.set(lane, plane, {}, {});
     return;

@@ -28,7 +28,9 @@ class CandidateFaces {
 
   void clear(double tolerance);
   /// `size()` must be less than `capacity`.
-  void add(const std::array<Vec3, 3>& corners);
+  void add(const std::array<Vec3, 3>& corners) { put(size_++, corners); }
+  /// Another triangle in the place of candidate k.
+  void replace(int k, const std::array<Vec3, 3>& corners) { put(k, corners); }
   [[nodiscard]] int size() const { return size_; }
 
   /// The members of `among` that are within the tolerance of p.
@@ -45,6 +47,7 @@ class CandidateFaces {
   static constexpr int face_plane = 0, sides = 3;  ///< of `PlaneBlock`: the face, then its sides
   [[nodiscard]] const PlaneBlock& block_of(int k) const { return blocks_[k / PlaneBlock::lanes]; }
   [[nodiscard]] bool holds(int k, Vec3 p) const;
+  void put(int k, const std::array<Vec3, 3>& corners);
 
   SlabTest test_ = slab_test();
   double tolerance_ = 0, squared_tolerance_ = 0;

@@ -53,6 +53,7 @@ void DeviationTracker::limit_triangles(std::span<const double> tolerances) {
       boxes[t].extend(Eigen::Vector3d(p.x, p.y, p.z));
     }
   }
+  impl_->around.known = false;
   impl_->local.emplace(std::move(boxes), tolerances);
 }
 
@@ -71,11 +72,17 @@ void DeviationTracker::commit() {
   Impl::Pending& pending = impl_->pending;
   if (!pending.admitted) throw Error("commit without an admitted change");
   pending.admitted = false;
+  impl_->around.known = false;
   for (std::size_t k = 0; k < pending.added.size(); ++k) {
     const TrackedFace& face = pending.added[k];
     impl_->put_face(face.id, corners_of(face), pending.nearest[k]);
   }
-  for (std::size_t i = 0; i < pending.affected.size(); ++i) impl_->cover.assign(pending.affected[i], pending.covers[i]);
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < pending.affected.size(); ++i) {
+    const std::size_t end = pending.cover_end[i];
+    impl_->cover.assign(pending.affected[i], std::span(pending.covers).subspan(begin, end - begin));
+    begin = end;
+  }
 }
 
 void DeviationTracker::sample(std::span<const std::uint32_t> removed) {

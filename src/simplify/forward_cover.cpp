@@ -39,9 +39,21 @@ int ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
   return k;
 }
 
+void ForwardCover::replace_first(std::span<const std::array<Vec3, 3>> corners) {
+  for (std::size_t k = 0; k < corners.size(); ++k) candidates_.replace(static_cast<int>(k), corners[k]);
+  replaced_ = first(static_cast<int>(corners.size()));
+  ++replacement_;
+}
+
 FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
   CachedMask& cached = cache_[vertex];
-  if (cached.round != round_) cached = {round_, 0, 0};
+  if (cached.round != round_) {
+    cached = {round_, replacement_, 0, 0};
+  } else if (cached.replacement != replacement_) {
+    cached.replacement = replacement_;
+    cached.known &= ~replaced_;
+    cached.mask &= ~replaced_;
+  }
   if (const FaceMask missing = allowed & ~cached.known; missing != 0) {
     cached.mask |= candidates_.holding(vertices_[vertex], missing);
     cached.known |= missing;
@@ -49,9 +61,10 @@ FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
   return cached.mask & allowed;
 }
 
-bool ForwardCover::corner_out_of_reach(std::uint32_t triangle, FaceMask allowed) {
+std::optional<std::uint32_t> ForwardCover::corner_out_of_reach(std::uint32_t triangle, FaceMask allowed) {
   const auto& corners = triangles_[triangle];
-  return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return mask_of(v, allowed) == 0; });
+  const auto at = std::find_if(corners.begin(), corners.end(), [&](std::uint32_t v) { return !holds(v, allowed); });
+  return at == corners.end() ? std::nullopt : std::optional(*at);
 }
 
 FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {

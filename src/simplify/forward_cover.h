@@ -2,6 +2,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "simplify/candidate_faces.h"
@@ -28,6 +30,8 @@ class ForwardCover {
   /// Index of the new candidate, `no_room` when there are 64 already.
   int add(const std::array<Vec3, 3>& corners, std::uint32_t face);
   static constexpr int no_room = -1;
+  /// Other triangles, of the same ids, in the place of the first candidates; what is known of the others stays.
+  void replace_first(std::span<const std::array<Vec3, 3>> corners);
   [[nodiscard]] int size() const { return candidates_.size(); }
   [[nodiscard]] std::uint32_t face(int k) const { return faces_[static_cast<std::size_t>(k)]; }
   /// Candidates [0, size).
@@ -43,8 +47,10 @@ class ForwardCover {
   /// The same where nothing is known: by the candidate nearest to the middle of the triangle of those that hold it, or
   /// in pieces, small candidates too.
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
-  /// True when no candidate of `allowed` holds some corner of the triangle.
-  [[nodiscard]] bool corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
+  /// A corner of the triangle that no candidate of `allowed` holds.
+  [[nodiscard]] std::optional<std::uint32_t> corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
+  /// True when some candidate of `allowed` is within the tolerance of the vertex.
+  [[nodiscard]] bool holds(std::uint32_t vertex, FaceMask allowed) { return mask_of(vertex, allowed) != 0; }
 
   std::uint64_t splits = 0, cuts = 0;
 
@@ -59,7 +65,7 @@ class ForwardCover {
   [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
 
   struct CachedMask {
-    std::uint32_t round = 0;
+    std::uint32_t round = 0, replacement = 0;
     FaceMask known = 0;  ///< candidates that have been asked
     FaceMask mask = 0;
   };
@@ -69,7 +75,8 @@ class ForwardCover {
   CandidateFaces candidates_;
   std::array<std::uint32_t, CandidateFaces::capacity> faces_{};
   double shortest_squared_edge_ = 0;
-  std::uint32_t round_ = 0;
+  std::uint32_t round_ = 0, replacement_ = 0;
+  FaceMask replaced_ = 0;
   std::vector<CachedMask> cache_;
   std::vector<Piece> open_;
 };

@@ -3,6 +3,7 @@
 /// the added faces are near the original.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "numeric/rounding.h"
 #include "simplify/tracker_fault.h"
@@ -17,6 +18,9 @@ namespace {
 /// Cuts spent on one added face before it counts as too far: an edit that needs more is refused, the next is cheaper.
 constexpr std::uint64_t most_cuts_of_added_face = 300;
 
+/// Affected triangles that are looked at for one near the moved vertex: a guess where to begin.
+constexpr std::size_t most_looked_at = 16;
+
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 }  // namespace
@@ -30,6 +34,7 @@ double DeviationTracker::Impl::provable(double value) const {
 }
 
 void DeviationTracker::Impl::set_tolerance(double value) {
+  around.known = false;
   tolerance = value;
   working_tolerance = provable(value) * internal::tracker_fault;
 }
@@ -54,19 +59,38 @@ double DeviationTracker::Impl::limit_of_change() const {
 /// Which faces really change, and which original triangles lose a face of their cover by that. Faces that keep id and
 /// corners, as around the fixed end of an edge that collapses onto it, keep their proofs.
 void DeviationTracker::Impl::select(const SurfaceChange& change) {
-  const auto make_room = [&](std::uint32_t id) {
-    for (MarkedIds* marks : {&removed_marks, &kept_marks}) marks->reserve(id);
-  };
-  removed_marks.clear();
-  for (const std::uint32_t face : change.removed) {
-    make_room(face);
-    removed_marks.insert(face);
-  }
   pending.admitted = false;
+  pending.covers.clear();
+  pending.cover_end.clear();
+  const bool same_faces = around.known && std::equal(change.removed.begin(), change.removed.end(),
+                                                     around.removed.begin(), around.removed.end());
+  if (!same_faces) {
+    removed_marks.clear();
+    for (const std::uint32_t face : change.removed) {
+      removed_marks.reserve(face);
+      removed_marks.insert(face);
+    }
+  }
+  select_faces(change);
+  const bool all_change = pending.added.size() == change.added.size();
+  const bool again = same_faces && all_change && around.all_change &&
+                     std::equal(pending.added.begin(), pending.added.end(), around.added.begin(), around.added.end(),
+                                [](const TrackedFace& face, std::uint32_t id) { return face.id == id; });
+  if (again) return;
+  around.known = true;
+  around.entered = false;
+  around.all_change = all_change;
+  around.removed.assign(change.removed.begin(), change.removed.end());
+  around.added.clear();
+  for (const TrackedFace& face : pending.added) around.added.push_back(face.id);
+  select_affected(change);
+}
+
+void DeviationTracker::Impl::select_faces(const SurfaceChange& change) {
   pending.added.clear();
   kept_marks.clear();
   for (const TrackedFace& face : change.added) {
-    make_room(face.id);
+    for (MarkedIds* marks : {&removed_marks, &kept_marks}) marks->reserve(face.id);
     const bool unchanged = face.id < corners.size() && removed_marks.contains(face.id) &&
                            same(corners[face.id][0], to_vec3(face.corners[0])) &&
                            same(corners[face.id][1], to_vec3(face.corners[1])) &&
@@ -76,21 +100,43 @@ void DeviationTracker::Impl::select(const SurfaceChange& change) {
     else
       pending.added.push_back(face);
   }
+}
+
+void DeviationTracker::Impl::select_affected(const SurfaceChange& change) {
   affected_marks.clear();
   pending.affected.clear();
   for (const std::uint32_t face : change.removed) {
+    kept_marks.reserve(face);
     if (kept_marks.contains(face)) continue;
     for (const std::uint32_t t : cover.originals_of(face)) {
       if (affected_marks.insert(t)) pending.affected.push_back(t);
     }
   }
-  if (pending.covers.size() < pending.affected.size()) pending.covers.resize(pending.affected.size());
+  around.near = SurfaceChange::no_triangle;
 }
 
+/// Of a few affected triangles the one with the corner nearest to p.
+std::uint32_t DeviationTracker::Impl::affected_near(Vec3 p) const {
+  std::uint32_t best = 0;
+  double least = HUGE_VAL;
+  const std::size_t stride = pending.affected.size() / most_looked_at + 1;
+  for (std::size_t i = 0; i < pending.affected.size(); i += stride) {
+    const std::uint32_t t = pending.affected[i];
+    const double squared = squared_length(vertices[triangles[t][0]] - p);
+    if (squared < least) least = squared, best = t;
+  }
+  return best;
+}
+
+/// No proof, but a cheap refusal: the faces at the vertex are compared with the original at last.
 bool DeviationTracker::Impl::moved_vertex_near(const SurfaceChange& change) {
   if (!change.moved_vertex || pending.added.empty()) return true;
-  std::uint32_t hint = pending.affected.empty() ? 0 : pending.affected.front();
-  return proximity.upper_distance(*change.moved_vertex, hint, limit) <= limit;
+  const Vec3 p = to_vec3(*change.moved_vertex);
+  if (around.near == SurfaceChange::no_triangle) around.near = affected_near(p);
+  const Triangle& t = triangles[around.near];
+  const CornerTriangle<double> near{vertices[t[0]], vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]};
+  if (closest_on_triangle(near, p).squared_distance <= limit * limit) return true;
+  return proximity.upper_distance(*change.moved_vertex, around.near, limit) <= limit;
 }
 
 Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
@@ -99,7 +145,13 @@ Refusal DeviationTracker::Impl::examine(const SurfaceChange& change) {
   limit = limit_of_change();
   if (!(limit > 0)) return Refusal::ToleranceBelowRounding;
   if (pending.added.size() > most_added_faces) return Refusal::TooManyFaces;
+  const bool again = around.entered && limit == around.limit;
+  if (again) {
+    replace_added_faces();
+    if (!left_corners_held()) return Refusal::OriginalUncovered;
+  }
   if (!moved_vertex_near(change)) return Refusal::MovedVertexTooFar;
+  if (!again) enter_added_faces();
   const Refusal forward_refusal = cover_affected(change);
   if (forward_refusal != Refusal::None) return forward_refusal;
   return added_faces_near() ? Refusal::None : Refusal::NewFaceTooFar;
@@ -112,35 +164,74 @@ FaceMask DeviationTracker::Impl::candidate_bit(std::uint32_t face) {
   return candidate.index == ForwardCover::no_room ? 0 : FaceMask{1} << candidate.index;
 }
 
-void DeviationTracker::Impl::enter_added_faces() {
-  forward.begin(limit);
-  ++candidate_round;
+void DeviationTracker::Impl::take_added_corners() {
+  added_corners.clear();
   pending.nearest.clear();
   for (const TrackedFace& face : pending.added) {
-    if (face.id >= candidates.size()) candidates.resize(std::size_t{face.id} + 1);
-    candidates[face.id] = {candidate_round, forward.add(corners_of(face), face.id)};
+    added_corners.push_back(corners_of(face));
     pending.nearest.push_back(face.id < nearest.size() ? nearest[face.id] : 0);
+  }
+}
+
+void DeviationTracker::Impl::enter_added_faces() {
+  take_added_corners();
+  forward.begin(limit);
+  ++candidate_round;
+  for (std::size_t k = 0; k < added_corners.size(); ++k) {
+    const std::uint32_t id = pending.added[k].id;
+    if (id >= candidates.size()) candidates.resize(std::size_t{id} + 1);
+    candidates[id] = {candidate_round, forward.add(added_corners[k], id)};
   }
   added_bits = ForwardCover::first(forward.size());
   ring_known = false;
+  around.entered = true;
+  around.limit = limit;
+  around.left_to_added.clear();
 }
 
+void DeviationTracker::Impl::replace_added_faces() {
+  take_added_corners();
+  forward.replace_first(added_corners);
+}
+
+/// Corners that had to be held by the added faces of an earlier placement must be held by those of this one.
+bool DeviationTracker::Impl::left_corners_held() {
+  for (const Around::Corner& corner : around.left_to_added) {
+    if (forward.holds(corner.vertex, added_bits)) continue;
+    uncovered = corner.triangle;
+    return false;
+  }
+  return true;
+}
+
+/// What is cheap and likely to fail comes first: the triangle that failed the last time, then all corners, which most
+/// triangles need to be looked at only, and pieces of triangles at last.
 Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
-  enter_added_faces();
-  const auto fails = [&](std::size_t i) {
-    if (cover_one(i, change)) return false;
+  used.assign(pending.affected.size(), 0);
+  const auto refuse = [&](std::size_t i) {
     uncovered = pending.affected[i];
-    return true;
+    return Refusal::OriginalUncovered;
   };
-  std::size_t first = pending.affected.size();
   if (change.try_first < triangles.size() && affected_marks.contains(change.try_first)) {
-    first = static_cast<std::size_t>(std::find(pending.affected.begin(), pending.affected.end(), change.try_first) -
-                                     pending.affected.begin());
-    if (fails(first)) return Refusal::OriginalUncovered;
+    const auto at = std::find(pending.affected.begin(), pending.affected.end(), change.try_first);
+    const auto first = static_cast<std::size_t>(at - pending.affected.begin());
+    ++stats.originals_tested;
+    if (corner_out_of_reach(change.try_first, change) || !cover_one(first, change)) return refuse(first);
   }
+  in_pieces.clear();
   for (std::size_t i = 0; i < pending.affected.size(); ++i) {
-    if (i != first && fails(i)) return Refusal::OriginalUncovered;
+    if (used[i] != 0) continue;
+    const std::uint32_t t = pending.affected[i];
+    ++stats.originals_tested;
+    used[i] = forward.cover_whole(t, added_bits, added_of(t));
+    if (used[i] != 0) continue;
+    if (corner_out_of_reach(t, change)) return refuse(i);
+    in_pieces.push_back(i);
   }
+  for (const std::size_t i : in_pieces) {
+    if (!cover_one(i, change)) return refuse(i);
+  }
+  list_covers();
   return Refusal::None;
 }
 
@@ -175,24 +266,37 @@ FaceMask DeviationTracker::Impl::added_of(std::uint32_t t) const {
   return bits & added_bits;
 }
 
+bool DeviationTracker::Impl::corner_out_of_reach(std::uint32_t t, const SurfaceChange& change) {
+  if (!forward.corner_out_of_reach(t, added_bits | relied_on(t))) return false;
+  if (!ring_known) find_ring(change);
+  const auto corner = forward.corner_out_of_reach(t, ForwardCover::first(forward.size()));
+  if (corner) around.left_to_added.push_back({*corner, t});
+  return corner.has_value();
+}
+
 bool DeviationTracker::Impl::cover_one(std::size_t i, const SurfaceChange& change) {
   const std::uint32_t t = pending.affected[i];
-  ++stats.originals_tested;
   const FaceMask preferred = added_of(t);
-  FaceMask used = forward.cover_whole(t, added_bits, preferred);
-  if (used == 0) used = forward.cover(t, added_bits | relied_on(t), preferred);
-  if (used == 0) {
+  used[i] = forward.cover(t, added_bits | relied_on(t), preferred);
+  if (used[i] == 0) {
     if (!ring_known) find_ring(change);
-    used = forward.cover(t, ForwardCover::first(forward.size()), preferred);
+    used[i] = forward.cover(t, ForwardCover::first(forward.size()), preferred);
   }
-  CoverAssignment::Ids& ids = pending.covers[i];
-  ids.clear();
-  for (FaceMask rest = used; rest != 0; rest &= rest - 1) {
-    const int k = std::countr_zero(rest);
-    ids.push_back(forward.face(k));
-    if ((added_bits >> k) & 1) pending.nearest[static_cast<std::size_t>(k)] = t;
+  return used[i] != 0;
+}
+
+void DeviationTracker::Impl::append_cover(FaceMask faces) {
+  for (FaceMask rest = faces; rest != 0; rest &= rest - 1)
+    pending.covers.push_back(forward.face(std::countr_zero(rest)));
+  pending.cover_end.push_back(pending.covers.size());
+}
+
+void DeviationTracker::Impl::list_covers() {
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    append_cover(used[i]);
+    for (FaceMask rest = used[i] & added_bits; rest != 0; rest &= rest - 1)
+      pending.nearest[static_cast<std::size_t>(std::countr_zero(rest))] = pending.affected[i];
   }
-  return used != 0;
 }
 
 bool DeviationTracker::Impl::added_faces_near() {

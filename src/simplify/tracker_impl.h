@@ -63,19 +63,39 @@ struct DeviationTracker::Impl {
   std::vector<Candidate> candidates;  ///< by face id
   std::uint32_t candidate_round = 0;
   FaceMask added_bits = 0;
+  std::vector<FaceCorners> added_corners;
 
   std::optional<BoxTree> face_boxes;        ///< at the last `begin_removals`
   std::vector<std::uint32_t> boxed, found;  ///< faces of the boxes; indices of boxes
 
   struct Pending {
     bool admitted = false;
-    std::vector<TrackedFace> added;            ///< those that differ from the current face of their id
-    std::vector<std::uint32_t> nearest;        ///< original triangle near each of `added`
-    std::vector<std::uint32_t> affected;       ///< original triangles that lost a face
-    std::vector<CoverAssignment::Ids> covers;  ///< new cover of each of `affected`; grows, never shrinks
+    std::vector<TrackedFace> added;       ///< those that differ from the current face of their id
+    std::vector<std::uint32_t> nearest;   ///< original triangle near each of `added`
+    std::vector<std::uint32_t> affected;  ///< original triangles that lost a face
+    CoverAssignment::Ids covers;          ///< new covers of `affected`, one after the other
+    std::vector<std::size_t> cover_end;   ///< of each of `affected`, in `covers`
   } pending;
+  std::vector<FaceMask> used;          ///< candidates that cover each of `pending.affected`, 0: not known yet
+  std::vector<std::size_t> in_pieces;  ///< those of `pending.affected` that no single candidate holds
   std::vector<std::uint32_t> ring;
   bool ring_known = false;
+
+  /// What changes of the same faces share, as the placements do that are tried for one edge: the affected originals,
+  /// the candidates beyond the added faces, and the corners that none of these holds.
+  struct Around {
+    bool known = false;
+    std::vector<std::uint32_t> removed;  ///< in order
+    std::vector<std::uint32_t> added;    ///< ids of those that change
+    bool all_change = false;             ///< no face keeps its id and corners
+    bool entered = false;                ///< the candidates are those of these faces
+    double limit = 0;                    ///< for these candidates
+    struct Corner {
+      std::uint32_t vertex, triangle;
+    };
+    std::vector<Corner> left_to_added;  ///< held by no candidate but, perhaps, the added faces
+    std::uint32_t near = 0;             ///< original triangle near the moved vertex
+  } around;
 
   Refusal refusal = Refusal::None;
   std::uint32_t uncovered = SurfaceChange::no_triangle;
@@ -89,17 +109,26 @@ struct DeviationTracker::Impl {
   void put_face(std::uint32_t id, const FaceCorners& at, std::uint32_t near);
 
   void select(const SurfaceChange& change);
+  void select_faces(const SurfaceChange& change);
+  void select_affected(const SurfaceChange& change);
   [[nodiscard]] Refusal examine(const SurfaceChange& change);
   [[nodiscard]] bool moved_vertex_near(const SurfaceChange& change);
+  [[nodiscard]] std::uint32_t affected_near(Vec3 p) const;
   [[nodiscard]] Refusal cover_affected(const SurfaceChange& change);
   [[nodiscard]] bool is_current(std::uint32_t face) const {
     return !removed_marks.contains(face) || kept_marks.contains(face);
   }
   FaceMask candidate_bit(std::uint32_t face);
+  void take_added_corners();
   void enter_added_faces();
+  void replace_added_faces();
+  [[nodiscard]] bool left_corners_held();
   [[nodiscard]] FaceMask added_of(std::uint32_t t) const;
   FaceMask relied_on(std::uint32_t t);
+  [[nodiscard]] bool corner_out_of_reach(std::uint32_t t, const SurfaceChange& change);
   [[nodiscard]] bool cover_one(std::size_t i, const SurfaceChange& change);
+  void append_cover(FaceMask faces);
+  void list_covers();
   void find_ring(const SurfaceChange& change);
   [[nodiscard]] bool added_faces_near();
   [[nodiscard]] Refusal examine_removal();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Faces that are taken away without a substitute.
 #include <algorithm>
-#include <bit>
 
 #include "simplify/tracker_impl.h"
 
@@ -21,7 +20,9 @@ void DeviationTracker::begin_removals() {
 bool DeviationTracker::admits_removal(std::span<const std::uint32_t> removed) {
   SurfaceChange change;
   change.removed = removed;
+  impl_->around.known = false;
   impl_->select(change);
+  impl_->around.known = false;  // the candidates are going to be others
   impl_->uncovered = SurfaceChange::no_triangle;
   impl_->refusal = impl_->examine_removal();
   impl_->pending.admitted = impl_->refusal == Refusal::None;
@@ -55,12 +56,9 @@ bool DeviationTracker::Impl::cover_by_others(std::size_t i) {
   forward.begin(limit);
   ++candidate_round;
   for (const std::uint32_t k : found) candidate_bit(boxed[k]);
-  CoverAssignment::Ids& ids = pending.covers[i];
-  ids.clear();
-  for (FaceMask used = forward.cover(pending.affected[i], ForwardCover::first(forward.size()), 0); used != 0;
-       used &= used - 1)
-    ids.push_back(forward.face(std::countr_zero(used)));
-  return !ids.empty();
+  const FaceMask faces = forward.cover(pending.affected[i], ForwardCover::first(forward.size()), 0);
+  append_cover(faces);
+  return faces != 0;
 }
 
 }  // namespace meshbound

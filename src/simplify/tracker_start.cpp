@@ -19,6 +19,7 @@ void DeviationTracker::Impl::put_face(std::uint32_t id, const FaceCorners& at, s
   for (MarkedIds* marks : {&removed_marks, &kept_marks}) marks->reserve(id);
   corners[id] = at;
   nearest[id] = near;
+  around.known = false;
 }
 
 void DeviationTracker::start(std::uint32_t id, std::uint32_t triangle) {
@@ -76,6 +77,7 @@ std::vector<std::uint32_t> DeviationTracker::cover_the_rest() {
   }
   std::vector<std::uint32_t> uncovered;
   for (const std::uint32_t t : rest) {
+    impl_->around.known = false;
     impl_->forward.begin(std::max(impl_->working_tolerance, 0.0));
     ++impl_->candidate_round;
     for (const std::uint32_t v : impl_->triangles[t]) {

@@ -212,6 +212,7 @@ class DeviationMonitor {
   [[nodiscard]] bool is_border(Vertex v) const { return bool(CGAL::is_border(v, mesh_)); }
   [[nodiscard]] bool passes_guards() const;
   [[nodiscard]] bool test(Halfedge h, Vertex v0, Vertex v1, const Point& placement, std::uint32_t try_first);
+  [[nodiscard]] bool test_gathered(Halfedge h, Vertex v0, Vertex v1, const Point& placement, std::uint32_t try_first);
   /// The faces around v0 and v1, v1 may be none, with `placement` for both.
   void gather_star(Vertex v0, Vertex v1, const Point& placement);
   /// The gathered star with another placement.

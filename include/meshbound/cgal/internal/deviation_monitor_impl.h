@@ -164,6 +164,12 @@ bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex 
                                                   std::uint32_t try_first) {
   if (!locks_allow(v0, v1, placement)) return false;
   gather_star(v0, v1, placement);
+  return test_gathered(h, v0, v1, placement, try_first);
+}
+
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::test_gathered(Halfedge h, Vertex v0, Vertex v1, const Point& placement,
+                                                           std::uint32_t try_first) {
   if (search_placements && !is_promising(to_eigen(placement))) return false;
   if (!admits_gathered(v0, v1, to_eigen(placement), try_first)) return false;
   admitted_.emplace(h, placement);
@@ -228,7 +234,8 @@ DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profil
   std::optional<Point> placement;
   const auto admitted = [&](const Point& other) {
     if (other == wanted) return false;
-    if (test(profile.v0_v1(), profile.v0(), profile.v1(), other, memory.uncovered)) {
+    place(to_eigen(other));
+    if (test_gathered(profile.v0_v1(), profile.v0(), profile.v1(), other, memory.uncovered)) {
       placement = other;
       return true;
     }
