@@ -18,6 +18,9 @@ namespace {
 /// Cuts spent on one added face before it counts as too far: an edit that needs more is refused, the next is cheaper.
 constexpr std::uint64_t most_cuts_of_added_face = 300;
 
+/// Candidates that covers use until now, from outside the ring: hardly ever more.
+constexpr std::size_t room_for_far_faces = 8;
+
 /// Affected triangles that are looked at for one near the moved vertex: a guess where to begin.
 constexpr std::size_t most_looked_at = 16;
 
@@ -216,7 +219,9 @@ Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
     const auto at = std::find(pending.affected.begin(), pending.affected.end(), change.try_first);
     const auto first = static_cast<std::size_t>(at - pending.affected.begin());
     ++stats.originals_tested;
-    if (corner_out_of_reach(change.try_first, change) || !cover_one(first, change)) return refuse(first);
+    const FaceMask likely = added_bits | relied_on(change.try_first);
+    if (corner_out_of_reach(change.try_first, likely, change) || !cover_one(first, likely, change))
+      return refuse(first);
   }
   in_pieces.clear();
   for (std::size_t i = 0; i < pending.affected.size(); ++i) {
@@ -225,11 +230,12 @@ Refusal DeviationTracker::Impl::cover_affected(const SurfaceChange& change) {
     ++stats.originals_tested;
     used[i] = forward.cover_whole(t, added_bits, added_of(t));
     if (used[i] != 0) continue;
-    if (corner_out_of_reach(t, change)) return refuse(i);
-    in_pieces.push_back(i);
+    const FaceMask likely = added_bits | relied_on(t);
+    if (corner_out_of_reach(t, likely, change)) return refuse(i);
+    in_pieces.push_back({i, likely});
   }
-  for (const std::size_t i : in_pieces) {
-    if (!cover_one(i, change)) return refuse(i);
+  for (const InPieces& one : in_pieces) {
+    if (!cover_one(one.affected, one.likely, change)) return refuse(one.affected);
   }
   list_covers();
   return Refusal::None;
@@ -241,7 +247,12 @@ void DeviationTracker::Impl::find_ring(const SurfaceChange& change) {
   ++stats.ring_searches;
   ring.clear();
   if (change.ring) change.ring(ring);
-  for (const std::uint32_t t : pending.affected) relied_on(t);
+  // Faces that covers use may lie farther out, and must not find the room taken.
+  const bool all_fit =
+      static_cast<std::size_t>(forward.size()) + ring.size() + room_for_far_faces <= CandidateFaces::capacity;
+  if (!all_fit) {
+    for (const std::uint32_t t : pending.affected) relied_on(t);
+  }
   for (const std::uint32_t face : ring) {
     if (is_current(face)) candidate_bit(face);
   }
@@ -266,18 +277,19 @@ FaceMask DeviationTracker::Impl::added_of(std::uint32_t t) const {
   return bits & added_bits;
 }
 
-bool DeviationTracker::Impl::corner_out_of_reach(std::uint32_t t, const SurfaceChange& change) {
-  if (!forward.corner_out_of_reach(t, added_bits | relied_on(t))) return false;
+bool DeviationTracker::Impl::corner_out_of_reach(std::uint32_t t, FaceMask likely, const SurfaceChange& change) {
+  if (!forward.corner_out_of_reach(t, likely)) return false;
   if (!ring_known) find_ring(change);
   const auto corner = forward.corner_out_of_reach(t, ForwardCover::first(forward.size()));
   if (corner) around.left_to_added.push_back({*corner, t});
   return corner.has_value();
 }
 
-bool DeviationTracker::Impl::cover_one(std::size_t i, const SurfaceChange& change) {
+/// By the candidates that are likely to hold it, or by all.
+bool DeviationTracker::Impl::cover_one(std::size_t i, FaceMask likely, const SurfaceChange& change) {
   const std::uint32_t t = pending.affected[i];
   const FaceMask preferred = added_of(t);
-  used[i] = forward.cover(t, added_bits | relied_on(t), preferred);
+  used[i] = forward.cover(t, likely, preferred);
   if (used[i] == 0) {
     if (!ring_known) find_ring(change);
     used[i] = forward.cover(t, ForwardCover::first(forward.size()), preferred);

@@ -76,8 +76,13 @@ struct DeviationTracker::Impl {
     CoverAssignment::Ids covers;          ///< new covers of `affected`, one after the other
     std::vector<std::size_t> cover_end;   ///< of each of `affected`, in `covers`
   } pending;
-  std::vector<FaceMask> used;          ///< candidates that cover each of `pending.affected`, 0: not known yet
-  std::vector<std::size_t> in_pieces;  ///< those of `pending.affected` that no single candidate holds
+  std::vector<FaceMask> used;  ///< candidates that cover each of `pending.affected`, 0: not known yet
+  /// A triangle that no single added face holds, and the candidates that it is likely to be held by.
+  struct InPieces {
+    std::size_t affected;  ///< index in `pending.affected`
+    FaceMask likely;
+  };
+  std::vector<InPieces> in_pieces;
   std::vector<std::uint32_t> ring;
   bool ring_known = false;
 
@@ -125,8 +130,8 @@ struct DeviationTracker::Impl {
   [[nodiscard]] bool left_corners_held();
   [[nodiscard]] FaceMask added_of(std::uint32_t t) const;
   FaceMask relied_on(std::uint32_t t);
-  [[nodiscard]] bool corner_out_of_reach(std::uint32_t t, const SurfaceChange& change);
-  [[nodiscard]] bool cover_one(std::size_t i, const SurfaceChange& change);
+  [[nodiscard]] bool corner_out_of_reach(std::uint32_t t, FaceMask likely, const SurfaceChange& change);
+  [[nodiscard]] bool cover_one(std::size_t i, FaceMask likely, const SurfaceChange& change);
   void append_cover(FaceMask faces);
   void list_covers();
   void find_ring(const SurfaceChange& change);

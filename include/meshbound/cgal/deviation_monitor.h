@@ -236,7 +236,7 @@ class DeviationMonitor {
   [[nodiscard]] Point fallback(int k, const Point& p0, const Point& p1, const Point& wanted) const;
   [[nodiscard]] bool is_promising(const Eigen::Vector3d& placement);
   [[nodiscard]] std::optional<Point> searched_placement(const Point& p0, const Point& p1);
-  void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) const;
+  void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring);
   [[nodiscard]] bool nothing_changed_since(const EdgeMemory& memory, Vertex v0, Vertex v1) const;
   void collapsed_into(Vertex v);
   [[nodiscard]] bool locks_allow(Vertex v0, Vertex v1, const Point& placement) const {
@@ -260,6 +260,8 @@ class DeviationMonitor {
 
   std::vector<std::uint32_t> removed_;
   std::vector<Face> removed_faces_;
+  std::vector<std::uint32_t> in_ring_;  ///< round of `append_ring`, by face id
+  std::uint32_t ring_round_ = 0;
   std::vector<TrackedFace> added_;
   std::vector<std::size_t> moved_corner_;               ///< of each of `added_`
   std::vector<std::array<Eigen::Vector3d, 3>> before_;  ///< of each of `added_`

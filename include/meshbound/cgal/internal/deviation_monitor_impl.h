@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Member functions of `DeviationMonitor`; included by its header.
 #pragma once
+#include <utility>
+
 #include "meshbound/cgal/deviation_monitor.h"
 
 namespace meshbound::cgal {
@@ -112,15 +114,19 @@ void DeviationMonitor<Mesh, VertexPointMap>::gather_star(Vertex v0, Vertex v1, c
 }
 
 template <class Mesh, class VertexPointMap>
-void DeviationMonitor<Mesh, VertexPointMap>::append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) const {
+void DeviationMonitor<Mesh, VertexPointMap>::append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring) {
+  ++ring_round_;
+  const auto is_new = [&](std::uint32_t id) {
+    if (id >= in_ring_.size()) in_ring_.resize(std::size_t{id} + 1, 0);
+    return std::exchange(in_ring_[id], ring_round_) != ring_round_;
+  };
+  for (const std::uint32_t id : removed_) is_new(id);
   for (const Face star : removed_faces_) {
     for (const Vertex v : corners(star)) {
       if (v == v0 || v == v1) continue;
       for_each_face_around(v, [&](Face f) {
         const std::uint32_t id = get(face_ids_, f);
-        if (std::find(removed_.begin(), removed_.end(), id) == removed_.end() &&
-            std::find(ring.begin(), ring.end(), id) == ring.end())
-          ring.push_back(id);
+        if (is_new(id)) ring.push_back(id);
       });
     }
   }
