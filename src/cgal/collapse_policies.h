@@ -72,11 +72,13 @@ class CollapsePolicies {
     return *placement == best.placement ? best.cost : (*quadrics_)->cost(profile.v0(), profile.v1(), *placement);
   }
 
-  /// Placement.
+  /// Placement. None where both ends are to stay: a locked vertex and one of a border.
   template <class Profile>
   boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
-    if (is_fixed(constraint_, profile.v0())) return Kernel::Point_3(profile.p0());
-    if (is_fixed(constraint_, profile.v1())) return Kernel::Point_3(profile.p1());
+    const bool first = is_fixed(constraint_, profile.v0()), second = is_fixed(constraint_, profile.v1());
+    if (first && second) return boost::none;
+    if (first) return Kernel::Point_3(profile.p0());
+    if (second) return Kernel::Point_3(profile.p1());
     if (cost_ == CollapseCost::LindstromTurk) return lindstrom_turk_placement_(profile);
     return of_edge(profile).placement;
   }

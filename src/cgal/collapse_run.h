@@ -2,9 +2,11 @@
 #pragma once
 #include <chrono>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cgal/collapse_policies.h"
+#include "cgal/estimated_phase.h"
 #include "cgal/refinement.h"
 #include "meshbound/cgal/deviation_monitor.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -39,8 +41,13 @@ class CollapseRun {
   EndedBy run(const CollapseGoal& goal);
 
   [[nodiscard]] const ManifoldCopy& copy() const { return copy_; }
-  [[nodiscard]] Monitor& monitor() { return *monitor_; }
-  [[nodiscard]] const Monitor& monitor() const { return *monitor_; }
+  /// By triangle of the original, before the first run: see `DeviationTracker::limit_triangles`.
+  void limit_triangles(std::span<const double> tolerances) { monitor_->limit_triangles(tolerances); }
+  /// Triangles of the original that the mesh has no face for and near: kept as they are.
+  [[nodiscard]] std::vector<std::uint32_t> uncovered() const;
+  [[nodiscard]] Monitor::Counts counts() const;
+  [[nodiscard]] TrackerStats stats() const;
+  [[nodiscard]] const EstimatedCollapses& estimated() const { return estimated_; }
   [[nodiscard]] const Monitor::Dropped& pruned() const { return pruned_; }
 
  private:
@@ -50,7 +57,11 @@ class CollapseRun {
   [[nodiscard]] bool must_stop(std::size_t faces);
   [[nodiscard]] bool truly_exceeds();
   [[nodiscard]] TriangleMesh after_refused_collapse() const;
-  void lock_vertices(const std::vector<bool>& locked);
+  [[nodiscard]] bool may_estimate() const;
+  void estimate();
+  void start_exactly();
+  void set_up_monitor();
+  [[nodiscard]] bool is_locked(SurfaceMesh::Vertex_index v) const;
   [[nodiscard]] KeptParts kept_parts() const;
   void prune();
   void pass();
@@ -63,15 +74,18 @@ class CollapseRun {
   const TriangleMesh& original_;
   const SimplifyOptions& options_;
   ManifoldCopy copy_;
+  std::vector<bool> locked_;
+  std::optional<EstimatedPhase> phase_;  ///< while there is no monitor
   std::optional<Monitor> monitor_;
   std::optional<CollapsePolicies> policies_;
   std::optional<Refinement> refinement_;
-  bool has_locks_ = false;
 
   CollapseGoal goal_;
   std::uint64_t stop_checks_ = 0;
   std::optional<EndedBy> ended_by_;
   Monitor::Dropped pruned_;
+  EstimatedCollapses estimated_;
+  std::uint64_t estimated_work_ = 0;  ///< of this run, as `work`
 };
 
 }  // namespace meshbound::cgal

@@ -85,7 +85,7 @@ void Decimation::limit_faces() {
     const double tolerance = options_.face_tolerances[t];
     limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
   }
-  run_->monitor().limit_triangles(limits);
+  run_->limit_triangles(limits);
 }
 
 /// For the ways into and out of the frame, of the original and of the result, and for the output format.
@@ -132,7 +132,7 @@ TriangleMesh Decimation::current_mesh() const {
     result.triangles.push_back({index[run_->copy().mesh.source(h)], index[run_->copy().mesh.target(h)],
                                 index[run_->copy().mesh.target(run_->copy().mesh.next(h))]});
   }
-  for (const std::uint32_t t : sorted_by(monitor().uncovered(), [&](auto u) { return order_.triangle[u]; })) {
+  for (const std::uint32_t t : sorted_by(run_->uncovered(), [&](auto u) { return order_.triangle[u]; })) {
     Triangle corners{};
     for (std::size_t i = 0; i < 3; ++i) {
       corners[i] = static_cast<std::uint32_t>(result.vertices.size());
@@ -144,13 +144,14 @@ TriangleMesh Decimation::current_mesh() const {
 }
 
 void Decimation::describe(SimplifyResult& result) const {
-  result.kept_triangles = monitor().uncovered().size();
+  result.kept_triangles = run_->uncovered().size();
   result.dropped_triangles = run_->copy().dropped_triangles - result.kept_triangles;
   result.split = run_->copy().split;
   result.pruned_components = run_->pruned().components;
   result.pruned_faces = run_->pruned().faces;
   result.tolerance_below_rounding = below_rounding_;
-  result.stats = monitor().tracker().stats();
+  result.stats = run_->stats();
+  result.estimated = run_->estimated();
 }
 
 }  // namespace meshbound::cgal

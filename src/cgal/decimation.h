@@ -23,7 +23,7 @@ class Decimation {
   /// The mesh as it is now, in model coordinates, the triangles that are kept as they are included. What is left of the
   /// original comes in its order.
   [[nodiscard]] TriangleMesh current_mesh() const;
-  [[nodiscard]] const CollapseRun::Monitor& monitor() const { return run_->monitor(); }
+  [[nodiscard]] CollapseRun::Monitor::Counts counts() const { return run_->counts(); }
   void describe(SimplifyResult& result) const;
 
  private:

@@ -74,8 +74,8 @@ void check_options(const SimplifyOptions& options) {
 
 void take_state(const Decimation& decimation, SimplifiedLevel& level) {
   level.mesh = decimation.current_mesh();
-  level.collapses_performed = decimation.monitor().counts().performed;
-  level.collapses_refused = decimation.monitor().counts().refused;
+  level.collapses_performed = decimation.counts().performed;
+  level.collapses_refused = decimation.counts().refused;
 }
 
 void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,

@@ -95,6 +95,13 @@ struct SimplifiedLevel {
   [[nodiscard]] std::size_t faces() const { return mesh.triangles.size(); }
 };
 
+/// Collapses far from the tolerance are made by an estimate first, then the mesh is proven as a whole, and every
+/// collapse from there.
+struct EstimatedCollapses {
+  std::uint64_t performed = 0;  ///< of those in the result; 0 where the options or the input leave no room for it
+  std::uint64_t restarts = 0;   ///< 1 where the proof failed, so that all began again with proofs for every collapse
+};
+
 struct SimplifyResult {
   std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
   std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
@@ -104,6 +111,7 @@ struct SimplifyResult {
   bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
   bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
   TrackerStats stats;
+  EstimatedCollapses estimated;
   struct Seconds {
     double prepare = 0, simplify = 0, measure = 0;
   } seconds;
@@ -112,8 +120,9 @@ struct SimplifyResult {
 };
 
 /// Simplifies a triangle soup by edge collapses while its symmetric Hausdorff distance to the original stays within the
-/// tolerance. Each collapse is proven both ways by a `DeviationMonitor`; that proof steers, and the verdict of each
-/// level is a fresh measurement of its mesh (`options.measure`). Decimation needs a 2-manifold, so it works on a
+/// tolerance. A `DeviationMonitor` proves both ways the mesh that the first collapses, far from the tolerance, leave,
+/// and each collapse from there; that proof steers, and the verdict of each level is a fresh measurement of its mesh
+/// (`options.measure`). Decimation needs a 2-manifold, so it works on a
 /// `manifold_copy`; the bound is always against the soup as it came in. Single-threaded and deterministic but for
 /// `time_limit` and `cancel`.
 ///

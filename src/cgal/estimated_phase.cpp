@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cgal/estimated_phase.h"
+
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/point_triangle.h"
+#include "meshbound/error.h"
+
+namespace meshbound::cgal {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Of p above the nearest of the faces, below 0 on their other side.
+double height_above(const std::vector<Corners>& faces, Vec3 p) {
+  double least = HUGE_VAL, side = 0;
+  for (const Corners& c : faces) {
+    const CornerTriangle<double> t{c[0], c[1] - c[0], c[2] - c[0]};
+    const TriangleOffset<double> nearest = closest_on_triangle(t, p);
+    if (!(nearest.squared_distance < least)) continue;
+    least = nearest.squared_distance;
+    side = dot(cross(t.ab, t.ac), nearest.offset);
+  }
+  return std::copysign(std::sqrt(least), side);
+}
+
+Vec3 to_vec3(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+std::array<Eigen::Vector3d, 3> to_eigen(const Corners& c) {
+  return {Eigen::Vector3d(c[0].x, c[0].y, c[0].z), Eigen::Vector3d(c[1].x, c[1].y, c[1].z),
+          Eigen::Vector3d(c[2].x, c[2].y, c[2].z)};
+}
+
+}  // namespace
+
+class EstimatedPhase::Filter {
+ public:
+  explicit Filter(EstimatedPhase& phase) : phase_(&phase) {}
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
+    return placement && phase_->admits(profile, *placement) ? placement : OptionalPoint();
+  }
+
+ private:
+  EstimatedPhase* phase_;
+};
+
+class EstimatedPhase::Stop {
+ public:
+  explicit Stop(EstimatedPhase& phase) : phase_(&phase) {}
+  template <class Cost, class Profile, class Size>
+  bool operator()(const Cost&, const Profile&, Size, Size) const {
+    return phase_->exceeded_ >= phase_->most_exceeded_ || phase_->should_stop_(phase_->mesh_.number_of_faces());
+  }
+
+ private:
+  EstimatedPhase* phase_;
+};
+
+class EstimatedPhase::Visitor : public SMS::Edge_collapse_visitor_base<SurfaceMesh> {
+ public:
+  explicit Visitor(EstimatedPhase& phase) : phase_(&phase) {}
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile&, const OptionalPoint&) const {
+    phase_->collapsing_ = true;
+  }
+  /// Throws `Error` for the collapses of zero-length edges that CGAL makes without asking.
+  template <class Profile>
+  void OnCollapsed(const Profile&, SurfaceMesh::Vertex_index v) const {
+    if (!phase_->collapsing_) throw Error("a zero-length edge was collapsed unasked; weld equal vertices first");
+    phase_->collapsing_ = false;
+    phase_->heights_[v] = phase_->next_;
+    if (!phase_->locked_.empty()) phase_->locked_[v] = phase_->next_locked_;
+    ++phase_->collapses_;
+  }
+
+ private:
+  EstimatedPhase* phase_;
+};
+
+EstimatedPhase::EstimatedPhase(SurfaceMesh& mesh, const NormalGuard& guard, std::vector<bool> locked,
+                               std::function<bool(std::size_t faces)> should_stop)
+    : mesh_(mesh),
+      guard_(guard),
+      locked_(std::move(locked)),
+      should_stop_(std::move(should_stop)),
+      heights_(mesh.num_vertices()) {}
+
+void EstimatedPhase::run(const CollapsePolicies& policies, const KeptParts& kept, double limit,
+                         std::uint64_t most_exceeded) {
+  limit_ = limit;
+  most_exceeded_ = most_exceeded;
+  SMS::edge_collapse(mesh_, Stop(*this),
+                     CGAL::parameters::get_cost(policies)
+                         .get_placement(policies)
+                         .filter(Filter(*this))
+                         .visitor(Visitor(*this))
+                         .edge_is_constrained_map(kept));
+}
+
+/// The faces around the edge as they are and as they would be. False where one would be folded or lose its area.
+template <class Profile>
+bool EstimatedPhase::gather(const Profile& profile, const Kernel::Point_3& placement) {
+  before_.clear();
+  after_.clear();
+  const Vec3 moved = to_vec3(placement);
+  for (const auto& t : profile.triangles()) {
+    const std::array<SurfaceMesh::Vertex_index, 3> v = {t.v0, t.v1, t.v2};
+    Corners corners, changed;
+    int ends = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool is_end = v[i] == profile.v0() || v[i] == profile.v1();
+      ends += is_end ? 1 : 0;
+      corners[i] = at(v[i]);
+      changed[i] = is_end ? moved : corners[i];
+    }
+    before_.push_back(corners);
+    if (ends == 2) continue;
+    const auto c = to_eigen(changed);
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0] || !guard_.allows(to_eigen(corners), c)) return false;
+    after_.push_back(changed);
+  }
+  // The tracker refuses more, and the time spent here grows with the square.
+  return after_.size() <= DeviationTracker::most_added_faces;
+}
+
+/// The ends are compared with the new faces, the new vertex and the middles of its edges with the old ones: where these
+/// edges pass a saddle, no vertex tells.
+template <class Profile>
+bool EstimatedPhase::admits(const Profile& profile, const Kernel::Point_3& placement) {
+  const auto v0 = profile.v0(), v1 = profile.v1();
+  if (!may_move(v0, placement) || !may_move(v1, placement) || !gather(profile, placement)) return false;
+  const Heights a = heights_[v0], b = heights_[v1];
+  const Heights between{std::min(a.least, b.least), std::max(a.most, b.most)};
+  const Vec3 moved = to_vec3(placement);
+  next_ = between.raised(-height_above(before_, moved));
+  next_.extend(a.raised(height_above(after_, at(v0))));
+  next_.extend(b.raised(height_above(after_, at(v1))));
+  for (const auto r : profile.link())
+    next_.extend(between.middle(heights_[r]).raised(-height_above(before_, 0.5 * (moved + at(r)))));
+  next_locked_ = is_locked(v0) || is_locked(v1);
+  if (std::max(-next_.least, next_.most) <= limit_) return true;
+  ++exceeded_;
+  return false;
+}
+
+}  // namespace meshbound::cgal
