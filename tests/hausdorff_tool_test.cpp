@@ -135,6 +135,25 @@ TEST_F(HausdorffTool, TransformsB) {
   EXPECT_GT(rounded["b"]["transform_displacement"], 0);
 }
 
+TEST_F(HausdorffTool, BuildsNoTreesForACopyThatHasHardlyMoved) {
+  TriangleMesh copy = read_mesh(sphere_).mesh;
+  for (Eigen::Vector3d& p : copy.vertices) p = p.cast<float>().cast<double>();
+  const std::string rounded = folder_ / "rounded.off";
+  write_mesh(rounded, copy);
+  for (const std::vector<std::string>& asked : {std::vector<std::string>{}, {"--one-sided"}, {"--tolerance", "1e-6"}}) {
+    std::vector<std::string> arguments{sphere_, rounded, "--json", "-"};
+    arguments.insert(arguments.end(), asked.begin(), asked.end());
+    const ToolRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json document = parsed(result);
+    EXPECT_EQ(document["seconds"]["build"], 0.0);
+    EXPECT_LE(document["distance"]["upper"], 2e-7);
+    EXPECT_GT(document["distance"]["upper"], 1e-9);
+  }
+  EXPECT_EQ(run({sphere_, rounded, "--tolerance", "1e-10"}).exit_code, 1);
+  EXPECT_GT(parsed(run({sphere_, cube_, "--json", "-"}))["seconds"]["build"], 0.0);
+}
+
 TEST_F(HausdorffTool, LeavesOutWhatWasNotAskedFor) {
   const json document = parsed(run({cube_, large_, "--one-sided", "--json", "-"}));
   EXPECT_FALSE(document["distance"].contains("b_to_a"));

@@ -107,6 +107,91 @@ TEST(SymmetricDistance, OfMeshesWithOneOtherTriangleIsThatOfTheirTrees) {
   EXPECT_THROW((void)same_surface(mesh, TriangleMesh{}), InvalidInput);
 }
 
+/// Corner k of each triangle moved by up to `most` in each coordinate, where vertices are shared by all of them alike.
+TriangleMesh jittered(TriangleMesh mesh, double most) {
+  unsigned state = 1;
+  const auto next = [&] {
+    return most * (static_cast<double>((state = 1664525 * state + 1013904223) >> 8) * 0x1p-23 - 1);
+  };
+  for (Vector3d& p : mesh.vertices) p += Vector3d(next(), next(), next());
+  return mesh;
+}
+
+/// The same triangles in the same order, with vertices of their own and turned by one, two or no corners.
+TriangleMesh with_own_vertices(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    for (std::size_t k = 0; k < 3; ++k) result.vertices.push_back(mesh.vertices[mesh.triangles[i][(k + i) % 3]]);
+    result.triangles.push_back({first, first + 1, first + 2});
+    if (i % 2 == 0) std::swap(result.triangles.back()[0], result.triangles.back()[1]);
+  }
+  return result;
+}
+
+double largest_move(const TriangleMesh& a, const TriangleMesh& b) {
+  double most = 0;
+  for (std::size_t v = 0; v < a.vertices.size(); ++v) most = std::max(most, (a.vertices[v] - b.vertices[v]).norm());
+  return most;
+}
+
+TEST(WithoutTrees, MovedCornersBoundTheDistance) {
+  for (const TriangleMesh& mesh : {icosphere(3), cube(1), random_soup(7, 300, 0.3)}) {
+    for (const double most : {1e-3, 1e-9, 1e-14}) {
+      const TriangleMesh copy = jittered(mesh, most);
+      for (const TriangleMesh& other : {copy, with_own_vertices(copy)}) {
+        const double move = largest_move(mesh, copy);
+        const auto result = distance_without_trees(mesh, other, move * (1 + 1e-12));
+        ASSERT_TRUE(result);
+        EXPECT_GE(result->bounds.upper, move);
+        EXPECT_LE(result->bounds.upper, move * (1 + 1e-12));
+        expect_is_maximum(*result);
+        const Bounds trees = symmetric_distance(Bvh(mesh), Bvh(other)).bounds;
+        EXPECT_LE(trees.lower, result->bounds.upper);
+        EXPECT_GE(trees.upper, result->bounds.lower);
+        expect_witness(mesh, other, result->a_to_b);
+        expect_witness(other, mesh, result->b_to_a);
+        EXPECT_FALSE(distance_without_trees(mesh, other, move * (1 - 1e-12)));
+      }
+    }
+  }
+}
+
+TEST(WithoutTrees, OneCornerFurtherThanTheLimitIsNotOverlooked) {
+  const TriangleMesh mesh = icosphere(3);
+  for (const std::size_t moved : {std::size_t{0}, 3 * mesh.triangles.size() - 1}) {
+    TriangleMesh other = with_own_vertices(jittered(mesh, 1e-9));
+    other.vertices[moved] *= 1.01;
+    EXPECT_FALSE(distance_without_trees(mesh, other, 1e-6));
+    EXPECT_NEAR(symmetric_distance(mesh, other).bounds.upper, 0.01, 1e-5);
+  }
+  EXPECT_FALSE(distance_without_trees(mesh, both(mesh, mesh), 1));
+}
+
+TEST(WithoutTrees, BoundsHoldAtAnyScale) {
+  for (const double scale : {1e-290, 1e-160, 1e150, 1e290}) {
+    const TriangleMesh mesh = scaled(icosphere(2), scale), other = moved(mesh, Vector3d(0, 0, 1e-9 * scale));
+    const auto result = distance_without_trees(mesh, other, 1e-6 * scale);
+    ASSERT_TRUE(result) << scale;
+    const double move = mesh.vertices[0].z() - other.vertices[0].z();
+    EXPECT_GE(result->bounds.upper, std::abs(move)) << scale;
+    EXPECT_LE(result->bounds.upper, 2e-9 * scale) << scale;
+    EXPECT_LE(result->bounds.lower, result->bounds.upper) << scale;
+  }
+}
+
+TEST(WithoutTrees, DecisionOfMeshesIsThatOfTheirTrees) {
+  const TriangleMesh mesh = icosphere(3), near = jittered(mesh, 1e-9), far = moved(mesh, {0, 0, 0.5});
+  EXPECT_EQ(check_symmetric(mesh, mesh, 0).verdict, Verdict::Within);
+  const ToleranceCheck within = check_symmetric(mesh, near, 1e-8);
+  EXPECT_EQ(within.verdict, Verdict::Within);
+  EXPECT_LE(within.bounds.upper, 2e-9);
+  EXPECT_EQ(check_symmetric(mesh, near, 1e-11).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_symmetric(mesh, far, 0.4).verdict, check_symmetric(Bvh(mesh), Bvh(far), 0.4).verdict);
+  EXPECT_THROW((void)check_symmetric(mesh, near, -1), InvalidInput);
+  EXPECT_THROW((void)distance_without_trees(mesh, TriangleMesh{}, 1), InvalidInput);
+}
+
 TEST(SymmetricDistance, OfConcentricSpheresIsTheGapUpToFaceting) {
   const TriangleMesh sphere = icosphere(3);
   expect_distance(sphere, scaled(sphere, 2), {1 - 1e-14, 2 - inscribed_radius(sphere) * (1 - 1e-14)});

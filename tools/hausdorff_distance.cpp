@@ -158,9 +158,26 @@ bool is_done(const Answer& answer, const Question& question) {
   return !question.error_bound_was_given && !cut_short;
 }
 
-Answer answer_to(const Question& question, const Bvh& a, const Bvh& b, const DistanceOptions& options) {
+/// What needs no trees: the same surface, or a copy of it that has hardly moved. Then the build takes no time.
+std::optional<Answer> answer_without_trees(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                                           Method method) {
+  if (method != Method::CellWalking) return std::nullopt;
+  double limit = std::numeric_limits<double>::infinity();
+  if (question.error_bound) limit = *question.error_bound;
+  if (question.tolerance) limit = std::min(limit, shrunk_tolerance(question));
+  const std::optional<SymmetricDistance> distance = distance_without_trees(a, b, limit);
+  if (!distance) return std::nullopt;
+  if (question.one_sided) return Answer{distance->a_to_b.bounds, distance->a_to_b, std::nullopt, {}, ExitUndecided};
+  return Answer{distance->bounds, distance->a_to_b, distance->b_to_a, {}, ExitUndecided};
+}
+
+Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b, const DistanceOptions& options) {
   const bool decision_only = question.tolerance && !question.error_bound_was_given;
-  Answer answer = decision_only ? decide(a, b, question, options) : measure(a, b, question, options);
+  return decision_only ? decide(a, b, question, options) : measure(a, b, question, options);
+}
+
+/// Allows for the rounding of B's image, and says what came of it.
+void conclude(Answer& answer, const Question& question) {
   widen(answer, question.displacement);
   if (question.tolerance) {
     const Verdict verdict = verdict_of(answer.bounds, *question.tolerance);
@@ -171,7 +188,6 @@ Answer answer_to(const Question& question, const Bvh& a, const Bvh& b, const Dis
     answer.verdict = done ? "done" : "undecided";
     answer.exit_code = done ? ExitDone : ExitUndecided;
   }
-  return answer;
 }
 
 void print_mesh(const char* name, const MeshReport& mesh) {
@@ -322,15 +338,16 @@ int run(const Arguments& arguments) {
   if (!tolerance && !error_bound) question.error_bound = default_error_bound(a.mesh, b.mesh, diagonal);
   report.seconds.read = watch.lap();
 
-  const Bvh tree_a(a.mesh, {arguments.common.threads});
-  const Bvh tree_b(b.mesh, {arguments.common.threads});
-  report.seconds.build = watch.lap();
-
-  Answer answer;
-  {
+  std::optional<Answer> found = answer_without_trees(question, a.mesh, b.mesh, arguments.method);
+  if (!found) {
+    const Bvh tree_a(a.mesh, {arguments.common.threads});
+    const Bvh tree_b(b.mesh, {arguments.common.threads});
+    report.seconds.build = watch.lap();
     ProgressBar bar("measuring", arguments.common.quiet);
-    answer = answer_to(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));
+    found = answer_by_trees(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));
   }
+  Answer& answer = *found;
+  conclude(answer, question);
   if (interrupted && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
   report.seconds.query = watch.lap();
   if (certificate && answer.exit_code == ExitDone &&

@@ -107,9 +107,17 @@ struct ToleranceCheck {
 [[nodiscard]] SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
                                                    const DistanceOptions& options = {});
 
-/// The same for two meshes where they are: builds their trees only if they are not the same surface (`same_surface`),
-/// whose distance is exactly 0. Throws as `Bvh` and as above. O(n log n) for the trees. Any number of threads may call
-/// it.
+/// What needs no tree: meshes of the same triangles (`same_surface`), at distance 0; and meshes whose triangles
+/// correspond in order, with corners at most `limit` apart (a copy rounded to float, a mesh that has moved a little),
+/// whatever the numbers of vertices and the turns of triangles. Absent where neither holds, which mostly takes no
+/// longer than a look. The upper bound is at most `limit`, model units; statistics are of what was looked at. Throws as
+/// `Bvh`. O(n). Any number of threads may call it.
+[[nodiscard]] std::optional<SymmetricDistance> distance_without_trees(const MeshView& a, const MeshView& b,
+                                                                      double limit);
+
+/// The same as above for two meshes where they are: builds their trees only where `distance_without_trees` does not
+/// tell the distance to the error bound (and the tolerance, if any). Throws as `Bvh` and as above. O(n log n) for the
+/// trees. Any number of threads may call it.
 [[nodiscard]] SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b,
                                                    const DistanceOptions& options = {});
 
@@ -119,6 +127,8 @@ struct ToleranceCheck {
 
 /// Decides H(A,B) <= tolerance: stops at the first point known to be further, refines nothing below it.
 [[nodiscard]] ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                                             const DistanceOptions& options = {});
+[[nodiscard]] ToleranceCheck check_symmetric(const MeshView& a, const MeshView& b, double tolerance,
                                              const DistanceOptions& options = {});
 [[nodiscard]] ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                              const DistanceOptions& options = {});

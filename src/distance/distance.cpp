@@ -9,6 +9,7 @@
 #include "distance/one_sided.h"
 #include "distance/symmetric.h"
 #include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
 
 namespace meshbound {
 namespace {
@@ -91,6 +92,18 @@ SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
   return symmetric_distance(a, b, options, {});
 }
 
+SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
+  const double tolerance = tolerance_of(options);
+  if (options.error_bound) checked(*options.error_bound, "the error bound");
+  if (options.method == Method::CellWalking) {
+    const double error_bound =
+        options.error_bound ? *options.error_bound : default_error_bound * diagonal_of(used_bounding_box(a));
+    if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
+  }
+  const Bvh tree_a(a, {.threads = options.threads}), tree_b(b, {.threads = options.threads});
+  return symmetric_distance(tree_a, tree_b, options);
+}
+
 ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                const DistanceOptions& options) {
   return checked_one_sided(decision(a, b, tolerance, options));
@@ -116,6 +129,16 @@ ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, doubl
 ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                const DistanceOptions& options) {
   return check_symmetric(a, b, tolerance, options, {});
+}
+
+ToleranceCheck check_symmetric(const MeshView& a, const MeshView& b, double tolerance, const DistanceOptions& options) {
+  checked(tolerance, "the tolerance");
+  if (options.method == Method::CellWalking) {
+    if (const auto distance = distance_without_trees(a, b, tolerance))
+      return {Verdict::Within, tolerance, distance->bounds, distance->a_to_b, distance->b_to_a};
+  }
+  const Bvh tree_a(a, {.threads = options.threads}), tree_b(b, {.threads = options.threads});
+  return check_symmetric(tree_a, tree_b, tolerance, options);
 }
 
 }  // namespace meshbound

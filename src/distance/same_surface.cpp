@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "distance/corresponding.h"
 #include "distance/exact_match.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/distance.h"
-#include "meshbound/error.h"
 
 namespace meshbound {
 namespace {
@@ -14,10 +14,10 @@ constexpr std::size_t sampled_vertices = 64;
 
 bool same_arrays(const MeshView& a, const MeshView& b) {
   if (a.vertex_count() != b.vertex_count()) return false;
-  for (std::size_t i = 0; i < a.triangle_count(); ++i)
-    if (a.triangle(i) != b.triangle(i)) return false;
   for (std::size_t v = 0; v < a.vertex_count(); ++v)
     if (a.vertex(v) != b.vertex(v)) return false;
+  for (std::size_t i = 0; i < a.triangle_count(); ++i)
+    if (a.triangle(i) != b.triangle(i)) return false;
   return true;
 }
 
@@ -104,16 +104,14 @@ bool same_surface(const MeshView& a, const MeshView& b) {
   return a.triangle_count() == b.triangle_count() && (same_arrays(a, b) || same_sets(a, b));
 }
 
-SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
-  if (options.method == Method::CellWalking && same_surface(a, b)) {
-    if (options.error_bound && !(*options.error_bound >= 0))
-      throw InvalidInput("the error bound must be a length of 0 or more");
-    if (options.tolerance && !(*options.tolerance >= 0))
-      throw InvalidInput("the tolerance must be a length of 0 or more");
-    return {{0, 0}, zero_distance(a, b), zero_distance(b, a)};
-  }
-  const Bvh tree_a(a, {.threads = options.threads}), tree_b(b, {.threads = options.threads});
-  return symmetric_distance(tree_a, tree_b, options);
+std::optional<SymmetricDistance> distance_without_trees(const MeshView& a, const MeshView& b, double limit) {
+  validate(a);
+  validate(b);
+  if (a.triangle_count() != b.triangle_count()) return std::nullopt;
+  if (same_arrays(a, b)) return SymmetricDistance{{0, 0}, zero_distance(a, b), zero_distance(b, a)};
+  if (auto distance = distance_of_corresponding(a, b, limit)) return distance;
+  if (!same_sets(a, b)) return std::nullopt;
+  return SymmetricDistance{{0, 0}, zero_distance(a, b), zero_distance(b, a)};
 }
 
 }  // namespace meshbound
