@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <set>
 
@@ -382,6 +383,40 @@ TEST(CandidateFaces, HoldExactlyThoseThatAreNear) {
       }
     }
   }
+}
+
+TEST(PlaneKernel, IsTheSameOnEveryProcessor) {
+  const PlaneKernel portable = portable_plane_kernel(), fastest = fastest_plane_kernel();
+  if (portable.test == fastest.test) GTEST_SKIP() << "this processor has no AVX2";
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  unsigned accurate = 0, held = 0;
+  for (int round = 0; round < 1000; ++round) {
+    std::array<PlaneKernel::Corners, 4> faces;
+    for (auto& corners : faces) {
+      corners = {point(), point(), point()};
+      if (random() % 4 == 0) corners[2] = 0.5 * (corners[0] + corners[1]);
+    }
+    PlaneBlock ours, theirs;
+    const unsigned flat = portable.set(ours, faces.data(), 0.3, 3e-7);
+    ASSERT_EQ(fastest.set(theirs, faces.data(), 0.3, 3e-7), flat);
+    ASSERT_EQ(std::memcmp(&ours, &theirs, sizeof(PlaneBlock)), 0);
+    const Vec3 p = point(), q = point();
+    const SlabBits here = portable.test(ours, p, 0.3, 0.09), there = fastest.test(theirs, p, 0.3, 0.09);
+    ASSERT_EQ(here.inside, there.inside);
+    ASSERT_EQ(here.outside, there.outside);
+    const unsigned forth = static_cast<unsigned>(random()) & flat, back = flat & ~forth;
+    const Reach one = portable.reach(ours, forth, back, p, q, 0.3, 0.09);
+    const Reach other = fastest.reach(theirs, forth, back, p, q, 0.3, 0.09);
+    ASSERT_EQ(one.forth, other.forth);
+    ASSERT_EQ(one.back, other.back);
+    EXPECT_EQ(one.back, portable.reach(ours, back, forth, q, p, 0.3, 0.09).forth) << "the way back is the way from q";
+    accurate |= flat;
+    held |= here.inside;
+  }
+  EXPECT_EQ(accurate, 15u);
+  EXPECT_EQ(held, 15u);
 }
 
 TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {

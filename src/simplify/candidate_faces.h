@@ -34,26 +34,33 @@ class CandidateFaces {
   [[nodiscard]] int size() const { return size_; }
 
   /// The members of `among` that are within the tolerance of p.
-  [[nodiscard]] FaceMask holding(Vec3 p, FaceMask among) const;
+  [[nodiscard]] FaceMask holding(Vec3 p, FaceMask among);
 
   /// The member of `among` that is nearest to p.
   [[nodiscard]] FaceMask nearest(Vec3 p, FaceMask among) const;
 
-  /// How far one can go from p towards q without leaving the slab around one of the faces of `mask`, as a share of the
-  /// way: a guess where to cut, not a bound.
-  [[nodiscard]] double reach(Vec3 p, Vec3 q, FaceMask mask) const;
+  /// How far one can go from p towards q without leaving the slab around one of the faces of `of_p`, as a share of the
+  /// way, and from q towards p with those of `of_q`; no face is in both. A guess where to cut, not a bound.
+  [[nodiscard]] Reach reach(Vec3 p, Vec3 q, FaceMask of_p, FaceMask of_q);
 
  private:
-  static constexpr int face_plane = 0, sides = 3;  ///< of `PlaneBlock`: the face, then its sides
-  [[nodiscard]] const PlaneBlock& block_of(int k) const { return blocks_[k / PlaneBlock::lanes]; }
+  static constexpr std::size_t blocks = capacity / PlaneBlock::lanes;
   [[nodiscard]] bool holds(int k, Vec3 p) const;
   void put(int k, const std::array<Vec3, 3>& corners);
+  /// The planes of candidates 4 block to 4 block + 3, made when they are first asked for, all at once.
+  const PlaneBlock& planes(std::size_t block) {
+    if (((missing_ >> block) & 1U) != 0) make_planes(block);
+    return blocks_[block];
+  }
+  void make_planes(std::size_t block);
 
-  SlabTest test_ = slab_test();
+  PlaneKernel kernel_ = fastest_plane_kernel();
   double tolerance_ = 0, squared_tolerance_ = 0;
   int size_ = 0;
-  std::array<PlaneBlock, capacity / PlaneBlock::lanes> blocks_{};
-  std::array<CornerTriangle<double>, capacity> triangles_;
+  std::array<PlaneBlock, blocks> blocks_{};
+  std::uint32_t missing_ = 0;  ///< bit for each block whose planes are not those of its triangles yet
+  std::array<std::array<Vec3, 3>, capacity> corners_{};
+  std::array<CornerTriangle<double>, capacity> triangles_{};
   FaceMask flat_ = 0;  ///< those whose planes are accurate
 };
 

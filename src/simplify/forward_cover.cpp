@@ -127,8 +127,8 @@ bool ForwardCover::cut(const Piece& piece, FaceMask allowed, Asked asked) {
   const Vec3 p = piece.corners[from], q = piece.corners[to];
   double share = 0.5;
   if ((piece.masks[from] & piece.masks[to]) == 0) {
-    const double forth = candidates_.reach(p, q, piece.masks[from]), back = candidates_.reach(q, p, piece.masks[to]);
-    share = std::clamp((forth + 1 - back) / 2, nearest_cut, 1 - nearest_cut);
+    const Reach reach = candidates_.reach(p, q, piece.masks[from], piece.masks[to]);
+    share = std::clamp((reach.forth + 1 - reach.back) / 2, nearest_cut, 1 - nearest_cut);
   }
   const Vec3 middle = p + share * (q - p);
   ++cuts;
