@@ -45,6 +45,7 @@ struct LevelChecker::Impl {
       next.from_original.reset(original->data());
       next.from_level.reset(tree);
     }
+    next.from_level.names_faces = false;
     return next;
   }
 

@@ -138,7 +138,7 @@ void OneSidedSearch::cull_nodes() {
 
 void OneSidedSearch::remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face) {
   if (task_.memory == nullptr) return;
-  const double bound = b_.frame.length_up(proven_length(squared, 0));
+  const double bound = proven_model_length(squared, 0);
   const auto [begin, end] = slots_below(a_, level, index);
   for (std::uint32_t slot = begin; slot < end; ++slot)
     if (is_alive(slot)) task_.memory->improve(slot, bound, face);

@@ -10,7 +10,13 @@ namespace meshbound {
 
 /// A computed distance as a length that is proven: working units, behind so many cuts.
 double OneSidedSearch::proven_length(double squared, std::uint32_t cuts) const {
-  return next_up(std::sqrt(squared) * (1 + 4 * unit_roundoff)) + goal_.slack + cuts * goal_.cut_slack;
+  return std::sqrt(squared) * (1 + 8 * unit_roundoff) + goal_.slack + cuts * goal_.cut_slack;
+}
+
+/// `proven_length` in model units. The scale is a power of two: without `ldexp` where the product is a normal number.
+double OneSidedSearch::proven_model_length(double squared, std::uint32_t cuts) const {
+  const double working = proven_length(squared, cuts), model = working * scale_to_model_;
+  return model > 0x1p-1000 && model < 0x1p1000 ? model : b_.frame.length_up(working);
 }
 
 /// The furthest point of the search before is often still the furthest. It is constructed with less than 21 u M of
@@ -45,23 +51,31 @@ void OneSidedSearch::drop_proven() {
 
 /// Called for different triangles from different threads.
 void OneSidedSearch::remember(std::uint32_t slot, double squared, std::uint32_t face) {
-  if (task_.memory != nullptr) task_.memory->improve(slot, b_.frame.length_up(proven_length(squared, 0)), face);
+  if (task_.memory != nullptr) task_.memory->improve(slot, proven_model_length(squared, 0), face);
 }
 
 void OneSidedSearch::cover_and_record(Searcher& searcher, std::uint32_t slot, std::uint32_t start, Found& found) const {
   const Triangle& t = a_.corners[slot];
   CoverRecord record;
+  record.names_all = task_.memory->names_faces;
   searcher.record_in(&record);
   searcher.cover(vertex(t[0]), vertex(t[1]), vertex(t[2]), slot, start, cuts_left_);
   searcher.record_in(nullptr);
-  found.covers.add(slot, record);
+  remember_cover(slot, record, found);
+}
+
+/// Called for different triangles from different threads. What rests on one triangle is written down at once.
+void OneSidedSearch::remember_cover(std::uint32_t slot, const CoverRecord& record, Found& found) const {
+  if (!record.proves()) return;
+  if (record.slots.size() > 1) return found.covers.add(slot, record);
+  task_.memory->improve(slot, proven_model_length(record.squared, deepest_cut), record.slots.front());
 }
 
 void OneSidedSearch::remember_walk(const Found& found) {
   std::uint32_t begin = 0;
   for (const FoundCovers::Cover& cover : found.covers.covers) {
     const std::span used(found.covers.faces.data() + begin, cover.end - begin);
-    task_.memory->improve(cover.slot, b_.frame.length_up(proven_length(cover.squared, deepest_cut)), used);
+    task_.memory->improve(cover.slot, proven_model_length(cover.squared, deepest_cut), used);
     begin = cover.end;
   }
 }

@@ -59,6 +59,7 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
       b_(task.b.bvh->data()),
       map_(map),
       goal_(make_goal(task, map)),
+      scale_to_model_(std::ldexp(1.0, b_.frame.exponent)),
       cuts_left_(task.options.budget.subdivisions),
       last_progress_(task.start) {
   for (int i = 0; i < thread_count(task); ++i) searchers_.push_back(make_searcher(b_, goal_));
@@ -197,6 +198,7 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
   int worth_testing = 32, worth_walking = 16, queries = 4;
   std::uint32_t hint = no_slot;
   CoverRecord record;
+  record.names_all = task_.memory != nullptr && task_.memory->names_faces;
   searcher.record_in(task_.memory != nullptr ? &record : nullptr);
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t slot = culled_ ? left_[i] : i;
@@ -222,7 +224,7 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
     if (swept == Swept::ByOneTriangle || swept == Swept::ByWalk) {
       worth_testing += 2;
       if (swept == Swept::ByWalk) ++found.walks, ++worth_walking;
-      if (task_.memory != nullptr) found.covers.add(slot, record);
+      if (task_.memory != nullptr) remember_cover(slot, record, found);
       continue;
     }
     --worth_testing;

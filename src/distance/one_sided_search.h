@@ -80,9 +80,11 @@ class OneSidedSearch {
   void list_wanted_vertices();
   void probe_start();
   [[nodiscard]] double proven_length(double squared, std::uint32_t cuts) const;
+  [[nodiscard]] double proven_model_length(double squared, std::uint32_t cuts) const;
   void remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face);
   void remember(std::uint32_t slot, double squared, std::uint32_t face);
   void cover_and_record(Searcher& searcher, std::uint32_t slot, std::uint32_t start, Found& found) const;
+  void remember_cover(std::uint32_t slot, const CoverRecord& record, Found& found) const;
   void remember_walk(const Found& found);
   void remember_start(const LowerBound& lower);
   void report_progress(double fraction);
@@ -96,6 +98,7 @@ class OneSidedSearch {
   const Bvh::Data& b_;
   Mapping map_;
   Goal goal_;
+  double scale_to_model_;                             ///< of lengths
   std::vector<std::unique_ptr<Searcher>> searchers_;  ///< one per thread
   std::vector<std::uint8_t> alive_;                   ///< by A's slot, before nodes are culled; empty: all are
   bool culled_ = false;                               ///< `left_` and `wanted_` list what is left

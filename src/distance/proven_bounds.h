@@ -42,7 +42,9 @@ class ProvenBounds {
   /// needs no more work.
   void accept(double squared, std::uint32_t slot = no_slot) {
     upper_squared_ = std::max(upper_squared_, squared);
-    if (record_ != nullptr) record_->add(squared, slot);
+    if (record_ == nullptr) return;
+    record_->squared = std::max(record_->squared, squared);
+    if (slot != record_->last) record_->add(slot);
   }
   [[nodiscard]] bool accepts(double squared) const { return squared <= accepted_squared_; }
 

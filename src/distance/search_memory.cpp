@@ -5,9 +5,10 @@
 
 namespace meshbound {
 
-void CoverRecord::add(double squared_distance, std::uint32_t slot) {
-  squared = std::max(squared, squared_distance);
+void CoverRecord::add(std::uint32_t slot) {
+  last = slot;
   if (slot == no_slot) complete = false;
+  if (!names_all && !slots.empty()) return;
   // Pieces of one triangle lie on a few triangles of B, mostly on the one met last.
   if (std::find(slots.rbegin(), slots.rend(), slot) == slots.rend()) slots.push_back(slot);
 }

@@ -13,20 +13,26 @@ namespace meshbound {
 /// The triangles of B that one covered triangle of A relies on. Filled by the walk, outside of its hot loops; not
 /// inline, because the walk is compiled once per instruction set (numeric/isa.h).
 struct CoverRecord {
-  double squared = 0;  ///< largest distance that was accepted
+  static constexpr std::uint32_t none_yet = 0xffffffff;
+
+  bool names_all = true;  ///< false: one of them is enough
+  double squared = 0;     ///< largest distance that was accepted
   bool complete = true;
+  std::uint32_t last = none_yet;     ///< added
   std::vector<std::uint32_t> slots;  ///< each once
 
   void clear() {
     squared = 0;
     complete = true;
+    last = none_yet;
     slots.clear();
   }
   /// `no_slot`: a piece whose triangle is not known, so the cover proves nothing for later.
-  void add(double squared_distance, std::uint32_t slot);
+  void add(std::uint32_t slot);
+  [[nodiscard]] bool proves() const { return complete && !slots.empty(); }
 };
 
-/// Covers that a chunk of a search has found.
+/// Covers by several triangles that a chunk of a search has found.
 struct FoundCovers {
   struct Cover {
     std::uint32_t slot = 0;  ///< of A
@@ -36,9 +42,7 @@ struct FoundCovers {
   std::vector<Cover> covers;
   std::vector<std::uint32_t> faces;  ///< slots of B
 
-  /// Leaves out a record that proves nothing for later.
   void add(std::uint32_t slot, const CoverRecord& record) {
-    if (!record.complete || record.slots.empty()) return;
     faces.insert(faces.end(), record.slots.begin(), record.slots.end());
     covers.push_back({slot, static_cast<std::uint32_t>(faces.size()), record.squared});
   }
@@ -60,6 +64,7 @@ struct StartPoint {
 
 /// What one search leaves for the next one of the same direction. `proofs` must be true, the rest are hints.
 struct SearchMemory {
+  bool names_faces = true;           ///< false: B never changes, so proofs need not say what they rest on
   std::vector<Proof> proofs;         ///< by A's slot
   std::vector<std::uint32_t> faces;  ///< slots of B
   std::vector<std::uint32_t> hints;  ///< by A's vertex: a slot of B near it, or `no_slot`
