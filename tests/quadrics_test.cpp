@@ -88,7 +88,7 @@ TEST(Quadrics, OfEdgesAtACollapseAreFoundAgain) {
   for (const auto e : mesh.edges()) of_edge(quadrics, mesh, e);
   const Kernel::Point_3 anywhere(0.4, 0.7, 0.2);
   const double both = quadrics.cost(kept, gone, anywhere);
-  quadrics.collapsed(kept, gone, kept);
+  quadrics.collapsed(kept, gone, kept, mesh);
   int at_vertex = 0;
   for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(kept), mesh)) {
     const auto e = mesh.edge(h);

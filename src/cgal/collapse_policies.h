@@ -60,7 +60,8 @@ class CollapsePolicies {
 
   template <class Profile, class Vertex>
   void update_after_collapse(const Profile& profile, Vertex kept) const {
-    if (cost_ == CollapseCost::GarlandHeckbert) (*quadrics_)->collapsed(profile.v0(), profile.v1(), kept);
+    if (cost_ == CollapseCost::GarlandHeckbert)
+      (*quadrics_)->collapsed(profile.v0(), profile.v1(), kept, profile.surface_mesh());
   }
 
   /// Cost of a placement.

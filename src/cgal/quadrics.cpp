@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cgal/quadrics.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace meshbound::cgal {
@@ -55,8 +54,7 @@ std::optional<Point> Quadric::minimum() const {
                scale * (c_xz * x + c_yz * y + c_zz * z));
 }
 
-Quadrics::Quadrics(const SurfaceMesh& mesh)
-    : of_vertex_(mesh.num_vertices()), changed_at_(mesh.num_vertices(), 0), known_(mesh.num_edges()) {
+Quadrics::Quadrics(const SurfaceMesh& mesh) : of_vertex_(mesh.num_vertices()), known_(mesh.num_edges()) {
   for (const auto face : mesh.faces()) {
     const auto first = mesh.halfedge(face);
     const Point &p = mesh.point(mesh.target(first)), &q = mesh.point(mesh.target(mesh.next(first))),
@@ -78,9 +76,8 @@ Quadrics::Quadrics(const SurfaceMesh& mesh)
 
 const Quadrics::Collapse& Quadrics::of_edge(SurfaceMesh::Edge_index edge, SurfaceMesh::Vertex_index v0,
                                             SurfaceMesh::Vertex_index v1, const Point& p0, const Point& p1) {
-  Known& known = known_[edge];
-  if (known.at >= std::max({forgotten_at_, changed_at_[v0], changed_at_[v1]})) return known.collapse;
-  known.at = clock_;
+  Collapse& known = known_[edge];
+  if (!std::isnan(known.cost)) return known;
   Quadric sum = of_vertex_[v0];
   sum += of_vertex_[v1];
   const double reach = longest_way * longest_way * CGAL::squared_distance(p0, p1);
@@ -88,15 +85,15 @@ const Quadrics::Collapse& Quadrics::of_edge(SurfaceMesh::Edge_index edge, Surfac
     return CGAL::squared_distance(p0, p) < reach && CGAL::squared_distance(p1, p) < reach;
   };
   if (const auto minimum = sum.minimum(); minimum && is_local(*minimum)) {
-    known.collapse = {*minimum, sum.at(*minimum)};
-    return known.collapse;
+    known = {*minimum, sum.at(*minimum)};
+    return known;
   }
   const Point middle = CGAL::midpoint(p0, p1);
-  known.collapse = {middle, sum.at(middle)};
+  known = {middle, sum.at(middle)};
   for (const Point& end : {p0, p1}) {
-    if (const double cost = sum.at(end); cost < known.collapse.cost) known.collapse = {end, cost};
+    if (const double cost = sum.at(end); cost < known.cost) known = {end, cost};
   }
-  return known.collapse;
+  return known;
 }
 
 double Quadrics::cost(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, const Point& p) const {
@@ -105,11 +102,12 @@ double Quadrics::cost(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1
   return sum.at(p);
 }
 
-void Quadrics::collapsed(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, SurfaceMesh::Vertex_index kept) {
+void Quadrics::collapsed(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, SurfaceMesh::Vertex_index kept,
+                         const SurfaceMesh& mesh) {
   Quadric sum = of_vertex_[v0];
   sum += of_vertex_[v1];
   of_vertex_[kept] = sum;
-  changed_at_[kept] = ++clock_;
+  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(kept), mesh)) known_[mesh.edge(h)].cost = unknown;
 }
 
 }  // namespace meshbound::cgal

@@ -2,7 +2,7 @@
 /// The quadric error metric of Garland and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH
 /// 1997, with planes weighted as CGAL's `GarlandHeckbert_plane_policies` weights them.
 #pragma once
-#include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -33,10 +33,13 @@ class Quadrics {
   /// their face. Vertices and edges must keep their indices from now on.
   explicit Quadrics(const SurfaceMesh& mesh);
 
-  struct Collapse {
-    Kernel::Point_3 placement;
-    double cost = 0;
+  /// Half a cache line: they are looked up all over the mesh.
+  struct alignas(32) Collapse {
+    Kernel::Point_3 placement{0, 0, 0};
+    double cost = unknown;
   };
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
   /// Of the edge, with ends v0 and v1 at p0 and p1. The placement is where the sum of their quadrics is least; where
   /// that is too far away to be believed, the best of the middle and the ends.
   const Collapse& of_edge(SurfaceMesh::Edge_index edge, SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1,
@@ -44,20 +47,15 @@ class Quadrics {
   /// Cost of another placement for both ends.
   [[nodiscard]] double cost(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, const Kernel::Point_3& p) const;
 
-  void collapsed(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, SurfaceMesh::Vertex_index kept);
-  /// Vertices may have moved and edges been flipped.
-  void forget_edges() { forgotten_at_ = ++clock_; }
+  /// `kept` stands for v0 and v1 in `mesh` now.
+  void collapsed(SurfaceMesh::Vertex_index v0, SurfaceMesh::Vertex_index v1, SurfaceMesh::Vertex_index kept,
+                 const SurfaceMesh& mesh);
+  /// Vertices may have moved and edges been flipped. O(edges).
+  void forget_edges() { known_.assign(known_.size(), Collapse{}); }
 
  private:
-  struct Known {
-    Collapse collapse;
-    std::uint64_t at = 0;  ///< clock, 0: never
-  };
-
   std::vector<Quadric> of_vertex_;
-  std::vector<std::uint64_t> changed_at_;  ///< clock, by vertex
-  std::vector<Known> known_;               ///< by edge
-  std::uint64_t clock_ = 1, forgotten_at_ = 1;
+  std::vector<Collapse> known_;  ///< by edge
 };
 
 }  // namespace meshbound::cgal
