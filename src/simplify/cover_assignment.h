@@ -22,6 +22,8 @@ class CoverAssignment {
     if (faces.size <= Faces::room) return {faces.ids.data(), faces.size};
     return many_[faces.ids[0]];
   }
+  /// The cover of `original` is going to be asked for.
+  void prefetch(std::uint32_t original) const { __builtin_prefetch(&faces_of_[original]); }
   [[nodiscard]] std::span<const std::uint32_t> originals_of(std::uint32_t face) const {
     if (face >= originals_of_.size()) return {};
     return originals_of_[face];

@@ -112,7 +112,10 @@ void DeviationTracker::Impl::select_affected(const SurfaceChange& change) {
     kept_marks.reserve(face);
     if (kept_marks.contains(face)) continue;
     for (const std::uint32_t t : cover.originals_of(face)) {
-      if (affected_marks.insert(t)) pending.affected.push_back(t);
+      if (!affected_marks.insert(t)) continue;
+      pending.affected.push_back(t);
+      __builtin_prefetch(&triangles[t]);
+      cover.prefetch(t);
     }
   }
   around.near = SurfaceChange::no_triangle;
