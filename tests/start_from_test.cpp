@@ -109,6 +109,17 @@ TEST(StartFrom, RefusesTwoFacesOfOneId) {
   EXPECT_THROW((void)tracker.start_from(faces), InvalidInput);
 }
 
+/// Far more faces than a cover has candidates or cuts for.
+TEST(StartFrom, CoversLargeTrianglesByManySmallFaces) {
+  const TriangleMesh original = datasets::cube(1, 1), fine = datasets::cube(1, 24);
+  const Bvh bvh(original);
+  DeviationTracker tracker(original, bvh, 1e-3);
+  EXPECT_TRUE(tracker.start_from(faces_of(fine), 1).empty());
+  std::vector<TrackedFace> with_hole = faces_of(fine);
+  with_hole.erase(with_hole.begin() + 1000);
+  EXPECT_EQ(tracker.start_from(with_hole, 1).originals.size(), 1u);
+}
+
 /// Each of them has a hundred candidates, of which it may look at 64.
 TEST(StartFrom, FindsTheFaceOfATriangleAmongManyThatCrossIt) {
   TriangleMesh fan;

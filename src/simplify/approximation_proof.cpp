@@ -21,6 +21,11 @@ namespace {
 /// have more candidates, all of which each corner is compared with, fewer prepare the same ones more often.
 constexpr std::size_t triangles_of_run = 128, triangles_of_cluster = 16;
 
+/// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most
+/// so many parts, each with candidates of its own. The cuts of parts and of covers count together.
+constexpr int most_halvings = 16;
+constexpr std::size_t most_parts = 4096;
+
 constexpr std::uint32_t unknown = SurfaceChange::no_triangle;
 
 Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
@@ -85,52 +90,101 @@ class ApproximationProof::ForwardWorker {
     candidates_.clear();
     for (const std::uint32_t i : near_run_)
       if (proof_.boxes_.box(i).intersects(reach)) candidates_.push_back(i);
-    if (candidates_.size() > CandidateFaces::capacity) {
-      if (const std::size_t half = cluster.size() / 2; half > 0) {
-        cover_cluster(cluster.first(half));
-        cover_cluster(cluster.subspan(half));
-        return;
-      }
-      keep_likely(cluster[0]);
+    if (const std::size_t half = cluster.size() / 2; half > 0 && candidates_.size() > CandidateFaces::capacity) {
+      cover_cluster(cluster.first(half));
+      cover_cluster(cluster.subspan(half));
+      return;
     }
     const double limit = original_.limit(box);
-    cover_.begin(limit);
-    if (limit > 0) {
-      for (const std::uint32_t i : candidates_) cover_.add(corners_of(proof_.faces_[i]), proof_.faces_[i].id);
-    }
+    bool entered = false;
     for (const std::uint32_t t : cluster) {
-      FaceMask used = cover_.cover_thoroughly(t, ForwardCover::first(cover_.size()));
+      if (!entered && candidates_.size() <= CandidateFaces::capacity) enter(candidates_, limit), entered = true;
+      FaceMask used = entered ? cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())) : 0;
+      if (used == 0) {
+        cover_in_parts(t, limit);
+        entered = false;
+      }
       for (; used != 0; used &= used - 1) covers_->ids.push_back(cover_.face(std::countr_zero(used)));
       covers_->ends.push_back(covers_->ids.size());
     }
   }
 
-  /// Candidates for one triangle: those that hold most of its corners, then those nearest to its middle.
-  void keep_likely(std::uint32_t triangle) {
+  void enter(const std::vector<std::uint32_t>& candidates, double limit) {
+    cover_.begin(limit);
+    if (!(limit > 0)) return;
+    for (const std::uint32_t i : candidates) cover_.add(corners_of(proof_.faces_[i]), proof_.faces_[i].id);
+  }
+
+  /// Appends the faces of a cover of the triangle, none when there is none.
+  void cover_in_parts(std::uint32_t triangle, double limit) {
     const Triangle& t = original_.triangles[triangle];
-    const FaceCorners corners = {original_.vertices[t[0]], original_.vertices[t[1]], original_.vertices[t[2]]};
+    parts_.assign(1, {{original_.vertices[t[0]], original_.vertices[t[1]], original_.vertices[t[2]]}, 0});
+    ids_.clear();
+    for (std::size_t count = 1; !parts_.empty();) {
+      const Part part = parts_.back();
+      parts_.pop_back();
+      find_candidates(part.corners);
+      enter(candidates_of_part_, limit);
+      const std::optional<FaceMask> used = cover_.cover_part(part.corners, ForwardCover::deepest_cut - part.halvings);
+      if (!used || (*used == 0 && (part.halvings == most_halvings || ++count > most_parts))) return;
+      if (*used == 0) halve(part);
+      for (FaceMask rest = *used; rest != 0; rest &= rest - 1) ids_.push_back(cover_.face(std::countr_zero(rest)));
+    }
+    std::sort(ids_.begin(), ids_.end());
+    covers_->ids.insert(covers_->ids.end(), ids_.begin(), std::unique(ids_.begin(), ids_.end()));
+  }
+
+  struct Part {
+    FaceCorners corners;
+    int halvings = 0;
+  };
+  void halve(const Part& part) {
+    std::size_t from = 0;
+    double longest = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double edge = squared_length(part.corners[(i + 1) % 3] - part.corners[i]);
+      if (edge > longest) longest = edge, from = i;
+    }
+    const std::size_t to = (from + 1) % 3;
+    const Vec3 middle = 0.5 * (part.corners[from] + part.corners[to]);
+    for (const std::size_t end : {from, to}) {
+      Part& half = parts_.emplace_back(part);
+      half.corners[end] = middle;
+      ++half.halvings;
+    }
+  }
+
+  /// Of the faces near, those that hold most of the corners, then those nearest to the middle.
+  void find_candidates(const FaceCorners& corners) {
+    const Eigen::AlignedBox3d reach = grown(box_of(corners), original_.tolerance);
+    candidates_of_part_.clear();
+    for (const std::uint32_t i : near_run_)
+      if (proof_.boxes_.box(i).intersects(reach)) candidates_of_part_.push_back(i);
+    if (candidates_of_part_.size() <= CandidateFaces::capacity) return;
     const double squared_tolerance = original_.tolerance * original_.tolerance;
     const auto squared_distance = [&](std::uint32_t i, Vec3 p) {
       const FaceCorners f = corners_of(proof_.faces_[i]);
       return closest_on_triangle(CornerTriangle<double>{f[0], f[1] - f[0], f[2] - f[0]}, p).squared_distance;
     };
     std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
-    for (const std::uint32_t i : candidates_) {
+    for (const std::uint32_t i : candidates_of_part_) {
       const auto lost = std::count_if(corners.begin(), corners.end(),
                                       [&](Vec3 p) { return squared_distance(i, p) > squared_tolerance; });
       ranked.emplace_back(lost, squared_distance(i, middle_of(corners)), i);
     }
     std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
     std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
-    candidates_.clear();
-    for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) candidates_.push_back(std::get<2>(ranked[k]));
+    candidates_of_part_.clear();
+    for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) candidates_of_part_.push_back(std::get<2>(ranked[k]));
   }
 
   ApproximationProof& proof_;
   const ProofOriginal& original_;
   ForwardCover cover_;
   Covers* covers_ = nullptr;
-  std::vector<std::uint32_t> near_run_, candidates_;  ///< places of faces
+  std::vector<std::uint32_t> near_run_, candidates_, candidates_of_part_;  ///< places of faces
+  std::vector<std::uint32_t> ids_;
+  std::vector<Part> parts_;
 };
 
 /// Compares a face with the original.

@@ -97,6 +97,21 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed,
     whole.masks[i] = mask_of(t[i], allowed);
     if (whole.masks[i] == 0) return 0;
   }
+  return cover_in_pieces(whole, allowed, asked, deepest_cut);
+}
+
+std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corners, int most_cuts) {
+  const FaceMask all = first(size());
+  Piece whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    whole.corners[i] = corners[i];
+    whole.masks[i] = candidates_.holding(corners[i], all);
+    if (whole.masks[i] == 0) return std::nullopt;
+  }
+  return cover_in_pieces(whole, all, Asked::All, most_cuts);
+}
+
+FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int most_cuts) {
   ++splits;
   open_.assign(1, whole);
   FaceMask used = 0;
@@ -108,7 +123,7 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed,
       if ((common & used) == 0) used |= lowest(common);
       continue;
     }
-    if (++spent > deepest_cut || !cut(piece, allowed, asked)) return 0;
+    if (++spent > most_cuts || !cut(piece, allowed, asked)) return 0;
   }
   return used;
 }
