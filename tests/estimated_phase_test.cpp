@@ -70,10 +70,23 @@ TEST(EstimatedPhase, BeginsAgainWhereTheProofFails) {
   };
   const SimplifyResult proven = run_with(-1), restarted = run_with(30);
   EXPECT_EQ(proven.estimated.restarts, 0u);
-  EXPECT_EQ(restarted.estimated.restarts, 1u);
+  EXPECT_GE(restarted.estimated.restarts, 1u);
   EXPECT_EQ(restarted.estimated.performed, 0u);
   EXPECT_EQ(restarted.last().verdict, Verdict::Within);
   expect_equal(proven, restarted);
+}
+
+/// A little too far, so that a few places fail, and without these nothing does.
+TEST(EstimatedPhase, LeavesAloneWhatItCouldNotProveAtFirst) {
+  const TriangleMesh shape = datasets::terrain(1, 60, 3);
+  bool was_mended = false;
+  for (const double fault : {1.9, 2.0, 2.2, 2.4}) {
+    const EstimateFault at_work(fault);
+    const SimplifyResult result = simplify_with_bound(shape, within(0.01));
+    EXPECT_EQ(result.last().verdict, Verdict::Within);
+    was_mended = was_mended || (result.estimated.restarts == 1 && result.estimated.performed > 1000);
+  }
+  EXPECT_TRUE(was_mended);
 }
 
 TEST(EstimatedPhase, BeginsAgainForATargetThatItReachedWithoutAProof) {
@@ -81,7 +94,7 @@ TEST(EstimatedPhase, BeginsAgainForATargetThatItReachedWithoutAProof) {
   options.target_faces = 20;
   const EstimateFault at_work(1000);
   const SimplifyResult result = simplify_with_bound(datasets::icosphere(1, 4), options);
-  EXPECT_EQ(result.estimated.restarts, 1u);
+  EXPECT_GE(result.estimated.restarts, 1u);
   EXPECT_EQ(result.last().verdict, Verdict::Within);
   EXPECT_EQ(result.last().ended_by, EndedBy::NothingFits);
   EXPECT_GT(result.last().faces(), 100u);

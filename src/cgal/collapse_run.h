@@ -59,6 +59,8 @@ class CollapseRun {
   [[nodiscard]] TriangleMesh after_refused_collapse() const;
   [[nodiscard]] bool may_estimate() const;
   void estimate();
+  [[nodiscard]] bool estimate_without(const std::vector<bool>& frozen);
+  [[nodiscard]] std::vector<bool> around_unproven(const SurfaceMesh& start) const;
   void start_exactly();
   void set_up_monitor();
   [[nodiscard]] bool is_locked(SurfaceMesh::Vertex_index v) const;

@@ -7,30 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/point_triangle.h"
 #include "meshbound/error.h"
 
 namespace meshbound::cgal {
 namespace {
 
-using Corners = std::array<Vec3, 3>;
-
-/// Of p above the nearest of the faces, below 0 on their other side.
-double height_above(const std::vector<Corners>& faces, Vec3 p) {
-  double least = HUGE_VAL, side = 0;
-  for (const Corners& c : faces) {
-    const CornerTriangle<double> t{c[0], c[1] - c[0], c[2] - c[0]};
-    const TriangleOffset<double> nearest = closest_on_triangle(t, p);
-    if (!(nearest.squared_distance < least)) continue;
-    least = nearest.squared_distance;
-    side = dot(cross(t.ab, t.ac), nearest.offset);
-  }
-  return std::copysign(std::sqrt(least), side);
-}
-
 Vec3 to_vec3(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-std::array<Eigen::Vector3d, 3> to_eigen(const Corners& c) {
+std::array<Eigen::Vector3d, 3> to_eigen(const std::array<Vec3, 3>& c) {
   return {Eigen::Vector3d(c[0].x, c[0].y, c[0].z), Eigen::Vector3d(c[1].x, c[1].y, c[1].z),
           Eigen::Vector3d(c[2].x, c[2].y, c[2].z)};
 }
@@ -83,10 +67,11 @@ class EstimatedPhase::Visitor : public SMS::Edge_collapse_visitor_base<SurfaceMe
 };
 
 EstimatedPhase::EstimatedPhase(SurfaceMesh& mesh, const NormalGuard& guard, std::vector<bool> locked,
-                               std::function<bool(std::size_t faces)> should_stop)
+                               std::vector<bool> frozen, std::function<bool(std::size_t faces)> should_stop)
     : mesh_(mesh),
       guard_(guard),
       locked_(std::move(locked)),
+      frozen_(std::move(frozen)),
       should_stop_(std::move(should_stop)),
       heights_(mesh.num_vertices()) {}
 
@@ -110,7 +95,7 @@ bool EstimatedPhase::gather(const Profile& profile, const Kernel::Point_3& place
   const Vec3 moved = to_vec3(placement);
   for (const auto& t : profile.triangles()) {
     const std::array<SurfaceMesh::Vertex_index, 3> v = {t.v0, t.v1, t.v2};
-    Corners corners, changed;
+    std::array<Vec3, 3> corners, changed;
     int ends = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const bool is_end = v[i] == profile.v0() || v[i] == profile.v1();
@@ -118,30 +103,36 @@ bool EstimatedPhase::gather(const Profile& profile, const Kernel::Point_3& place
       corners[i] = at(v[i]);
       changed[i] = is_end ? moved : corners[i];
     }
-    before_.push_back(corners);
+    before_.add(corners);
     if (ends == 2) continue;
     const auto c = to_eigen(changed);
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0] || !guard_.allows(to_eigen(corners), c)) return false;
-    after_.push_back(changed);
+    after_.add(changed);
   }
   // The tracker refuses more, and the time spent here grows with the square.
-  return after_.size() <= DeviationTracker::most_added_faces;
+  return after_.size() > 0 && after_.size() <= DeviationTracker::most_added_faces;
 }
 
-/// The ends are compared with the new faces, the new vertex and the middles of its edges with the old ones: where these
-/// edges pass a saddle, no vertex tells.
+/// Vertices and the middles of edges, of the old faces and of the new ones: where edges cross at a saddle, no vertex
+/// tells how far they are apart.
 template <class Profile>
 bool EstimatedPhase::admits(const Profile& profile, const Kernel::Point_3& placement) {
   const auto v0 = profile.v0(), v1 = profile.v1();
   if (!may_move(v0, placement) || !may_move(v1, placement) || !gather(profile, placement)) return false;
-  const Heights a = heights_[v0], b = heights_[v1];
-  const Heights between{std::min(a.least, b.least), std::max(a.most, b.most)};
+  const Heights between = heights_[v0].joined(heights_[v1]);
   const Vec3 moved = to_vec3(placement);
-  next_ = between.raised(-height_above(before_, moved));
-  next_.extend(a.raised(height_above(after_, at(v0))));
-  next_.extend(b.raised(height_above(after_, at(v1))));
+  next_ = between.lowered(before_.height_of(moved));
   for (const auto r : profile.link())
-    next_.extend(between.middle(heights_[r]).raised(-height_above(before_, 0.5 * (moved + at(r)))));
+    next_ = next_.joined(between.middle(heights_[r]).lowered(before_.height_of(0.5 * (moved + at(r)))));
+  for (const auto v : {v0, v1}) {
+    const Vec3 p = at(v);
+    next_ = next_.joined(heights_[v].raised(after_.height_of(p)));
+    for (const auto h : CGAL::halfedges_around_target(mesh_.halfedge(v), mesh_)) {
+      const auto r = mesh_.source(h);
+      if (r != v0 && r != v1)
+        next_ = next_.joined(heights_[v].middle(heights_[r]).raised(after_.height_of(0.5 * (p + at(r)))));
+    }
+  }
   next_locked_ = is_locked(v0) || is_locked(v1);
   if (std::max(-next_.least, next_.most) <= limit_) return true;
   ++exceeded_;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "cgal/collapse_policies.h"
-#include "geometry/vec3.h"
+#include "cgal/height_field.h"
 #include "meshbound/cgal/normal_guard.h"
 
 namespace meshbound::cgal {
@@ -25,9 +23,9 @@ namespace meshbound::cgal {
 /// Heights to both sides cancel, so the estimate does not grow with the number of collapses.
 class EstimatedPhase {
  public:
-  /// The mesh must outlive this. `locked` is empty or tells by vertex which of them stay where they are. `should_stop`
-  /// is asked before each collapse.
-  EstimatedPhase(SurfaceMesh& mesh, const NormalGuard& guard, std::vector<bool> locked,
+  /// The mesh must outlive this. `locked` is empty or tells by vertex which of them stay where they are, `frozen` which
+  /// ones no collapse may take or move. `should_stop` is asked before each collapse.
+  EstimatedPhase(SurfaceMesh& mesh, const NormalGuard& guard, std::vector<bool> locked, std::vector<bool> frozen,
                  std::function<bool(std::size_t faces)> should_stop);
 
   /// Collapses edges, but those whose estimate comes out above `limit`, a length, until `most_exceeded` did.
@@ -41,21 +39,6 @@ class EstimatedPhase {
   class Filter;
   class Stop;
   class Visitor;
-  using Corners = std::array<Vec3, 3>;
-  /// Where the original lies above the mesh around a vertex.
-  struct Heights {
-    double least = 0, most = 0;
-
-    [[nodiscard]] Heights raised(double by) const { return {least + by, most + by}; }
-    [[nodiscard]] Heights middle(const Heights& other) const {
-      return {0.5 * (least + other.least), 0.5 * (most + other.most)};
-    }
-    void extend(const Heights& other) {
-      least = std::min(least, other.least);
-      most = std::max(most, other.most);
-    }
-  };
-
   template <class Profile>
   [[nodiscard]] bool admits(const Profile& profile, const Kernel::Point_3& placement);
   template <class Profile>
@@ -65,17 +48,17 @@ class EstimatedPhase {
     return {p.x(), p.y(), p.z()};
   }
   [[nodiscard]] bool may_move(SurfaceMesh::Vertex_index v, const Kernel::Point_3& placement) const {
-    return !is_locked(v) || mesh_.point(v) == placement;
+    return (frozen_.empty() || !frozen_[v]) && (!is_locked(v) || mesh_.point(v) == placement);
   }
 
   SurfaceMesh& mesh_;
   NormalGuard guard_;
-  std::vector<bool> locked_;
+  std::vector<bool> locked_, frozen_;
   std::function<bool(std::size_t)> should_stop_;
   double limit_ = 0;
   std::uint64_t exceeded_ = 0, most_exceeded_ = 0;
   std::vector<Heights> heights_;  ///< by vertex
-  std::vector<Corners> before_, after_;
+  HeightField before_, after_;
   Heights next_;  ///< of the vertex of the collapse that was admitted
   bool next_locked_ = false, collapsing_ = false;
   std::uint64_t collapses_ = 0;

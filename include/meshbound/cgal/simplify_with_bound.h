@@ -99,7 +99,9 @@ struct SimplifiedLevel {
 /// collapse from there.
 struct EstimatedCollapses {
   std::uint64_t performed = 0;  ///< of those in the result; 0 where the options or the input leave no room for it
-  std::uint64_t restarts = 0;   ///< 1 where the proof failed, so that all began again with proofs for every collapse
+  /// Times that the proof failed and all began again, first without what could not be proven, then with proofs for
+  /// every collapse.
+  std::uint64_t restarts = 0;
 };
 
 struct SimplifyResult {
