@@ -149,14 +149,14 @@ class CellWalker : public ProvenBounds {
   }
 
   /// How far the cell may be pushed outward so that most parts inside are still within the target. A part at height h
-  /// over the plane of t may lie sqrt(target^2 - h^2) sideways of t; where two edges meet at 60 degrees, pushing both
-  /// by s moves the corner of the cell by 2 s, hence one half. What still fails is cut by the cell itself, where only
-  /// the height counts.
+  /// over the plane of t may lie sqrt(target^2 - h^2) sideways of t; where two edges meet at 30 degrees, pushing both
+  /// by s moves the corner of the cell by 4 s, hence one quarter: of 0.1 to 0.85 the fastest on eight pairs. What still
+  /// fails is cut by the cell itself, where only the height counts.
   [[nodiscard]] double outward_slack(const Piece& piece, const CornerTriangle<double>& t) const {
     const auto& n = b_.normals[piece.slot];
     const PlaneSides heights = sides_of(piece, {n[0], n[1], n[2]}, n[0] * t.a.x + n[1] * t.a.y + n[2] * t.a.z);
     const double highest = std::max(heights.most, -heights.least), room = accepted_squared_ - highest * highest;
-    return room > 0 ? 0.5 * std::sqrt(room) : 0;
+    return room > 0 ? 0.25 * std::sqrt(room) : 0;
   }
 
   /// Cuts the piece by the cell of its candidate and sends the parts on: by the cell pushed outward where that cuts
