@@ -66,6 +66,16 @@ struct TrackerStats {
   std::uint64_t ring_searches = 0;    ///< changes that needed faces beyond the added ones
   std::uint64_t faces_tested = 0;     ///< added faces compared with the original
   std::uint64_t faces_by_degree = 0;  ///< of these, proven by projecting the original onto them
+
+  TrackerStats& operator+=(const TrackerStats& other);
+};
+
+/// The proofs of a tracker, by its own numbers of faces and original triangles.
+struct TrackedProof {
+  double tolerance = 0;                ///< for which they hold
+  std::vector<std::uint32_t> nearest;  ///< by face id: an original triangle near the face
+  std::vector<std::size_t> ends;       ///< by original triangle: where the faces of its cover end in `faces`
+  std::vector<std::uint32_t> faces;    ///< ids, one cover after another
 };
 
 /// How far faces and the part of the original that they are to stand for are apart, as one number to choose by: the sum
@@ -117,6 +127,14 @@ class DeviationTracker {
   /// Returns what could not be proven; unless that is empty, the tracker stays as it was. The same for any number of
   /// threads; 0: as many as OpenMP has. Throws `InvalidInput` when an id comes twice. Expected O(n log n).
   [[nodiscard]] Unproven start_from(std::span<const TrackedFace> faces, int threads = 0);
+  /// The proofs as they stand, to be taken over by another tracker. O(original triangles + faces).
+  [[nodiscard]] TrackedProof proof() const;
+  /// Takes over the proofs of a tracker of a part of this original, in place of `start`: triangle k there is
+  /// `triangle_of[k]` here and face f there is `faces[f]` here, with `SurfaceChange::no_triangle` as id when it is not
+  /// a current face any more. Before the first change only. Throws `InvalidInput` when the proofs are for a larger
+  /// tolerance, or use a face that is not current. O(original triangles + faces of the part).
+  void take_over(const TrackedProof& part, std::span<const std::uint32_t> triangle_of,
+                 std::span<const TrackedFace> faces);
 
   /// Tolerances of single original triangles beside the one for all, infinity where there is none. From now on
   ///

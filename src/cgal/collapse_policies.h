@@ -7,7 +7,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "cgal/part_seam.h"
 #include "cgal/quadrics.h"
 #include "meshbound/cgal/simplify_with_bound.h"
 
@@ -46,8 +49,9 @@ class CollapsePolicies {
  public:
   using Update_tag = CGAL::Tag_true;  // CGAL then calls initialize and update_after_collapse
 
-  CollapsePolicies(CollapseCost cost, KeptParts constraint)
-      : cost_(cost), constraint_(constraint), quadrics_(std::make_shared<std::optional<Quadrics>>()) {}
+  /// `seam` is null for a mesh that is no part of another, and must outlive this otherwise.
+  CollapsePolicies(CollapseCost cost, KeptParts constraint, const PartSeam* seam)
+      : cost_(cost), constraint_(constraint), seam_(seam), quadrics_(std::make_shared<std::optional<Quadrics>>()) {}
 
   template <class VertexPointMap>
   void initialize(const SurfaceMesh& mesh, const VertexPointMap&, const Kernel&) const {
@@ -55,7 +59,15 @@ class CollapsePolicies {
     if (*quadrics_)
       (*quadrics_)->forget_edges();
     else
-      quadrics_->emplace(mesh);
+      quadrics_->emplace(mesh, [this](auto u, auto v) { return seam_ != nullptr && seam_->has_edge(u, v); });
+  }
+  /// In place of the quadrics of the mesh of the first run: by vertex.
+  void start_from(std::vector<Quadric> quadrics, const SurfaceMesh& mesh) {
+    if (cost_ == CollapseCost::GarlandHeckbert) quadrics_->emplace(std::move(quadrics), mesh);
+  }
+  /// Zero before the first run, and for another cost.
+  [[nodiscard]] Quadric quadric(SurfaceMesh::Vertex_index v) const {
+    return *quadrics_ ? (*quadrics_)->of_vertex(v) : Quadric();
   }
 
   template <class Profile, class Vertex>
@@ -67,8 +79,8 @@ class CollapsePolicies {
   /// Cost of a placement.
   template <class Profile>
   boost::optional<double> operator()(const Profile& profile, const boost::optional<Kernel::Point_3>& placement) const {
-    if (cost_ == CollapseCost::LindstromTurk) return lindstrom_turk_cost_(profile, placement);
     if (!placement) return boost::none;
+    if (cost_ == CollapseCost::LindstromTurk) return lindstrom_turk_cost_(profile, placement);
     const Quadrics::Collapse& best = of_edge(profile);
     return *placement == best.placement ? best.cost : (*quadrics_)->cost(profile.v0(), profile.v1(), *placement);
   }
@@ -76,6 +88,7 @@ class CollapsePolicies {
   /// Placement. None where both ends are to stay: a locked vertex and one of a border.
   template <class Profile>
   boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
+    if (seam_ != nullptr && seam_->forbids(profile)) return boost::none;
     const bool first = is_fixed(constraint_, profile.v0()), second = is_fixed(constraint_, profile.v1());
     if (first && second) return boost::none;
     if (first) return Kernel::Point_3(profile.p0());
@@ -93,6 +106,7 @@ class CollapsePolicies {
 
   CollapseCost cost_;
   KeptParts constraint_;
+  const PartSeam* seam_;
   std::shared_ptr<std::optional<Quadrics>> quadrics_;
   SMS::LindstromTurk_placement<SurfaceMesh> lindstrom_turk_placement_;
   SMS::LindstromTurk_cost<SurfaceMesh> lindstrom_turk_cost_;

@@ -62,7 +62,7 @@ class CollapseRun::Filter {
 CollapseRun::CollapseRun(ManifoldCopy copy, const TriangleMesh& original, const SimplifyOptions& options,
                          const std::vector<bool>& locked)
     : original_(original), options_(options), copy_(std::move(copy)), locked_(locked) {
-  policies_.emplace(options.cost, kept_parts());
+  policies_.emplace(options.cost, kept_parts(), nullptr);
   if (!may_estimate()) start_exactly();
 }
 
@@ -88,6 +88,17 @@ void CollapseRun::set_up_monitor() {
   refinement_.emplace(copy_.mesh, *monitor_, [this] { return must_stop(monitor_->faces()); });
 }
 
+CollapseRun::CollapseRun(Part part, const Seams& seams, const SimplifyOptions& options, const std::vector<bool>& locked)
+    : part_(std::move(part)),
+      original_(part_->original),
+      options_(options),
+      copy_(to_manifold_copy(std::move(part_->copy))),
+      locked_(locked) {
+  seam_.emplace(seams, part_->seam_vertex);
+  policies_.emplace(options.cost, kept_parts(), &*seam_);
+  if (!may_estimate()) start_exactly();
+}
+
 KeptParts CollapseRun::kept_parts() const {
   KeptParts kept{&copy_.mesh, options_.preserve_boundary, {}};
   if (!locked_.empty()) kept.is_locked = [this](SurfaceMesh::Vertex_index v) { return is_locked(v); };
@@ -110,7 +121,7 @@ void CollapseRun::estimate() {
     monitor_.reset();
     copy_.mesh = start;
     phase_.emplace(copy_.mesh, NormalGuard(), locked_, frozen, [](std::size_t) { return true; });
-    policies_.emplace(options_.cost, kept_parts());
+    policies_.emplace(options_.cost, kept_parts(), seam_ ? &*seam_ : nullptr);
     if (ended_by_ == EndedBy::Target) ended_by_.reset();
     if (ended_by_) break;
   }
@@ -167,11 +178,16 @@ std::vector<std::uint32_t> CollapseRun::uncovered() const {
 
 CollapseRun::Monitor::Counts CollapseRun::counts() const {
   Monitor::Counts counts = monitor_ ? monitor_->counts() : Monitor::Counts();
+  counts += counts_of_parts_;
   counts.performed += estimated_.performed;
   return counts;
 }
 
-TrackerStats CollapseRun::stats() const { return monitor_ ? monitor_->tracker().stats() : TrackerStats(); }
+TrackerStats CollapseRun::stats() const {
+  TrackerStats stats = stats_of_parts_;
+  if (monitor_) stats += monitor_->tracker().stats();
+  return stats;
+}
 
 EndedBy CollapseRun::run(const CollapseGoal& goal) {
   goal_ = goal;
@@ -181,10 +197,10 @@ EndedBy CollapseRun::run(const CollapseGoal& goal) {
   if (!monitor_) estimate();
   monitor_->grow_tolerance(goal.tolerance - goal.room);
   prune();
-  const std::uint64_t before = work();
+  const std::uint64_t before = work() - std::exchange(work_of_parts_, 0);
   if (!ended_by_) passes_until_nothing_fits();
-  if (options_.effort == Effort::High && options_.on_exceed == OnExceed::Skip && !ended_by_)
-    refine(estimated_work_ + work() - before);
+  work_of_run_ = estimated_work_ + work() - before;
+  if (options_.effort == Effort::High && options_.on_exceed == OnExceed::Skip && !ended_by_) refine(work_of_run_);
   if (!ended_by_) prune();
   return ended_by_.value_or(EndedBy::NothingFits);
 }

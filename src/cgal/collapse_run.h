@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <chrono>
 #include <optional>
 #include <span>
@@ -7,6 +8,7 @@
 
 #include "cgal/collapse_policies.h"
 #include "cgal/estimated_phase.h"
+#include "cgal/parts.h"
 #include "cgal/refinement.h"
 #include "meshbound/cgal/deviation_monitor.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -24,6 +26,40 @@ struct CollapseGoal {
   double seconds = 0;  ///< from `began`
 };
 
+/// What the run of a part left, to be joined with the others.
+struct FinishedPart {
+  static constexpr std::uint32_t none = DeviationMonitor<SurfaceMesh>::Part::none;
+  struct Vertex {
+    Kernel::Point_3 point;
+    std::uint32_t on_seam = none;  ///< the vertex of the polygons that were cut; none where it is not on a seam
+    std::uint32_t soup_vertex = 0;
+    bool locked = false;
+    Quadric quadric;
+  };
+  std::vector<Vertex> vertices;
+  std::vector<Polygon> polygons;                      ///< of places in `vertices`
+  std::vector<std::uint32_t> triangle_of_face;        ///< of the soup, by polygon
+  std::vector<std::array<std::uint32_t, 2>> settled;  ///< edges that need not be tried again
+  DeviationMonitor<SurfaceMesh>::Part proof;          ///< its `face_of` are places in `polygons`
+  DeviationMonitor<SurfaceMesh>::Counts counts;
+  TrackerStats stats;
+  EstimatedCollapses estimated;
+  std::uint64_t work = 0;
+  EndedBy ended_by = EndedBy::NothingFits;
+};
+
+struct JoinedParts {
+  ManifoldCopy copy;
+  std::vector<bool> locked;
+  std::vector<Quadric> quadrics;                      ///< by vertex
+  std::vector<std::array<std::uint32_t, 2>> settled;  ///< vertices
+  std::vector<DeviationMonitor<SurfaceMesh>::Part> proofs;
+  DeviationMonitor<SurfaceMesh>::Counts counts;
+  TrackerStats stats;
+  EstimatedCollapses estimated;
+  std::uint64_t work = 0;
+};
+
 /// A mesh under collapses: the monitor that proves them, their cost and placement, and the passes over the edges.
 class CollapseRun {
  public:
@@ -33,6 +69,11 @@ class CollapseRun {
   /// they are. `original` and `options` must outlive this.
   CollapseRun(ManifoldCopy copy, const TriangleMesh& original, const SimplifyOptions& options,
               const std::vector<bool>& locked);
+  /// Of a part, whose vertices on seams stay where they are as well.
+  CollapseRun(Part part, const Seams& seams, const SimplifyOptions& options, const std::vector<bool>& locked);
+  [[nodiscard]] FinishedPart finished();
+  /// Goes on where the runs of parts ended: with a mesh joined from theirs. `original` is the whole.
+  CollapseRun(JoinedParts joined, const TriangleMesh& original, const SimplifyOptions& options, double tolerance);
   CollapseRun(const CollapseRun&) = delete;
   CollapseRun& operator=(const CollapseRun&) = delete;
 
@@ -63,6 +104,7 @@ class CollapseRun {
   [[nodiscard]] std::vector<bool> around_unproven(const SurfaceMesh& start) const;
   void start_exactly();
   void set_up_monitor();
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> settled_edges(const std::vector<std::uint32_t>& place) const;
   [[nodiscard]] bool is_locked(SurfaceMesh::Vertex_index v) const;
   [[nodiscard]] KeptParts kept_parts() const;
   void prune();
@@ -70,9 +112,11 @@ class CollapseRun {
   void passes_until_nothing_fits();
   void refine(std::uint64_t work_of_passes);
   /// Proofs of original triangles so far: what most of the time goes with.
-  [[nodiscard]] std::uint64_t work() const { return monitor_->tracker().stats().originals_tested; }
+  [[nodiscard]] std::uint64_t work() const { return stats().originals_tested; }
   void show_progress(std::size_t faces);
 
+  std::optional<Part> part_;
+  std::optional<PartSeam> seam_;
   const TriangleMesh& original_;
   const SimplifyOptions& options_;
   ManifoldCopy copy_;
@@ -81,6 +125,9 @@ class CollapseRun {
   std::optional<Monitor> monitor_;
   std::optional<CollapsePolicies> policies_;
   std::optional<Refinement> refinement_;
+  Monitor::Counts counts_of_parts_;  ///< that were joined
+  TrackerStats stats_of_parts_;
+  std::uint64_t work_of_parts_ = 0;  ///< until the first run
 
   CollapseGoal goal_;
   std::uint64_t stop_checks_ = 0;
@@ -88,6 +135,7 @@ class CollapseRun {
   Monitor::Dropped pruned_;
   EstimatedCollapses estimated_;
   std::uint64_t estimated_work_ = 0;  ///< of this run, as `work`
+  std::uint64_t work_of_run_ = 0;     ///< with it, before any refinement
 };
 
 }  // namespace meshbound::cgal

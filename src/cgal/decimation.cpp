@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "meshbound/mesh_summary.h"
@@ -16,6 +17,17 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   result.vertices.reserve(mesh.vertices.size());
   for (const Eigen::Vector3d& p : mesh.vertices) result.vertices.push_back(frame.to_frame(p));
   return result;
+}
+
+bool is_before(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+}
+
+/// The others go by the mesh as a whole: its first refusal, its number of faces, its components, and which triangle is
+/// the nearest to a face, which may be one of another part.
+bool fits_parts(const SimplifyOptions& options, std::size_t triangles) {
+  return options.parts && number_of_parts(triangles) > 1 && options.on_exceed == OnExceed::Skip &&
+         !options.target_faces && !options.target_ratio && !options.prune && options.face_tolerances.empty();
 }
 
 /// False at a border, and where a face has no area and so no normal.
@@ -39,35 +51,65 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
       options_(options),
       frame_(used_bounding_box(original_)),
       framed_original_(mapped(original_, frame_)) {
-  ManifoldCopy copy = manifold_copy(framed_original_);
-  start_points_.reserve(copy.mesh.number_of_vertices());
-  for (const auto v : copy.mesh.vertices()) {
-    start_points_.push_back(copy.mesh.point(v));
-    by_start_point_.push_back(v);
-  }
-  std::sort(by_start_point_.begin(), by_start_point_.end(), [&](auto a, auto b) {
-    return start_points_[a] < start_points_[b] || (start_points_[a] == start_points_[b] && a < b);
-  });
-  const std::vector<bool> locked = locked_copies(copy.mesh);
-  run_.emplace(std::move(copy), framed_original_, options_, locked);
-  limit_faces();
+  sort_start_points();
+  polygons_ = manifold_polygons(framed_original_);
+  dropped_triangles_ = polygons_->dropped_triangles;
+  split_ = polygons_->split;
+  locked_ = locked_copies();
+  limits_ = limits_in_frame();
+  if (!fits_parts(options, polygons_->polygons.size())) start_whole();
 }
 
-/// By vertex of the copy: several vertices of the original, at the same place, may have become one, or one several.
-std::vector<bool> Decimation::locked_copies(const SurfaceMesh& mesh) const {
+void Decimation::sort_start_points() {
+  by_start_point_.resize(framed_original_.vertices.size());
+  std::iota(by_start_point_.begin(), by_start_point_.end(), 0u);
+  const auto& at = framed_original_.vertices;
+  std::sort(by_start_point_.begin(), by_start_point_.end(),
+            [&](auto a, auto b) { return is_before(at[a], at[b]) || (at[a] == at[b] && a < b); });
+}
+
+/// The first vertex of the original, by index, at this place.
+std::optional<std::uint32_t> Decimation::first_at(const Eigen::Vector3d& p) const {
+  const auto before = [&](std::uint32_t v, const Eigen::Vector3d& q) {
+    return is_before(framed_original_.vertices[v], q);
+  };
+  const auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p, before);
+  if (at == by_start_point_.end() || framed_original_.vertices[*at] != p) return std::nullopt;
+  return *at;
+}
+
+void Decimation::start_whole() {
+  run_.emplace(to_manifold_copy(std::move(*polygons_)), framed_original_, options_, locked_);
+  if (!limits_.empty()) run_->limit_triangles(limits_);
+  polygons_.reset();
+}
+
+EndedBy Decimation::run_parts(const CollapseGoal& goal) {
+  const Cutting cutting(framed_original_, *polygons_, number_of_parts(polygons_->polygons.size()));
+  std::vector<FinishedPart> parts = cgal::run_parts(cutting, locked_, options_, goal);
+  EndedBy ended_by = EndedBy::NothingFits;
+  for (const FinishedPart& part : parts) {
+    if (part.ended_by != EndedBy::NothingFits) ended_by = part.ended_by;
+  }
+  run_.emplace(join(std::move(parts), cutting, locked_), framed_original_, options_, goal.tolerance - goal.room);
+  polygons_.reset();
+  return ended_by;
+}
+
+/// By vertex of the polygons: several vertices of the original, at the same place, may have become one, or one several.
+std::vector<bool> Decimation::locked_copies() const {
   if (options_.locked_vertices.empty() && !options_.feature_angle) return {};
   if (!options_.locked_vertices.empty() && options_.locked_vertices.size() != input_vertices_)
     throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
-  std::vector<bool> locked(start_points_.size(), false);
+  std::vector<bool> locked_at(framed_original_.vertices.size(), false);  // by first vertex at the place
   for (std::size_t v = 0; v < order_.vertex.size() && !options_.locked_vertices.empty(); ++v) {
-    if (!options_.locked_vertices[order_.vertex[v]]) continue;
-    const Eigen::Vector3d& p = framed_original_.vertices[v];
-    const Kernel::Point_3 point(p.x(), p.y(), p.z());
-    const auto before = [&](SurfaceMesh::Vertex_index a, const Kernel::Point_3& q) { return start_points_[a] < q; };
-    auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), point, before);
-    for (; at != by_start_point_.end() && start_points_[*at] == point; ++at) locked[*at] = true;
+    if (options_.locked_vertices[order_.vertex[v]]) locked_at[*first_at(framed_original_.vertices[v])] = true;
   }
+  std::vector<bool> locked;
+  for (const std::uint32_t v : polygons_->vertex_of_vertex)
+    locked.push_back(locked_at[*first_at(framed_original_.vertices[v])]);
   if (!options_.feature_angle) return locked;
+  const SurfaceMesh mesh = to_surface_mesh(polygons_->points, polygons_->polygons);
   for (const auto edge : mesh.edges()) {
     if (!is_feature(mesh, edge, *options_.feature_angle)) continue;
     locked[mesh.vertex(edge, 0)] = true;
@@ -76,8 +118,8 @@ std::vector<bool> Decimation::locked_copies(const SurfaceMesh& mesh) const {
   return locked;
 }
 
-void Decimation::limit_faces() {
-  if (options_.face_tolerances.empty()) return;
+std::vector<double> Decimation::limits_in_frame() const {
+  if (options_.face_tolerances.empty()) return {};
   if (options_.face_tolerances.size() != order_.triangle.size())
     throw InvalidInput("tolerances of triangles must be given for every triangle of the original");
   std::vector<double> limits;
@@ -85,7 +127,7 @@ void Decimation::limit_faces() {
     const double tolerance = options_.face_tolerances[t];
     limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
   }
-  run_->limit_triangles(limits);
+  return limits;
 }
 
 /// For the ways into and out of the frame, of the original and of the result, and for the output format.
@@ -99,17 +141,22 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, double secon
   goal.began = CollapseGoal::Clock::now();
   goal.seconds = seconds;
   below_rounding_ = !(goal.tolerance > 2 * goal.room);
-  return below_rounding_ ? EndedBy::Rounding : run_->run(goal);
+  if (below_rounding_) {
+    if (!run_) start_whole();
+    return EndedBy::Rounding;
+  }
+  if (!run_) {
+    const EndedBy ended_by = run_parts(goal);
+    if (ended_by != EndedBy::NothingFits) return ended_by;
+  }
+  return run_->run(goal);
 }
 
 /// A vertex that never moved, or went to where another one was, gets the coordinates of the input to the bit: the way
 /// into the frame and back may round.
 Eigen::Vector3d Decimation::in_model(const Kernel::Point_3& p) const {
-  const auto before = [&](SurfaceMesh::Vertex_index v, const Kernel::Point_3& q) { return start_points_[v] < q; };
-  const auto start = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p, before);
-  if (start != by_start_point_.end() && start_points_[*start] == p)
-    return original_.vertices[run_->copy().vertex_of_vertex[*start]];
-  return frame_.to_model({p.x(), p.y(), p.z()});
+  const std::optional<std::uint32_t> start = first_at({p.x(), p.y(), p.z()});
+  return start ? original_.vertices[*start] : frame_.to_model({p.x(), p.y(), p.z()});
 }
 
 TriangleMesh Decimation::current_mesh() const {
@@ -120,7 +167,7 @@ TriangleMesh Decimation::current_mesh() const {
     return items;
   };
   TriangleMesh result;
-  std::vector<std::uint32_t> index(start_points_.size());
+  std::vector<std::uint32_t> index(run_->copy().mesh.num_vertices());
   for (const auto v : sorted_by(run_->copy().mesh.vertices(),
                                 [&](auto u) { return order_.vertex[run_->copy().vertex_of_vertex[u]]; })) {
     index[v] = static_cast<std::uint32_t>(result.vertices.size());
@@ -144,9 +191,10 @@ TriangleMesh Decimation::current_mesh() const {
 }
 
 void Decimation::describe(SimplifyResult& result) const {
+  if (!run_) return;
   result.kept_triangles = run_->uncovered().size();
-  result.dropped_triangles = run_->copy().dropped_triangles - result.kept_triangles;
-  result.split = run_->copy().split;
+  result.dropped_triangles = dropped_triangles_ - result.kept_triangles;
+  result.split = split_;
   result.pruned_components = run_->pruned().components;
   result.pruned_faces = run_->pruned().faces;
   result.tolerance_below_rounding = below_rounding_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cgal/collapse_run.h"
+#include "cgal/joined_parts.h"
 #include "cgal/spatial_order.h"
 #include "cgal/working_frame.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -28,9 +29,14 @@ class Decimation {
 
  private:
   [[nodiscard]] Eigen::Vector3d in_model(const Kernel::Point_3& p) const;
-  void limit_faces();
+  void sort_start_points();
+  [[nodiscard]] std::optional<std::uint32_t> first_at(const Eigen::Vector3d& p) const;
+  void start_whole();
+  /// Decimates the parts and joins them in `run_`, which goes on from there.
+  EndedBy run_parts(const CollapseGoal& goal);
   [[nodiscard]] double room() const;
-  [[nodiscard]] std::vector<bool> locked_copies(const SurfaceMesh& mesh) const;
+  [[nodiscard]] std::vector<bool> locked_copies() const;
+  [[nodiscard]] std::vector<double> limits_in_frame() const;
 
   std::size_t input_vertices_;
   SpatialOrder order_;
@@ -38,8 +44,12 @@ class Decimation {
   const SimplifyOptions& options_;
   WorkingFrame frame_;
   TriangleMesh framed_original_;
-  std::vector<Kernel::Point_3> start_points_;              ///< by vertex index, in the frame
-  std::vector<SurfaceMesh::Vertex_index> by_start_point_;  ///< sorted by these
+  std::vector<std::uint32_t> by_start_point_;  ///< its vertices sorted by place
+  std::optional<ManifoldPolygons> polygons_;   ///< until the first run
+  std::size_t dropped_triangles_ = 0;
+  bool split_ = false;
+  std::vector<bool> locked_;    ///< by vertex of the polygons, or empty
+  std::vector<double> limits_;  ///< by triangle, or empty
   std::optional<CollapseRun> run_;
   bool below_rounding_ = false;
 };

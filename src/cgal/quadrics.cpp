@@ -2,6 +2,7 @@
 #include "cgal/quadrics.h"
 
 #include <cmath>
+#include <utility>
 
 namespace meshbound::cgal {
 namespace {
@@ -54,7 +55,11 @@ std::optional<Point> Quadric::minimum() const {
                scale * (c_xz * x + c_yz * y + c_zz * z));
 }
 
-Quadrics::Quadrics(const SurfaceMesh& mesh) : of_vertex_(mesh.num_vertices()), known_(mesh.num_edges()) {
+Quadrics::Quadrics(std::vector<Quadric> of_vertex, const SurfaceMesh& mesh)
+    : of_vertex_(std::move(of_vertex)), known_(mesh.num_edges()) {}
+
+Quadrics::Quadrics(const SurfaceMesh& mesh, const IsSeamEdge& is_seam_edge)
+    : of_vertex_(mesh.num_vertices()), known_(mesh.num_edges()) {
   for (const auto face : mesh.faces()) {
     const auto first = mesh.halfedge(face);
     const Point &p = mesh.point(mesh.target(first)), &q = mesh.point(mesh.target(mesh.next(first))),
@@ -64,7 +69,7 @@ Quadrics::Quadrics(const SurfaceMesh& mesh) : of_vertex_(mesh.num_vertices()), k
     for (const auto h : CGAL::halfedges_around_face(first, mesh)) {
       const auto source = mesh.source(h), target = mesh.target(h);
       of_vertex_[source] += plane;
-      if (!mesh.is_border(mesh.edge(h))) continue;
+      if (!mesh.is_border(mesh.edge(h)) || (is_seam_edge && is_seam_edge(source, target))) continue;
       const Vector along = mesh.point(target) - mesh.point(source);
       const Quadric wall =
           Quadric::of_plane(unit(CGAL::cross_product(along, normal)), mesh.point(target), border_weight);

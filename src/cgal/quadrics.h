@@ -2,6 +2,7 @@
 /// The quadric error metric of Garland and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH
 /// 1997, with planes weighted as CGAL's `GarlandHeckbert_plane_policies` weights them.
 #pragma once
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -29,9 +30,14 @@ struct Quadric {
 /// kept by edge. Memory: O(vertices + edges).
 class Quadrics {
  public:
+  /// True for border edges, given by their ends, that are none of the whole mesh.
+  using IsSeamEdge = std::function<bool(SurfaceMesh::Vertex_index, SurfaceMesh::Vertex_index)>;
   /// Of the mesh as it is now: the planes of the faces around a vertex, and through border edges, perpendicular to
   /// their face. Vertices and edges must keep their indices from now on.
-  explicit Quadrics(const SurfaceMesh& mesh);
+  explicit Quadrics(const SurfaceMesh& mesh, const IsSeamEdge& is_seam_edge = nullptr);
+  /// Of a mesh that was decimated elsewhere: by vertex.
+  Quadrics(std::vector<Quadric> of_vertex, const SurfaceMesh& mesh);
+  [[nodiscard]] const Quadric& of_vertex(SurfaceMesh::Vertex_index v) const { return of_vertex_[v]; }
 
   /// Half a cache line: they are looked up all over the mesh.
   struct alignas(32) Collapse {

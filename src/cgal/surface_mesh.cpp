@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
+#include "cgal/manifold_polygons.h"
 #include "cgal/oriented_manifold.h"
 
 namespace meshbound::cgal {
@@ -15,7 +17,6 @@ namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 using Point = Kernel::Point_3;
-using Polygon = std::array<std::size_t, 3>;
 
 Point to_point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -69,13 +70,13 @@ SurfaceMesh to_surface_mesh(const TriangleMesh& mesh) {
   return result;
 }
 
-ManifoldCopy manifold_copy(const TriangleMesh& soup) {
+ManifoldPolygons manifold_polygons(const TriangleMesh& soup) {
   const std::vector<std::uint32_t> first = first_of_equal_vertices(soup.vertices);
   std::vector<Triangle> welded = soup.triangles;
   for (Triangle& corners : welded) {
     for (std::uint32_t& v : corners) v = first[v];
   }
-  ManifoldCopy copy;
+  ManifoldPolygons copy;
   copy.triangle_of_face = distinct_triangles(welded);
   copy.dropped_triangles = soup.triangles.size() - copy.triangle_of_face.size();
   if (copy.triangle_of_face.empty())
@@ -83,8 +84,8 @@ ManifoldCopy manifold_copy(const TriangleMesh& soup) {
 
   constexpr std::uint32_t unused = 0xffffffff;
   std::vector<std::uint32_t> compact(soup.vertices.size(), unused);
-  std::vector<Point> points;
-  std::vector<Polygon> polygons;
+  std::vector<Point>& points = copy.points;
+  std::vector<Polygon>& polygons = copy.polygons;
   polygons.reserve(copy.triangle_of_face.size());
   for (const std::uint32_t t : copy.triangle_of_face) {
     Polygon polygon{};
@@ -117,10 +118,27 @@ ManifoldCopy manifold_copy(const TriangleMesh& soup) {
     if (!is_oriented_manifold(polygons, points.size()))
       throw InvalidInput("the triangles cannot be arranged as a 2-manifold, which decimation needs; repair the mesh");
   }
-  PMP::polygon_soup_to_polygon_mesh(points, polygons, copy.mesh);
-  if (copy.mesh.number_of_faces() != polygons.size() || copy.mesh.number_of_vertices() != points.size())
-    throw InvalidInput("the triangles cannot be arranged as a 2-manifold, which decimation needs; repair the mesh");
   return copy;
 }
+
+SurfaceMesh to_surface_mesh(const std::vector<Kernel::Point_3>& points, const std::vector<Polygon>& polygons) {
+  SurfaceMesh mesh;
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  if (mesh.number_of_faces() != polygons.size() || mesh.number_of_vertices() != points.size())
+    throw InvalidInput("the triangles cannot be arranged as a 2-manifold, which decimation needs; repair the mesh");
+  return mesh;
+}
+
+ManifoldCopy to_manifold_copy(ManifoldPolygons polygons) {
+  ManifoldCopy copy;
+  copy.mesh = to_surface_mesh(polygons.points, polygons.polygons);
+  copy.triangle_of_face = std::move(polygons.triangle_of_face);
+  copy.vertex_of_vertex = std::move(polygons.vertex_of_vertex);
+  copy.dropped_triangles = polygons.dropped_triangles;
+  copy.split = polygons.split;
+  return copy;
+}
+
+ManifoldCopy manifold_copy(const TriangleMesh& soup) { return to_manifold_copy(manifold_polygons(soup)); }
 
 }  // namespace meshbound::cgal

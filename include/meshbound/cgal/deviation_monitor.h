@@ -58,6 +58,13 @@ class DeviationMonitor {
     std::uint64_t performed = 0;
     std::uint64_t refused = 0;   ///< tested and found to break the bound
     std::uint64_t repeated = 0;  ///< refused without a test: nothing near has changed since the last one
+
+    Counts& operator+=(const Counts& other) {
+      performed += other.performed;
+      refused += other.refused;
+      repeated += other.repeated;
+      return *this;
+    }
   };
 
   /// The original is `mesh` as it is now. Throws `InvalidInput` when a face is not a triangle, when an edge has length
@@ -80,6 +87,20 @@ class DeviationMonitor {
                    int threads = 0);
   /// Triangles of the original and faces, by their place in the range of faces.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
+
+  /// What another monitor proved of a part of the original, in the numbers of the whole.
+  struct Part {
+    static constexpr std::uint32_t none = SurfaceChange::no_triangle;
+
+    TrackedProof proof;
+    std::vector<std::uint32_t> triangle_of;  ///< by triangle of the part's original: the same in the whole
+    std::vector<std::uint32_t> face_of;      ///< by `face_id` there: its place in the faces of the mesh here, or none
+    std::vector<std::uint32_t> uncovered;    ///< as `uncovered` there, in numbers of the whole
+  };
+  /// The mesh was joined from parts, each proven alone, and `original` from theirs: all proofs are taken over. `tree`
+  /// must be built from `original`. Throws as `DeviationTracker::take_over` does. O(n).
+  DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree, std::span<const Part> parts, double tolerance,
+                   VertexPointMap points);
 
   DeviationMonitor(const DeviationMonitor&) = delete;
   DeviationMonitor& operator=(const DeviationMonitor&) = delete;
@@ -140,8 +161,17 @@ class DeviationMonitor {
   /// Call before another `edge_collapse` on the same mesh: edges refused before are tried again where the mesh around
   /// them has changed since.
   void begin_pass() { pass_start_ = ++clock_; }
-  /// Goes on with a larger tolerance; every edge is tried again. Throws `InvalidInput` for a smaller one.
+  /// True when the edge was refused and nothing near has changed since: the next pass will not test it.
+  [[nodiscard]] bool is_settled(Edge e) const {
+    const Halfedge h = halfedge(e, mesh_);
+    return nothing_changed_since(get(edge_memory_, e), source(h, mesh_), target(h, mesh_));
+  }
+  /// Makes the edge settled, for one that another monitor found so.
+  void settle(Edge e) { put(edge_memory_, e, EdgeMemory{++clock_}); }
+  /// Goes on with a larger tolerance; every edge is tried again. The same one changes nothing. Throws `InvalidInput`
+  /// for a smaller one.
   void grow_tolerance(double tolerance) {
+    if (tolerance == tracker_.tolerance()) return;
     tracker_.grow_tolerance(tolerance);
     tolerance_start_ = pass_start_ = ++clock_;
   }
@@ -173,6 +203,8 @@ class DeviationMonitor {
   Dropped drop_components(std::size_t least_faces = 0);
 
   [[nodiscard]] std::size_t faces() const { return faces_; }
+  /// The number of the face in the tracker.
+  [[nodiscard]] std::uint32_t face_id(Face f) const { return get(face_ids_, f); }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   /// True when the last collapse that was refused broke the bound: not the normal guard, nor an unchanged repetition.
   [[nodiscard]] bool last_refusal_by_bound() const { return refused_by_bound_; }
@@ -281,3 +313,4 @@ class DeviationMonitor {
 #include "meshbound/cgal/internal/deviation_monitor_edits.h"
 #include "meshbound/cgal/internal/deviation_monitor_handles.h"
 #include "meshbound/cgal/internal/deviation_monitor_impl.h"
+#include "meshbound/cgal/internal/deviation_monitor_parts.h"

@@ -76,7 +76,11 @@ struct SimplifyOptions {
   /// Make the certificate of each level that was measured to be within its tolerance.
   bool certificate = false;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
-  int threads = 0;                                              ///< of the measurement; 0: as many as OpenMP has
+  /// Originals of 10,000 triangles or more are cut into parts, which are decimated side by side by all threads, joined
+  /// again, and decimated at the seams. Not with `OnExceed::Stop`, a target, `prune` or `face_tolerances`, which go by
+  /// the whole mesh.
+  bool parts = true;
+  int threads = 0;                                ///< 0: as many as OpenMP has. The result is the same for every value.
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread; a guess
 };
@@ -124,9 +128,8 @@ struct SimplifyResult {
 /// Simplifies a triangle soup by edge collapses while its symmetric Hausdorff distance to the original stays within the
 /// tolerance. A `DeviationMonitor` proves both ways the mesh that the first collapses, far from the tolerance, leave,
 /// and each collapse from there; that proof steers, and the verdict of each level is a fresh measurement of its mesh
-/// (`options.measure`). Decimation needs a 2-manifold, so it works on a
-/// `manifold_copy`; the bound is always against the soup as it came in. Single-threaded and deterministic but for
-/// `time_limit` and `cancel`.
+/// (`options.measure`). Decimation needs a 2-manifold, so it works on a `manifold_copy`; the bound is always against
+/// the soup as it came in. Deterministic for any number of threads, but for `time_limit` and `cancel`.
 ///
 /// Throws `InvalidInput` for options out of range, for input that `validate` refuses, and when no manifold copy exists.
 [[nodiscard]] SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options);
