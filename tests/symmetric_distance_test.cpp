@@ -189,7 +189,12 @@ TEST(WithoutTrees, DecisionOfMeshesIsThatOfTheirTrees) {
   EXPECT_EQ(check_symmetric(mesh, near, 1e-11).verdict, Verdict::Exceeds);
   EXPECT_EQ(check_symmetric(mesh, far, 0.4).verdict, check_symmetric(Bvh(mesh), Bvh(far), 0.4).verdict);
   EXPECT_THROW((void)check_symmetric(mesh, near, -1), InvalidInput);
-  EXPECT_THROW((void)distance_without_trees(mesh, TriangleMesh{}, 1), InvalidInput);
+  EXPECT_THROW((void)distance_without_trees(TriangleMesh{}, TriangleMesh{}, 1), InvalidInput);
+  EXPECT_THROW((void)check_symmetric(mesh, TriangleMesh{}, 1), InvalidInput);
+  TriangleMesh astray = mesh;
+  astray.triangles[3][1] = 1000000000;
+  EXPECT_THROW((void)symmetric_distance(astray, mesh), InvalidInput);
+  EXPECT_THROW((void)symmetric_distance(mesh, astray), InvalidInput);
 }
 
 TEST(SymmetricDistance, OfConcentricSpheresIsTheGapUpToFaceting) {

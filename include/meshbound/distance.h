@@ -111,7 +111,8 @@ struct ToleranceCheck {
 /// correspond in order, with corners at most `limit` apart (a copy rounded to float, a mesh that has moved a little),
 /// whatever the numbers of vertices and the turns of triangles. Absent where neither holds, which mostly takes no
 /// longer than a look. The upper bound is at most `limit`, model units; statistics are of what was looked at. Throws as
-/// `Bvh`. O(n). Any number of threads may call it.
+/// `Bvh`, except that it does not look at meshes of different numbers of triangles. O(n). Any number of threads may
+/// call it.
 [[nodiscard]] std::optional<SymmetricDistance> distance_without_trees(const MeshView& a, const MeshView& b,
                                                                       double limit);
 

@@ -36,9 +36,12 @@ void link(Bvh::Data& data, std::uint32_t from, std::uint32_t to) {
 class EdgeLists {
  public:
   EdgeLists(Bvh::Data& data, std::uint32_t first_vertex, std::uint32_t end_vertex, std::size_t edges)
-      : data_(data), first_vertex_(first_vertex), head_(end_vertex - first_vertex, none) {
+      : data_(data), first_vertex_(first_vertex), head_(end_vertex - first_vertex) {
     met_.reserve(edges);
   }
+
+  /// By the thread that fills the lists: the first to touch their pages.
+  void clear() { std::fill(head_.begin(), head_.end(), none); }
 
   void add(const HalfEdge& edge) {
     std::uint32_t& head = head_[edge.near - first_vertex_];
@@ -104,6 +107,12 @@ class AdjacencyBuild {
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (std::uint32_t r = 0; r < runs_; ++r) first_vertex_[r + 1] = vertices_used(r);
     for (std::uint32_t r = 0; r < runs_; ++r) first_vertex_[r + 1] = std::max(first_vertex_[r], first_vertex_[r + 1]);
+    // Large arrays by one thread: each thread's own heap would have to grow first, page by page.
+    for (std::uint32_t r = 0; r < runs_; ++r) {
+      const std::uint32_t slots = begin(r + 1) - begin(r);
+      // A closed surface has 3/2 edges for each triangle; a soup has more, and then the list grows.
+      lists_[r] = std::make_unique<EdgeLists>(data_, first_vertex_[r], first_vertex_[r + 1], slots + slots / 2 + 64);
+    }
     FirstError error;
 #pragma omp parallel for num_threads(threads_) schedule(static)
     for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { add_edges(r); });
@@ -134,10 +143,7 @@ class AdjacencyBuild {
   }
 
   void add_edges(std::uint32_t run) {
-    const std::uint32_t slots = begin(run + 1) - begin(run);
-    // A closed surface has 3/2 edges for each triangle; a soup has more, and then the list grows.
-    lists_[run] =
-        std::make_unique<EdgeLists>(data_, first_vertex_[run], first_vertex_[run + 1], slots + slots / 2 + 64);
+    lists_[run]->clear();
     for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
       const Triangle& t = data_.corners[slot];
       data_.neighbours[slot].fill({});

@@ -23,6 +23,9 @@ class Renumbering {
     place_of_.resize(mesh_.vertex_count());
     first_run_.resize(runs_ > 1 ? mesh_.vertex_count() : 0);
     used_.resize(runs_);
+    // By one thread: each thread's own heap would have to grow first. A closed surface has half as many vertices as
+    // triangles.
+    for (std::uint32_t r = 0; r < runs_; ++r) used_[r].reserve((begin(r + 1) - begin(r)) / 2 + 64);
     FirstError error;
 #pragma omp parallel num_threads(threads_)
     {
@@ -75,7 +78,6 @@ class Renumbering {
 
   void number_vertices(std::uint32_t run) {
     Array<std::uint32_t>& used = used_[run];
-    used.reserve((begin(run + 1) - begin(run)) / 2 + 64);  // a closed surface has half as many vertices as triangles
     for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
       for (const std::uint32_t v : data_.corners[slot]) {
         if ((runs_ > 1 && first_run_[v] != run) || place_of_[v] != unused) continue;

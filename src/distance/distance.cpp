@@ -95,7 +95,8 @@ SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
 SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
   const double tolerance = tolerance_of(options);
   if (options.error_bound) checked(*options.error_bound, "the error bound");
-  if (options.method == Method::CellWalking) {
+  if (options.method == Method::CellWalking && a.triangle_count() == b.triangle_count()) {
+    validate(a);
     const double error_bound =
         options.error_bound ? *options.error_bound : default_error_bound * diagonal_of(used_bounding_box(a));
     if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
