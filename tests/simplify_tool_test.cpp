@@ -241,7 +241,7 @@ TEST_F(SimplifyTool, WritesTheOriginalInEveryFormatAndLevelWhenThereIsNoTimeAtAl
 
 /// A level that was proven serves the next one when its own proof was not finished.
 TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
-  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  const TriangleMesh sphere = datasets::icosphere(1, 5);
   const Bvh tree(sphere);
   TriangleMesh near = sphere;
   near.vertices[17] *= 1.001;
@@ -251,7 +251,7 @@ TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
   proven.write(near);
   proven.measure(tree, options);
   ASSERT_EQ(proven.verdict(), Verdict::Within);
-  const TriangleMesh coarse = datasets::icosphere(1, 1);
+  const TriangleMesh coarse = datasets::icosphere(1, 2);
   options.tolerance = symmetric_distance(tree, Bvh(coarse)).bounds.upper;
   options.budget.seconds = 0;
   late.write(coarse);
