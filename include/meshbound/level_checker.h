@@ -18,7 +18,7 @@ namespace meshbound {
 /// guarantees as those of `check_symmetric` and `symmetric_distance`; as other points and pieces are looked at, bounds
 /// may differ inside these guarantees. `DistanceStats::proven_before` counts the triangles that were not checked.
 /// Not thread-safe: use one per thread. Memory: 30 to 50 bytes per triangle of the original and of one level. Where
-/// nothing can be kept, writing proofs down makes a check 3 to 9% slower than `check_symmetric` (measured).
+/// nothing can be kept, writing proofs down makes a check 3 to 10% slower than `check_symmetric` (measured).
 class LevelChecker {
  public:
   /// Builds a tree of its own. Throws as `Bvh`.
