@@ -20,33 +20,23 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "reference/small_meshes.h"
+#include "run_tool.h"
 
 namespace meshbound {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+using testing_tools::content_of;
 
 struct Result {
   int exit_code = -1;
   std::string out, err;
 };
 
-std::string content(const fs::path& path) {
-  std::ifstream in(path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 class SimplifyTool : public testing::Test {
  protected:
-  SimplifyTool() {
-    std::string name = (fs::temp_directory_path() / "simplify_tool_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    write_mesh(in("sphere.off"), datasets::icosphere(1, 3));
-  }
-  ~SimplifyTool() override { fs::remove_all(folder_); }
+  SimplifyTool() { write_mesh(in("sphere.off"), datasets::icosphere(1, 3)); }
 
   [[nodiscard]] fs::path in(const std::string& name) const { return folder_ / name; }
 
@@ -55,7 +45,7 @@ class SimplifyTool : public testing::Test {
     const std::string command =
         "cd '" + folder_.string() + "' && timeout 300 '" + tool + "' " + arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(in("stdout.txt")), content(in("stderr.txt"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(in("stdout.txt")), content_of(in("stderr.txt"))};
   }
 
   /// Nothing but what the tests put there themselves: no half-written or temporary files.
@@ -72,7 +62,8 @@ class SimplifyTool : public testing::Test {
     EXPECT_TRUE(is_clean());
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 Verdict check(const fs::path& original, const fs::path& simplified, double tolerance) {
@@ -94,7 +85,7 @@ TEST_F(SimplifyTool, WritesAMeshWithinTheToleranceInEveryFormat) {
 
 TEST_F(SimplifyTool, TakesTolerancesInPercentOfTheDiagonal) {
   ASSERT_EQ(run("sphere.off out.off --tolerance 1% --json -").exit_code, 0);
-  const Json json = Json::parse(content(in("stdout.txt")));
+  const Json json = Json::parse(content_of(in("stdout.txt")));
   EXPECT_NEAR(json["tolerance"]["absolute"].get<double>(), 0.01 * json["original"]["bbox_diagonal"].get<double>(),
               1e-15);
   EXPECT_NEAR(json["tolerance"]["percent_of_diagonal"].get<double>(), 1, 1e-12);
@@ -104,7 +95,7 @@ TEST_F(SimplifyTool, ReportsEveryKeyOfTheSchema) {
   const Result result =
       run("sphere.off out.ply --tolerance 0.02 --levels 0.005,0.01 --output-dir levels --json r.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Json json = Json::parse(content(in("r.json")));
+  const Json json = Json::parse(content_of(in("r.json")));
   EXPECT_EQ(json["schema"], "meshbound/simplify/1");
   EXPECT_EQ(json["verdict"], "within");
   EXPECT_EQ(json["original"]["faces"], 1280);
@@ -144,12 +135,12 @@ TEST_F(SimplifyTool, SaysWhetherTheTargetOrTheToleranceCameFirst) {
   const Result target = run("sphere.off out.off --tolerance 0.05 --target-faces 900 --json r.json");
   EXPECT_EQ(target.exit_code, 0);
   EXPECT_NE(target.out.find("target was reached first"), std::string::npos);
-  EXPECT_EQ(Json::parse(content(in("r.json")))["stopped_by"], "target");
+  EXPECT_EQ(Json::parse(content_of(in("r.json")))["stopped_by"], "target");
   EXPECT_NEAR(static_cast<double>(read_mesh(in("out.off")).mesh.triangles.size()), 900, 2);
   const Result tolerance = run("sphere.off out.off --tolerance 0.001 --target-ratio 0.01 --json r.json");
   EXPECT_EQ(tolerance.exit_code, 0);
   EXPECT_NE(tolerance.out.find("it came before the target"), std::string::npos);
-  EXPECT_EQ(Json::parse(content(in("r.json")))["stopped_by"], "tolerance");
+  EXPECT_EQ(Json::parse(content_of(in("r.json")))["stopped_by"], "tolerance");
 }
 
 TEST_F(SimplifyTool, KeepsSharpEdgesWhenAsked) {
@@ -165,12 +156,12 @@ TEST_F(SimplifyTool, KeepsSharpEdgesWhenAsked) {
 TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
   ASSERT_EQ(run("sphere.off one.ply --tolerance 0.02 --threads 1").exit_code, 0);
   ASSERT_EQ(run("sphere.off two.ply --tolerance 0.02 --threads 2").exit_code, 0);
-  EXPECT_EQ(content(in("one.ply")), content(in("two.ply")));
+  EXPECT_EQ(content_of(in("one.ply")), content_of(in("two.ply")));
 }
 
 TEST_F(SimplifyTool, ChangesNothingAtToleranceZero) {
   ASSERT_EQ(run("sphere.off out.off --tolerance 0 --json -").exit_code, 0);
-  const Json json = Json::parse(content(in("stdout.txt")));
+  const Json json = Json::parse(content_of(in("stdout.txt")));
   EXPECT_EQ(json["distance"]["upper"], 0.0);
   EXPECT_EQ(json["stopped_by"], "rounding");
 }
@@ -214,7 +205,7 @@ TEST_F(SimplifyTool, WritesWhatIsProvenWhenItIsOutOfTime) {
     const Result result = run(std::string("terrain.off out.off --tolerance 0.01 --json r.json --time-limit ") + limit);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(check(in("terrain.off"), in("out.off"), 0.01), Verdict::Within);
-    EXPECT_EQ(Json::parse(content(in("r.json")))["simplified"]["faces"],
+    EXPECT_EQ(Json::parse(content_of(in("r.json")))["simplified"]["faces"],
               read_mesh(in("out.off")).mesh.triangles.size());
     EXPECT_TRUE(is_clean());
   }
@@ -227,7 +218,7 @@ TEST_F(SimplifyTool, WritesTheOriginalInEveryFormatAndLevelWhenThereIsNoTimeAtAl
                               " --tolerance 0.02 --levels 0.005,0.01 --certificate proof --json r.json --time-limit 0");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find("time limit came"), std::string::npos) << result.out;
-    const Json json = Json::parse(content(in("r.json")));
+    const Json json = Json::parse(content_of(in("r.json")));
     EXPECT_EQ(json["stopped_by"], "time_limit");
     EXPECT_EQ(json["verdict"], "within");
     EXPECT_EQ(json["collapses"]["performed"], 0);
@@ -305,8 +296,8 @@ TEST_F(SimplifyTool, CatchesAFaultyMonitorAndSavesAReproducer) {
   EXPECT_NE(faulty.err.find("out.ply.reproducer"), std::string::npos) << faulty.err;
   EXPECT_FALSE(fs::exists(in("out.ply")));
   const fs::path folder = in("out.ply.reproducer");
-  EXPECT_EQ(content(folder / "original.off"), content(in("sphere.off")));
-  const Json options = Json::parse(content(folder / "options.json"));
+  EXPECT_EQ(content_of(folder / "original.off"), content_of(in("sphere.off")));
+  const Json options = Json::parse(content_of(folder / "options.json"));
   EXPECT_EQ(options.at("tolerances"), Json({0.02}));
   EXPECT_EQ(options.at("effort"), "normal");
   const TriangleMesh rejected = read_mesh(folder / "rejected.ply").mesh;

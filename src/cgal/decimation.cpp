@@ -19,10 +19,6 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   return result;
 }
 
-bool is_before(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-  return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-}
-
 /// The others go by the mesh as a whole: its first refusal, its number of faces, its components, and which triangle is
 /// the nearest to a face, which may be one of another part.
 bool fits_parts(const SimplifyOptions& options, std::size_t triangles) {
@@ -166,18 +162,17 @@ TriangleMesh Decimation::current_mesh() const {
               [&](auto a, auto b) { return std::make_pair(key(a), a) < std::make_pair(key(b), b); });
     return items;
   };
+  const ManifoldCopy& copy = run_->copy();
+  const SurfaceMesh& mesh = copy.mesh;
   TriangleMesh result;
-  std::vector<std::uint32_t> index(run_->copy().mesh.num_vertices());
-  for (const auto v : sorted_by(run_->copy().mesh.vertices(),
-                                [&](auto u) { return order_.vertex[run_->copy().vertex_of_vertex[u]]; })) {
+  std::vector<std::uint32_t> index(mesh.num_vertices());
+  for (const auto v : sorted_by(mesh.vertices(), [&](auto u) { return order_.vertex[copy.vertex_of_vertex[u]]; })) {
     index[v] = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.push_back(in_model(run_->copy().mesh.point(v)));
+    result.vertices.push_back(in_model(mesh.point(v)));
   }
-  for (const auto f : sorted_by(run_->copy().mesh.faces(),
-                                [&](auto g) { return order_.triangle[run_->copy().triangle_of_face[g]]; })) {
-    const auto h = run_->copy().mesh.halfedge(f);
-    result.triangles.push_back({index[run_->copy().mesh.source(h)], index[run_->copy().mesh.target(h)],
-                                index[run_->copy().mesh.target(run_->copy().mesh.next(h))]});
+  for (const auto f : sorted_by(mesh.faces(), [&](auto g) { return order_.triangle[copy.triangle_of_face[g]]; })) {
+    const auto h = mesh.halfedge(f);
+    result.triangles.push_back({index[mesh.source(h)], index[mesh.target(h)], index[mesh.target(mesh.next(h))]});
   }
   for (const std::uint32_t t : sorted_by(run_->uncovered(), [&](auto u) { return order_.triangle[u]; })) {
     Triangle corners{};

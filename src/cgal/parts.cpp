@@ -6,6 +6,8 @@
 #include <array>
 #include <numeric>
 
+#include "cgal/spatial_order.h"
+
 namespace meshbound::cgal {
 namespace {
 
@@ -169,10 +171,7 @@ void Cutting::split_fans() {
 /// Triangles of the soup that no face is made of go to the part that shares most of their corners.
 void Cutting::place_dropped_triangles() {
   if (whole_.triangle_of_face.size() == soup_.triangles.size()) return;
-  const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    const Eigen::Vector3d &p = soup_.vertices[a], &q = soup_.vertices[b];
-    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-  };
+  const auto less = [&](std::uint32_t a, std::uint32_t b) { return is_before(soup_.vertices[a], soup_.vertices[b]); };
   // Equal points have several vertices in a soup: they are found by place.
   std::vector<char> has_face(soup_.triangles.size(), 0);
   for (const std::uint32_t t : whole_.triangle_of_face) has_face[t] = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,5 +17,10 @@ struct SpatialOrder {
 
 /// The order of the leaves of a `Bvh`. Throws `InvalidInput` for a mesh that a tree cannot be built of. O(n).
 [[nodiscard]] SpatialOrder spatial_order(const TriangleMesh& mesh, int threads);
+
+/// Points by their coordinates, x first. -0 and 0 are equal.
+[[nodiscard]] inline bool is_before(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+}
 
 }  // namespace meshbound::cgal
