@@ -339,6 +339,34 @@ TEST(DeviationMonitor, MovesNoVertexThroughTheNormalGuard) {
   EXPECT_TRUE(monitor.move_vertex(*inner, beyond));
 }
 
+/// Within a plane no triangulation is nearer than another.
+TEST(DeviationMonitor, TurnsEdgesThatNoFlipWouldGainFrom) {
+  SurfaceMesh mesh = to_surface_mesh(reference::unit_square(8));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.1);
+  monitor.normal_guard = NormalGuard();
+  std::size_t flipped = 0, turned = 0;
+  for (const auto e : mesh.edges()) flipped += monitor.flip_edge(e) ? 1 : 0;
+  EXPECT_EQ(flipped, 0u);
+  for (const auto e : mesh.edges()) turned += monitor.turn_edge(e) ? 1 : 0;
+  EXPECT_GT(turned, 50u);
+  const TriangleMesh after = to_triangle_mesh(mesh);
+  double area = 0;
+  for (const Triangle& t : after.triangles) {
+    const Eigen::Vector3d &a = after.vertices[t[0]], &b = after.vertices[t[1]], &c = after.vertices[t[2]];
+    area += (b - a).cross(c - a).norm() / 2;
+  }
+  EXPECT_NEAR(area, 1, 1e-12);
+}
+
+/// Across a crease the other diagonal is off by its height.
+TEST(DeviationMonitor, TurnsNoEdgeOutOfTheBound) {
+  SurfaceMesh mesh = to_surface_mesh(datasets::cube(1, 4));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 1e-3);
+  for (const auto e : mesh.edges()) (void)monitor.turn_edge(e);
+  const TriangleMesh after = to_triangle_mesh(mesh);
+  EXPECT_EQ(check_symmetric(datasets::cube(1, 4), after, 1e-3).verdict, Verdict::Within);
+}
+
 TEST(SimplifyWithBound, ChangesNothingAtToleranceZero) {
   const TriangleMesh sphere = datasets::icosphere(1, 3);
   const SimplifyResult result = simplify_with_bound(sphere, within(0));

@@ -115,7 +115,7 @@ TEST(VertexLocks, RefuseEveryEdit) {
       moved += monitor.move_vertex(v, {p.x(), p.y(), p.z() + 0.01}) ? 1 : 0;
       moved += monitor.relocate_vertex(v) ? 1 : 0;
     }
-    for (const auto e : mesh.edges()) flipped += monitor.flip_edge(e) ? 1 : 0;
+    for (const auto e : mesh.edges()) flipped += monitor.flip_edge(e) || monitor.turn_edge(e) ? 1 : 0;
     return std::pair(moved, flipped);
   };
   for (const auto v : mesh.vertices()) locked[v] = true;

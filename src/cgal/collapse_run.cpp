@@ -19,6 +19,8 @@ constexpr double least_gain_of_pass = 0.01;
 
 /// Refinement ends where as much work as all passes before it gains less than this share of the faces.
 constexpr double least_gain_of_refinement = 0.015;
+/// But not before this many times that work: a few hundred faces may stay the same for as long and fall again.
+constexpr int least_refinement = 4;
 
 /// With Effort::Fast, of those that `DeviationMonitor` knows: the middle and the ends of the edge.
 constexpr int fast_fallback_placements = 3;
@@ -231,6 +233,7 @@ void CollapseRun::refine(std::uint64_t work_of_passes) {
   monitor_->begin_pass();
   std::size_t faces = monitor_->faces();
   std::uint64_t looked_at = work(), before = 0;
+  const std::uint64_t earliest_end = looked_at + least_refinement * work_of_passes;
   while (!ended_by_ && work() > before) {
     before = work();
     refinement_->round();
@@ -238,7 +241,8 @@ void CollapseRun::refine(std::uint64_t work_of_passes) {
     passes_until_nothing_fits();
     if (work() - looked_at < work_of_passes) continue;
     looked_at = work();
-    if (static_cast<double>(faces - monitor_->faces()) < least_gain_of_refinement * static_cast<double>(faces)) break;
+    const auto gain = static_cast<double>(faces - monitor_->faces());
+    if (work() >= earliest_end && gain < least_gain_of_refinement * static_cast<double>(faces)) break;
     faces = monitor_->faces();
   }
   monitor_->search_placements = false;

@@ -17,12 +17,17 @@ constexpr double shorter_way = 0.4;
 constexpr int slide_attempts = 2;
 constexpr double longest_slide = 0.4;
 
+/// Of the edges are turned whatever that gains: on plane faces every triangulation is as good as another, but not every
+/// one has room for the next collapse (fandisk: 3% fewer faces; twice or three times as many gain nothing more).
+constexpr double turned_share = 0.1;
+
 Eigen::Vector3d to_eigen(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
 
 void Refinement::round() {
   shake();
+  turn();
   flip();
   relocate();
   flip();
@@ -50,6 +55,13 @@ void Refinement::flip() {
   for (const auto e : mesh_.edges()) {
     if (stop_()) return;
     monitor_.flip_edge(e);
+  }
+}
+
+void Refinement::turn() {
+  for (const auto e : mesh_.edges()) {
+    if (stop_()) return;
+    if (std::abs(uniform()) < turned_share) monitor_.turn_edge(e);
   }
 }
 

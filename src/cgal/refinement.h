@@ -7,8 +7,8 @@
 
 namespace meshbound::cgal {
 
-/// Makes room for further collapses where decimation has come to its end: shakes the mesh a little, then moves
-/// vertices and flips edges to where the deviation is lower. Each edit is proven by the monitor.
+/// Makes room for further collapses where decimation has come to its end: shakes the mesh a little, turns some edges,
+/// then moves vertices and flips edges to where the deviation is lower. Each edit is proven by the monitor.
 class Refinement {
  public:
   using Monitor = DeviationMonitor<SurfaceMesh>;
@@ -23,6 +23,7 @@ class Refinement {
  private:
   void relocate();
   void flip();
+  void turn();
   void shake();
   void shake(SurfaceMesh::Vertex_index v);
   [[nodiscard]] double mean_edge(SurfaceMesh::Vertex_index v) const;

@@ -186,13 +186,15 @@ class DeviationMonitor {
   template <class Profile>
   [[nodiscard]] std::optional<Point> admitted_placement(const Profile& profile, const Point& wanted);
 
-  /// Edits beside collapses, between two runs of `edge_collapse`. Each is made only when it lowers the deviation
-  /// sampled around it (but for `move_vertex`), passes the guard and keeps the bound; false: the mesh is as it was.
+  /// Edits beside collapses, between two runs of `edge_collapse`. Each is made only when it passes the guard and keeps
+  /// the bound, and `relocate_vertex` and `flip_edge` only when it also lowers the deviation sampled around it, which
+  /// `move_vertex` and `turn_edge`, a flip as well, do not ask for; false: the mesh is as it was.
   /// Vertices of the border and locked ones stay, and so do edges at locked ones. Edits make room for further
   /// collapses: edges around them are tried again.
   bool relocate_vertex(Vertex v);
   bool move_vertex(Vertex v, const Point& to);
   bool flip_edge(Edge e);
+  bool turn_edge(Edge e);
 
   struct Dropped {
     std::size_t components = 0, faces = 0;
@@ -259,7 +261,9 @@ class DeviationMonitor {
   };
   [[nodiscard]] Sampled lower_deviation(const Eigen::Vector3d& p, double reach);
   [[nodiscard]] double mean_edge() const;
-  [[nodiscard]] bool gather_flip(Halfedge h);
+  [[nodiscard]] bool gather_flip(Edge e);
+  [[nodiscard]] bool flip_lowers_deviation();
+  [[nodiscard]] bool make_flip(Edge e);
   void commit_move(Vertex v, const Point& to);
   [[nodiscard]] std::vector<std::vector<Face>> components() const;
   void remove_component(const std::vector<Face>& component);

@@ -156,37 +156,43 @@ bool DeviationMonitor<Mesh, VertexPointMap>::move_vertex(Vertex v, const Point& 
 }
 
 /// The faces (a, b, c) and (b, a, d) at h = a -> b before, and (a, d, c) and (d, b, c) after a flip; false where
-/// topology or the guard forbids it.
+/// topology, a lock or the guard forbids it.
 template <class Mesh, class VertexPointMap>
-bool DeviationMonitor<Mesh, VertexPointMap>::gather_flip(Halfedge h) {
-  const Halfedge o = opposite(h, mesh_);
+bool DeviationMonitor<Mesh, VertexPointMap>::gather_flip(Edge e) {
+  if (CGAL::is_border(e, mesh_)) return false;
+  const Halfedge h = halfedge(e, mesh_), o = opposite(h, mesh_);
   const Vertex a = source(h, mesh_), b = target(h, mesh_);
   const Vertex c = target(next(h, mesh_), mesh_), d = target(next(o, mesh_), mesh_);
+  if (is_locked(a) || is_locked(b)) return false;
   if (c == d || degree(a, mesh_) <= 3 || degree(b, mesh_) <= 3 || CGAL::halfedge(c, d, mesh_).second) return false;
   removed_faces_ = {face(h, mesh_), face(o, mesh_)};
   removed_ = {get(face_ids_, removed_faces_[0]), get(face_ids_, removed_faces_[1])};
   before_ = {{at(a), at(b), at(c)}, {at(b), at(a), at(d)}};
-  added_ = {{removed_[0], before_[0]}, {removed_[1], before_[1]}};
-  const std::array<std::array<Eigen::Vector3d, 3>, 2> after = {{{at(a), at(d), at(c)}, {at(d), at(b), at(c)}}};
-  for (const auto& face : after) {
-    if (normal_guard && !(normal_guard->allows(before_[0], face) && normal_guard->allows(before_[1], face)))
+  added_ = {{removed_[0], {at(a), at(d), at(c)}}, {removed_[1], {at(d), at(b), at(c)}}};
+  moved_corner_ = {1, 2};  // their edge to the next corner is the one that both have
+  for (const TrackedFace& face : added_) {
+    if (normal_guard &&
+        !(normal_guard->allows(before_[0], face.corners) && normal_guard->allows(before_[1], face.corners)))
       return false;
   }
-  tracker_.sample(removed_);
-  moved_corner_ = {0, 0};  // their edge to the next corner is the one that both have
-  const double now = tracker_.sampled_deviation(added_, moved_corner_).sum;
-  if (now < internal::low_deviation) return false;
-  added_[0].corners = after[0];
-  added_[1].corners = after[1];
-  moved_corner_ = {1, 2};
-  return tracker_.sampled_deviation(added_, moved_corner_).sum < (1 - internal::least_flip_gain) * now;
+  return true;
 }
 
 template <class Mesh, class VertexPointMap>
-bool DeviationMonitor<Mesh, VertexPointMap>::flip_edge(Edge e) {
+bool DeviationMonitor<Mesh, VertexPointMap>::flip_lowers_deviation() {
+  const std::array<TrackedFace, 2> before = {{{removed_[0], before_[0]}, {removed_[1], before_[1]}}};
+  const std::array<std::size_t, 2> common_edge = {0, 0};  // as `moved_corner_`
+  tracker_.sample(removed_);
+  const double now = tracker_.sampled_deviation(before, common_edge).sum;
+  return now >= internal::low_deviation &&
+         tracker_.sampled_deviation(added_, moved_corner_).sum < (1 - internal::least_flip_gain) * now;
+}
+
+/// Of the edge that was gathered.
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::make_flip(Edge e) {
   const Halfedge h = halfedge(e, mesh_);
   const Vertex a = source(h, mesh_), b = target(h, mesh_);
-  if (CGAL::is_border(e, mesh_) || is_locked(a) || is_locked(b) || !gather_flip(h)) return false;
   if (!admits_gathered(a, b, added_[0].corners[1], SurfaceChange::no_triangle)) return false;
   tracker_.commit();
   const std::array<Vertex, 4> around = {a, b, target(next(h, mesh_), mesh_),
@@ -204,6 +210,16 @@ bool DeviationMonitor<Mesh, VertexPointMap>::flip_edge(Edge e) {
     put(vertex_memory_, v, memory);
   }
   return true;
+}
+
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::flip_edge(Edge e) {
+  return gather_flip(e) && flip_lowers_deviation() && make_flip(e);
+}
+
+template <class Mesh, class VertexPointMap>
+bool DeviationMonitor<Mesh, VertexPointMap>::turn_edge(Edge e) {
+  return gather_flip(e) && make_flip(e);
 }
 
 }  // namespace meshbound::cgal
