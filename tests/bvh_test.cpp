@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -190,19 +191,65 @@ bool same_bytes(const Vector& a, const Vector& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
+void expect_same(const Bvh::Data& a, const Bvh::Data& b) {
+  EXPECT_TRUE(same_bytes(a.vertices, b.vertices));
+  EXPECT_TRUE(same_bytes(a.source_vertex, b.source_vertex));
+  EXPECT_TRUE(same_bytes(a.corners, b.corners));
+  EXPECT_TRUE(same_bytes(a.neighbours, b.neighbours));
+  EXPECT_TRUE(same_bytes(a.normals, b.normals));
+  EXPECT_TRUE(same_bytes(a.triangle_of_slot, b.triangle_of_slot));
+  EXPECT_TRUE(same_bytes(a.nodes, b.nodes));
+  EXPECT_EQ(a.level_begin, b.level_begin);
+  EXPECT_EQ(a.frame.error, b.frame.error);
+}
+
+/// In the memory of a scanner neighbours are apart.
+TriangleMesh scrambled(TriangleMesh mesh) {
+  std::mt19937 random(11);
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  std::iota(place.begin(), place.end(), 0U);
+  std::shuffle(place.begin(), place.end(), random);
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+  TriangleMesh result = mesh;
+  for (std::size_t v = 0; v < place.size(); ++v) result.vertices[place[v]] = mesh.vertices[v];
+  for (Triangle& t : result.triangles)
+    for (std::uint32_t& v : t) v = place[v];
+  return result;
+}
+
+/// Triangles around one vertex: more edges at it than are compared with each other.
+TriangleMesh fan(std::uint32_t n) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / n;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    mesh.triangles.push_back({n, i, (i + 1) % n});
+  }
+  mesh.vertices.emplace_back(0, 0, 0);
+  return mesh;
+}
+
 TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
-  for (const TriangleMesh& mesh : {icosphere(5), random_soup(3, 5000, 0.1), unit_square(64)}) {
-    const Bvh one(mesh, {.threads = 1}), two(mesh, {.threads = 2});
-    const Bvh::Data &a = one.data(), &b = two.data();
-    EXPECT_TRUE(same_bytes(a.vertices, b.vertices));
-    EXPECT_TRUE(same_bytes(a.source_vertex, b.source_vertex));
-    EXPECT_TRUE(same_bytes(a.corners, b.corners));
-    EXPECT_TRUE(same_bytes(a.neighbours, b.neighbours));
-    EXPECT_TRUE(same_bytes(a.normals, b.normals));
-    EXPECT_TRUE(same_bytes(a.triangle_of_slot, b.triangle_of_slot));
-    EXPECT_TRUE(same_bytes(a.nodes, b.nodes));
-    EXPECT_EQ(a.level_begin, b.level_begin);
-    EXPECT_EQ(a.frame.error, b.frame.error);
+  for (const TriangleMesh& mesh :
+       {icosphere(6), scrambled(icosphere(5)), random_soup(3, 20000, 0.1), unit_square(64), fan(20000)}) {
+    const Bvh one(mesh, {.threads = 1});
+    for (const int threads : {2, 3, 20}) {
+      SCOPED_TRACE(threads);
+      expect_same(one.data(), Bvh(mesh, {.threads = threads}).data());
+    }
+  }
+}
+
+TEST(Bvh, ItsBoxIsThatOfTheVerticesThatTrianglesUse) {
+  for (const int threads : {1, 2}) {
+    TriangleMesh mesh = icosphere(5);
+    const Eigen::AlignedBox3d box = Bvh(mesh, {.threads = threads}).bounding_box();
+    for (const double x : {3.0, -3.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+      mesh.vertices.emplace_back(x, 0, x);
+      const Bvh bvh(mesh, {.threads = threads});
+      EXPECT_EQ(bvh.bounding_box().min(), box.min()) << x;
+      EXPECT_EQ(bvh.bounding_box().max(), box.max()) << x;
+    }
   }
 }
 
@@ -232,14 +279,7 @@ TEST(Bvh, NearestIsThatOfTestingEveryTriangle) {
 /// that is quadratic in the valence takes minutes and meets the tests' time limit.
 TEST(Bvh, BuildsAFanOfAHundredThousandTriangles) {
   constexpr std::uint32_t n = 100000;
-  TriangleMesh fan;
-  fan.vertices.emplace_back(0, 0, 0);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = 2 * M_PI * i / n;
-    fan.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
-    fan.triangles.push_back({0, i + 1, (i + 1) % n + 1});
-  }
-  const Bvh bvh(fan);
+  const Bvh bvh(fan(n), {.threads = 2});
   const Bvh::Data& data = bvh.data();
   std::size_t linked = 0;
   for (const auto& neighbours : data.neighbours)
@@ -260,6 +300,25 @@ TEST(Array, BeginsOnALargePageFromTheSizeOfOne) {
       EXPECT_EQ(array[n - 1], static_cast<double>(n - 1));
     }
   }
+}
+
+TEST(Arena, GivesOutApartWhatItHasAndNoMore) {
+  Arena arena(large_page);
+  Array<char> first = array_in<char>(arena), second = array_in<char>(arena), third = array_in<char>(arena);
+  first.resize(100);
+  second.resize(large_page / 2);
+  EXPECT_TRUE(arena.owns(first.data()) && arena.owns(second.data()));
+  EXPECT_GE(second.data() - first.data(), 100);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(second.data()) % 64, 0U);
+  third.resize(large_page / 2);
+  EXPECT_FALSE(arena.owns(third.data())) << "no room is left, so it comes from elsewhere";
+  std::fill(third.begin(), third.end(), 'x');
+  const Array<char> copy = first;
+  EXPECT_NE(copy.data(), first.data());
+  arena.clear();
+  Array<char> again = array_in<char>(arena);
+  again.resize(1);
+  EXPECT_EQ(again.data(), first.data());
 }
 
 TEST(Bvh, KeepsDegenerateAndSingleTriangles) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// What lies across the edges of the triangles. Each half-edge is put into the bucket of the smaller of its vertices
+/// (a counting sort), where it meets the others of its edge. Each thread fills the buckets of one run of vertices,
+/// which are those that its run of slots is the first to use: but for the seams between runs no thread writes where
+/// another one does.
 #include <algorithm>
-#include <tuple>
+#include <bit>
 
 #include "bvh/build.h"
 #include "numeric/first_error.h"
@@ -8,166 +12,190 @@
 namespace meshbound {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
+/// Half-edges in a bucket from which they are sorted instead of compared with each other, which is done by the bits of
+/// a word: ten times what a vertex of a scan has.
+constexpr std::uint32_t most_compared = 64;
 
-/// Edges met at a vertex before its further ones are sorted instead of searched: 30 times what a vertex of a scan has.
-constexpr std::uint32_t most_searched = 96;
+/// They are compared eight at a time, so what lies behind a bucket is read too.
+constexpr std::uint32_t compared_at_once = 8;
+constexpr std::uint32_t no_vertex = 0xffffffff;
 
 /// An edge of a triangle, seen from the smaller of its vertices.
 struct HalfEdge {
-  std::uint32_t near, far;
+  std::uint32_t far;
   std::uint32_t id;  ///< 4 slot + edge
 };
 
-bool runs_upward(const Triangle& corners, std::uint32_t edge) { return corners[edge] < corners[(edge + 1) % 3]; }
-
-Neighbour& neighbour_at(Bvh::Data& data, std::uint32_t id) { return data.neighbours[id / 4][id % 4]; }
-
-void link(Bvh::Data& data, std::uint32_t from, std::uint32_t to) {
-  Neighbour& neighbour = neighbour_at(data, from);
-  neighbour.slot = (to / 4) & 0x7fffffff;
-  neighbour.flipped =
-      runs_upward(data.corners[from / 4], from % 4) == runs_upward(data.corners[to / 4], to % 4) ? 1 : 0;
-}
-
-/// The edges whose smaller vertex is one of a run of vertices: for each vertex a list of the edges met so far, with the
-/// half-edge met last. Half-edges of one edge form a ring in the order of their ids: a pair on a manifold edge, more
-/// where more triangles meet, nothing on a border.
-class EdgeLists {
- public:
-  EdgeLists(Bvh::Data& data, std::uint32_t first_vertex, std::uint32_t end_vertex, std::size_t edges)
-      : data_(data), first_vertex_(first_vertex), head_(end_vertex - first_vertex) {
-    met_.reserve(edges);
-  }
-
-  /// By the thread that fills the lists: the first to touch their pages.
-  void clear() { std::fill(head_.begin(), head_.end(), none); }
-
-  void add(const HalfEdge& edge) {
-    std::uint32_t& head = head_[edge.near - first_vertex_];
-    std::uint32_t length = 0;
-    for (std::uint32_t at = head; at != none; at = met_[at].next, ++length) {
-      if (met_[at].far != edge.far) continue;
-      append(met_[at], edge.id);
-      return;
-    }
-    if (length >= most_searched) {
-      crowded_.push_back(edge);
-      return;
-    }
-    met_.push_back({edge.far, edge.id, edge.id, head});
-    head = static_cast<std::uint32_t>(met_.size()) - 1;
-  }
-
-  void link_crowded() {
-    const auto key = [](const HalfEdge& e) { return std::tuple(e.near, e.far, e.id); };
-    std::sort(crowded_.begin(), crowded_.end(), [&](const HalfEdge& a, const HalfEdge& b) { return key(a) < key(b); });
-    for (std::size_t i = 0; i < crowded_.size();) {
-      const HalfEdge& edge = crowded_[i];
-      Met met{edge.far, edge.id, edge.id, none};
-      for (++i; i < crowded_.size() && crowded_[i].near == edge.near && crowded_[i].far == edge.far; ++i)
-        append(met, crowded_[i].id);
-    }
-  }
-
- private:
-  struct Met {
-    std::uint32_t far;
-    std::uint32_t first, last;  ///< half-edges
-    std::uint32_t next;         ///< in `met_`
-  };
-
-  void append(Met& met, std::uint32_t id) {
-    link(data_, met.last, id);
-    link(data_, id, met.first);
-    met.last = id;
-  }
-
-  Bvh::Data& data_;
-  std::uint32_t first_vertex_;
-  Array<std::uint32_t> head_;  ///< by vertex, in `met_`
-  Array<Met> met_;
-  std::vector<HalfEdge> crowded_;
+/// One on a seam: its smaller vertex belongs to an earlier run.
+struct SeamEdge {
+  std::uint32_t near;
+  HalfEdge edge;
 };
 
-/// One run of slots for each thread. A run owns the vertices that it is the first to use, and the edges whose smaller
-/// vertex it owns.
 class AdjacencyBuild {
  public:
-  AdjacencyBuild(Bvh::Data& data, int threads)
+  AdjacencyBuild(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch)
       : data_(data),
-        threads_(threads),
-        runs_(static_cast<std::uint32_t>(threads)),
-        first_vertex_(runs_ + 1, 0),
-        lists_(runs_),
-        of_earlier_(runs_) {}
+        first_vertex_(first_vertex),
+        runs_(static_cast<std::uint32_t>(first_vertex.size()) - 1),
+        bucket_end_(array_in<std::uint32_t>(scratch)),
+        edges_(array_in<HalfEdge>(scratch)),
+        seams_(runs_),
+        size_(runs_, 0) {
+    bucket_end_.resize(data.vertices.size());
+    edges_.resize(3 * data.corners.size() + std::size_t{compared_at_once} * runs_);
+  }
 
   void run() {
     data_.neighbours.resize(data_.corners.size());
-#pragma omp parallel for num_threads(threads_) schedule(static)
-    for (std::uint32_t r = 0; r < runs_; ++r) first_vertex_[r + 1] = vertices_used(r);
-    for (std::uint32_t r = 0; r < runs_; ++r) first_vertex_[r + 1] = std::max(first_vertex_[r], first_vertex_[r + 1]);
-    // Large arrays by one thread: each thread's own heap would have to grow first, page by page.
-    for (std::uint32_t r = 0; r < runs_; ++r) {
-      const std::uint32_t slots = begin(r + 1) - begin(r);
-      // A closed surface has 3/2 edges for each triangle; a soup has more, and then the list grows.
-      lists_[r] = std::make_unique<EdgeLists>(data_, first_vertex_[r], first_vertex_[r + 1], slots + slots / 2 + 64);
-    }
     FirstError error;
-#pragma omp parallel for num_threads(threads_) schedule(static)
-    for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { add_edges(r); });
+#pragma omp parallel num_threads(static_cast <int>(runs_))
+    {
+#pragma omp for schedule(static)
+      for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { count(r); });
+#pragma omp for schedule(static)
+      for (std::uint32_t r = 0; r < runs_; ++r) size_[r] = add_seams_and_sum(r);
+#pragma omp for schedule(static)
+      for (std::uint32_t r = 0; r < runs_; ++r) {
+        fill(r);
+        match(r);
+      }
+    }
     error.rethrow();
-    // Edges on the seams between runs: few, and by order of the runs so that ids ascend.
-    for (std::uint32_t r = 1; r < runs_; ++r)
-      for (const HalfEdge& edge : of_earlier_[r]) lists_[owner(edge.near)]->add(edge);
-    for (auto& lists : lists_) lists->link_crowded();
   }
 
  private:
-  [[nodiscard]] std::uint32_t begin(std::uint32_t run) const {
-    return static_cast<std::uint32_t>(std::uint64_t{data_.triangle_count()} * run / runs_);
-  }
+  [[nodiscard]] std::uint32_t begin(std::uint32_t run) const { return run_begin(data_.triangle_count(), run, runs_); }
 
-  /// Vertices are numbered by first use, so all those used so far are below the largest.
-  [[nodiscard]] std::uint32_t vertices_used(std::uint32_t run) const {
-    if (run + 1 == runs_) return static_cast<std::uint32_t>(data_.vertices.size());
-    std::uint32_t count = 0;
-    for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot)
-      for (const std::uint32_t v : data_.corners[slot]) count = std::max(count, v + 1);
-    return count;
-  }
-
-  [[nodiscard]] std::uint32_t owner(std::uint32_t vertex) const {
-    return static_cast<std::uint32_t>(std::upper_bound(first_vertex_.begin(), first_vertex_.end(), vertex) -
-                                      first_vertex_.begin() - 1);
-  }
-
-  void add_edges(std::uint32_t run) {
-    lists_[run]->clear();
-    for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
-      const Triangle& t = data_.corners[slot];
-      data_.neighbours[slot].fill({});
+  template <class Use>
+  void for_each_half_edge(std::uint32_t run, Use&& use) {
+    const std::uint32_t end = begin(run + 1);
+    for (std::uint32_t slot = begin(run); slot < end; ++slot) {
+      const Triangle t = data_.corners[slot];
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto [near, far] = std::minmax(t[k], t[(k + 1) % 3]);
-        const HalfEdge edge{near, far, 4 * slot + k};
-        if (near >= first_vertex_[run])
-          lists_[run]->add(edge);
-        else
-          of_earlier_[run].push_back(edge);
+        // Without a branch, which would be guessed wrong half the time.
+        const std::uint32_t u = t[k], v = t[(k + 1) % 3], both = u ^ v, mask = 0U - static_cast<std::uint32_t>(u < v);
+        use(v ^ (both & mask), HalfEdge{u ^ (both & mask), 4 * slot + k});
       }
     }
   }
 
+  template <class Use>
+  void for_each_seam_edge(std::uint32_t run, Use&& use) {
+    for (std::uint32_t later = run + 1; later < runs_; ++later)
+      for (const SeamEdge& seam : seams_[later])
+        if (seam.near >= first_vertex_[run] && seam.near < first_vertex_[run + 1]) use(seam.near, seam.edge);
+  }
+
+  void count(std::uint32_t run) {
+    std::fill(bucket_end_.begin() + first_vertex_[run], bucket_end_.begin() + first_vertex_[run + 1], 0);
+    std::fill(data_.neighbours.begin() + begin(run), data_.neighbours.begin() + begin(run + 1),
+              std::array<Neighbour, 3>{});
+    const std::uint32_t first = first_vertex_[run];
+    std::uint32_t* const size = bucket_end_.data();
+    for_each_half_edge(run, [&](std::uint32_t near, const HalfEdge& edge) {
+      if (near >= first)
+        ++size[near];
+      else
+        seams_[run].push_back({near, edge});
+    });
+  }
+
+  /// Turns counts into the begins of buckets, counted from the first of the run. Returns the sum.
+  std::uint32_t add_seams_and_sum(std::uint32_t run) {
+    for_each_seam_edge(run, [&](std::uint32_t near, const HalfEdge&) { ++bucket_end_[near]; });
+    std::uint32_t sum = 0;
+    for (std::uint32_t v = first_vertex_[run]; v < first_vertex_[run + 1]; ++v) {
+      const std::uint32_t size = bucket_end_[v];
+      bucket_end_[v] = sum;
+      sum += size;
+    }
+    return sum;
+  }
+
+  [[nodiscard]] HalfEdge* edges_of(std::uint32_t run) {
+    HalfEdge* edges = edges_.data();
+    for (std::uint32_t r = 0; r < run; ++r) edges += size_[r] + compared_at_once;
+    return edges;
+  }
+
+  /// By ascending ids, so that each bucket is in their order: later runs have larger ones.
+  void fill(std::uint32_t run) {
+    HalfEdge* const edges = edges_of(run);
+    std::uint32_t* const at = bucket_end_.data();
+    const auto add = [=](std::uint32_t near, const HalfEdge& edge) { edges[at[near]++] = edge; };
+    const std::uint32_t first = first_vertex_[run];
+    for_each_half_edge(run, [=](std::uint32_t near, const HalfEdge& edge) {
+      if (near >= first) add(near, edge);
+    });
+    for_each_seam_edge(run, add);
+    std::fill_n(edges + size_[run], compared_at_once, HalfEdge{no_vertex, 0});
+  }
+
+  /// Half-edges of one edge form a ring in the order of their ids: a pair on a manifold edge, more where more triangles
+  /// meet, nothing on a border.
+  void match(std::uint32_t run) {
+    HalfEdge* const edges = edges_of(run);
+    std::uint32_t begin = 0;
+    for (std::uint32_t v = first_vertex_[run]; v < first_vertex_[run + 1]; ++v) {
+      const std::uint32_t end = bucket_end_[v];
+      if (end - begin > most_compared)
+        match_by_sorting(edges + begin, edges + end);
+      else
+        match_by_comparing(edges + begin, end - begin);
+      begin = end;
+    }
+  }
+
+  /// Each with all others, without branches that depend on where its like is.
+  void match_by_comparing(const HalfEdge* edges, std::uint32_t count) {
+    const std::uint64_t all = ~std::uint64_t{0} >> (most_compared - count) % most_compared;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      std::uint64_t like = 0;
+      for (std::uint32_t begin = 0; begin < count; begin += compared_at_once)
+        for (std::uint32_t j = begin; j < begin + compared_at_once; ++j)
+          like |= std::uint64_t{edges[j].far == edges[i].far} << j;
+      like &= all & ~(std::uint64_t{1} << i);
+      if (like == 0) continue;
+      const std::uint64_t later = like >> i << i;
+      link(edges[i].id, edges[std::countr_zero(later != 0 ? later : like)].id);
+    }
+  }
+
+  void match_by_sorting(HalfEdge* begin, HalfEdge* end) {
+    std::sort(begin, end,
+              [](const HalfEdge& a, const HalfEdge& b) { return a.far != b.far ? a.far < b.far : a.id < b.id; });
+    for (HalfEdge* i = begin; i != end;) {
+      HalfEdge* j = i + 1;
+      for (; j != end && j->far == i->far; ++j) link(j[-1].id, j->id);
+      if (j != i + 1) link(j[-1].id, i->id);
+      i = j;
+    }
+  }
+
+  void link(std::uint32_t from, std::uint32_t to) {
+    data_.neighbours[from / 4][from % 4] = {to / 4 & no_slot, runs_upward(from) == runs_upward(to) ? 1U : 0U};
+  }
+
+  [[nodiscard]] bool runs_upward(std::uint32_t id) const {
+    const Triangle& t = data_.corners[id / 4];
+    return t[id % 4] < t[(id % 4 + 1) % 3];
+  }
+
   Bvh::Data& data_;
-  int threads_;
+  const std::vector<std::uint32_t>& first_vertex_;  ///< by run
   std::uint32_t runs_;
-  std::vector<std::uint32_t> first_vertex_;  ///< by run
-  std::vector<std::unique_ptr<EdgeLists>> lists_;
-  std::vector<std::vector<HalfEdge>> of_earlier_;  ///< by run: edges at vertices of earlier runs
+  Array<std::uint32_t> bucket_end_;           ///< by vertex, from the first half-edge of its run
+  Array<HalfEdge> edges_;                     ///< by vertex
+  std::vector<std::vector<SeamEdge>> seams_;  ///< by run, in the order of their ids
+  std::vector<std::uint32_t> size_;           ///< half-edges by run
 };
 
 }  // namespace
 
-void build_adjacency(Bvh::Data& data, int threads) { AdjacencyBuild(data, threads).run(); }
+void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch) {
+  AdjacencyBuild(data, first_vertex, scratch).run();
+  scratch.clear();
+}
 
 }  // namespace meshbound

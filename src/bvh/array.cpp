@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bvh/array.h"
 
+#include <algorithm>
+#include <functional>
 #include <new>
 
 #if defined(__linux__)
@@ -8,6 +10,11 @@
 #endif
 
 namespace meshbound {
+namespace {
+
+constexpr std::size_t cache_line = 64;
+
+}  // namespace
 
 void* allocate_on_large_pages(std::size_t bytes) {
   void* const storage = ::operator new (bytes, std::align_val_t{large_page});
@@ -17,6 +24,25 @@ void* allocate_on_large_pages(std::size_t bytes) {
   static_cast<void>(madvise(storage, bytes / large_page * large_page, MADV_HUGEPAGE));
 #endif
   return storage;
+}
+
+Arena::Arena(std::size_t bytes) {
+  // A last page that is used by half is worth its memory.
+  const std::size_t rounded = (bytes + large_page / 2) / large_page * large_page;
+  if (rounded == 0) return;
+  bytes_ = std::max(bytes, rounded);
+  block_.reset(static_cast<std::byte*>(allocate_on_large_pages(bytes_)));
+}
+
+void* Arena::take(std::size_t bytes) noexcept {
+  const std::size_t lines = (bytes + cache_line - 1) / cache_line * cache_line;
+  if (lines < bytes || lines > bytes_ - taken_) return nullptr;
+  return block_.get() + std::exchange(taken_, taken_ + lines);
+}
+
+bool Arena::owns(const void* storage) const noexcept {
+  const std::less_equal<const void*> not_after;
+  return block_ && not_after(block_.get(), storage) && !not_after(block_.get() + bytes_, storage);
 }
 
 void deallocate_from_large_pages(void* storage) noexcept { ::operator delete (storage, std::align_val_t{large_page}); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "bvh/build.h"
@@ -28,38 +29,61 @@ void check_size(const MeshView& mesh) {
                        " triangles; a tree holds fewer than 2^30, split the mesh");
 }
 
-/// As `used_bounding_box` after `validate`, by all threads.
+/// The least and the largest coordinate on each axis, and the vertices that have them.
+struct Extremes {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+  std::uint32_t at[6] = {};  ///< of `lo`, then of `hi`
+
+  void extend(double x, int axis, std::uint32_t vertex) {
+    if (x < lo[axis]) lo[axis] = x, at[axis] = vertex;
+    if (x > hi[axis]) hi[axis] = x, at[3 + axis] = vertex;
+  }
+};
+
+/// As `used_bounding_box` after `validate`, by all threads: the box of all vertices is that of the used ones if those
+/// at its sides are used, so that no two threads write to one table.
 Eigen::AlignedBox3d checked_box(const MeshView& mesh, int threads) {
-  const std::size_t triangles = mesh.triangle_count(), vertices = mesh.vertex_count();
-  Array<std::uint8_t> used(vertices);
+  constexpr std::size_t most_indexed = std::size_t{1} << 32;
+  const std::size_t triangles = mesh.triangle_count(), vertices = std::min(mesh.vertex_count(), most_indexed);
+  Extremes all;
+  std::vector<std::uint8_t> sides(vertices, 0);  // by vertex, a bit for each of the six that it is
   bool sound = triangles > 0;
-  Eigen::AlignedBox3d box;
+  unsigned used = 0;
 #pragma omp parallel num_threads(threads)
   {
-#pragma omp for schedule(static)
-    for (std::size_t v = 0; v < vertices; ++v) used[v] = 0;
-#pragma omp for schedule(static) reduction(&& : sound)
+    Extremes own;
+#pragma omp for schedule(static) reduction(&& : sound) nowait
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const Eigen::Vector3d p = mesh.vertex(v);
+      for (int axis = 0; axis < 3; ++axis) {
+        sound = sound && std::abs(p[axis]) <= largest_coordinate;
+        own.extend(p[axis], axis, static_cast<std::uint32_t>(v));
+      }
+    }
+#pragma omp critical(meshbound_box)
+    for (int axis = 0; axis < 3; ++axis) {
+      all.extend(own.lo[axis], axis, own.at[axis]);
+      all.extend(own.hi[axis], axis, own.at[3 + axis]);
+    }
+#pragma omp barrier
+#pragma omp single
+    for (unsigned side = 0; side < 6 && all.at[side] < vertices; ++side) sides[all.at[side]] |= 1U << side;
+#pragma omp for schedule(static) reduction(&& : sound) reduction(| : used)
     for (std::size_t i = 0; i < triangles; ++i) {
       for (const std::uint32_t v : mesh.triangle(i)) {
         if (v < vertices)
-          std::atomic_ref<std::uint8_t>(used[v]).store(1, std::memory_order_relaxed);
+          used |= sides[v];
         else
           sound = false;
       }
     }
-    Eigen::AlignedBox3d own;
-#pragma omp for schedule(static) reduction(&& : sound)
-    for (std::size_t v = 0; v < vertices; ++v) {
-      if (used[v] == 0) continue;
-      const Eigen::Vector3d p = mesh.vertex(v);
-      sound = sound && std::abs(p.x()) <= largest_coordinate && std::abs(p.y()) <= largest_coordinate &&
-              std::abs(p.z()) <= largest_coordinate;
-      own.extend(p);
-    }
-#pragma omp critical(meshbound_box)
-    box.extend(own);
   }
-  if (!sound) validate(mesh);  // says what is wrong, and throws
+  Eigen::AlignedBox3d box(Eigen::Map<const Eigen::Vector3d>(all.lo), Eigen::Map<const Eigen::Vector3d>(all.hi));
+  if (!sound || used != 0x3f) {
+    validate(mesh);  // says what is wrong, and throws; or nothing, where what is wrong is not used
+    box = used_bounding_box(mesh);
+  }
   // -0 and 0 are one position, whichever the threads met first.
   return {box.min() + Eigen::Vector3d::Zero(), box.max() + Eigen::Vector3d::Zero()};
 }
@@ -72,14 +96,34 @@ int thread_count(int wanted, std::size_t triangles) {
   return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(most), 1 + triangles / triangles_per_thread));
 }
 
+std::size_t most_used_vertices(const MeshView& mesh) {
+  return std::min(mesh.vertex_count(), 3 * mesh.triangle_count());
+}
+
+/// The arrays of `Bvh::Data`. Above the lowest level there are 1/8 + 1/64 + ... = 1/7 of its nodes.
+std::size_t tree_bytes(const MeshView& mesh) {
+  constexpr std::size_t by_triangle = sizeof(Triangle) + sizeof(std::array<Neighbour, 3>) +
+                                      sizeof(std::array<float, 3>) + sizeof(std::uint32_t),
+                        by_vertex = sizeof(Vec3) + sizeof(std::uint32_t), rounding = 4096;
+  const std::size_t lowest_nodes = mesh.triangle_count() / (block_width * node_width);
+  return by_triangle * mesh.triangle_count() + by_vertex * most_used_vertices(mesh) +
+         sizeof(BvhNode) * (lowest_nodes + lowest_nodes / 7) + rounding;
+}
+
+/// The step that takes most: `build_adjacency`, with three half-edges of a triangle.
+std::size_t scratch_bytes(const MeshView& mesh) {
+  constexpr std::size_t half_edges = 3 * 2 * sizeof(std::uint32_t), rounding = 4096;
+  return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * most_used_vertices(mesh) + rounding;
+}
+
 std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
   check_floating_point_model();
   check_size(mesh);
-  auto data = std::make_unique<Bvh::Data>();
+  auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh));
+  Arena scratch(scratch_bytes(mesh));
   set_frame(*data, checked_box(mesh, threads));
-  hilbert_order(*data, mesh, threads);
-  place_vertices(*data, mesh, threads);
-  build_adjacency(*data, threads);
+  hilbert_order(*data, mesh, scratch, threads);
+  build_adjacency(*data, place_vertices(*data, mesh, scratch, threads), scratch);
   build_normals(*data, threads);
   build_nodes(*data, threads);
   return data;

@@ -38,6 +38,10 @@ struct Neighbour {
 };
 
 struct Bvh::Data {
+  Data() = default;
+  explicit Data(std::size_t arena_bytes) : arena(arena_bytes) {}
+
+  Arena arena;               ///< of the arrays of a new tree, as far as it has room
   std::uint64_t serial = 0;  ///< of these coordinates; never given twice in a process
   double built_cost = 0;     ///< `tree_cost` before the first refit; 0: never refitted
   Frame frame;
@@ -46,15 +50,17 @@ struct Bvh::Data {
   Box working_box;
 
   // By vertex, in the order of first use along the curve. Only vertices that triangles use.
-  Array<Vec3> vertices;
-  Array<std::uint32_t> source_vertex;  ///< index in the mesh that the tree was built from
+  Array<Vec3> vertices = array_in<Vec3>(arena);
+  Array<std::uint32_t> source_vertex =
+      array_in<std::uint32_t>(arena);  ///< index in the mesh that the tree was built from
   // By slot: the place of a triangle along the curve.
-  Array<Triangle> corners;
-  Array<std::array<Neighbour, 3>> neighbours;  ///< [k] across the edge from corner k to corner k + 1
-  Array<std::array<float, 3>> normals;         ///< unit, or 0 for zero area; a hint
-  Array<std::uint32_t> triangle_of_slot;
+  Array<Triangle> corners = array_in<Triangle>(arena);
+  Array<std::array<Neighbour, 3>> neighbours =
+      array_in<std::array<Neighbour, 3>>(arena);  ///< [k] across the edge from corner k to corner k + 1
+  Array<std::array<float, 3>> normals = array_in<std::array<float, 3>>(arena);  ///< unit, or 0 for zero area; a hint
+  Array<std::uint32_t> triangle_of_slot = array_in<std::uint32_t>(arena);
   // By level: nodes[level_begin[l] + i] has the children 8 i ... 8 i + 7 of level l - 1; level 0 are the blocks.
-  Array<BvhNode> nodes;
+  Array<BvhNode> nodes = array_in<BvhNode>(arena);
   std::vector<std::uint32_t> level_begin;
 
   [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(corners.size()); }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "bvh/build.h"
 #include "geometry/hilbert.h"
+#include "numeric/first_error.h"
 
 namespace meshbound {
 namespace {
@@ -23,37 +27,101 @@ int grid_bits(std::size_t triangles, int index_bits) {
   return std::min(bits, (64 - index_bits) / 3);
 }
 
-/// Stable least-significant-digit radix sort by the bits from `first` to below `end`. Each thread counts and moves one
-/// run of the items; where a run's items of a digit begin follows from the counts, so the result is the one order.
-void sort_by_key(Array<Keyed>& items, int first, int end, int threads) {
-  const std::size_t runs = static_cast<std::size_t>(threads),
-                    passes = static_cast<std::size_t>((end - first + digit_bits - 1) / digit_bits);
-  Array<Keyed> scratch(items.size());
-  std::vector<std::array<std::uint32_t, digits>> start(runs);
-  const auto run_begin = [&](std::size_t run) { return items.size() * run / runs; };
-  for (std::size_t pass = 0; pass < passes; ++pass) {
-    const int from = first + (end - first) * static_cast<int>(pass) / static_cast<int>(passes);
-    const int to = first + (end - first) * static_cast<int>(pass + 1) / static_cast<int>(passes);
-    const Keyed mask = (Keyed{1} << (to - from)) - 1;
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t run = 0; run < runs; ++run) {
-      std::fill_n(start[run].begin(), mask + 1, 0);
-      for (std::size_t i = run_begin(run); i < run_begin(run + 1); ++i) ++start[run][items[i] >> from & mask];
-    }
+/// Samples for each thread where the items are divided: the parts then differ by a few percent.
+constexpr std::size_t samples_per_part = 256;
+
+/// Stable least-significant-digit radix sort by the bits from `first` to below `end`, in so many passes; `from` and
+/// `to` change places with each of them.
+void radix_sort(std::span<Keyed> from, std::span<Keyed> to, int first, int end, int passes) {
+  std::array<std::uint32_t, digits> start;
+  for (int pass = 0; pass < passes; ++pass, std::swap(from, to)) {
+    const int low = first + (end - first) * pass / passes, high = first + (end - first) * (pass + 1) / passes;
+    const Keyed mask = (Keyed{1} << (high - low)) - 1;
+    std::fill_n(start.begin(), mask + 1, 0);
+    for (const Keyed item : from) ++start[item >> low & mask];
     std::uint32_t sum = 0;
-    for (std::size_t d = 0; d <= mask; ++d)
-      for (auto& counts : start) sum += std::exchange(counts[d], sum);
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t run = 0; run < runs; ++run)
-      for (std::size_t i = run_begin(run); i < run_begin(run + 1); ++i)
-        scratch[start[run][items[i] >> from & mask]++] = items[i];
-    items.swap(scratch);
+    for (std::size_t d = 0; d <= mask; ++d) sum += std::exchange(start[d], sum);
+    for (const Keyed item : from) to[start[item >> low & mask]++] = item;
   }
+}
+
+/// Items divided by key into parts, one for each thread, which then sorts it where no other thread writes: threads that
+/// scatter into one array by digits write to the same cache lines.
+class Partition {
+ public:
+  Partition(const Array<Keyed>& items, std::size_t parts) : items_(items), parts_(parts), begin_(parts * parts + 1) {
+    std::vector<Keyed> samples(samples_per_part * parts);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = items[items.size() * i / samples.size()];
+    std::sort(samples.begin(), samples.end());
+    for (std::size_t part = 1; part < parts; ++part) first_of_.push_back(samples[samples_per_part * part]);
+  }
+
+  /// How many items of a run, by the thread of that run, belong to each part.
+  void count(std::size_t run) {
+    std::vector<std::uint32_t> counts(parts_, 0);
+    for_each(run, [&](std::size_t part, Keyed) { ++counts[part]; });
+    for (std::size_t part = 0; part < parts_; ++part) begin_[part * parts_ + run + 1] = counts[part];
+  }
+  void sum() { std::partial_sum(begin_.begin(), begin_.end(), begin_.begin()); }
+
+  /// In the order of the runs, so that items keep theirs inside a part.
+  void move(std::size_t run, Array<Keyed>& to) const {
+    std::vector<std::uint32_t> at(parts_);
+    for (std::size_t part = 0; part < parts_; ++part) at[part] = begin_[part * parts_ + run];
+    for_each(run, [&](std::size_t part, Keyed item) { to[at[part]++] = item; });
+  }
+
+  [[nodiscard]] std::span<Keyed> part_of(Array<Keyed>& items, std::size_t part) const {
+    const std::uint32_t begin = begin_[part * parts_];
+    return std::span(items).subspan(begin, begin_[(part + 1) * parts_] - begin);
+  }
+
+ private:
+  template <class Use>
+  void for_each(std::size_t run, Use&& use) const {
+    const std::size_t end = items_.size() * (run + 1) / parts_;
+    for (std::size_t i = items_.size() * run / parts_; i < end; ++i) {
+      const auto after = std::upper_bound(first_of_.begin(), first_of_.end(), items_[i]);
+      use(static_cast<std::size_t>(after - first_of_.begin()), items_[i]);
+    }
+  }
+
+  const Array<Keyed>& items_;
+  std::size_t parts_;
+  std::vector<Keyed> first_of_;       ///< the least item of each part but the first
+  std::vector<std::uint32_t> begin_;  ///< by part, and in it by the run that the items come from
+};
+
+/// By key; items of one key keep their order.
+void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end, int threads) {
+  const int passes = (end - first + digit_bits - 1) / digit_bits;
+  if (threads == 1) {
+    radix_sort(items, scratch, first, end, passes);
+    if (passes % 2 != 0) items.swap(scratch);
+    return;
+  }
+  const auto parts = static_cast<std::size_t>(threads);
+  Partition partition(items, parts);
+  FirstError error;
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp for schedule(static)
+    for (std::size_t run = 0; run < parts; ++run) error.guard([&] { partition.count(run); });
+#pragma omp single
+    partition.sum();
+#pragma omp for schedule(static)
+    for (std::size_t run = 0; run < parts; ++run) error.guard([&] { partition.move(run, scratch); });
+#pragma omp for schedule(static)
+    for (std::size_t part = 0; part < parts; ++part)
+      radix_sort(partition.part_of(scratch, part), partition.part_of(items, part), first, end, passes);
+  }
+  error.rethrow();
+  if (passes % 2 == 0) items.swap(scratch);
 }
 
 }  // namespace
 
-void hilbert_order(Bvh::Data& data, const MeshView& mesh, int threads) {
+void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads) {
   const std::size_t n = mesh.triangle_count();
   const int index_bits = static_cast<int>(std::bit_width(n)), bits = grid_bits(n, index_bits);
   const Box box = data.working_box;
@@ -61,7 +129,9 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, int threads) {
   const double largest = std::max({size.x, size.y, size.z, 1e-300});
   const double cells = std::ldexp(1.0, bits) - 1, scale = cells / (3 * largest);
   const FrameMap to_working(data.frame);
-  Array<Keyed> items(n);
+  Array<Keyed> items = array_in<Keyed>(scratch), other = array_in<Keyed>(scratch);
+  items.resize(n);
+  other.resize(n);
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::size_t i = 0; i < n; ++i) {
     Vec3 sum;
@@ -72,11 +142,12 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, int threads) {
     const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells)); };
     items[i] = hilbert_index(cell(sum.x), cell(sum.y), cell(sum.z), bits) << index_bits | i;
   }
-  sort_by_key(items, index_bits, index_bits + 3 * bits, threads);
+  sort_by_key(items, other, index_bits, index_bits + 3 * bits, threads);
   data.triangle_of_slot.resize(n);
   const Keyed index_mask = (Keyed{1} << index_bits) - 1;
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::size_t i = 0; i < n; ++i) data.triangle_of_slot[i] = static_cast<std::uint32_t>(items[i] & index_mask);
+  scratch.clear();
 }
 
 }  // namespace meshbound

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Vertices renumbered by first use along the curve: neighbours in space become neighbours in memory. Each thread
-/// numbers those that its run of slots is the first to use, in order of that use; the numbers of the runs follow each
-/// other. One run or many, the numbering is the same.
+/// numbers the vertices of its run of slots in order of first use, by itself: a cache line that two threads write to
+/// costs more than a hundred vertices. What an earlier run uses too, it then takes from there; the numbers of the
+/// others follow those of the runs before. One run or many, the numbering is the same.
 #include <algorithm>
-#include <atomic>
 
 #include "bvh/build.h"
 #include "numeric/first_error.h"
@@ -12,111 +12,165 @@ namespace meshbound {
 namespace {
 
 constexpr std::uint32_t unused = 0xffffffff;
+constexpr std::uint32_t of_earlier_run = 0xffffffff;
+
+/// More would not pay: every run has a table of all vertices.
+constexpr int most_runs = 16;
+
+/// Triangles that are gathered at a time: what they need fits into the first-level cache.
+constexpr std::uint32_t batch = 64;
+
+struct Run {
+  explicit Run(Arena& scratch)
+      : local(array_in<std::uint32_t>(scratch)),
+        used(array_in<std::uint32_t>(scratch)),
+        rank(array_in<std::uint32_t>(scratch)) {}
+
+  Array<std::uint32_t> local;       ///< by the mesh's vertex: its number among those that the run uses
+  Array<std::uint32_t> used;        ///< by local number: the mesh's vertex, in the end its final number
+  Array<std::uint32_t> rank;        ///< by local number: number among those that no earlier run uses, or that mark
+  std::vector<std::uint64_t> seen;  ///< a bit for each of the mesh's vertices; empty where there is one run only
+  double rounding = 0;              ///< the largest that a vertex suffered
+};
 
 class Renumbering {
  public:
-  Renumbering(Bvh::Data& data, const MeshView& mesh, int threads)
-      : data_(data), mesh_(mesh), threads_(threads), runs_(static_cast<std::uint32_t>(threads)) {}
+  Renumbering(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads)
+      : data_(data),
+        mesh_(mesh),
+        runs_(static_cast<std::uint32_t>(std::min(threads, most_runs))),
+        run_(runs_, Run(scratch)),
+        to_working_(data.frame) {}
 
-  void run() {
+  std::vector<std::uint32_t> run() {
     data_.corners.resize(mesh_.triangle_count());
-    place_of_.resize(mesh_.vertex_count());
-    first_run_.resize(runs_ > 1 ? mesh_.vertex_count() : 0);
-    used_.resize(runs_);
-    // By one thread: each thread's own heap would have to grow first. A closed surface has half as many vertices as
-    // triangles.
-    for (std::uint32_t r = 0; r < runs_; ++r) used_[r].reserve((begin(r + 1) - begin(r)) / 2 + 64);
+    // By one thread: each thread's own heap would have to grow first.
+    for (std::uint32_t r = 0; r < runs_; ++r) {
+      run_[r].local.resize(mesh_.vertex_count());
+      run_[r].used.resize(std::min<std::size_t>(mesh_.vertex_count(), std::size_t{3} * (begin(r + 1) - begin(r))));
+      run_[r].rank.resize(r > 0 ? run_[r].used.size() : 0);
+      run_[r].seen.resize(runs_ > 1 ? mesh_.vertex_count() / 64 + 1 : 0);
+    }
+    std::vector<std::uint32_t> first_vertex(runs_ + 1, 0);
     FirstError error;
-#pragma omp parallel num_threads(threads_)
+#pragma omp parallel num_threads(static_cast <int>(runs_))
     {
 #pragma omp for schedule(static)
-      for (std::size_t v = 0; v < place_of_.size(); ++v) {
-        place_of_[v] = unused;
-        if (runs_ > 1) first_run_[v] = unused;
-      }
+      for (std::uint32_t r = 0; r < runs_; ++r) number_vertices(r);
 #pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) gather_corners(r);
+      for (std::uint32_t r = 0; r < runs_; ++r) first_vertex[r + 1] = rank_vertices(r);
+#pragma omp single
+      error.guard([&] {
+        for (std::uint32_t r = 0; r < runs_; ++r) first_vertex[r + 1] += first_vertex[r];
+        data_.vertices.resize(first_vertex[runs_]);
+        data_.source_vertex.resize(first_vertex[runs_]);
+      });
+      if (data_.source_vertex.size() == first_vertex[runs_]) {
 #pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { number_vertices(r); });
-    }
-    error.rethrow();
-    std::vector<std::uint32_t> base(runs_ + 1, 0);
-    for (std::uint32_t r = 0; r < runs_; ++r) base[r + 1] = base[r] + static_cast<std::uint32_t>(used_[r].size());
-    data_.vertices.resize(base[runs_]);
-    data_.source_vertex.resize(base[runs_]);
-    double largest_rounding = 0;
-#pragma omp parallel num_threads(threads_)
-    {
-#pragma omp for schedule(static) reduction(max : largest_rounding)
-      for (std::uint32_t r = 0; r < runs_; ++r)
-        largest_rounding = std::max(largest_rounding, store_vertices(r, base[r]));
-#pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) renumber_corners(r, base);
-    }
-    data_.frame.error = largest_rounding;
-  }
-
- private:
-  [[nodiscard]] std::uint32_t begin(std::uint32_t run) const {
-    return static_cast<std::uint32_t>(std::uint64_t{data_.triangle_count()} * run / runs_);
-  }
-
-  /// Corners in the mesh's numbering, and which run is the first to use a vertex.
-  void gather_corners(std::uint32_t run) {
-    for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
-      const Triangle t = mesh_.triangle(data_.triangle_of_slot[slot]);
-      data_.corners[slot] = t;
-      if (runs_ == 1) continue;
-      for (const std::uint32_t v : t) {
-        const std::atomic_ref<std::uint32_t> first(first_run_[v]);
-        std::uint32_t seen = first.load(std::memory_order_relaxed);
-        while (run < seen && !first.compare_exchange_weak(seen, run, std::memory_order_relaxed)) {
+        for (std::uint32_t r = 0; r < runs_; ++r) {
+          store_vertices(r, first_vertex);
+          renumber_corners(r);
         }
       }
     }
+    error.rethrow();
+    for (const Run& run : run_) data_.frame.error = std::max(data_.frame.error, run.rounding);
+    return first_vertex;
   }
 
-  void number_vertices(std::uint32_t run) {
-    Array<std::uint32_t>& used = used_[run];
-    for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
-      for (const std::uint32_t v : data_.corners[slot]) {
-        if ((runs_ > 1 && first_run_[v] != run) || place_of_[v] != unused) continue;
-        place_of_[v] = static_cast<std::uint32_t>(used.size());
-        used.push_back(v);
+ private:
+  [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
+
+  [[nodiscard]] Vec3 position(std::uint32_t v) const {
+    const Eigen::Vector3d p = mesh_.vertex(v);
+    return to_working_({p.x(), p.y(), p.z()});
+  }
+
+  /// By batches: first all that comes from random places of the mesh, so that the processor waits for many at a time.
+  void number_vertices(std::uint32_t r) {
+    Run& run = run_[r];
+    std::fill(run.local.begin(), run.local.end(), unused);
+    std::array<Triangle, batch> triangles;
+    std::array<std::array<Vec3, 3>, batch> corners;
+    std::uint32_t count = 0;
+    const std::uint32_t end = begin(r + 1);
+    for (std::uint32_t slot = begin(r); slot < end; slot += batch) {
+      const std::uint32_t size = std::min(batch, end - slot);
+      for (std::uint32_t i = 0; i < size; ++i) triangles[i] = mesh_.triangle(data_.triangle_of_slot[slot + i]);
+      for (std::uint32_t i = 0; i < size; ++i)
+        for (int k = 0; k < 3; ++k) corners[i][k] = position(triangles[i][k]);
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const Triangle& t = triangles[i];
+        for (const std::uint32_t v : t) count = number_vertex(run, v, count);
+        const std::uint32_t first = longest_edge(corners[i][0], corners[i][1], corners[i][2]);
+        data_.corners[slot + i] = {run.local[t[first]], run.local[t[(first + 1) % 3]], run.local[t[(first + 2) % 3]]};
       }
     }
+    run.used.resize(count);
   }
 
-  /// Returns the largest rounding error that a vertex suffered.
-  double store_vertices(std::uint32_t run, std::uint32_t base) {
-    const FrameMap to_working(data_.frame);
-    double error = 0;
-    for (std::size_t i = 0; i < used_[run].size(); ++i) {
-      const Eigen::Vector3d p = mesh_.vertex(used_[run][i]);
-      const Vec3 model{p.x(), p.y(), p.z()};
-      data_.vertices[base + i] = to_working(model);
-      data_.source_vertex[base + i] = used_[run][i];
-      error = std::max(error, data_.frame.rounding_of(model));
-    }
-    return error;
+  /// Returns the number of vertices that have a number then.
+  std::uint32_t number_vertex(Run& run, std::uint32_t v, std::uint32_t count) const {
+    if (run.local[v] != unused) return count;
+    run.local[v] = count;
+    run.used[count] = v;
+    if (runs_ > 1) run.seen[v / 64] |= std::uint64_t{1} << v % 64;
+    return count + 1;
   }
 
-  void renumber_corners(std::uint32_t run, const std::vector<std::uint32_t>& base) {
-    for (std::uint32_t slot = begin(run); slot < begin(run + 1); ++slot) {
-      Triangle t = data_.corners[slot];
-      for (std::uint32_t& v : t) v = place_of_[v] + (runs_ > 1 ? base[first_run_[v]] : 0);
-      const std::uint32_t first = longest_edge(data_.vertices[t[0]], data_.vertices[t[1]], data_.vertices[t[2]]);
-      data_.corners[slot] = {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
+  /// The first run that uses a vertex, of those up to `r`, which does.
+  [[nodiscard]] std::uint32_t owner(std::uint32_t v, std::uint32_t r) const {
+    for (std::uint32_t earlier = 0; earlier < r; ++earlier)
+      if ((run_[earlier].seen[v / 64] >> v % 64 & 1U) != 0) return earlier;
+    return r;
+  }
+
+  /// Returns how many vertices the run is the first to use.
+  std::uint32_t rank_vertices(std::uint32_t r) {
+    Run& run = run_[r];
+    if (r == 0) return static_cast<std::uint32_t>(run.used.size());
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < run.used.size(); ++i)
+      run.rank[i] = owner(run.used[i], r) == r ? count++ : of_earlier_run;
+    return count;
+  }
+
+  /// The number among those of run `r` of a vertex that it is the first to use.
+  [[nodiscard]] std::uint32_t rank_in(std::uint32_t r, std::uint32_t v) const {
+    return r == 0 ? run_[0].local[v] : run_[r].rank[run_[r].local[v]];
+  }
+
+  void store_vertices(std::uint32_t r, const std::vector<std::uint32_t>& first_vertex) {
+    Run& run = run_[r];
+    double rounding = 0;
+    for (std::uint32_t i = 0; i < run.used.size(); ++i) {
+      const std::uint32_t v = run.used[i];
+      if (r > 0 && run.rank[i] == of_earlier_run) {
+        const std::uint32_t earlier = owner(v, r);
+        run.used[i] = first_vertex[earlier] + rank_in(earlier, v);
+        continue;
+      }
+      const std::uint32_t number = first_vertex[r] + (r == 0 ? i : run.rank[i]);
+      data_.vertices[number] = position(v);
+      data_.source_vertex[number] = v;
+      const Eigen::Vector3d p = mesh_.vertex(v);
+      rounding = std::max(rounding, data_.frame.rounding_of({p.x(), p.y(), p.z()}));
+      run.used[i] = number;
     }
+    run.rounding = rounding;
+  }
+
+  void renumber_corners(std::uint32_t r) {
+    if (r == 0) return;  // its local numbers are the final ones
+    for (std::uint32_t slot = begin(r); slot < begin(r + 1); ++slot)
+      for (std::uint32_t& v : data_.corners[slot]) v = run_[r].used[v];
   }
 
   Bvh::Data& data_;
   const MeshView& mesh_;
-  int threads_;
   std::uint32_t runs_;
-  Array<std::uint32_t> place_of_;   ///< by the mesh's vertex: its number among those of its run
-  Array<std::uint32_t> first_run_;  ///< by the mesh's vertex; empty where there is one run only
-  std::vector<Array<std::uint32_t>> used_;
+  std::vector<Run> run_;
+  FrameMap to_working_;
 };
 
 }  // namespace
@@ -127,6 +181,10 @@ std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
   return bc >= ca ? 1 : 2;
 }
 
-void place_vertices(Bvh::Data& data, const MeshView& mesh, int threads) { Renumbering(data, mesh, threads).run(); }
+std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads) {
+  const std::vector<std::uint32_t> first_vertex = Renumbering(data, mesh, scratch, threads).run();
+  scratch.clear();
+  return first_vertex;
+}
 
 }  // namespace meshbound
