@@ -364,6 +364,24 @@ TEST(Threads, DoNotChangeTheResult) {
   }
 }
 
+TEST(Threads, DoNotChangeWhichNodesAreCulled) {
+  for (const double apart : {0.5, 3.0}) {
+    TriangleMesh a = icosphere(5);
+    for (Vector3d& p : a.vertices) p.x() += apart;
+    const Bvh tree_a(a), tree_b(random_soup(50, 3000, 0.3));
+    DistanceOptions options;
+    options.threads = 1;
+    const OneSidedDistance serial = one_sided_distance(tree_a, tree_b, options);
+    EXPECT_GT(serial.stats.culled_by_node, 0U);
+    for (const int threads : {2, 3}) {
+      options.threads = threads;
+      const OneSidedDistance parallel = one_sided_distance(tree_a, tree_b, options);
+      expect_same(serial, parallel);
+      EXPECT_EQ(serial.stats.culled_by_node, parallel.stats.culled_by_node);
+    }
+  }
+}
+
 TEST(Poses, GiveTheDistanceOfTheTransformedMesh) {
   const TriangleMesh a = random_soup(41, 40, 0.3), b = random_soup(42, 40, 0.3);
   const Bvh tree_a(a), tree_b(b);

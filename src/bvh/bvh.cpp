@@ -119,8 +119,8 @@ std::size_t scratch_bytes(const MeshView& mesh) {
 std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
   check_floating_point_model();
   check_size(mesh);
-  auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh));
-  Arena scratch(scratch_bytes(mesh));
+  auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh), threads);
+  Arena scratch(scratch_bytes(mesh), threads);
   set_frame(*data, checked_box(mesh, threads));
   hilbert_order(*data, mesh, scratch, threads);
   build_adjacency(*data, place_vertices(*data, mesh, scratch, threads), scratch);

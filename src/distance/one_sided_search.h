@@ -55,6 +55,15 @@ class OneSidedSearch {
     std::uint64_t walks = 0;  ///< triangles that were cut
   };
 
+  /// What node culling asks of B: how far at most a node of A is, or which triangle is nearest to a vertex of it.
+  struct NodeQuestion {
+    static constexpr std::uint32_t no_vertex = 0xffffffff;
+    std::uint32_t level, index;        ///< of the node
+    std::uint32_t vertex = no_vertex;  ///< of A
+    std::uint32_t slot;                ///< of B: a hint, then the triangle that gives the answer
+    double squared = 0;                ///< the answer
+  };
+
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
   [[nodiscard]] bool decided() const { return goal_.decide_only && own_lower_.lower > goal_.tolerance; }
   bool out_of_budget();
@@ -76,6 +85,8 @@ class OneSidedSearch {
   [[nodiscard]] double sampled_block_radius() const;
   [[nodiscard]] bool is_alive(std::uint32_t slot) const { return alive_.empty() || alive_[slot] != 0; }
   [[nodiscard]] bool some_dropped() const { return culled_ || !alive_.empty(); }
+  void open_node(std::uint32_t level, std::uint32_t index, std::uint32_t slot, std::vector<NodeQuestion>& questions);
+  void answer(std::vector<NodeQuestion>& questions, double accepted_squared);
   void keep_slots_below(std::uint32_t level, std::uint32_t index);
   void list_wanted_vertices();
   void probe_start();
