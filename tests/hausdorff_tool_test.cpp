@@ -198,6 +198,19 @@ TEST_F(HausdorffTool, GivesTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one["distance"], two["distance"]);
 }
 
+/// GNU's OpenMP says at its start how it will wait.
+TEST_F(HausdorffTool, ItsThreadsWaitBrieflyUnlessToldOtherwise) {
+  const std::string tool = shell_quoted(HAUSDORFF_DISTANCE) + " --version";
+  const std::string clean = "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT OMP_DISPLAY_ENV=verbose ";
+  const ToolRun alone = run_shell(clean + tool);
+  if (alone.err.find("GOMP_SPINCOUNT") == std::string::npos) GTEST_SKIP() << "not GNU's OpenMP";
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_NE(alone.err.find("GOMP_SPINCOUNT = '3000'"), std::string::npos) << alone.err;
+  const ToolRun told = run_shell(clean + "GOMP_SPINCOUNT=77 " + tool);
+  EXPECT_NE(told.err.find("GOMP_SPINCOUNT = '77'"), std::string::npos) << told.err;
+  EXPECT_EQ(told.err.find("GOMP_SPINCOUNT = '3000'"), std::string::npos) << told.err;
+}
+
 TEST_F(HausdorffTool, RefusesBadUsageInOneLine) {
   const std::vector<std::vector<std::string>> bad = {
       {},

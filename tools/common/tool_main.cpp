@@ -9,6 +9,7 @@
 #include <limits>
 #include <new>
 
+#include "common/brief_waits.h"
 #include "common/signals.h"
 #include "common/threads.h"
 
@@ -56,6 +57,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 }
 
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
+  wait_briefly(argv);
   ignore_file_size_signal();
   try {
     app.parse(argc, argv);
