@@ -12,7 +12,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "cgal/estimate_fault.h"
 #include "cgal/oriented_manifold.h"
+#include "cgal/proven_parts.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/cgal/lod_chain.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -93,6 +95,47 @@ TEST(Parts, SeamsAreTheEdgesBetweenParts) {
   }
   EXPECT_EQ(cutting.seams().edges.size(), edges);
   EXPECT_LT(edges, 80u * 8u);
+}
+
+/// A square that is its own proof, but for one triangle that the faces of both halves cover together.
+TEST(Parts, FacesThatStandForATriangleTogetherStayAndKeepItsProof) {
+  const TriangleMesh original = reference::unit_square(6);
+  ProvenMesh mesh;
+  mesh.polygons = manifold_polygons(original);
+  mesh.locked.assign(original.vertices.size(), false);
+  mesh.quadrics.resize(original.vertices.size());
+  mesh.proof.tolerance = 0.1;
+  const auto faces = static_cast<std::uint32_t>(original.triangles.size());
+  const std::vector<std::uint32_t> part_of = cut(mesh.polygons.points, mesh.polygons.polygons, 2);
+  const auto first_of = [&](std::uint32_t part) {
+    return static_cast<std::uint32_t>(std::find(part_of.begin(), part_of.end(), part) - part_of.begin());
+  };
+  const std::uint32_t a = first_of(0), b = first_of(1);
+  for (std::uint32_t t = 0; t < faces; ++t) {
+    mesh.proof.nearest.push_back(t);
+    mesh.proof.faces.push_back(t);
+    if (t == a) mesh.proof.faces.push_back(b);
+    mesh.proof.ends.push_back(mesh.proof.faces.size());
+  }
+  const ProvenCutting cutting(mesh, original, 2);
+  std::vector<int> seen(faces, 0);
+  std::vector<DeviationMonitor<SurfaceMesh>::Part> proofs(2);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const ProvenPart part = cutting.part(i);
+    for (const std::uint32_t t : part.part.triangle_of) ++seen[t];
+    EXPECT_EQ(part.proof.ends.size(), part.part.original.triangles.size());
+    EXPECT_EQ(part.proof.nearest.size(), part.part.copy.polygons.size());
+    for (std::uint32_t f = 0; f < part.part.copy.polygons.size(); ++f) proofs[i].face_of.push_back(100 * (i + 1) + f);
+  }
+  for (std::uint32_t t = 0; t < faces; ++t) EXPECT_EQ(seen[t], t == a ? 2 : 1) << t;
+  for (const std::uint32_t f : {a, b}) {
+    for (const std::size_t v : mesh.polygons.polygons[f]) EXPECT_TRUE(cutting.cutting().seams().has[v]) << v;
+  }
+  const DeviationMonitor<SurfaceMesh>::Part shared = cutting.shared_proof(proofs);
+  EXPECT_EQ(shared.triangle_of, std::vector<std::uint32_t>{a});
+  EXPECT_EQ(shared.proof.faces, (std::vector<std::uint32_t>{a, b}));
+  EXPECT_EQ(shared.face_of[a], 100u);
+  EXPECT_EQ(shared.face_of[b], 200u);
 }
 
 TEST(Parts, TheResultIsTheSameForAnyNumberOfThreads) {
@@ -271,6 +314,33 @@ TEST(Parts, ATimeLimitOrACancellationLeavesAProvenMesh) {
   EXPECT_LT(level.faces(), original.triangles.size() * 9 / 10);
   EXPECT_GT(level.faces(), original.triangles.size() / 10);
   EXPECT_EQ(check_symmetric(Bvh(original), Bvh(level.mesh), 0.01).verdict, Verdict::Within);
+}
+
+/// Where the estimate is far off, the parts are decimated one by one, each with an estimate of its own or without.
+TEST(Parts, BeginAgainWhereTheProofOfTheWholeFails) {
+  const TriangleMesh original = terrain();
+  const SimplifyResult proven = simplify_with_bound(original, within(0.01));
+  internal::estimate_fault = 30;
+  const SimplifyResult restarted = simplify_with_bound(original, within(0.01));
+  internal::estimate_fault = 1;
+  EXPECT_EQ(proven.estimated.restarts, 0u);
+  EXPECT_GT(proven.estimated.performed, 1000u);
+  EXPECT_GT(restarted.estimated.restarts, 1u);
+  expect_within(original, restarted.last());
+  EXPECT_EQ(restarted.stats.admitted + restarted.estimated.performed, restarted.last().collapses_performed);
+  EXPECT_LT(static_cast<double>(restarted.last().faces()), 1.05 * static_cast<double>(proven.last().faces()));
+}
+
+TEST(Parts, OneThatFailsEndsTheOthers) {
+  SimplifyOptions options = within(0.01);
+  options.threads = 1;
+  int calls = 0;
+  options.progress = [&](double) {
+    ++calls;
+    throw std::runtime_error("enough");
+  };
+  EXPECT_THROW((void)simplify_with_bound(datasets::icosphere(1, 6), options), std::runtime_error);
+  EXPECT_EQ(calls, 1);
 }
 
 TEST(Parts, ShowTheirProgressInTheCallingThreadAndPassOnWhatItThrows) {

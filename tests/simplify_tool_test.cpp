@@ -97,6 +97,8 @@ TEST_F(SimplifyTool, ReportsEveryKeyOfTheSchema) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json json = Json::parse(content_of(in("r.json")));
   EXPECT_EQ(json["schema"], "meshbound/simplify/1");
+  EXPECT_LE(json["collapses"]["estimated"].get<int>(), json["collapses"]["performed"].get<int>());
+  EXPECT_EQ(json["collapses"]["restarts"], 0);
   EXPECT_EQ(json["verdict"], "within");
   EXPECT_EQ(json["original"]["faces"], 1280);
   EXPECT_EQ(json["original"]["closed"], true);

@@ -170,7 +170,8 @@ void Run::simplify() {
   report_.effort = options_.effort;
   report_.pruned = {result_.pruned_components, result_.pruned_faces};
   report_.stopped_by = to_string(result_.last().ended_by);
-  report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused};
+  report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused,
+                       result_.estimated.performed, result_.estimated.restarts};
   report_.seconds.simplify = watch_.lap();
 }
 

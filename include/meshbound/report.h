@@ -72,6 +72,8 @@ struct SimplifyReport {
   std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
   struct Collapses {
     std::uint64_t performed = 0, refused = 0;
+    std::uint64_t estimated = 0;  ///< of those performed: by an estimate, and then proven as a whole
+    std::uint64_t restarts = 0;   ///< times that this proof failed and all began again
   } collapses;
   struct Seconds {
     double read = 0, simplify = 0, certify = 0, certificate = 0, write = 0, total = 0;

@@ -21,7 +21,8 @@ namespace SMS = CGAL::Surface_mesh_simplification;
 /// Vertices that stay where they are, by descriptor; collapses keep it up to date through the monitor that it asks.
 using LockQuery = std::function<bool(SurfaceMesh::Vertex_index)>;
 
-/// Edges with one face are constrained when `enabled`, edges between two locked vertices always.
+/// Edges with one face are constrained when `enabled`, edges between two locked vertices always, and where `only` tells
+/// by vertex what is to be decimated, all edges elsewhere.
 struct KeptParts {
   using key_type = SurfaceMesh::Edge_index;
   using value_type = bool;
@@ -30,10 +31,13 @@ struct KeptParts {
 
   const SurfaceMesh* mesh = nullptr;
   bool enabled = false;
-  LockQuery is_locked;  ///< none: nothing is
+  LockQuery is_locked;                      ///< none: nothing is
+  const std::vector<bool>* only = nullptr;  ///< null: everything
 
   friend bool get(const KeptParts& map, key_type edge) {
     if (map.enabled && map.mesh->is_border(edge)) return true;
+    if (map.only != nullptr && !(*map.only)[map.mesh->vertex(edge, 0)] && !(*map.only)[map.mesh->vertex(edge, 1)])
+      return true;
     return map.is_locked && map.is_locked(map.mesh->vertex(edge, 0)) && map.is_locked(map.mesh->vertex(edge, 1));
   }
 };

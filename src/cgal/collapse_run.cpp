@@ -19,8 +19,9 @@ constexpr double least_gain_of_pass = 0.01;
 
 /// Refinement ends where as much work as all passes before it gains less than this share of the faces.
 constexpr double least_gain_of_refinement = 0.015;
-/// But not before this many times that work: a few hundred faces may stay the same for as long and fall again.
-constexpr int least_refinement = 4;
+/// But not before this many proofs per original triangle, as a few hundred faces may stay the same for long and fall
+/// again, and at most so many in all: large meshes need more in any case.
+constexpr std::uint64_t least_refinement = 300, most_of_least_refinement = 6'000'000;
 
 /// With Effort::Fast, of those that `DeviationMonitor` knows: the middle and the ends of the edge.
 constexpr int fast_fallback_placements = 3;
@@ -34,6 +35,8 @@ constexpr double share_of_estimate = 0.7;
 /// And where as many edges have been left out as this share of the collapses that would halve the faces: what is left
 /// out now is collapsed later, at a higher cost than its turn.
 constexpr double most_left_out = 0.01;
+/// At the seams of parts that were estimated alone most collapses are overdue, and the end comes soon.
+constexpr double most_left_out_at_seams = 0.001;
 
 /// While proven collapses halve the number of faces, each original triangle is tested about this often: a collapse
 /// takes 2 faces away and tests what some 10 stand for. The work that estimated ones save counts as if it were done.
@@ -132,20 +135,32 @@ void CollapseRun::estimate() {
 
 /// False when what came out could not be proven.
 bool CollapseRun::estimate_without(const std::vector<bool>& frozen) {
+  run_phase(frozen, kept_parts());
+  if (phase_->collapses() > 0) return prove_phase();
+  start_exactly();
+  return true;
+}
+
+void CollapseRun::run_phase(std::vector<bool> frozen, const KeptParts& kept) {
   const double tolerance = goal_.tolerance - goal_.room;
-  const auto faces = static_cast<double>(copy_.mesh.number_of_faces());
-  const auto left_out = static_cast<std::uint64_t>(most_left_out * faces / 4);
-  phase_.emplace(copy_.mesh, NormalGuard(), locked_, frozen, [this](std::size_t left) { return must_stop(left); });
-  phase_->run(*policies_, kept_parts(), share_of_estimate * internal::estimate_fault * tolerance,
-              options_.on_exceed == OnExceed::Stop ? 1 : 1 + left_out);
-  if (phase_->collapses() == 0) {
-    start_exactly();
-    return true;
+  double left_out = most_left_out * static_cast<double>(copy_.mesh.number_of_faces()) / 4;
+  if (kept.only != nullptr) {
+    const auto vertices = std::count(kept.only->begin(), kept.only->end(), true);
+    left_out = most_left_out_at_seams * static_cast<double>(vertices) / 2;
   }
-  monitor_.emplace(copy_.mesh, original_, Bvh(MeshView(original_), BvhOptions{options_.threads}), tolerance,
-                   get(CGAL::vertex_point, copy_.mesh), options_.threads);
+  phase_.emplace(copy_.mesh, NormalGuard(), locked_, std::move(frozen),
+                 [this](std::size_t left) { return must_stop(left); });
+  if (!heights_.empty()) phase_->start_from(std::move(heights_));
+  phase_->run(*policies_, kept, share_of_estimate * internal::estimate_fault * tolerance,
+              options_.on_exceed == OnExceed::Stop ? 1 : 1 + static_cast<std::uint64_t>(left_out));
+}
+
+bool CollapseRun::prove_phase() {
+  monitor_.emplace(copy_.mesh, original_, Bvh(MeshView(original_), BvhOptions{options_.threads}),
+                   goal_.tolerance - goal_.room, get(CGAL::vertex_point, copy_.mesh), options_.threads);
   if (!monitor_->unproven().empty()) return false;
-  estimated_.performed = phase_->collapses();
+  estimated_.performed += phase_->collapses();
+  const auto faces = static_cast<double>(original_.triangles.size());
   estimated_work_ =
       static_cast<std::uint64_t>(tests_per_halving * faces * std::log2(faces / static_cast<double>(monitor_->faces())));
   locked_ = phase_->locked();
@@ -233,7 +248,8 @@ void CollapseRun::refine(std::uint64_t work_of_passes) {
   monitor_->begin_pass();
   std::size_t faces = monitor_->faces();
   std::uint64_t looked_at = work(), before = 0;
-  const std::uint64_t earliest_end = looked_at + least_refinement * work_of_passes;
+  const std::uint64_t earliest_end =
+      looked_at + std::min(least_refinement * original_.triangles.size(), most_of_least_refinement);
   while (!ended_by_ && work() > before) {
     before = work();
     refinement_->round();

@@ -35,6 +35,7 @@ struct FinishedPart {
     std::uint32_t soup_vertex = 0;
     bool locked = false;
     Quadric quadric;
+    Heights heights;  ///< of an estimate only
   };
   std::vector<Vertex> vertices;
   std::vector<Polygon> polygons;                      ///< of places in `vertices`
@@ -52,12 +53,30 @@ struct JoinedParts {
   ManifoldCopy copy;
   std::vector<bool> locked;
   std::vector<Quadric> quadrics;                      ///< by vertex
+  std::vector<Heights> heights;                       ///< by vertex; of an estimate only
+  std::vector<bool> on_seam;                          ///< by vertex
   std::vector<std::array<std::uint32_t, 2>> settled;  ///< vertices
   std::vector<DeviationMonitor<SurfaceMesh>::Part> proofs;
   DeviationMonitor<SurfaceMesh>::Counts counts;
   TrackerStats stats;
   EstimatedCollapses estimated;
   std::uint64_t work = 0;
+};
+
+/// A mesh that was proven to stand for an original, and what is known of it.
+struct ProvenMesh {
+  ManifoldPolygons polygons;
+  std::vector<bool> locked;       ///< by vertex
+  std::vector<Quadric> quadrics;  ///< by vertex
+  TrackedProof proof;             ///< its faces are places in `polygons`
+};
+
+/// A part of such a mesh. Its original has all triangles that its faces stand for, some of them together with faces of
+/// other parts: these stay.
+struct ProvenPart {
+  Part part;
+  std::vector<Quadric> quadrics;  ///< by vertex
+  TrackedProof proof;             ///< its faces are places in the polygons of `part`
 };
 
 /// A mesh under collapses: the monitor that proves them, their cost and placement, and the passes over the edges.
@@ -71,9 +90,19 @@ class CollapseRun {
               const std::vector<bool>& locked);
   /// Of a part, whose vertices on seams stay where they are as well.
   CollapseRun(Part part, const Seams& seams, const SimplifyOptions& options, const std::vector<bool>& locked);
+  /// Goes on with a part of a mesh that is proven already.
+  CollapseRun(ProvenPart part, const Seams& seams, const SimplifyOptions& options, const std::vector<bool>& locked);
   [[nodiscard]] FinishedPart finished();
+  /// In place of a run: only its first collapses, by an estimate. Where nothing keeps from estimating.
+  [[nodiscard]] FinishedPart estimated_part(const CollapseGoal& goal);
   /// Goes on where the runs of parts ended: with a mesh joined from theirs. `original` is the whole.
   CollapseRun(JoinedParts joined, const TriangleMesh& original, const SimplifyOptions& options, double tolerance);
+  /// The same of estimated parts: the collapses at their seams are estimated as well, and all is proven. False where
+  /// that failed; nothing else may be called then.
+  CollapseRun(JoinedParts joined, const TriangleMesh& original, const SimplifyOptions& options);
+  [[nodiscard]] bool prove_estimated(const CollapseGoal& goal);
+  /// Before any other collapse.
+  [[nodiscard]] ProvenMesh proven_mesh() const;
   CollapseRun(const CollapseRun&) = delete;
   CollapseRun& operator=(const CollapseRun&) = delete;
 
@@ -90,6 +119,10 @@ class CollapseRun {
   [[nodiscard]] TrackerStats stats() const;
   [[nodiscard]] const EstimatedCollapses& estimated() const { return estimated_; }
   [[nodiscard]] const Monitor::Dropped& pruned() const { return pruned_; }
+  /// Of the last run; nothing where no more collapses fit.
+  [[nodiscard]] std::optional<EndedBy> ended_by() const { return ended_by_; }
+  /// All that was done in this run, as a share of it counts in `JoinedParts::work`.
+  [[nodiscard]] std::uint64_t work_of_estimate() const { return estimated_work_ + work(); }
 
  private:
   /// `edge_collapse` filter: the monitor's, and for OnExceed::Stop the end of the run where a refusal is confirmed.
@@ -101,6 +134,9 @@ class CollapseRun {
   [[nodiscard]] bool may_estimate() const;
   void estimate();
   [[nodiscard]] bool estimate_without(const std::vector<bool>& frozen);
+  void run_phase(std::vector<bool> frozen, const KeptParts& kept);
+  [[nodiscard]] bool prove_phase();
+  [[nodiscard]] std::vector<std::uint32_t> take_mesh(FinishedPart& result) const;
   [[nodiscard]] std::vector<bool> around_unproven(const SurfaceMesh& start) const;
   void start_exactly();
   void set_up_monitor();
@@ -116,6 +152,8 @@ class CollapseRun {
   void show_progress(std::size_t faces);
 
   std::optional<Part> part_;
+  std::vector<Heights> heights_;  ///< of parts that were estimated, until the estimate goes on
+  std::vector<bool> beside_seam_;
   std::optional<PartSeam> seam_;
   const TriangleMesh& original_;
   const SimplifyOptions& options_;

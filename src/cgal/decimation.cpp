@@ -26,6 +26,15 @@ bool fits_parts(const SimplifyOptions& options, std::size_t triangles) {
          !options.target_faces && !options.target_ratio && !options.prune && options.face_tolerances.empty();
 }
 
+/// Of parts where anything else than that nothing fits has ended one.
+EndedBy end_of(const std::vector<FinishedPart>& parts) {
+  EndedBy ended_by = EndedBy::NothingFits;
+  for (const FinishedPart& part : parts) {
+    if (part.ended_by != EndedBy::NothingFits) ended_by = part.ended_by;
+  }
+  return ended_by;
+}
+
 /// False at a border, and where a face has no area and so no normal.
 bool is_feature(const SurfaceMesh& mesh, SurfaceMesh::Edge_index edge, double angle) {
   if (mesh.is_border(edge)) return false;
@@ -82,12 +91,48 @@ void Decimation::start_whole() {
 
 EndedBy Decimation::run_parts(const CollapseGoal& goal) {
   const Cutting cutting(framed_original_, *polygons_, number_of_parts(polygons_->polygons.size()));
-  std::vector<FinishedPart> parts = cgal::run_parts(cutting, locked_, options_, goal);
-  EndedBy ended_by = EndedBy::NothingFits;
-  for (const FinishedPart& part : parts) {
-    if (part.ended_by != EndedBy::NothingFits) ended_by = part.ended_by;
+  std::uint64_t restarts = 0;
+  if (polygons_->dropped_triangles == 0) {
+    if (const std::optional<EndedBy> ended_by = run_estimated_parts(goal, cutting)) return *ended_by;
+    ++restarts;
   }
-  run_.emplace(join(std::move(parts), cutting, locked_), framed_original_, options_, goal.tolerance - goal.room);
+  std::vector<FinishedPart> parts = cgal::run_parts(cutting, locked_, options_, goal);
+  const EndedBy ended_by = end_of(parts);
+  JoinedParts joined = join(std::move(parts), cutting, locked_);
+  joined.estimated.restarts += restarts;
+  run_.emplace(std::move(joined), framed_original_, options_, goal.tolerance - goal.room);
+  polygons_.reset();
+  return ended_by;
+}
+
+std::optional<EndedBy> Decimation::run_estimated_parts(const CollapseGoal& goal, const Cutting& cutting) {
+  std::vector<FinishedPart> estimated = estimate_parts(cutting, locked_, options_, goal);
+  EndedBy ended_by = end_of(estimated);
+  run_.emplace(join(std::move(estimated), cutting, locked_), framed_original_, options_);
+  if (!run_->prove_estimated(goal)) {
+    run_.reset();
+    return std::nullopt;
+  }
+  ended_by = run_->ended_by().value_or(ended_by);
+  if (ended_by != EndedBy::NothingFits) {
+    polygons_.reset();
+    return ended_by;
+  }
+  const ProvenCutting again(run_->proven_mesh(), framed_original_, cutting.parts());
+  const CollapseRun::Monitor::Counts counts = run_->counts();
+  const TrackerStats stats = run_->stats();
+  const EstimatedCollapses estimate = run_->estimated();
+  const std::uint64_t work = run_->work_of_estimate();
+  run_.reset();
+  std::vector<FinishedPart> parts = cgal::run_parts(again, options_, goal);
+  ended_by = end_of(parts);
+  JoinedParts joined = join(std::move(parts), again);
+  joined.counts += counts;
+  joined.counts.performed -= estimate.performed;
+  joined.stats += stats;
+  joined.estimated = estimate;
+  joined.work += work;
+  run_.emplace(std::move(joined), framed_original_, options_, goal.tolerance - goal.room);
   polygons_.reset();
   return ended_by;
 }

@@ -34,6 +34,9 @@ class Decimation {
   void start_whole();
   /// Decimates the parts and joins them in `run_`, which goes on from there.
   EndedBy run_parts(const CollapseGoal& goal);
+  /// The same with the first collapses estimated over the seams of a first cut, and a second one where they end. None
+  /// where what was estimated could not be proven.
+  std::optional<EndedBy> run_estimated_parts(const CollapseGoal& goal, const Cutting& cutting);
   [[nodiscard]] double room() const;
   [[nodiscard]] std::vector<bool> locked_copies() const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;

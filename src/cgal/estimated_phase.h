@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "cgal/collapse_policies.h"
@@ -34,6 +35,9 @@ class EstimatedPhase {
   [[nodiscard]] bool is_locked(SurfaceMesh::Vertex_index v) const { return !locked_.empty() && locked_[v]; }
   [[nodiscard]] const std::vector<bool>& locked() const { return locked_; }
   [[nodiscard]] std::uint64_t collapses() const { return collapses_; }
+  /// By vertex: what goes on in another phase, of a mesh that was joined from several.
+  [[nodiscard]] const std::vector<Heights>& heights() const { return heights_; }
+  void start_from(std::vector<Heights> heights) { heights_ = std::move(heights); }
 
  private:
   class Filter;

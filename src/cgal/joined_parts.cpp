@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <utility>
@@ -48,32 +49,74 @@ SimplifyOptions options_of_part(const SimplifyOptions& options) {
   return part;
 }
 
-}  // namespace
+/// Thrown where another part has failed already.
+struct OtherPartFailed {};
 
-std::vector<FinishedPart> run_parts(const Cutting& cutting, const std::vector<bool>& locked,
-                                    const SimplifyOptions& options, const CollapseGoal& goal) {
-  std::vector<FinishedPart> finished(cutting.parts());
+/// Calls `run(part, options)` for each, by several threads; once one has failed the others end as well.
+template <class Run>
+std::vector<FinishedPart> for_each_part(std::size_t parts, const SimplifyOptions& options, const Run& run) {
+  std::vector<FinishedPart> finished(parts);
   const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   const SimplifyOptions common = options_of_part(options);
-  SharedProgress progress(options.progress, cutting.parts());
+  SharedProgress progress(options.progress, parts);
+  std::atomic<bool> failed = false;
   FirstError error;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-  for (std::size_t i = 0; i < finished.size(); ++i) {
+  for (std::size_t i = 0; i < parts; ++i) {
+    if (failed) continue;
+    bool ended = false;
     error.guard([&] {
       SimplifyOptions own = common;
-      own.progress = [&progress, i](double fraction) { progress(i, fraction); };
-      Part part = cutting.part(i);
-      const std::vector<bool> locked_here = locked_of(part, locked);
-      CollapseRun run(std::move(part), cutting.seams(), own, locked_here);
-      run.run(goal);
-      finished[i] = run.finished();
+      own.progress = [&, i](double fraction) {
+        if (failed) throw OtherPartFailed();
+        progress(i, fraction);
+      };
+      finished[i] = run(i, own);
+      ended = true;
     });
+    if (!ended) failed = true;
   }
   error.rethrow();
   return finished;
 }
 
-JoinedParts join(std::vector<FinishedPart> parts, const Cutting& cutting, const std::vector<bool>& locked) {
+}  // namespace
+
+std::vector<FinishedPart> run_parts(const Cutting& cutting, const std::vector<bool>& locked,
+                                    const SimplifyOptions& options, const CollapseGoal& goal) {
+  return for_each_part(cutting.parts(), options, [&](std::size_t i, const SimplifyOptions& own) {
+    Part part = cutting.part(i);
+    const std::vector<bool> locked_here = locked_of(part, locked);
+    CollapseRun run(std::move(part), cutting.seams(), own, locked_here);
+    run.run(goal);
+    return run.finished();
+  });
+}
+
+std::vector<FinishedPart> estimate_parts(const Cutting& cutting, const std::vector<bool>& locked,
+                                         const SimplifyOptions& options, const CollapseGoal& goal) {
+  return for_each_part(cutting.parts(), options, [&](std::size_t i, const SimplifyOptions& own) {
+    Part part = cutting.part(i);
+    const std::vector<bool> locked_here = locked_of(part, locked);
+    return CollapseRun(std::move(part), cutting.seams(), own, locked_here).estimated_part(goal);
+  });
+}
+
+std::vector<FinishedPart> run_parts(const ProvenCutting& cutting, const SimplifyOptions& options,
+                                    const CollapseGoal& goal) {
+  const std::vector<bool>& all = cutting.mesh().locked;
+  const bool any = std::find(all.begin(), all.end(), true) != all.end();
+  return for_each_part(cutting.cutting().parts(), options, [&](std::size_t i, const SimplifyOptions& own) {
+    ProvenPart part = cutting.part(i);
+    const std::vector<bool> locked_here = any ? locked_of(part.part, all) : std::vector<bool>();
+    CollapseRun run(std::move(part), cutting.cutting().seams(), own, locked_here);
+    run.run(goal);
+    return run.finished();
+  });
+}
+
+JoinedParts join(std::vector<FinishedPart> parts, const Cutting& cutting, const std::vector<bool>& locked,
+                 std::span<const Quadric> quadrics) {
   constexpr std::uint32_t none = FinishedPart::none;
   JoinedParts joined;
   std::vector<std::uint32_t> seam_vertex(cutting.seams().has.size(), none);
@@ -86,14 +129,17 @@ JoinedParts join(std::vector<FinishedPart> parts, const Cutting& cutting, const 
       const bool on_seam = vertex.on_seam != none;
       if (on_seam && seam_vertex[vertex.on_seam] != none) {
         place.push_back(seam_vertex[vertex.on_seam]);
-        joined.quadrics[place.back()] += vertex.quadric;
+        if (quadrics.empty()) joined.quadrics[place.back()] += vertex.quadric;
+        joined.heights[place.back()] = joined.heights[place.back()].joined(vertex.heights);
         continue;
       }
       place.push_back(static_cast<std::uint32_t>(points.size()));
       if (on_seam) seam_vertex[vertex.on_seam] = place.back();
       points.push_back(vertex.point);
       joined.copy.vertex_of_vertex.push_back(vertex.soup_vertex);
-      joined.quadrics.push_back(vertex.quadric);
+      joined.quadrics.push_back(on_seam && !quadrics.empty() ? quadrics[vertex.on_seam] : vertex.quadric);
+      joined.heights.push_back(vertex.heights);
+      joined.on_seam.push_back(on_seam);
       if (!locked.empty()) joined.locked.push_back(on_seam ? locked[vertex.on_seam] : vertex.locked);
     }
     for (std::uint32_t& face : part.proof.face_of) {
@@ -112,6 +158,12 @@ JoinedParts join(std::vector<FinishedPart> parts, const Cutting& cutting, const 
     joined.proofs.push_back(std::move(part.proof));
   }
   joined.copy.mesh = to_surface_mesh(points, polygons);
+  return joined;
+}
+
+JoinedParts join(std::vector<FinishedPart> parts, const ProvenCutting& cutting) {
+  JoinedParts joined = join(std::move(parts), cutting.cutting(), cutting.mesh().locked, cutting.mesh().quadrics);
+  joined.proofs.push_back(cutting.shared_proof(joined.proofs));
   return joined;
 }
 

@@ -105,14 +105,20 @@ std::vector<std::uint32_t> cut(const std::vector<Kernel::Point_3>& points, std::
 }
 
 Cutting::Cutting(const TriangleMesh& soup, const ManifoldPolygons& whole, std::size_t parts)
+    : Cutting(soup, whole, parts, cut(whole.points, whole.polygons, parts),
+              std::vector<bool>(whole.points.size(), false)) {}
+
+Cutting::Cutting(const TriangleMesh& soup, const ManifoldPolygons& whole, std::size_t parts,
+                 std::vector<std::uint32_t> part_of, std::vector<bool> fixed)
     : soup_(soup),
       whole_(whole),
       parts_(parts),
-      part_of_(cut(whole.points, whole.polygons, parts)),
+      part_of_(std::move(part_of)),
       polygons_(whole.polygons),
       whole_of_(whole.points.size()),
       dropped_(parts) {
   std::iota(whole_of_.begin(), whole_of_.end(), 0u);
+  seams_.has = std::move(fixed);
   find_seam_vertices();
   split_fans();
   place_dropped_triangles();
@@ -120,7 +126,6 @@ Cutting::Cutting(const TriangleMesh& soup, const ManifoldPolygons& whole, std::s
 
 void Cutting::find_seam_vertices() {
   std::vector<std::uint32_t> part_at(whole_.points.size(), none);
-  seams_.has.assign(whole_.points.size(), false);
   for (std::size_t f = 0; f < polygons_.size(); ++f) {
     for (const std::size_t v : polygons_[f]) {
       if (part_at[v] == none) part_at[v] = part_of_[f];
@@ -227,6 +232,7 @@ Part Cutting::part(std::size_t index) const {
   for (std::size_t f = 0; f < polygons_.size(); ++f) {
     if (part_of_[f] != index) continue;
     part.copy.triangle_of_face.push_back(static_cast<std::uint32_t>(part.triangle_of.size()));
+    part.named_after.push_back(whole_.triangle_of_face[f]);
     add_original(whole_.triangle_of_face[f]);
     Polygon& corners = part.copy.polygons.emplace_back(polygons_[f]);
     for (std::size_t& v : corners) {

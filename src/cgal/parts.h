@@ -30,6 +30,7 @@ struct Part {
   std::vector<std::uint32_t> triangle_of;  ///< by triangle of `original`: that of the soup
   ManifoldPolygons copy;                   ///< made from `original`; `vertex_of_vertex` gives vertices of the soup
   std::vector<std::uint32_t> whole_of;     ///< by vertex of the copy: that of the polygons which were cut
+  std::vector<std::uint32_t> named_after;  ///< by face of the copy: the triangle of the soup that it was made from
   std::vector<std::uint32_t> seam_vertex;  ///< the same for vertices on seams, `PartSeam::none` for others
 };
 
@@ -37,6 +38,9 @@ class Cutting {
  public:
   /// `whole` was made from `soup`. Both must outlive this. O(n log n).
   Cutting(const TriangleMesh& soup, const ManifoldPolygons& whole, std::size_t parts);
+  /// With the part of each polygon given, and vertices that are to stay as if they were on a seam.
+  Cutting(const TriangleMesh& soup, const ManifoldPolygons& whole, std::size_t parts,
+          std::vector<std::uint32_t> part_of, std::vector<bool> fixed);
 
   [[nodiscard]] std::size_t parts() const { return parts_; }
   [[nodiscard]] const Seams& seams() const { return seams_; }

@@ -25,7 +25,10 @@ std::string to_json(const SimplifyReport& from) {
     for (const CertificateReport& certificate : from.certificates)
       json["certificates"].push_back({{"path", certificate.path}, {"bytes", certificate.bytes}});
   }
-  json["collapses"] = {{"performed", from.collapses.performed}, {"refused", from.collapses.refused}};
+  json["collapses"] = {{"performed", from.collapses.performed},
+                       {"refused", from.collapses.refused},
+                       {"estimated", from.collapses.estimated},
+                       {"restarts", from.collapses.restarts}};
   json["stats"] = stats({&from.distance.a_to_b, &from.distance.b_to_a});
   json["seconds"] = seconds(from.seconds);
   if (!from.certificates.empty()) json["seconds"]["certificate"] = number(from.seconds.certificate);
