@@ -98,7 +98,7 @@ class Renumbering {
       const std::uint32_t size = std::min(batch, end - slot);
       for (std::uint32_t i = 0; i < size; ++i) triangles[i] = mesh_.triangle(data_.triangle_of_slot[slot + i]);
       for (std::uint32_t i = 0; i < size; ++i)
-        for (int k = 0; k < 3; ++k) corners[i][k] = position(triangles[i][k]);
+        for (std::size_t k = 0; k < 3; ++k) corners[i][k] = position(triangles[i][k]);
       for (std::uint32_t i = 0; i < size; ++i) {
         const Triangle& t = triangles[i];
         for (const std::uint32_t v : t) count = number_vertex(run, v, count);
