@@ -87,6 +87,13 @@ struct SampledDeviation {
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< its second derivative, but for that of directions
 };
 
+/// Largest distance / tolerance of sample points around a vertex that is to be placed. No bound.
+struct HeightStep {
+  double here = 0;
+  double there = 0;                                ///< expected after `move`, or a number that no move goes below
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();  ///< to where the largest is least
+};
+
 /// Keeps a proof that a mesh under local edits stays within a tolerance of a fixed original, both ways:
 ///
 ///     every point of the original lies within the tolerance of a face that its triangle is assigned to, and
@@ -161,6 +168,11 @@ class DeviationTracker {
   void sample(std::span<const std::uint32_t> removed);
   [[nodiscard]] SampledDeviation sampled_deviation(std::span<const TrackedFace> added,
                                                    std::span<const std::size_t> moved_corner);
+
+  /// For placing the moved vertex of such changes: `sample_heights` takes points as `sample` does, and `height_step`
+  /// says where the vertex should go, as far as distances are linear. O(samples x faces) each.
+  void sample_heights(std::span<const std::uint32_t> removed);
+  [[nodiscard]] HeightStep height_step(std::span<const TrackedFace> added, std::span<const std::size_t> moved_corner);
 
   /// A larger tolerance keeps every proof made so far. Throws `InvalidInput` for a smaller one.
   void grow_tolerance(double tolerance);

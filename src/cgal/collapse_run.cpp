@@ -23,8 +23,9 @@ constexpr double least_gain_of_refinement = 0.015;
 /// again, and at most so many in all: large meshes need more in any case.
 constexpr std::uint64_t least_refinement = 300, most_of_least_refinement = 6'000'000;
 
-/// With Effort::Fast, of those that `DeviationMonitor` knows: the middle and the ends of the edge.
-constexpr int fast_fallback_placements = 3;
+/// Of those that `DeviationMonitor` knows, the one that is computed: where that fails, the middle and the ends of the
+/// edge hardly ever keep the bound.
+constexpr int fallback_placements = 1;
 
 /// Clock and callbacks are looked at once in this many collapses.
 constexpr std::uint64_t checks_between_looks = 64;
@@ -85,7 +86,7 @@ void CollapseRun::start_exactly() {
 void CollapseRun::set_up_monitor() {
   monitor_->normal_guard = NormalGuard();
   monitor_->preserve_boundary = options_.preserve_boundary;
-  if (options_.effort == Effort::Fast) monitor_->fallback_placements = fast_fallback_placements;
+  monitor_->fallback_placements = fallback_placements;
   monitor_->should_stop = [this](std::size_t faces) { return must_stop(faces); };
   if (!locked_.empty())
     monitor_->lock_vertices(boost::make_function_property_map<SurfaceMesh::Vertex_index>(

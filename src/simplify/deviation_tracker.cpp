@@ -18,7 +18,8 @@ DeviationTracker::Impl::Impl(const MeshView& original, const Bvh& tree)
       cover(triangles.size()),
       forward(vertices, triangles),
       degree(vertices, triangles),
-      deviation(vertices, triangles) {
+      deviation(vertices, triangles),
+      minimax(vertices, triangles) {
   for (const Triangle& t : triangles) {
     for (const std::uint32_t v : t) {
       const Vec3 p = vertices[v];
@@ -85,28 +86,48 @@ void DeviationTracker::commit() {
   }
 }
 
-void DeviationTracker::sample(std::span<const std::uint32_t> removed) {
-  std::vector<FaceCorners>& faces = impl_->deviation_faces;
-  std::vector<std::uint32_t>& originals = impl_->deviation_originals;
-  faces.clear();
-  originals.clear();
+std::uint32_t DeviationTracker::Impl::gather_for_samples(std::span<const std::uint32_t> removed) {
+  deviation_faces.clear();
+  deviation_originals.clear();
   std::uint32_t hint = 0;
   for (const std::uint32_t face : removed) {
-    faces.push_back(impl_->corners[face]);
-    hint = impl_->nearest[face];
-    const auto of_face = impl_->cover.originals_of(face);
-    originals.insert(originals.end(), of_face.begin(), of_face.end());
+    deviation_faces.push_back(corners[face]);
+    hint = nearest[face];
+    const auto of_face = cover.originals_of(face);
+    deviation_originals.insert(deviation_originals.end(), of_face.begin(), of_face.end());
   }
-  impl_->deviation.begin(impl_->tolerance, originals, faces, hint);
+  return hint;
+}
+
+void DeviationTracker::Impl::gather_moved(std::span<const TrackedFace> added,
+                                          std::span<const std::size_t> moved_corner) {
+  deviation_faces.clear();
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const auto corner = [&](std::size_t k) { return to_vec3(added[i].corners[(moved_corner[i] + k) % 3]); };
+    deviation_faces.push_back({corner(0), corner(1), corner(2)});
+  }
+}
+
+void DeviationTracker::sample(std::span<const std::uint32_t> removed) {
+  const std::uint32_t hint = impl_->gather_for_samples(removed);
+  impl_->deviation.begin(impl_->tolerance, impl_->deviation_originals, impl_->deviation_faces, hint);
+}
+
+void DeviationTracker::sample_heights(std::span<const std::uint32_t> removed) {
+  const std::uint32_t hint = impl_->gather_for_samples(removed);
+  impl_->minimax.begin(impl_->tolerance, impl_->deviation_originals, impl_->deviation_faces, hint);
+}
+
+HeightStep DeviationTracker::height_step(std::span<const TrackedFace> added,
+                                         std::span<const std::size_t> moved_corner) {
+  impl_->gather_moved(added, moved_corner);
+  const MinimaxPlacement::Step step = impl_->minimax.step(impl_->deviation_faces, impl_->proximity);
+  return {step.here, step.there, {step.move.x, step.move.y, step.move.z}};
 }
 
 SampledDeviation DeviationTracker::sampled_deviation(std::span<const TrackedFace> added,
                                                      std::span<const std::size_t> moved_corner) {
-  impl_->deviation_faces.clear();
-  for (std::size_t i = 0; i < added.size(); ++i) {
-    const auto corner = [&](std::size_t k) { return to_vec3(added[i].corners[(moved_corner[i] + k) % 3]); };
-    impl_->deviation_faces.push_back({corner(0), corner(1), corner(2)});
-  }
+  impl_->gather_moved(added, moved_corner);
   const SlopeSums sums = impl_->deviation.of(impl_->deviation_faces, impl_->proximity);
   SampledDeviation result{sums.sum, std::sqrt(sums.worst_squared), {}, {}};
   const double scale = 1 / impl_->tolerance;

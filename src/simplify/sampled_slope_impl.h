@@ -20,11 +20,12 @@ inline Float8 clamped(Float8 x) {
   return x < 1.0F ? x : broadcast8(1);
 }
 
-/// The nearest so far: squared distance, offset from the closest point, and the share that corner a has of it.
+/// The nearest so far: squared distance, offset from the closest point, the share that corner a has of it, and the
+/// face.
 struct Closest8 {
-  Float8 squared, x, y, z, share;
+  Float8 squared, x, y, z, share, face;
 
-  void offer(Float8 ox, Float8 oy, Float8 oz, Float8 corner_share, Mask8 valid) {
+  void offer(Float8 ox, Float8 oy, Float8 oz, Float8 corner_share, Float8 index, Mask8 valid) {
     const Float8 square = ox * ox + oy * oy + oz * oz;
     const Mask8 nearer = (square < squared) & valid;
     squared = nearer ? square : squared;
@@ -32,16 +33,17 @@ struct Closest8 {
     y = nearer ? oy : y;
     z = nearer ? oz : z;
     share = nearer ? corner_share : share;
+    face = nearer ? index : face;
   }
 };
 
-inline void offer_face(const SampleFace& f, Float8 x, Float8 y, Float8 z, Closest8& closest) {
+inline void offer_face(const SampleFace& f, float index, Float8 x, Float8 y, Float8 z, Closest8& closest) {
   const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
   const Float8 on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
   const Float8 on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
   const auto offer = [&](Float8 v, Float8 w, Mask8 valid) {
     closest.offer(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
-                  1.0F - v - w, valid);
+                  1.0F - v - w, broadcast8(index), valid);
   };
   const Mask8 all = Mask8{} == Mask8{};
   const Float8 zero{};
@@ -55,9 +57,9 @@ inline void offer_face(const SampleFace& f, Float8 x, Float8 y, Float8 z, Closes
 }
 
 inline Closest8 closest_of(const SamplePoints& points, std::size_t first, std::span<const SampleFace> faces) {
-  Closest8 at{broadcast8(HUGE_VALF), {}, {}, {}, {}};
+  Closest8 at{broadcast8(HUGE_VALF), {}, {}, {}, {}, {}};
   const Float8 x = load8(points.x, first), y = load8(points.y, first), z = load8(points.z, first);
-  for (const SampleFace& face : faces) offer_face(face, x, y, z, at);
+  for (std::size_t k = 0; k < faces.size(); ++k) offer_face(faces[k], static_cast<float>(k), x, y, z, at);
   return at;
 }
 

@@ -16,6 +16,7 @@
 #include "simplify/local_deviation.h"
 #include "simplify/local_tolerance.h"
 #include "simplify/marked_ids.h"
+#include "simplify/minimax_placement.h"
 
 namespace meshbound {
 
@@ -51,6 +52,7 @@ struct DeviationTracker::Impl {
   ForwardCover forward;
   DegreeCover degree;
   LocalDeviation deviation;
+  MinimaxPlacement minimax;
   std::vector<FaceCorners> deviation_faces;
   std::vector<std::uint32_t> deviation_originals;
   MarkedIds removed_marks, kept_marks, affected_marks;
@@ -108,6 +110,9 @@ struct DeviationTracker::Impl {
 
   Impl(const MeshView& original, const Bvh& tree);
   void set_tolerance(double value);
+  /// Faces, the original triangles they hold, and one near them, for samples; with the moved corner first.
+  std::uint32_t gather_for_samples(std::span<const std::uint32_t> removed);
+  void gather_moved(std::span<const TrackedFace> added, std::span<const std::size_t> moved_corner);
   [[nodiscard]] double provable(double value) const;
   [[nodiscard]] double limit_around(const Eigen::AlignedBox3d& box) const;
   [[nodiscard]] double limit_of_change() const;

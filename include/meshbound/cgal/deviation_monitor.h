@@ -114,7 +114,7 @@ class DeviationMonitor {
     return Placement<Base>(*this, base);
   }
 
-  static constexpr int most_fallback_placements = 7;
+  static constexpr int most_fallback_placements = 4;
 
   /// Checked for every face that a collapse moves, before the bound. None by default: users stack filters of their own.
   std::optional<NormalGuard> normal_guard;
@@ -122,7 +122,8 @@ class DeviationMonitor {
   /// `Placement` then never moves a vertex of the border by itself.
   bool preserve_boundary = false;
 
-  /// `Placement` then tries this many placements beside the one it was given, 0 to 7, before an edge is refused.
+  /// `Placement` then tries this many placements beside the one it was given, 0 to 4, before an edge is refused: a
+  /// point where the largest sampled deviation around the edge is least, the middle of the edge, and its ends.
   int fallback_placements = most_fallback_placements;
 
   /// `Placement` then tries last the point where the deviation sampled around the edge is least: fewer faces, slower.
@@ -252,7 +253,6 @@ class DeviationMonitor {
   /// The gathered star with another placement.
   void place(const Eigen::Vector3d& p);
   [[nodiscard]] bool admits_gathered(Vertex v0, Vertex v1, const Eigen::Vector3d& placement, std::uint32_t try_first);
-  [[nodiscard]] Eigen::Vector3d normal_before() const;
   /// Goes from p, in steps of at most `reach`, to where the sampled deviation of the gathered star is lower.
   struct Sampled {
     Eigen::Vector3d point;
@@ -269,7 +269,11 @@ class DeviationMonitor {
   void remove_component(const std::vector<Face>& component);
   void touch_around(Vertex v);
   /// The k-th of the fallback placements beside `wanted`, for the edge whose star was gathered last.
-  [[nodiscard]] Point fallback(int k, const Point& p0, const Point& p1, const Point& wanted) const;
+  [[nodiscard]] std::optional<Point> fallback(int k, const Point& p0, const Point& p1, const Point& wanted);
+  [[nodiscard]] std::optional<Point> minimax_placement(const Point& p0, const Point& p1, const Point& wanted);
+  /// Moves the vertex of the gathered star from p, less far where the guards say so; where it is then, if anywhere
+  /// else.
+  [[nodiscard]] std::optional<Eigen::Vector3d> moved_within_guards(const Eigen::Vector3d& p, Eigen::Vector3d move);
   [[nodiscard]] bool is_promising(const Eigen::Vector3d& placement);
   [[nodiscard]] std::optional<Point> searched_placement(const Point& p0, const Point& p1);
   void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring);

@@ -29,6 +29,15 @@ constexpr double hopeless_deviation = 50;
 /// A step goes at most this share of the mean length of the edges.
 constexpr double longest_step = 0.5;
 
+/// For a placement of least largest deviation: it is computed anew this many times, as closest points move with it.
+constexpr int most_minimax_steps = 3;
+/// The samples of the placement that is going to be proven are at most this far off, in tolerances: there are none
+/// between them.
+constexpr double largest_provable_height = 1.1;
+constexpr double low_enough_height = 1;
+constexpr int most_shorter_moves = 3;
+constexpr double shorter_move = 0.5;
+
 }  // namespace internal
 
 template <class Mesh, class VertexPointMap>
@@ -46,16 +55,6 @@ void DeviationMonitor<Mesh, VertexPointMap>::touch_around(Vertex v) {
 template <class Mesh, class VertexPointMap>
 void DeviationMonitor<Mesh, VertexPointMap>::place(const Eigen::Vector3d& p) {
   for (std::size_t i = 0; i < added_.size(); ++i) added_[i].corners[moved_corner_[i]] = p;
-}
-
-/// Unit normal of the faces that stay, weighted by area; zero where they cancel.
-template <class Mesh, class VertexPointMap>
-Eigen::Vector3d DeviationMonitor<Mesh, VertexPointMap>::normal_before() const {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (const auto& c : before_) normal += (c[1] - c[0]).cross(c[2] - c[0]);
-  const double length = normal.norm();
-  if (!(length > 0)) return Eigen::Vector3d::Zero();
-  return normal / length;
 }
 
 /// Newton's method with shorter steps where a whole one does not lower the sum or the guard forbids it.
@@ -124,6 +123,46 @@ auto DeviationMonitor<Mesh, VertexPointMap>::searched_placement(const Point& p0,
   const Sampled found = lower_deviation(best_sampled_->first, reach);
   if (found.lowest.worst > internal::largest_promising_deviation) return std::nullopt;
   return to_point(found.point);
+}
+
+template <class Mesh, class VertexPointMap>
+auto DeviationMonitor<Mesh, VertexPointMap>::moved_within_guards(const Eigen::Vector3d& p, Eigen::Vector3d move)
+    -> std::optional<Eigen::Vector3d> {
+  for (int k = 0; k < internal::most_shorter_moves; ++k, move *= internal::shorter_move) {
+    place(p + move);
+    if (passes_guards()) return p + move;
+  }
+  return std::nullopt;
+}
+
+/// Starts from the first of the placements that the guards allow. None where no placement is expected to keep the
+/// bound.
+template <class Mesh, class VertexPointMap>
+auto DeviationMonitor<Mesh, VertexPointMap>::minimax_placement(const Point& p0, const Point& p1, const Point& wanted)
+    -> std::optional<Point> {
+  const std::array<Point, 4> starts = {wanted, CGAL::midpoint(p0, p1), p0, p1};
+  const auto start = std::find_if(starts.begin(), starts.end(), [&](const Point& p) {
+    place(to_eigen(p));
+    return passes_guards();
+  });
+  if (start == starts.end()) return std::nullopt;
+  tracker_.sample_heights(removed_);
+  const double reach = internal::longest_step * (to_eigen(p0) - to_eigen(p1)).norm();
+  Eigen::Vector3d at = to_eigen(*start), best = at;
+  double least = HUGE_VAL;
+  for (int k = 0; k <= internal::most_minimax_steps; ++k) {
+    const HeightStep step = tracker_.height_step(added_, moved_corner_);
+    if (step.here < least) least = step.here, best = at;
+    const bool found = k > 0 && step.here <= internal::low_enough_height;
+    if (found || step.there > internal::largest_provable_height || k == internal::most_minimax_steps) break;
+    const double length = step.move.norm();
+    if (!(length > 0)) break;
+    const auto next = moved_within_guards(at, std::min(1.0, reach / length) * step.move);
+    if (!next) break;
+    at = *next;
+  }
+  if (least > internal::largest_provable_height) return std::nullopt;
+  return to_point(best);
 }
 
 template <class Mesh, class VertexPointMap>

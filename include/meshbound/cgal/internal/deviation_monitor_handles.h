@@ -23,9 +23,10 @@ class DeviationMonitor<Mesh, VertexPointMap>::Filter {
   DeviationMonitor* monitor_;
 };
 
-/// Gives the placement of `base`, but when CGAL is about to collapse the edge: then the first of that one, the ends and
-/// the middle of the edge, and points beside it along the normal, that keeps the bound. (CGAL asks a placement for the
-/// costs of all edges, too, where a proof would be wasted, and ignores the placement that a filter returns.)
+/// Gives the placement of `base`, but when CGAL is about to collapse the edge: then the first of that one, a point
+/// where the sampled deviation is least, the middle and the ends of the edge, that keeps the bound. (CGAL asks a
+/// placement for the costs of all edges, too, where a proof would be wasted, and ignores the placement that a filter
+/// returns.)
 template <class Mesh, class VertexPointMap>
 template <class Base>
 class DeviationMonitor<Mesh, VertexPointMap>::Placement {

@@ -250,8 +250,10 @@ DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profil
   };
   bool found = false;
   if (tested && movable) {
-    for (int k = 0; k < fallback_placements && !found; ++k)
-      found = admitted(fallback(k, profile.p0(), profile.p1(), wanted));
+    for (int k = 0; k < fallback_placements && !found; ++k) {
+      const std::optional<Point> other = fallback(k, profile.p0(), profile.p1(), wanted);
+      found = other && admitted(*other);
+    }
     if (!found && search_placements) {
       const std::optional<Point> other = searched_placement(profile.p0(), profile.p1());
       found = other && admitted(*other);
@@ -268,15 +270,11 @@ DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profil
 }
 
 template <class Mesh, class VertexPointMap>
-typename DeviationMonitor<Mesh, VertexPointMap>::Point DeviationMonitor<Mesh, VertexPointMap>::fallback(
-    int k, const Point& p0, const Point& p1, const Point& wanted) const {
-  if (k == 0) return CGAL::midpoint(p0, p1);
-  if (k == 1) return p0;
-  if (k == 2) return p1;
-  // A vertex on a curved surface whose faces are chords wants to lie outside of it, up to the tolerance.
-  constexpr std::array<double, 4> shares = {0.35, -0.35, 0.7, -0.7};
-  const double share = shares[static_cast<std::size_t>(k - 3)] * tracker_.tolerance();
-  return to_point(to_eigen(wanted) + share * normal_before());
+auto DeviationMonitor<Mesh, VertexPointMap>::fallback(int k, const Point& p0, const Point& p1, const Point& wanted)
+    -> std::optional<Point> {
+  if (k == 0) return minimax_placement(p0, p1, wanted);
+  if (k == 1) return CGAL::midpoint(p0, p1);
+  return k == 2 ? p0 : p1;
 }
 
 template <class Mesh, class VertexPointMap>

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "simplify/sampled_slope.h"
+
+namespace meshbound {
+
+/// Distances of sample points as linear functions of the motion d of one vertex: height - (x, y, z).d, in blocks of
+/// eight. A point whose closest point lies on a moved face at the barycentric share s of the vertex, in direction n,
+/// has the slope s n; the closest points stay where they are on their faces.
+struct LinearHeights {
+  std::vector<float> height, x, y, z;
+
+  void resize(std::size_t size) {
+    for (std::vector<float>* all : {&height, &x, &y, &z}) all->resize(size);
+  }
+  void add(float at, float slope_x, float slope_y, float slope_z) {
+    height.push_back(at);
+    x.push_back(slope_x);
+    y.push_back(slope_y);
+    z.push_back(slope_z);
+  }
+};
+
+/// Sums over heights h with slopes g and weights w = |h|^(p - 2): the normal equations of the step that lowers them.
+struct WeightedSums {
+  float weight = 0, square = 0;      ///< of w and of w h^2
+  std::array<float, 3> right = {};   ///< of w h g
+  std::array<float, 6> matrix = {};  ///< of w g g: xx, yy, zz, xy, yz, zx
+};
+
+/// The inner loops, chosen once, by processor; all give the same result to the bit.
+struct HeightKernel {
+  static constexpr std::size_t shares = 8;
+  using Move = std::array<float, 3>;
+
+  /// Of each point over the face nearest to it, when corner a of every face is moved. Lengths times `by_tolerance`.
+  void (*linearise)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
+                    LinearHeights& heights);
+  /// After the move, for p = 2^(doublings + 1). `scale` times the largest height must be about 1 or less.
+  WeightedSums (*weighted_sums)(const LinearHeights& heights, const Move& move, float scale, int doublings);
+  /// The largest height after the move and each of eight shares of a step beyond.
+  std::array<float, shares> (*largest_along)(const LinearHeights& heights, const Move& move, const Move& step,
+                                             const std::array<float, shares>& share);
+};
+[[nodiscard]] HeightKernel portable_height_kernel();
+[[nodiscard]] HeightKernel fastest_height_kernel();
+
+}  // namespace meshbound

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/vec3.h"
+#include "meshbound/proximity.h"
+#include "simplify/linear_heights.h"
+
+namespace meshbound {
+
+/// Where the one vertex that a few faces share lies best: the largest distance of the part of the original that they
+/// stand for, and of the vertex from the original, is least. Distances are linear while closest points stay, so each
+/// step solves a Chebyshev problem in three unknowns, by Newton's method on p-norms of growing p, and looks again. A
+/// guide, not a bound.
+class MinimaxPlacement {
+ public:
+  using Corners = std::array<Vec3, 3>;
+
+  MinimaxPlacement(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
+      : vertices_(vertices), triangles_(triangles), seen_(vertices.size(), 0), kernel_(fastest_height_kernel()) {}
+
+  /// Samples the corners of the given original triangles, and where these are few also middles of edges, that lie
+  /// within the tolerance of `faces`, those that the change takes away. `hint` is an original triangle near them.
+  void begin(double tolerance, std::span<const std::uint32_t> originals, std::span<const Corners> faces,
+             std::uint32_t hint);
+
+  /// Largest sampled distances in tolerances.
+  struct Step {
+    double here = 0;   ///< with `faces`
+    double there = 0;  ///< expected after `move`; where no move makes it small, a number that none goes below
+    Vec3 move;         ///< of the first corner of every face
+  };
+  [[nodiscard]] Step step(std::span<const Corners> faces, Proximity& original);
+
+ private:
+  void add_samples(std::span<const std::uint32_t> originals);
+  void set_faces(std::span<const Corners> faces, std::vector<SampleFace>& to) const;
+  void drop_far(SamplePoints& samples) const;
+  [[nodiscard]] Step step_by(const SamplePoints& samples, Vec3 vertex, Proximity& original);
+  void add_vertex(Vec3 p, Proximity& original);
+  [[nodiscard]] Step lowered() const;
+
+  const std::vector<Vec3>& vertices_;
+  const std::vector<std::array<std::uint32_t, 3>>& triangles_;
+  std::vector<std::uint32_t> seen_;
+  std::uint32_t round_ = 0;
+  HeightKernel kernel_;
+  SlopeKernel slope_kernel_ = fastest_slope_kernel();
+  double by_tolerance_ = 0;
+  Vec3 origin_;
+  SamplePoints samples_, few_;
+  bool only_few_ = false;  ///< `samples_` have not been compared with `removed_` yet
+  std::vector<SampleFace> removed_, faces_;
+  std::vector<std::uint32_t> found_;
+  std::uint32_t hint_ = 0;
+  LinearHeights heights_;
+};
+
+}  // namespace meshbound
