@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_samples = 192;
 /// Fewer corners of the original leave too much between them: middles of its edges are sampled as well, up to this many
 /// samples.
-constexpr std::size_t most_with_middles = 288;
+constexpr std::size_t most_with_middles = 384;
 /// One sample in this many tells for most edges that there is nothing to gain.
 constexpr std::size_t coarseness = 6;
 
