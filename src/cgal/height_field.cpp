@@ -15,8 +15,9 @@ constexpr double least_cosine = 0.7;
 
 void HeightField::add(const std::array<Vec3, 3>& c) {
   Face& face = faces_.emplace_back();
-  face.triangle = {c[0], c[1] - c[0], c[2] - c[0]};
-  const Vec3 normal = cross(face.triangle.ab, face.triangle.ac);
+  const CornerTriangle<double> triangle{c[0], c[1] - c[0], c[2] - c[0]};
+  face.triangle = PreparedTriangle(triangle);
+  const Vec3 normal = cross(triangle.ab, triangle.ac);
   const double area = length(normal);
   if (area > 0) face.normal = (1 / area) * normal;
   face.middle = (1.0 / 3) * (c[0] + c[1] + c[2]);
@@ -27,13 +28,13 @@ void HeightField::add(const std::array<Vec3, 3>& c) {
 Heights::Offset HeightField::height_of(Vec3 p) {
   if (last_ >= faces_.size()) last_ = 0;
   std::size_t best = last_;
-  TriangleOffset<double> nearest = closest_on_triangle(faces_[best].triangle, p);
+  TriangleOffset<double> nearest = faces_[best].triangle.closest(p);
   double least = std::sqrt(nearest.squared_distance);
   for (std::size_t i = 0; i < faces_.size(); ++i) {
     const Face& face = faces_[i];
-    if (i == last_ || std::abs(dot(face.normal, p - face.triangle.a)) >= least) continue;
+    if (i == last_ || std::abs(dot(face.normal, p - face.triangle.triangle().a)) >= least) continue;
     if (squared_length(p - face.middle) >= (face.radius + least) * (face.radius + least)) continue;
-    const TriangleOffset<double> other = closest_on_triangle(face.triangle, p);
+    const TriangleOffset<double> other = face.triangle.closest(p);
     if (!(other.squared_distance < nearest.squared_distance)) continue;
     nearest = other;
     least = std::sqrt(nearest.squared_distance);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/point_triangle.h"
+#include "geometry/prepared_triangle.h"
 
 namespace meshbound::cgal {
 
@@ -37,7 +37,7 @@ class HeightField {
 
  private:
   struct Face {
-    CornerTriangle<double> triangle;
+    PreparedTriangle triangle;
     Vec3 normal;  ///< unit, or 0 for zero area
     Vec3 middle;
     double radius = 0;  ///< of a ball around `middle` that holds the face

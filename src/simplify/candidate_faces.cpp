@@ -15,7 +15,7 @@ void CandidateFaces::clear(double tolerance) {
 
 void CandidateFaces::put(int k, const std::array<Vec3, 3>& corners) {
   corners_[k] = corners;
-  triangles_[k] = {corners[0], corners[1] - corners[0], corners[2] - corners[0]};
+  prepared_ &= ~(FaceMask{1} << k);
   missing_ |= 1U << (k / PlaneBlock::lanes);
 }
 
@@ -26,16 +26,25 @@ void CandidateFaces::make_planes(std::size_t block) {
   missing_ &= ~(1U << block);
 }
 
-bool CandidateFaces::holds(int k, Vec3 p) const {
-  return closest_on_triangle(triangles_[k], p).squared_distance <= squared_tolerance_;
+const PreparedTriangle& CandidateFaces::triangle(int k) {
+  PreparedTriangle& triangle = triangles_[k];
+  if (((prepared_ >> k) & 1U) == 0) {
+    const auto& [a, b, c] = corners_[k];
+    triangle = PreparedTriangle({a, b - a, c - a});
+    prepared_ |= FaceMask{1} << k;
+  }
+  return triangle;
 }
+
+bool CandidateFaces::holds(int k, Vec3 p) { return triangle(k).closest(p).squared_distance <= squared_tolerance_; }
 
 FaceMask CandidateFaces::holding(Vec3 p, FaceMask among) {
   const double squared_reach = squared_tolerance_ * (1 + 2 * plane_slack);
   FaceMask mask = 0;
-  for (int first = 0; (among >> first) != 0; first += PlaneBlock::lanes) {
+  for (FaceMask rest = among; rest != 0;) {
+    const int first = std::countr_zero(rest) / PlaneBlock::lanes * PlaneBlock::lanes;
     const unsigned wanted = static_cast<unsigned>(among >> first) & 15U;
-    if (wanted == 0) continue;
+    rest &= ~(FaceMask{15} << first);
     const SlabBits bits =
         kernel_.test(planes(static_cast<std::size_t>(first / PlaneBlock::lanes)), p, tolerance_, squared_reach);
     const unsigned inside = bits.inside & wanted & static_cast<unsigned>(flat_ >> first);
@@ -44,16 +53,15 @@ FaceMask CandidateFaces::holding(Vec3 p, FaceMask among) {
       const int k = first + std::countr_zero(doubtful);
       if (holds(k, p)) mask |= FaceMask{1} << k;
     }
-    if (first + PlaneBlock::lanes == capacity) break;
   }
   return mask;
 }
 
-FaceMask CandidateFaces::nearest(Vec3 p, FaceMask among) const {
+FaceMask CandidateFaces::nearest(Vec3 p, FaceMask among) {
   FaceMask best = 0;
   double least = HUGE_VAL;
   for (FaceMask rest = among; rest != 0; rest &= rest - 1) {
-    const double squared = closest_on_triangle(triangles_[std::countr_zero(rest)], p).squared_distance;
+    const double squared = triangle(std::countr_zero(rest)).closest(p).squared_distance;
     if (best != 0 && !(squared < least)) continue;
     least = squared;
     best = rest & (~rest + 1);
@@ -66,11 +74,12 @@ Reach CandidateFaces::reach(Vec3 p, Vec3 q, FaceMask of_p, FaceMask of_q) {
   const double rim = 0.3 * tolerance_;
   constexpr double unknown = 0.5;
   Reach reach;
-  for (std::size_t block = 0; block < blocks; ++block) {
+  for (FaceMask rest = of_p | of_q; rest != 0;) {
+    const std::size_t block = static_cast<std::size_t>(std::countr_zero(rest)) / PlaneBlock::lanes;
     const std::size_t first = block * PlaneBlock::lanes;
+    rest &= ~(FaceMask{15} << first);
     const unsigned forth = static_cast<unsigned>(of_p >> first) & 15U,
                    back = static_cast<unsigned>(of_q >> first) & 15U;
-    if ((forth | back) == 0) continue;
     const PlaneBlock& at = planes(block);
     const unsigned flat = static_cast<unsigned>(flat_ >> first);
     const Reach here = kernel_.reach(at, forth & flat, back & flat, p, q, tolerance_, rim);

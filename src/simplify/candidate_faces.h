@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "geometry/point_triangle.h"
+#include "geometry/prepared_triangle.h"
 #include "simplify/plane_block.h"
 
 namespace meshbound {
@@ -37,7 +37,7 @@ class CandidateFaces {
   [[nodiscard]] FaceMask holding(Vec3 p, FaceMask among);
 
   /// The member of `among` that is nearest to p.
-  [[nodiscard]] FaceMask nearest(Vec3 p, FaceMask among) const;
+  [[nodiscard]] FaceMask nearest(Vec3 p, FaceMask among);
 
   /// How far one can go from p towards q without leaving the slab around one of the faces of `of_p`, as a share of the
   /// way, and from q towards p with those of `of_q`; no face is in both. A guess where to cut, not a bound.
@@ -45,8 +45,9 @@ class CandidateFaces {
 
  private:
   static constexpr std::size_t blocks = capacity / PlaneBlock::lanes;
-  [[nodiscard]] bool holds(int k, Vec3 p) const;
+  [[nodiscard]] bool holds(int k, Vec3 p);
   void put(int k, const std::array<Vec3, 3>& corners);
+  [[nodiscard]] const PreparedTriangle& triangle(int k);
   /// The planes of candidates 4 block to 4 block + 3, made when they are first asked for, all at once.
   const PlaneBlock& planes(std::size_t block) {
     if (((missing_ >> block) & 1U) != 0) make_planes(block);
@@ -60,8 +61,9 @@ class CandidateFaces {
   std::array<PlaneBlock, blocks> blocks_{};
   std::uint32_t missing_ = 0;  ///< bit for each block whose planes are not those of its triangles yet
   std::array<std::array<Vec3, 3>, capacity> corners_{};
-  std::array<CornerTriangle<double>, capacity> triangles_{};
-  FaceMask flat_ = 0;  ///< those whose planes are accurate
+  std::array<PreparedTriangle, capacity> triangles_{};
+  FaceMask prepared_ = 0;  ///< those whose triangle is that of the corners
+  FaceMask flat_ = 0;      ///< those whose planes are accurate
 };
 
 }  // namespace meshbound

@@ -120,9 +120,20 @@ bool DegreeCover::set_view(const std::array<Vec3, 3>& face, double tolerance, do
   return true;
 }
 
+DegreeCover::Beyond DegreeCover::beyond(const ProjectedTriangle& t) const {
+  Beyond beyond;
+  for (std::size_t side = 0; side < 3; ++side) {
+    for (std::size_t k = 0; k < 3; ++k) beyond[side][k] = outside(side, t[k]);
+  }
+  return beyond;
+}
+
 /// Clips the triangle to the prism over T' and its rim, and looks at the heights of what is left.
-bool DegreeCover::heights_within(const ProjectedTriangle& t) const {
+bool DegreeCover::heights_within(const ProjectedTriangle& t, const Beyond& beyond) const {
   if (std::max({std::abs(t[0].h), std::abs(t[1].h), std::abs(t[2].h)}) <= height_limit_) return true;
+  for (const auto& of_side : beyond) {
+    if (std::min({of_side[0], of_side[1], of_side[2]}) > rim_) return true;
+  }
   std::array<Projected, most_clipped> polygon{t[0], t[1], t[2]}, clipped;
   std::size_t count = 3;
   for (std::size_t side = 0; side < 3; ++side) {
@@ -144,14 +155,16 @@ bool DegreeCover::heights_within(const ProjectedTriangle& t) const {
 }
 
 /// True when a line separates the projected edge from T' by more than the rim.
-bool DegreeCover::edge_is_clear(const Projected& p, const Projected& q) const {
-  for (std::size_t side = 0; side < 3; ++side) {
-    if (outside(side, p) > rim_ && outside(side, q) > rim_) return true;
+bool DegreeCover::edge_is_clear(const ProjectedTriangle& t, std::size_t k, const Beyond& beyond) const {
+  const std::size_t j = (k + 1) % 3;
+  for (const auto& of_side : beyond) {
+    if (of_side[k] > rim_ && of_side[j] > rim_) return true;
   }
+  const Projected &p = t[k], &q = t[j];
   const double dx = q.x - p.x, dy = q.y - p.y;
   double least = HUGE_VAL, most = -HUGE_VAL;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double turn = dx * (corner_y_[k] - p.y) - dy * (corner_x_[k] - p.x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double turn = dx * (corner_y_[i] - p.y) - dy * (corner_x_[i] - p.x);
     least = std::min(least, turn);
     most = std::max(most, turn);
   }
@@ -183,12 +196,13 @@ bool DegreeCover::covers(const std::array<Vec3, 3>& face, double tolerance, doub
     const std::uint32_t t = patch_[i];
     ProjectedTriangle corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = project(vertices_[triangles_[t][k]]);
-    if (!heights_within(corners)) return false;
+    const Beyond sides = beyond(corners);
+    if (!heights_within(corners, sides)) return false;
     if (above_centre(corners)) odd = !odd;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t next = neighbours_[t][k];
       if (next != no_neighbour && visited_[next] == round_) continue;
-      if (edge_is_clear(corners[k], corners[(k + 1) % 3])) continue;
+      if (edge_is_clear(corners, k, sides)) continue;
       if (next == no_neighbour || patch_.size() == largest_patch) return false;
       visited_[next] = round_;
       patch_.push_back(next);

@@ -47,8 +47,11 @@ class DegreeCover {
   [[nodiscard]] double outside(std::size_t side, const Projected& p) const {
     return side_x_[side] * p.x + side_y_[side] * p.y - side_offset_[side];
   }
-  [[nodiscard]] bool heights_within(const ProjectedTriangle& t) const;
-  [[nodiscard]] bool edge_is_clear(const Projected& p, const Projected& q) const;
+  /// How far each corner is beyond each side of T'.
+  using Beyond = std::array<std::array<double, 3>, 3>;  ///< by side and corner
+  [[nodiscard]] Beyond beyond(const ProjectedTriangle& t) const;
+  [[nodiscard]] bool heights_within(const ProjectedTriangle& t, const Beyond& beyond) const;
+  [[nodiscard]] bool edge_is_clear(const ProjectedTriangle& t, std::size_t k, const Beyond& beyond) const;
   [[nodiscard]] bool above_centre(const ProjectedTriangle& t) const;
 
   const std::vector<Vec3>& vertices_;

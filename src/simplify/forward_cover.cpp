@@ -153,12 +153,11 @@ bool ForwardCover::cut(const Piece& piece, FaceMask allowed, Asked asked) {
   FaceMask mask = candidates_.holding(middle, likely);
   if (mask == 0) mask = candidates_.holding(middle, allowed & ~likely);
   if (mask == 0) return false;
-  open_.push_back(piece);
-  open_.back().corners[to] = middle;
-  open_.back().masks[to] = mask;
-  open_.push_back(piece);
-  open_.back().corners[from] = middle;
-  open_.back().masks[from] = mask;
+  const std::size_t other = 3 - from - to;
+  const Vec3 apex = piece.corners[other];
+  const FaceMask at_apex = piece.masks[other], at_from = piece.masks[from], at_to = piece.masks[to];
+  open_.push_back({{p, middle, apex}, {at_from, mask, at_apex}});
+  open_.push_back({{middle, q, apex}, {mask, at_to, at_apex}});
   return true;
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "geometry/point_triangle.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+/// A triangle with what `closest_on_triangle` needs of it alone, four divisions among it: for those that are asked for
+/// the distances of several points.
+class PreparedTriangle {
+ public:
+  PreparedTriangle() = default;
+  explicit PreparedTriangle(const CornerTriangle<double>& t)
+      : t_(t), bc_(t.ac - t.ab), along_(detail::reciprocal(dot(t.ab, t.ab))), ab_ac_(dot(t.ab, t.ac)) {
+    across_ = t.ac - (ab_ac_ * along_) * t.ab;
+    per_across_ = detail::reciprocal(dot(across_, across_));
+    per_ac_ = detail::reciprocal(dot(t.ac, t.ac));
+    per_bc_ = detail::reciprocal(dot(bc_, bc_));
+  }
+
+  /// The same to the last bit as `closest_on_triangle`.
+  [[nodiscard]] TriangleOffset<double> closest(Vec3 p) const {
+    const Vec3 ap = p - t_.a;
+    const double ab_ap = dot(t_.ab, ap);
+    const Vec3 rest = ap - (ab_ap * along_) * t_.ab;
+    const double w = detail::clamped(dot(rest, across_) * per_across_, 1.0);
+    const double v = detail::clamped((ab_ap - w * ab_ac_) * along_, 1.0 - w);
+    const Vec3 from_inside = (ap - v * t_.ab) - w * t_.ac;
+    TriangleOffset<double> best{from_inside, squared_length(from_inside)};
+    const Vec3 from_ac = ap - detail::clamped(dot(t_.ac, ap) * per_ac_, 1.0) * t_.ac;
+    detail::keep_nearer(best, from_ac, squared_length(from_ac));
+    const Vec3 bp = ap - t_.ab;
+    const Vec3 from_bc = bp - detail::clamped(dot(bc_, bp) * per_bc_, 1.0) * bc_;
+    detail::keep_nearer(best, from_bc, squared_length(from_bc));
+    return best;
+  }
+  [[nodiscard]] const CornerTriangle<double>& triangle() const { return t_; }
+
+ private:
+  CornerTriangle<double> t_;
+  Vec3 bc_, across_;
+  double along_ = 0, ab_ac_ = 0, per_across_ = 0, per_ac_ = 0, per_bc_ = 0;
+};
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound
