@@ -68,7 +68,10 @@ Eigen::AlignedBox3d checked_box(const MeshView& mesh, int threads) {
     }
 #pragma omp barrier
 #pragma omp single
-    for (unsigned side = 0; side < 6 && all.at[side] < vertices; ++side) sides[all.at[side]] |= 1U << side;
+    for (unsigned side = 0; side < 6 && all.at[side] < vertices; ++side) {
+      std::uint8_t& of_vertex = sides[all.at[side]];
+      of_vertex = static_cast<std::uint8_t>(of_vertex | 1U << side);
+    }
 #pragma omp for schedule(static) reduction(&& : sound) reduction(| : used)
     for (std::size_t i = 0; i < triangles; ++i) {
       for (const std::uint32_t v : mesh.triangle(i)) {
