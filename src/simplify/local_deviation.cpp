@@ -28,17 +28,9 @@ void LocalDeviation::begin(double tolerance, std::span<const std::uint32_t> orig
   if (faces.empty()) return;
   origin_ = faces.front()[0];
   set_faces(faces);
-  ++round_;
-  found_.clear();
-  for (const std::uint32_t t : originals) {
-    for (const std::uint32_t v : triangles_[t]) {
-      if (seen_[v] == round_) continue;
-      seen_[v] = round_;
-      found_.push_back(v);
-    }
-  }
-  const std::size_t stride = (found_.size() + most_samples - 1) / most_samples;
-  for (std::size_t i = 0; i < found_.size(); i += stride) samples_.add(vertices_[found_[i]] - origin_, 1);
+  const std::span<const std::uint32_t> corners = corners_.of(originals);
+  const std::size_t stride = (corners.size() + most_samples - 1) / most_samples;
+  for (std::size_t i = 0; i < corners.size(); i += stride) samples_.add(vertices_[corners[i]] - origin_, 1);
   while (samples_.size() % 8 != 0) samples_.add({}, 0);
   // Triangles that reach over the rim of the change have corners that other faces answer for.
   kernel_.drop_far(samples_, faces_, static_cast<float>(tolerance));

@@ -7,6 +7,7 @@
 
 #include "geometry/vec3.h"
 #include "meshbound/proximity.h"
+#include "simplify/distinct_corners.h"
 #include "simplify/sampled_slope.h"
 
 namespace meshbound {
@@ -19,7 +20,10 @@ class LocalDeviation {
   using Corners = std::array<Vec3, 3>;
 
   LocalDeviation(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
-      : vertices_(vertices), triangles_(triangles), seen_(vertices.size(), 0), kernel_(fastest_slope_kernel()) {}
+      : vertices_(vertices),
+        triangles_(triangles),
+        corners_(triangles, vertices.size()),
+        kernel_(fastest_slope_kernel()) {}
 
   /// Samples the corners of the given original triangles that lie within the tolerance of `faces`, those that the
   /// change takes away. `hint` is an original triangle near them.
@@ -36,14 +40,12 @@ class LocalDeviation {
 
   const std::vector<Vec3>& vertices_;
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
-  std::vector<std::uint32_t> seen_;
-  std::uint32_t round_ = 0;
+  DistinctCorners corners_;
   SlopeKernel kernel_;
   double by_tolerance_ = 0;
   Vec3 origin_;
   SamplePoints samples_;
   std::vector<SampleFace> faces_;
-  std::vector<std::uint32_t> found_;
   std::uint32_t hint_ = 0;
   std::vector<std::uint32_t> hints_;  ///< original triangle near each point of the faces
 };

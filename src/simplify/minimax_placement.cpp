@@ -85,18 +85,10 @@ void MinimaxPlacement::drop_far(SamplePoints& samples) const {
 }
 
 void MinimaxPlacement::add_samples(std::span<const std::uint32_t> originals) {
-  ++round_;
-  found_.clear();
-  for (const std::uint32_t t : originals) {
-    for (const std::uint32_t v : triangles_[t]) {
-      if (seen_[v] == round_) continue;
-      seen_[v] = round_;
-      found_.push_back(v);
-    }
-  }
+  const std::span<const std::uint32_t> corners = corners_.of(originals);
   const auto stride_of = [](std::size_t points, std::size_t room) { return (points + room - 1) / room; };
-  const std::size_t stride = stride_of(found_.size(), most_samples);
-  for (std::size_t i = 0; i < found_.size(); i += stride) samples_.add(vertices_[found_[i]] - origin_, 1);
+  const std::size_t stride = stride_of(corners.size(), most_samples);
+  for (std::size_t i = 0; i < corners.size(); i += stride) samples_.add(vertices_[corners[i]] - origin_, 1);
   if (stride > 1) return;
   const std::size_t step = stride_of(3 * originals.size() / 2, most_with_middles - samples_.size());
   std::size_t middles = 0;

@@ -7,6 +7,7 @@
 
 #include "geometry/vec3.h"
 #include "meshbound/proximity.h"
+#include "simplify/distinct_corners.h"
 #include "simplify/linear_heights.h"
 
 namespace meshbound {
@@ -20,7 +21,10 @@ class MinimaxPlacement {
   using Corners = std::array<Vec3, 3>;
 
   MinimaxPlacement(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
-      : vertices_(vertices), triangles_(triangles), seen_(vertices.size(), 0), kernel_(fastest_height_kernel()) {}
+      : vertices_(vertices),
+        triangles_(triangles),
+        corners_(triangles, vertices.size()),
+        kernel_(fastest_height_kernel()) {}
 
   /// Samples the corners of the given original triangles, and where these are few also middles of edges, that lie
   /// within the tolerance of `faces`, those that the change takes away. `hint` is an original triangle near them.
@@ -45,8 +49,7 @@ class MinimaxPlacement {
 
   const std::vector<Vec3>& vertices_;
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
-  std::vector<std::uint32_t> seen_;
-  std::uint32_t round_ = 0;
+  DistinctCorners corners_;
   HeightKernel kernel_;
   SlopeKernel slope_kernel_ = fastest_slope_kernel();
   double by_tolerance_ = 0;
@@ -54,7 +57,6 @@ class MinimaxPlacement {
   SamplePoints samples_, few_;
   bool only_few_ = false;  ///< `samples_` have not been compared with `removed_` yet
   std::vector<SampleFace> removed_, faces_;
-  std::vector<std::uint32_t> found_;
   std::uint32_t hint_ = 0;
   LinearHeights heights_;
 };
