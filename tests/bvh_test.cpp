@@ -10,10 +10,12 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <string>
 
 #include "bvh/build.h"
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
+#include "meshbound/error.h"
 #include "reference/exact_distance.h"
 #include "reference/small_meshes.h"
 
@@ -237,6 +239,46 @@ TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
       SCOPED_TRACE(threads);
       expect_same(one.data(), Bvh(mesh, {.threads = threads}).data());
     }
+  }
+}
+
+TEST(Bvh, TwoBuiltAtOnceAreThoseBuiltOneByOne) {
+  const TriangleMesh large = scrambled(icosphere(6)), like = fan(70000), small = icosphere(5), tiny = unit_square(1);
+  const std::pair<const TriangleMesh*, const TriangleMesh*> pairs[] = {
+      {&large, &large}, {&large, &like}, {&small, &large}, {&large, &tiny}, {&tiny, &tiny}};
+  for (const auto& [a, b] : pairs) {
+    const Bvh one_a(*a, {.threads = 1}), one_b(*b, {.threads = 1});
+    for (const int threads : {1, 2, 3, 20}) {
+      SCOPED_TRACE(std::to_string(a->triangles.size()) + " and " + std::to_string(b->triangles.size()) +
+                   " triangles by " + std::to_string(threads) + " threads");
+      const auto [tree_a, tree_b] = build_trees(*a, *b, {.threads = threads});
+      expect_same(one_a.data(), tree_a.data());
+      expect_same(one_b.data(), tree_b.data());
+      EXPECT_NE(tree_a.data().serial, tree_b.data().serial);
+    }
+  }
+}
+
+std::string refusal_of(const TriangleMesh& a, const TriangleMesh& b, int threads) {
+  try {
+    static_cast<void>(build_trees(a, b, {.threads = threads}));
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Bvh, TwoBuiltAtOnceRefuseWhatOneRefusesTheFirstMeshFirst) {
+  const TriangleMesh good = icosphere(5);
+  TriangleMesh infinite = good, dangling = good;
+  infinite.vertices[17].x() = std::numeric_limits<double>::infinity();
+  dangling.triangles.back()[1] = 1000000;
+  for (const int threads : {1, 2, 3}) {
+    EXPECT_EQ(refusal_of(good, good, threads), "");
+    EXPECT_NE(refusal_of(infinite, good, threads), "");
+    EXPECT_NE(refusal_of(infinite, dangling, threads), refusal_of(dangling, infinite, threads));
+    EXPECT_EQ(refusal_of(infinite, dangling, threads), refusal_of(infinite, good, threads));
+    EXPECT_EQ(refusal_of(dangling, infinite, threads), refusal_of(good, dangling, threads));
   }
 }
 

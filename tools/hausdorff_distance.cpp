@@ -340,8 +340,7 @@ int run(const Arguments& arguments) {
 
   std::optional<Answer> found = answer_without_trees(question, a.mesh, b.mesh, arguments.method);
   if (!found) {
-    const Bvh tree_a(a.mesh, {arguments.common.threads});
-    const Bvh tree_b(b.mesh, {arguments.common.threads});
+    const auto [tree_a, tree_b] = build_trees(a.mesh, b.mesh, {arguments.common.threads});
     report.seconds.build = watch.lap();
     ProgressBar bar("measuring", arguments.common.quiet);
     found = answer_by_trees(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));

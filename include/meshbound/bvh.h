@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "meshbound/bounds.h"
 #include "meshbound/mesh_view.h"
@@ -46,8 +47,16 @@ class Bvh {
   [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
+  explicit Bvh(std::unique_ptr<const Data> data);
+  friend std::pair<Bvh, Bvh> build_trees(const MeshView& a, const MeshView& b, const BvhOptions& options);
+
   std::unique_ptr<const Data> data_;
 };
+
+/// Two trees at once, for the distance between two meshes: those that the constructor builds, but on several threads
+/// sooner than one after the other, as each thread builds a tree of its own where the meshes are of like size. Needs
+/// the memory of both builds at once. Throws as the constructor, for `a` first.
+[[nodiscard]] std::pair<Bvh, Bvh> build_trees(const MeshView& a, const MeshView& b, const BvhOptions& options = {});
 
 /// The answer of a closest-point query: `point` lies on the mesh up to rounding, and the distance from the query to the
 /// mesh lies within `distance`.

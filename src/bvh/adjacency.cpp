@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// What lies across the edges of the triangles. Each half-edge is put into the bucket of the smaller of its vertices
-/// (a counting sort), where it meets the others of its edge. Each thread fills the buckets of one run of vertices,
-/// which are those that its run of slots is the first to use: but for the seams between runs no thread writes where
-/// another one does.
+/// (a counting sort), where it meets the others of its edge. One thread fills the buckets of a run of vertices, which
+/// are those that its run of slots is the first to use: but for the seams between runs no thread writes where another
+/// one does.
 #include <algorithm>
 #include <bit>
 
 #include "bvh/build.h"
-#include "numeric/first_error.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -19,6 +19,9 @@ constexpr std::uint32_t most_compared = 64;
 /// They are compared eight at a time, so what lies behind a bucket is read too.
 constexpr std::uint32_t compared_at_once = 8;
 constexpr std::uint32_t no_vertex = 0xffffffff;
+
+/// A closed surface has twice as many triangles as vertices.
+constexpr std::size_t vertices_per_task = triangles_per_task / 2;
 
 /// An edge of a triangle, seen from the smaller of its vertices.
 struct HalfEdge {
@@ -48,23 +51,20 @@ class AdjacencyBuild {
 
   void run() {
     data_.neighbours.resize(data_.corners.size());
-    FirstError error;
-#pragma omp parallel num_threads(static_cast <int>(runs_))
-    {
-#pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) error.guard([&] { count(r); });
-#pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) size_[r] = add_seams_and_sum(r);
-#pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) {
-        fill(r);
-        match(r);
-      }
-    }
-    error.rethrow();
+    for_each_run([&](std::uint32_t r) { count(r); });
+    for_each_run([&](std::uint32_t r) { size_[r] = add_seams_and_sum(r); });
+    for_each_run([&](std::uint32_t r) {
+      fill(r);
+      match(r);
+    });
   }
 
  private:
+  template <class Work>
+  void for_each_run(Work&& work) {
+    for_each_task(runs_, [&](std::size_t r) { work(static_cast<std::uint32_t>(r)); });
+  }
+
   [[nodiscard]] std::uint32_t begin(std::uint32_t run) const { return run_begin(data_.triangle_count(), run, runs_); }
 
   template <class Use>
@@ -136,8 +136,16 @@ class AdjacencyBuild {
   /// meet, nothing on a border.
   void match(std::uint32_t run) {
     HalfEdge* const edges = edges_of(run);
-    std::uint32_t begin = 0;
-    for (std::uint32_t v = first_vertex_[run]; v < first_vertex_[run + 1]; ++v) {
+    const std::uint32_t first = first_vertex_[run], count = first_vertex_[run + 1] - first;
+    for_each_range(count, vertices_per_task, [&](std::size_t begin, std::size_t end) {
+      match_buckets(edges, first, first + static_cast<std::uint32_t>(begin), first + static_cast<std::uint32_t>(end));
+    });
+  }
+
+  /// Those of the vertices from `from` to below `to`, in a run that begins with vertex `first`.
+  void match_buckets(HalfEdge* edges, std::uint32_t first, std::uint32_t from, std::uint32_t to) {
+    std::uint32_t begin = from == first ? 0 : bucket_end_[from - 1];
+    for (std::uint32_t v = from; v < to; ++v) {
       const std::uint32_t end = bucket_end_[v];
       if (end - begin > most_compared)
         match_by_sorting(edges + begin, edges + end);

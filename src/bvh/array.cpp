@@ -9,6 +9,8 @@
 #include <sys/mman.h>
 #endif
 
+#include "numeric/tasks.h"
+
 namespace meshbound {
 namespace {
 
@@ -26,16 +28,16 @@ void* allocate_on_large_pages(std::size_t bytes) {
   return storage;
 }
 
-Arena::Arena(std::size_t bytes, int threads) {
+Arena::Arena(std::size_t bytes) {
   // A last page that is used by half is worth its memory.
   const std::size_t rounded = (bytes + large_page / 2) / large_page * large_page;
   if (rounded == 0) return;
   bytes_ = std::max(bytes, rounded);
   block_.reset(static_cast<std::byte*>(allocate_on_large_pages(bytes_)));
-  if (threads == 1) return;
-  std::byte* const block = block_.get();
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-  for (std::size_t at = 0; at < rounded; at += large_page) block[at] = std::byte{0};
+}
+
+void Arena::touch() {
+  for_each_task(bytes_ / large_page, [&](std::size_t page) { block_.get()[page * large_page] = std::byte{0}; });
 }
 
 void* Arena::take(std::size_t bytes) noexcept {

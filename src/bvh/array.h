@@ -23,9 +23,12 @@ class Arena {
  public:
   Arena() = default;  ///< has nothing to give
   /// A block too small to fill a good part of a large page is not worth one: then it has nothing to give either.
-  /// Several threads share its pages for the first touch, each of which takes as long as a thousand triangles do:
-  /// threads that meet at a page would both clear it, and one of them for nothing.
-  explicit Arena(std::size_t bytes, int threads = 1);
+  explicit Arena(std::size_t bytes);
+
+  /// Where several threads are to use it: they share its pages for the first touch (`for_each_task`), each of which
+  /// takes as long as a thousand triangles do. Threads that meet at a page would both clear it, one of them for
+  /// nothing.
+  void touch();
 
   /// At the begin of a cache line, which no other array then shares. Null where so much is not left.
   [[nodiscard]] void* take(std::size_t bytes) noexcept;

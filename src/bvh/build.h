@@ -8,9 +8,13 @@
 
 namespace meshbound {
 
-/// The steps of building `Bvh::Data`; each fills the members named after it from those filled before.
-/// Every one gives the same result for any number of threads. What they need for themselves comes from `scratch`, which
-/// they leave cleared.
+/// The steps of building `Bvh::Data`; each fills the members named after it from those filled before, by tasks for the
+/// team of threads that it is called in (numeric/tasks.h). What cannot be cut finely is cut into `runs`, one for each
+/// thread. Every step gives the same result for any number of threads and runs. What they need for themselves comes
+/// from `scratch`, which they leave cleared.
+
+/// Triangles or vertices of a task: some ten microseconds of work.
+inline constexpr std::size_t triangles_per_task = 4096;
 
 /// Box, diagonal and frame, and a new serial number. `box`: of the vertices that triangles use, model units.
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
@@ -19,7 +23,7 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so that the order is unique.
-void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads);
+void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
 
 /// Where run `r` of `runs` equal runs of n things begins.
 inline std::uint32_t run_begin(std::uint32_t n, std::uint32_t r, std::uint32_t runs) {
@@ -29,12 +33,12 @@ inline std::uint32_t run_begin(std::uint32_t n, std::uint32_t r, std::uint32_t r
 /// `vertices`, `source_vertex`, `corners` with the longest edge first (what `closest_on_triangle` asks for), and the
 /// frame's error. Returns for each of some equal runs of slots the first of the vertices that it is the first to use,
 /// and after the last run their number.
-std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads);
+std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
 
-/// `neighbours`, by as many threads as there are runs. `first_vertex`: as `place_vertices` returned it.
+/// `neighbours`. `first_vertex`: as `place_vertices` returned it.
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
-void build_normals(Bvh::Data& data, int threads);
-void build_nodes(Bvh::Data& data, int threads);
+void build_normals(Bvh::Data& data);
+void build_nodes(Bvh::Data& data);
 
 /// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.
 Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);

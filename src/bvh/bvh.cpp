@@ -4,16 +4,19 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "bvh/build.h"
 #include "bvh/bvh_data.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/rounding.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -41,62 +44,72 @@ struct Extremes {
   }
 };
 
-/// As `used_bounding_box` after `validate`, by all threads: the box of all vertices is that of the used ones if those
-/// at its sides are used, so that no two threads write to one table.
-Eigen::AlignedBox3d checked_box(const MeshView& mesh, int threads) {
-  constexpr std::size_t most_indexed = std::size_t{1} << 32;
-  const std::size_t triangles = mesh.triangle_count(), vertices = std::min(mesh.vertex_count(), most_indexed);
-  Extremes all;
-  std::vector<std::uint8_t> sides(vertices, 0);  // by vertex, a bit for each of the six that it is
-  bool sound = triangles > 0;
-  unsigned used = 0;
-#pragma omp parallel num_threads(threads)
-  {
+/// Of the vertices of a mesh. `sound`: all coordinates may be used.
+Extremes extremes_of(const MeshView& mesh, std::size_t vertices, std::atomic<bool>& sound) {
+  std::vector<Extremes> of_task(vertices / triangles_per_task + 1);
+  for_each_range(vertices, triangles_per_task, [&](std::size_t begin, std::size_t end) {
     Extremes own;
-#pragma omp for schedule(static) reduction(&& : sound) nowait
-    for (std::size_t v = 0; v < vertices; ++v) {
+    bool own_sound = true;
+    for (std::size_t v = begin; v < end; ++v) {
       const Eigen::Vector3d p = mesh.vertex(v);
       for (int axis = 0; axis < 3; ++axis) {
-        sound = sound && std::abs(p[axis]) <= largest_coordinate;
+        own_sound = own_sound && std::abs(p[axis]) <= largest_coordinate;
         own.extend(p[axis], axis, static_cast<std::uint32_t>(v));
       }
     }
-#pragma omp critical(meshbound_box)
+    of_task[begin / triangles_per_task] = own;
+    if (!own_sound) sound = false;
+  });
+  Extremes all;
+  for (const Extremes& own : of_task) {
     for (int axis = 0; axis < 3; ++axis) {
       all.extend(own.lo[axis], axis, own.at[axis]);
       all.extend(own.hi[axis], axis, own.at[3 + axis]);
     }
-#pragma omp barrier
-#pragma omp single
-    for (unsigned side = 0; side < 6 && all.at[side] < vertices; ++side) {
-      std::uint8_t& of_vertex = sides[all.at[side]];
-      of_vertex = static_cast<std::uint8_t>(of_vertex | 1U << side);
-    }
-#pragma omp for schedule(static) reduction(&& : sound) reduction(| : used)
-    for (std::size_t i = 0; i < triangles; ++i) {
+  }
+  return all;
+}
+
+/// Which of the six extreme vertices triangles use, a bit for each. `sound`: all indices are in range.
+unsigned used_extremes(const MeshView& mesh, const Extremes& all, std::size_t vertices, std::atomic<bool>& sound) {
+  std::vector<std::uint8_t> sides(vertices, 0);  // by vertex, the bits of those that it is
+  for (unsigned side = 0; side < 6 && all.at[side] < vertices; ++side) {
+    std::uint8_t& of_vertex = sides[all.at[side]];
+    of_vertex = static_cast<std::uint8_t>(of_vertex | 1U << side);
+  }
+  std::atomic<unsigned> used{0};
+  for_each_range(mesh.triangle_count(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    unsigned own_used = 0;
+    bool own_sound = true;
+    for (std::size_t i = begin; i < end; ++i) {
       for (const std::uint32_t v : mesh.triangle(i)) {
         if (v < vertices)
-          used |= sides[v];
+          own_used |= sides[v];
         else
-          sound = false;
+          own_sound = false;
       }
     }
-  }
+    used |= own_used;
+    if (!own_sound) sound = false;
+  });
+  return used;
+}
+
+/// As `used_bounding_box` after `validate`, by tasks: the box of all vertices is that of the used ones if those at its
+/// sides are used, so that no two threads write to one table.
+Eigen::AlignedBox3d checked_box(const MeshView& mesh) {
+  constexpr std::size_t most_indexed = std::size_t{1} << 32;
+  const std::size_t vertices = std::min(mesh.vertex_count(), most_indexed);
+  std::atomic<bool> sound = mesh.triangle_count() > 0;
+  const Extremes all = extremes_of(mesh, vertices, sound);
+  const unsigned used = used_extremes(mesh, all, vertices, sound);
   Eigen::AlignedBox3d box(Eigen::Map<const Eigen::Vector3d>(all.lo), Eigen::Map<const Eigen::Vector3d>(all.hi));
   if (!sound || used != 0x3f) {
     validate(mesh);  // says what is wrong, and throws; or nothing, where what is wrong is not used
     box = used_bounding_box(mesh);
   }
-  // -0 and 0 are one position, whichever the threads met first.
+  // -0 and 0 are one position.
   return {box.min() + Eigen::Vector3d::Zero(), box.max() + Eigen::Vector3d::Zero()};
-}
-
-/// A build has some twenty parallel steps; below this many triangles each is over before another thread has woken up.
-constexpr std::size_t triangles_per_thread = 4096;
-
-int thread_count(int wanted, std::size_t triangles) {
-  const int most = wanted > 0 ? wanted : omp_get_max_threads();
-  return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(most), 1 + triangles / triangles_per_thread));
 }
 
 std::size_t most_used_vertices(const MeshView& mesh) {
@@ -119,17 +132,44 @@ std::size_t scratch_bytes(const MeshView& mesh) {
   return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * most_used_vertices(mesh) + rounding;
 }
 
-std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, int threads) {
+std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {
   check_floating_point_model();
   check_size(mesh);
-  auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh), threads);
-  Arena scratch(scratch_bytes(mesh), threads);
-  set_frame(*data, checked_box(mesh, threads));
-  hilbert_order(*data, mesh, scratch, threads);
-  build_adjacency(*data, place_vertices(*data, mesh, scratch, threads), scratch);
-  build_normals(*data, threads);
-  build_nodes(*data, threads);
+  auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh));
+  Arena scratch(scratch_bytes(mesh));
+  if (runs > 1) {
+    data->arena.touch();
+    scratch.touch();
+  }
+  set_frame(*data, checked_box(mesh));
+  hilbert_order(*data, mesh, scratch, runs);
+  build_adjacency(*data, place_vertices(*data, mesh, scratch, runs), scratch);
+  build_normals(*data);
+  build_nodes(*data);
   return data;
+}
+
+/// Below this many triangles a build is over before another thread has woken up.
+constexpr std::size_t triangles_per_thread = 4096;
+
+/// Trees of several meshes. Threads are shared out by size; one that has built its tree helps with the tasks of others.
+template <std::size_t count>
+std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<MeshView, count>& meshes, int wanted) {
+  std::size_t triangles = 0;
+  for (const MeshView& mesh : meshes) triangles += mesh.triangle_count();
+  const auto most = static_cast<std::size_t>(wanted > 0 ? wanted : omp_get_max_threads());
+  const std::size_t threads = std::min(most, 1 + triangles / triangles_per_thread);
+  std::array<std::unique_ptr<const Bvh::Data>, count> trees;
+  std::array<FirstError, count> errors;
+#pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t size = meshes[i].triangle_count();
+    const std::size_t share = (2 * threads * size + triangles) / (2 * triangles + 1);
+    const std::size_t runs = std::clamp<std::size_t>(share, 1, 1 + size / triangles_per_thread);
+    errors[i].guard([&] { trees[i] = build(meshes[i], runs); });
+  }
+  for (const FirstError& error : errors) error.rethrow();
+  return trees;
 }
 
 template <class Vector>
@@ -149,11 +189,16 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};
 }
 
-Bvh::Bvh(const MeshView& mesh, const BvhOptions& options)
-    : data_(build(mesh, thread_count(options.threads, mesh.triangle_count()))) {}
+Bvh::Bvh(const MeshView& mesh, const BvhOptions& options) : Bvh(std::move(build_all<1>({mesh}, options.threads)[0])) {}
+Bvh::Bvh(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 Bvh::~Bvh() = default;
+
+std::pair<Bvh, Bvh> build_trees(const MeshView& a, const MeshView& b, const BvhOptions& options) {
+  auto trees = build_all<2>({a, b}, options.threads);
+  return {Bvh(std::move(trees[0])), Bvh(std::move(trees[1]))};
+}
 
 std::size_t Bvh::triangle_count() const { return data_->corners.size(); }
 const Eigen::AlignedBox3d& Bvh::bounding_box() const { return data_->bounding_box; }

@@ -39,7 +39,7 @@ struct Neighbour {
 
 struct Bvh::Data {
   Data() = default;
-  Data(std::size_t arena_bytes, int threads) : arena(arena_bytes, threads) {}
+  explicit Data(std::size_t arena_bytes) : arena(arena_bytes) {}
 
   Arena arena;               ///< of the arrays of a new tree, as far as it has room
   std::uint64_t serial = 0;  ///< of these coordinates; never given twice in a process

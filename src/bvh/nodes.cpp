@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bvh/build.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -57,22 +58,38 @@ std::vector<std::uint32_t> level_sizes(std::uint32_t blocks) {
   return sizes;
 }
 
-}  // namespace
-
-void build_normals(Bvh::Data& data, int threads) {
-  data.normals.resize(data.triangle_count());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
-    const Triangle& t = data.corners[slot];
-    const Vec3 a = data.vertices[t[0]], ab = data.vertices[t[1]] - a, ac = data.vertices[t[2]] - a;
-    const Vec3 normal = cross(ab, ac);
-    const double norm = length(normal), scale = norm > 0 ? 1 / norm : 0;
-    data.normals[slot] = {static_cast<float>(normal.x * scale), static_cast<float>(normal.y * scale),
-                          static_cast<float>(normal.z * scale)};
+/// Node `index` of a level, from the `below` members of the level below.
+void build_node(Bvh::Data& data, std::uint32_t level, std::uint32_t index, std::uint32_t below) {
+  BvhNode& node = data.nodes[data.level_begin[level] + index];
+  for (std::uint32_t k = 0; k < node_width; ++k) {
+    const std::uint32_t child = index * node_width + k;
+    if (child >= below)
+      set_empty(node, k);
+    else
+      set_child(node, k, level == 1 ? block_box(data, child) : node_box(data, level - 1, child));
   }
 }
 
-void build_nodes(Bvh::Data& data, int threads) {
+/// A node of the lowest level is the work of so many triangles.
+constexpr std::size_t nodes_per_task = triangles_per_task / (block_width * node_width);
+
+}  // namespace
+
+void build_normals(Bvh::Data& data) {
+  data.normals.resize(data.triangle_count());
+  for_each_range(data.triangle_count(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const Triangle& t = data.corners[slot];
+      const Vec3 a = data.vertices[t[0]], ab = data.vertices[t[1]] - a, ac = data.vertices[t[2]] - a;
+      const Vec3 normal = cross(ab, ac);
+      const double norm = length(normal), scale = norm > 0 ? 1 / norm : 0;
+      data.normals[slot] = {static_cast<float>(normal.x * scale), static_cast<float>(normal.y * scale),
+                            static_cast<float>(normal.z * scale)};
+    }
+  });
+}
+
+void build_nodes(Bvh::Data& data) {
   const std::vector<std::uint32_t> sizes = level_sizes(data.block_count());
   data.level_begin.assign(1, 0);
   data.level_begin.push_back(0);  // level 0 has no nodes: its members are the blocks
@@ -80,17 +97,10 @@ void build_nodes(Bvh::Data& data, int threads) {
     data.level_begin.push_back(data.level_begin.back() + sizes[level]);
   data.nodes.resize(data.level_begin.back());
   for (std::uint32_t level = 1; level < sizes.size(); ++level) {
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::uint32_t i = 0; i < sizes[level]; ++i) {
-      BvhNode& node = data.nodes[data.level_begin[level] + i];
-      for (std::uint32_t k = 0; k < node_width; ++k) {
-        const std::uint32_t child = i * node_width + k;
-        if (child >= sizes[level - 1])
-          set_empty(node, k);
-        else
-          set_child(node, k, level == 1 ? block_box(data, child) : node_box(data, level - 1, child));
-      }
-    }
+    for_each_range(sizes[level], nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        build_node(data, level, static_cast<std::uint32_t>(i), sizes[level - 1]);
+    });
   }
 }
 

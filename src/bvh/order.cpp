@@ -9,7 +9,7 @@
 
 #include "bvh/build.h"
 #include "geometry/hilbert.h"
-#include "numeric/first_error.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -45,7 +45,7 @@ void radix_sort(std::span<Keyed> from, std::span<Keyed> to, int first, int end, 
   }
 }
 
-/// Items divided by key into parts, one for each thread, which then sorts it where no other thread writes: threads that
+/// Items divided by key into parts, each of which one thread then sorts where no other thread writes: threads that
 /// scatter into one array by digits write to the same cache lines.
 class Partition {
  public:
@@ -56,7 +56,7 @@ class Partition {
     for (std::size_t part = 1; part < parts; ++part) first_of_.push_back(samples[samples_per_part * part]);
   }
 
-  /// How many items of a run, by the thread of that run, belong to each part.
+  /// How many items of a run belong to each part.
   void count(std::size_t run) {
     std::vector<std::uint32_t> counts(parts_, 0);
     for_each(run, [&](std::size_t part, Keyed) { ++counts[part]; });
@@ -93,35 +93,26 @@ class Partition {
 };
 
 /// By key; items of one key keep their order.
-void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end, int threads) {
+void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end, std::size_t parts) {
   const int passes = (end - first + digit_bits - 1) / digit_bits;
-  if (threads == 1) {
+  if (parts == 1) {
     radix_sort(items, scratch, first, end, passes);
     if (passes % 2 != 0) items.swap(scratch);
     return;
   }
-  const auto parts = static_cast<std::size_t>(threads);
   Partition partition(items, parts);
-  FirstError error;
-#pragma omp parallel num_threads(threads)
-  {
-#pragma omp for schedule(static)
-    for (std::size_t run = 0; run < parts; ++run) error.guard([&] { partition.count(run); });
-#pragma omp single
-    partition.sum();
-#pragma omp for schedule(static)
-    for (std::size_t run = 0; run < parts; ++run) error.guard([&] { partition.move(run, scratch); });
-#pragma omp for schedule(static)
-    for (std::size_t part = 0; part < parts; ++part)
-      radix_sort(partition.part_of(scratch, part), partition.part_of(items, part), first, end, passes);
-  }
-  error.rethrow();
+  for_each_task(parts, [&](std::size_t run) { partition.count(run); });
+  partition.sum();
+  for_each_task(parts, [&](std::size_t run) { partition.move(run, scratch); });
+  for_each_task(parts, [&](std::size_t part) {
+    radix_sort(partition.part_of(scratch, part), partition.part_of(items, part), first, end, passes);
+  });
   if (passes % 2 == 0) items.swap(scratch);
 }
 
 }  // namespace
 
-void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads) {
+void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs) {
   const std::size_t n = mesh.triangle_count();
   const int index_bits = static_cast<int>(std::bit_width(n)), bits = grid_bits(n, index_bits);
   const Box box = data.working_box;
@@ -132,21 +123,24 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int th
   Array<Keyed> items = array_in<Keyed>(scratch), other = array_in<Keyed>(scratch);
   items.resize(n);
   other.resize(n);
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t i = 0; i < n; ++i) {
-    Vec3 sum;
-    for (const std::uint32_t v : mesh.triangle(i)) {
-      const Eigen::Vector3d p = mesh.vertex(v);
-      sum = sum + (to_working({p.x(), p.y(), p.z()}) - box.lo);
+  const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells)); };
+  for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Vec3 sum;
+      for (const std::uint32_t v : mesh.triangle(i)) {
+        const Eigen::Vector3d p = mesh.vertex(v);
+        sum = sum + (to_working({p.x(), p.y(), p.z()}) - box.lo);
+      }
+      items[i] = hilbert_index(cell(sum.x), cell(sum.y), cell(sum.z), bits) << index_bits | i;
     }
-    const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells)); };
-    items[i] = hilbert_index(cell(sum.x), cell(sum.y), cell(sum.z), bits) << index_bits | i;
-  }
-  sort_by_key(items, other, index_bits, index_bits + 3 * bits, threads);
+  });
+  sort_by_key(items, other, index_bits, index_bits + 3 * bits, runs);
   data.triangle_of_slot.resize(n);
   const Keyed index_mask = (Keyed{1} << index_bits) - 1;
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t i = 0; i < n; ++i) data.triangle_of_slot[i] = static_cast<std::uint32_t>(items[i] & index_mask);
+  for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      data.triangle_of_slot[i] = static_cast<std::uint32_t>(items[i] & index_mask);
+  });
   scratch.clear();
 }
 

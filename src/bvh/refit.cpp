@@ -6,6 +6,7 @@
 
 #include "bvh/build.h"
 #include "meshbound/error.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -55,30 +56,35 @@ Eigen::AlignedBox3d box_of(const Bvh::Data& data, const MeshView& moved) {
   return box;
 }
 
-void move_vertices(Bvh::Data& data, const MeshView& moved, int threads) {
+void move_vertices(Bvh::Data& data, const MeshView& moved) {
   const Frame frame = data.frame;
   const FrameMap to_working(frame);
-  double error = 0;
-  data.vertices.resize(data.source_vertex.size());
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : error)
-  for (std::size_t v = 0; v < data.vertices.size(); ++v) {
-    const Eigen::Vector3d p = moved.vertex(data.source_vertex[v]);
-    data.vertices[v] = to_working({p.x(), p.y(), p.z()});
-    error = std::max(error, frame.rounding_of({p.x(), p.y(), p.z()}));
-  }
-  data.frame.error = error;
+  const std::size_t n = data.source_vertex.size();
+  data.vertices.resize(n);
+  std::vector<double> errors(n / triangles_per_task + 1, 0);  // by task
+  for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    double error = 0;
+    for (std::size_t v = begin; v < end; ++v) {
+      const Eigen::Vector3d p = moved.vertex(data.source_vertex[v]);
+      data.vertices[v] = to_working({p.x(), p.y(), p.z()});
+      error = std::max(error, frame.rounding_of({p.x(), p.y(), p.z()}));
+    }
+    errors[begin / triangles_per_task] = error;
+  });
+  data.frame.error = *std::max_element(errors.begin(), errors.end());
 }
 
 /// Turns each triangle as a build would: its longest edge first, ties by the order in the mesh.
-void turn_triangles(Bvh::Data& data, const std::vector<std::uint8_t>& turned, int threads) {
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
-    const std::uint32_t back = no_turn - turned[slot];
-    const Triangle t = rotated(data.corners[slot], back % 3);
-    const std::uint32_t first = longest_edge(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]);
-    data.corners[slot] = rotated(t, first);
-    data.neighbours[slot] = rotated(data.neighbours[slot], (back + first) % 3);
-  }
+void turn_triangles(Bvh::Data& data, const std::vector<std::uint8_t>& turned) {
+  for_each_range(data.triangle_count(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const std::uint32_t back = no_turn - turned[slot];
+      const Triangle t = rotated(data.corners[slot], back % 3);
+      const std::uint32_t first = longest_edge(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]);
+      data.corners[slot] = rotated(t, first);
+      data.neighbours[slot] = rotated(data.neighbours[slot], (back + first) % 3);
+    }
+  });
 }
 
 /// Sum of the squared diagonals of all boxes in units of the whole one's: to a query on the surface the chance that it
@@ -111,10 +117,12 @@ void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
   next->corners = data_->corners;
   next->neighbours = data_->neighbours;
   next->triangle_of_slot = data_->triangle_of_slot;
-  move_vertices(*next, moved, threads);
-  turn_triangles(*next, turned, threads);
-  build_normals(*next, threads);
-  build_nodes(*next, threads);
+  with_team(threads, [&] {
+    move_vertices(*next, moved);
+    turn_triangles(*next, turned);
+    build_normals(*next);
+    build_nodes(*next);
+  });
   data_ = std::move(next);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// Vertices renumbered by first use along the curve: neighbours in space become neighbours in memory. Each thread
-/// numbers the vertices of its run of slots in order of first use, by itself: a cache line that two threads write to
-/// costs more than a hundred vertices. What an earlier run uses too, it then takes from there; the numbers of the
-/// others follow those of the runs before. One run or many, the numbering is the same.
+/// Vertices renumbered by first use along the curve: neighbours in space become neighbours in memory. Those of a run of
+/// slots are numbered in order of first use, by themselves: a cache line that two threads write to costs more than a
+/// hundred vertices. What an earlier run uses too, it then takes from there; the numbers of the others follow those of
+/// the runs before. One run or many, the numbering is the same.
 #include <algorithm>
 
 #include "bvh/build.h"
-#include "numeric/first_error.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -15,7 +15,7 @@ constexpr std::uint32_t unused = 0xffffffff;
 constexpr std::uint32_t of_earlier_run = 0xffffffff;
 
 /// More would not pay: every run has a table of all vertices.
-constexpr int most_runs = 16;
+constexpr std::size_t most_runs = 16;
 
 /// Triangles that are gathered at a time: what they need fits into the first-level cache.
 constexpr std::uint32_t batch = 64;
@@ -35,10 +35,10 @@ struct Run {
 
 class Renumbering {
  public:
-  Renumbering(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads)
+  Renumbering(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs)
       : data_(data),
         mesh_(mesh),
-        runs_(static_cast<std::uint32_t>(std::min(threads, most_runs))),
+        runs_(static_cast<std::uint32_t>(std::min(runs, most_runs))),
         run_(runs_, Run(scratch)),
         to_working_(data.frame) {}
 
@@ -52,33 +52,25 @@ class Renumbering {
       run_[r].seen.resize(runs_ > 1 ? mesh_.vertex_count() / 64 + 1 : 0);
     }
     std::vector<std::uint32_t> first_vertex(runs_ + 1, 0);
-    FirstError error;
-#pragma omp parallel num_threads(static_cast <int>(runs_))
-    {
-#pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) number_vertices(r);
-#pragma omp for schedule(static)
-      for (std::uint32_t r = 0; r < runs_; ++r) first_vertex[r + 1] = rank_vertices(r);
-#pragma omp single
-      error.guard([&] {
-        for (std::uint32_t r = 0; r < runs_; ++r) first_vertex[r + 1] += first_vertex[r];
-        data_.vertices.resize(first_vertex[runs_]);
-        data_.source_vertex.resize(first_vertex[runs_]);
-      });
-      if (data_.source_vertex.size() == first_vertex[runs_]) {
-#pragma omp for schedule(static)
-        for (std::uint32_t r = 0; r < runs_; ++r) {
-          store_vertices(r, first_vertex);
-          renumber_corners(r);
-        }
-      }
-    }
-    error.rethrow();
+    for_each_run([&](std::uint32_t r) { number_vertices(r); });
+    for_each_run([&](std::uint32_t r) { first_vertex[r + 1] = rank_vertices(r); });
+    for (std::uint32_t r = 0; r < runs_; ++r) first_vertex[r + 1] += first_vertex[r];
+    data_.vertices.resize(first_vertex[runs_]);
+    data_.source_vertex.resize(first_vertex[runs_]);
+    for_each_run([&](std::uint32_t r) {
+      store_vertices(r, first_vertex);
+      renumber_corners(r);
+    });
     for (const Run& run : run_) data_.frame.error = std::max(data_.frame.error, run.rounding);
     return first_vertex;
   }
 
  private:
+  template <class Work>
+  void for_each_run(Work&& work) {
+    for_each_task(runs_, [&](std::size_t r) { work(static_cast<std::uint32_t>(r)); });
+  }
+
   [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
 
   [[nodiscard]] Vec3 position(std::uint32_t v) const {
@@ -181,8 +173,8 @@ std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
   return bc >= ca ? 1 : 2;
 }
 
-std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, int threads) {
-  const std::vector<std::uint32_t> first_vertex = Renumbering(data, mesh, scratch, threads).run();
+std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs) {
+  const std::vector<std::uint32_t> first_vertex = Renumbering(data, mesh, scratch, runs).run();
   scratch.clear();
   return first_vertex;
 }

@@ -101,7 +101,7 @@ SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b, const
         options.error_bound ? *options.error_bound : default_error_bound * diagonal_of(used_bounding_box(a));
     if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
   }
-  const Bvh tree_a(a, {.threads = options.threads}), tree_b(b, {.threads = options.threads});
+  const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});
   return symmetric_distance(tree_a, tree_b, options);
 }
 
@@ -138,7 +138,7 @@ ToleranceCheck check_symmetric(const MeshView& a, const MeshView& b, double tole
     if (const auto distance = distance_without_trees(a, b, tolerance))
       return {Verdict::Within, tolerance, distance->bounds, distance->a_to_b, distance->b_to_a};
   }
-  const Bvh tree_a(a, {.threads = options.threads}), tree_b(b, {.threads = options.threads});
+  const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});
   return check_symmetric(tree_a, tree_b, tolerance, options);
 }
 

@@ -25,8 +25,7 @@ OurRun run_ours(const TriangleMesh& a, const TriangleMesh& b, const OurTask& tas
       const Times all = watch.elapsed();
       return std::vector<double>{known->bounds.lower, known->bounds.upper, 0, 0, all.wall, all.cpu};
     }
-    const BvhOptions options{task.threads};
-    const Bvh tree_a(a, options), tree_b(b, options);
+    const auto [tree_a, tree_b] = build_trees(a, b, {task.threads});
     const Times built = watch.elapsed();
     const Bounds bounds = measure(tree_a, tree_b, task);
     const Times total = watch.elapsed();

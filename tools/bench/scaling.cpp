@@ -80,8 +80,7 @@ struct Measured {
 std::vector<double> run_once(const fs::path& path_a, const fs::path& path_b, int threads) {
   const TriangleMesh a = read_mesh(path_a).mesh, b = read_mesh(path_b).mesh;
   const Stopwatch watch;
-  const BvhOptions build_options{threads};
-  const Bvh tree_a(a, build_options), tree_b(b, build_options);
+  const auto [tree_a, tree_b] = build_trees(a, b, {threads});
   const Times built = watch.elapsed();
   DistanceOptions options;
   options.threads = threads;

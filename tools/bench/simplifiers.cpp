@@ -28,8 +28,8 @@ Bounds measured(const TriangleMesh& a, const TriangleMesh& b, double tolerance, 
   DistanceOptions options;
   options.tolerance = tolerance;
   options.threads = threads;
-  const BvhOptions tree{threads};
-  return symmetric_distance(Bvh(a, tree), Bvh(b, tree), options).bounds;
+  const auto [tree_a, tree_b] = build_trees(a, b, {threads});
+  return symmetric_distance(tree_a, tree_b, options).bounds;
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+/// Parallel loops for work of a few milliseconds. A team of threads is formed once for many loops; each loop is cut
+/// into tasks, and whoever is free takes the next. The thread that runs the loops takes all of them itself where no
+/// other one comes: it waits only for tasks that another has begun, and once, at the end, for the team. A worksharing
+/// loop waits for all threads each time, which costs a time slice of the scheduler where other programs hold the
+/// processors. What a task does must not depend on which thread runs it, or when.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "numeric/first_error.h"
+
+namespace meshbound {
+
+/// Calls `work()` on the calling thread; the tasks that it makes are shared with so many threads less one, which
+/// `omp_get_thread_num()` tells apart. Rethrows what `work` throws.
+template <class Work>
+void with_team(int threads, Work&& work) {
+  FirstError error;
+#pragma omp parallel num_threads(threads) default(none) shared(error, work)
+  {
+#pragma omp master
+    error.guard(work);
+  }
+  error.rethrow();
+}
+
+/// Calls work(0) ... work(count - 1), each as a task for the team that this is called in, and returns when all are
+/// done. Outside any team they run one after the other. Rethrows the first of what they throw.
+template <class Work>
+void for_each_task(std::size_t count, Work&& work) {
+  if (count == 1) return std::forward<Work>(work)(std::size_t{0});
+  FirstError error;
+#pragma omp taskloop grainsize(1) default(none) shared(error, work) firstprivate(count)
+  for (std::size_t i = 0; i < count; ++i) error.guard([&] { work(i); });
+  error.rethrow();
+}
+
+/// Calls work(begin, end) for runs of `grain` of the numbers 0 ... n - 1: `for_each_task`.
+template <class Work>
+void for_each_range(std::size_t n, std::size_t grain, Work&& work) {
+  for_each_task((n + grain - 1) / grain, [&](std::size_t i) { work(i * grain, std::min(n, (i + 1) * grain)); });
+}
+
+}  // namespace meshbound

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Loops cut into tasks: each number once, on threads of the team, with exceptions handed on.
+#include "numeric/tasks.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace meshbound;
+
+TEST(Tasks, VisitEachNumberOnceByThreadsOfTheTeam) {
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t n : {0U, 1U, 2U, 99U, 100U, 101U, 1000U}) {
+      std::vector<int> visits(n, 0);
+      std::atomic<int> most_thread{0}, ranges{0};
+      with_team(threads, [&] {
+        for_each_range(n, 100, [&](std::size_t begin, std::size_t end) {
+          EXPECT_LT(begin, end);
+          EXPECT_LE(end, n);
+          for (std::size_t i = begin; i < end; ++i) ++visits[i];
+          ++ranges;
+          if (omp_get_thread_num() >= threads) most_thread = omp_get_thread_num();
+        });
+        EXPECT_EQ(ranges, (n + 99) / 100) << "not all were done when the loop returned";
+      });
+      EXPECT_EQ(visits, std::vector<int>(n, 1));
+      EXPECT_EQ(most_thread, 0);
+    }
+  }
+}
+
+TEST(Tasks, MakeTasksOfTheirOwn) {
+  std::vector<int> visits(64, 0);
+  with_team(3, [&] {
+    for_each_task(8, [&](std::size_t i) { for_each_task(8, [&](std::size_t j) { ++visits[8 * i + j]; }); });
+  });
+  EXPECT_EQ(visits, std::vector<int>(64, 1));
+}
+
+/// A search by a thread of the caller's own team: its tasks are those of a team of one.
+TEST(Tasks, OfATeamInsideAnotherStayWithTheThreadThatFormedIt) {
+  std::atomic<int> strangers{0};
+#pragma omp parallel num_threads(3)
+  {
+    std::vector<int> visits(50, 0);
+    const auto outer = omp_get_ancestor_thread_num(1);
+    with_team(1, [&] {
+      for_each_task(50, [&](std::size_t i) {
+        ++visits[i];
+        if (omp_get_thread_num() != 0 || omp_get_ancestor_thread_num(1) != outer) ++strangers;
+      });
+    });
+    if (visits != std::vector<int>(50, 1)) ++strangers;
+  }
+  EXPECT_EQ(strangers, 0);
+}
+
+TEST(Tasks, HandOnAnExceptionWhenAllAreDone) {
+  for (const int threads : {1, 3}) {
+    std::atomic<int> done{0};
+    const auto work = [&](std::size_t i) {
+      if (i % 10 == 3) throw std::runtime_error("three");
+      ++done;
+    };
+    EXPECT_THROW(with_team(threads, [&] { for_each_task(100, work); }), std::runtime_error);
+    EXPECT_EQ(done, 90);
+    EXPECT_THROW(with_team(threads, [] { throw std::logic_error("no task"); }), std::logic_error);
+  }
+}
+
+TEST(Tasks, RunOneAfterTheOtherOutsideAnyTeam) {
+  std::vector<std::size_t> order;
+  for_each_task(20, [&](std::size_t i) { order.push_back(i); });
+  ASSERT_EQ(order.size(), 20U);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+}
+
+}  // namespace
