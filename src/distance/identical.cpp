@@ -2,12 +2,17 @@
 #include "distance/identical.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "distance/exact_match.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
+
+/// Vertices or triangles looked up: some ten microseconds of work.
+constexpr std::size_t found_per_task = 2048;
 
 template <class T>
 bool same_bytes(const Array<T>& a, const Array<T>& b) {
@@ -16,8 +21,7 @@ bool same_bytes(const Array<T>& a, const Array<T>& b) {
 
 }  // namespace
 
-std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive,
-                                       int threads) {
+std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive) {
   if (same_bytes(a.corners, b.corners) && same_bytes(a.vertices, b.vertices)) {
     std::fill(alive.begin(), alive.end(), std::uint8_t{0});
     return a.triangle_count();
@@ -25,21 +29,22 @@ std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, s
   const PositionTable positions(b.vertices);
   const TriangleTable triangles(b.corners, b.vertices, positions);
   Array<std::uint32_t> twin(a.vertices.size());
-  std::uint64_t count = 0;
-#pragma omp parallel num_threads(threads)
-  {
-#pragma omp for schedule(static)
-    for (std::size_t v = 0; v < twin.size(); ++v) twin[v] = positions.find(a.vertices[v]);
-#pragma omp for schedule(static) reduction(+ : count)
-    for (std::uint32_t slot = 0; slot < a.triangle_count(); ++slot) {
+  for_each_range(twin.size(), found_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) twin[v] = positions.find(a.vertices[v]);
+  });
+  std::atomic<std::uint64_t> count{0};
+  for_each_range(a.triangle_count(), found_per_task, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t own_count = 0;
+    for (std::size_t slot = begin; slot < end; ++slot) {
       const Triangle& t = a.corners[slot];
       const Triangle there{twin[t[0]], twin[t[1]], twin[t[2]]};
       if (there[0] == no_match || there[1] == no_match || there[2] == no_match) continue;
       if (triangles.find(there) == no_match) continue;
       alive[slot] = 0;
-      ++count;
+      ++own_count;
     }
-  }
+    count += own_count;
+  });
   return count;
 }
 

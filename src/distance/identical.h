@@ -8,9 +8,9 @@
 namespace meshbound {
 
 /// Clears `alive` for each triangle (slot) of A whose three corners are, bit for bit and in any order, those of a
-/// triangle of B. Both trees must have the same frame. Returns how many there were. O(n).
-std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive,
-                                       int threads);
+/// triangle of B. Both trees must have the same frame. Returns how many there were. By tasks
+/// (numeric/tasks.h); O(n).
+std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, std::vector<std::uint8_t>& alive);
 
 /// Whether two triangles have the same corners, bit for bit and in any order; -0 and 0 are one position.
 bool same_triangle(const Bvh::Data& a, const Triangle& t, const Bvh::Data& b, const Triangle& u);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 /// Culling on A by whole nodes: paper, Algorithm 1, with Eq. 8-9 taken for boxes.
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,7 @@
 
 #include "bvh/build.h"
 #include "distance/one_sided_search.h"
-#include "numeric/first_error.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -23,6 +21,9 @@ constexpr double largest_block = 0.2;
 /// Nodes that are opened at a time, the worst first. What one of them finds may spare opening the next: with 8 there
 /// are up to a third more queries, with 4 at most an eighth.
 constexpr std::size_t opened_at_once = 4;
+
+/// Each is a query of a few microseconds, or far less.
+constexpr std::size_t questions_per_task = 2;
 
 struct NodeOfA {
   double bound_squared;  ///< of the distance of all its triangles to B
@@ -157,11 +158,10 @@ void OneSidedSearch::open_node(std::uint32_t level, std::uint32_t index, std::ui
 /// Each by itself, whatever thread answers it.
 void OneSidedSearch::answer(std::vector<NodeQuestion>& questions, double accepted_squared) {
   const NodeTest test(a_, map_, accepted_squared);
-  FirstError error;
-#pragma omp parallel for schedule(dynamic, 2) num_threads(static_cast <int>(searchers_.size()))
-  for (NodeQuestion& question : questions) {
-    error.guard([&] {
-      Searcher& searcher = *searchers_[static_cast<std::size_t>(omp_get_thread_num())];
+  for_each_range(questions.size(), questions_per_task, [&](std::size_t begin, std::size_t end) {
+    Searcher& searcher = own_searcher();
+    for (std::size_t i = begin; i < end; ++i) {
+      NodeQuestion& question = questions[i];
       if (question.vertex == NodeQuestion::no_vertex) {
         question.squared = test.bound_squared(searcher, question.level, question.index, question.slot);
       } else {
@@ -169,9 +169,8 @@ void OneSidedSearch::answer(std::vector<NodeQuestion>& questions, double accepte
         question.squared = nearest.squared;
         question.slot = nearest.slot;
       }
-    });
-  }
-  error.rethrow();
+    }
+  });
 }
 
 void OneSidedSearch::remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face) {

@@ -5,14 +5,13 @@
 
 #include "distance/one_sided_search.h"
 #include "distance/point_like.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
+namespace {
 
-OneSidedDistance search_one_sided(const OneSidedTask& task) {
-  const Mapping map = mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
-  if (!(map.magnitude <= largest_magnitude)) return distance_to_point_like(task);
-  OneSidedSearch search(task, map);
-  if (task.options.method == Method::CrossCulling) {
+void run_steps(OneSidedSearch& search, Method method) {
+  if (method == Method::CrossCulling) {
     search.run(&OneSidedSearch::cross_cull, &PhaseSeconds::culling_on_a);
   } else {
     search.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
@@ -24,6 +23,15 @@ OneSidedDistance search_one_sided(const OneSidedTask& task) {
     search.run(&OneSidedSearch::bound_triangles, &PhaseSeconds::culling_on_b);
   }
   search.run(&OneSidedSearch::refine_rest, &PhaseSeconds::subdivision);
+}
+
+}  // namespace
+
+OneSidedDistance search_one_sided(const OneSidedTask& task) {
+  const Mapping map = mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
+  if (!(map.magnitude <= largest_magnitude)) return distance_to_point_like(task);
+  OneSidedSearch search(task, map);
+  with_team(search.threads(), [&] { run_steps(search, task.options.method); });
   search.remember_hints();
   return search.result();
 }

@@ -8,8 +8,8 @@
 
 #include "bvh/build.h"
 #include "distance/identical.h"
-#include "numeric/first_error.h"
 #include "numeric/rounding.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -73,6 +73,8 @@ void OneSidedSearch::run(void (OneSidedSearch::*step)(), double PhaseSeconds::*p
   stats_.phases.*phase += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+Searcher& OneSidedSearch::own_searcher() const { return *searchers_[static_cast<std::size_t>(omp_get_thread_num())]; }
+
 bool OneSidedSearch::out_of_budget() {
   if (exhausted_) return true;
   exhausted_ = cuts_left_ == 0 || goal_.out_of_time();
@@ -110,16 +112,13 @@ void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::u
     const std::uint32_t size = std::min(batch, count - begin);
     found.assign(size, {});
     out_of_budget();
-    FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(searchers_.size()))
-    for (std::uint32_t i = 0; i < size; ++i) {
-      Searcher& searcher = *searchers_[static_cast<std::size_t>(omp_get_thread_num())];
+    for_each_task(size, [&](std::size_t i) {
+      Searcher& searcher = own_searcher();
       searcher.begin(lower_);
-      error.guard([&] { work(searcher, begin + i, found[i]); });
+      work(searcher, begin + static_cast<std::uint32_t>(i), found[i]);
       found[i].lower = searcher.lower();
       found[i].upper_squared = searcher.upper_squared();
-    }
-    error.rethrow();
+    });
     std::uint32_t farthest = 0;
     for (std::uint32_t i = 0; i < size; ++i) {
       merge(found[i]);
@@ -171,7 +170,7 @@ void OneSidedSearch::drop_identical() {
   const bool exact = map_.is_identity && map_.error == 0 && a_.frame.error == 0 && b_.frame.error == 0;
   if (!exact || !probe_on_b_ || !sample_is_identical()) return;
   alive_.assign(a_.triangle_count(), 1);
-  stats_.matched = drop_identical_triangles(a_, b_, alive_, static_cast<int>(searchers_.size()));
+  stats_.matched = drop_identical_triangles(a_, b_, alive_);
 }
 
 void OneSidedSearch::probe() {

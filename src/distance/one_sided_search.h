@@ -11,12 +11,13 @@
 
 namespace meshbound {
 
-/// The one-sided search, step by step as `search_one_sided` calls them. Works in B's frame. Every step that runs in
-/// parallel does so in fixed chunks that all start from the same lower bound and are merged in order, so the result
-/// does not depend on the number of threads.
+/// The one-sided search, step by step as `search_one_sided` calls them, by the thread that heads a team of `threads()`
+/// (numeric/tasks.h). Works in B's frame. Every step that shares its work does so in fixed chunks that all start from
+/// the same lower bound and are merged in order, so the result does not depend on the number of threads.
 class OneSidedSearch {
  public:
   OneSidedSearch(const OneSidedTask& task, const Mapping& map);
+  [[nodiscard]] int threads() const { return static_cast<int>(searchers_.size()); }
 
   void probe();            ///< a few vertices, for a first lower bound
   void drop_identical();   ///< triangles that B has too, if a probe lay on B: at distance 0 without arithmetic
@@ -66,6 +67,8 @@ class OneSidedSearch {
 
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
   [[nodiscard]] bool decided() const { return goal_.decide_only && own_lower_.lower > goal_.tolerance; }
+  /// That of the thread which asks.
+  [[nodiscard]] Searcher& own_searcher() const;
   bool out_of_budget();
   void spend_cuts();
   template <class Work>
