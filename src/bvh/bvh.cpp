@@ -152,6 +152,9 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {
 /// Below this many triangles a build is over before another thread has woken up.
 constexpr std::size_t triangles_per_thread = 4096;
 
+/// What a run may have beyond the share of a thread: so much of a build can be left to others without cutting it up.
+constexpr double tolerated_excess = 0.2;
+
 /// Trees of several meshes. Threads are shared out by size; one that has built its tree helps with the tasks of others.
 template <std::size_t count>
 std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<MeshView, count>& meshes, int wanted) {
@@ -164,9 +167,10 @@ std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<M
 #pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t size = meshes[i].triangle_count();
-    const std::size_t share = (2 * threads * size + triangles) / (2 * triangles + 1);
-    const std::size_t runs = std::clamp<std::size_t>(share, 1, 1 + size / triangles_per_thread);
-    errors[i].guard([&] { trees[i] = build(meshes[i], runs); });
+    const auto share = static_cast<double>(threads) * static_cast<double>(size) / static_cast<double>(triangles + 1);
+    const auto runs = static_cast<std::size_t>(std::ceil(share - tolerated_excess));
+    errors[i].guard(
+        [&] { trees[i] = build(meshes[i], std::clamp<std::size_t>(runs, 1, 1 + size / triangles_per_thread)); });
   }
   for (const FirstError& error : errors) error.rethrow();
   return trees;

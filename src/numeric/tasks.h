@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// Parallel loops for work of a few milliseconds. A team of threads is formed once for many loops; each loop is cut
-/// into tasks, and whoever is free takes the next. The thread that runs the loops takes all of them itself where no
-/// other one comes: it waits only for tasks that another has begun, and once, at the end, for the team. A worksharing
+/// into pieces, and whoever is free takes the next. The thread that runs the loops takes all of them itself where no
+/// other one comes: it waits only for pieces that another has begun, and once, at the end, for the team. A worksharing
 /// loop waits for all threads each time, which costs a time slice of the scheduler where other programs hold the
-/// processors. What a task does must not depend on which thread runs it, or when.
+/// processors. What a piece does must not depend on which thread runs it, or when.
 #pragma once
+#include <omp.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <utility>
 
@@ -13,7 +16,7 @@
 
 namespace meshbound {
 
-/// Calls `work()` on the calling thread; the tasks that it makes are shared with so many threads less one, which
+/// Calls `work()` on the calling thread; the loops that it runs are shared with so many threads less one, which
 /// `omp_get_thread_num()` tells apart. Rethrows what `work` throws.
 template <class Work>
 void with_team(int threads, Work&& work) {
@@ -26,14 +29,26 @@ void with_team(int threads, Work&& work) {
   error.rethrow();
 }
 
-/// Calls work(0) ... work(count - 1), each as a task for the team that this is called in, and returns when all are
-/// done. Outside any team they run one after the other. Rethrows the first of what they throw.
+/// Calls work(0) ... work(count - 1) by the team that this is called in, and returns when all are done. Outside any
+/// team they run one after the other. Rethrows the first of what they throw.
+///
+/// A task of OpenMP is an offer of work here, not a piece of it: libgomp runs a `taskloop` of more than 64 tasks for
+/// each thread by one thread alone.
 template <class Work>
 void for_each_task(std::size_t count, Work&& work) {
   if (count == 1) return std::forward<Work>(work)(std::size_t{0});
   FirstError error;
-#pragma omp taskloop grainsize(1) default(none) shared(error, work) firstprivate(count)
-  for (std::size_t i = 0; i < count; ++i) error.guard([&] { work(i); });
+  std::atomic<std::size_t> next{0};
+  const auto take_pieces = [&] {
+    for (std::size_t i = next++; i < count; i = next++) error.guard([&] { work(i); });
+  };
+  const std::size_t helpers = std::min(count, static_cast<std::size_t>(omp_get_num_threads()));
+  for (std::size_t i = 1; i < helpers; ++i) {
+#pragma omp task default(none) shared(take_pieces)
+    take_pieces();
+  }
+  take_pieces();
+#pragma omp taskwait
   error.rethrow();
 }
 
