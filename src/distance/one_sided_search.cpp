@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bvh/build.h"
@@ -22,6 +23,7 @@ constexpr std::uint32_t swept_per_chunk = 512;      ///< each begins with a quer
 constexpr std::uint32_t walks_per_chunk = 8;        ///< walks differ much in cost
 constexpr std::ptrdiff_t worst_first = 256;  ///< walks in the order of their bounds; a few of them set the lower bound
 constexpr std::uint32_t probes = 64;
+constexpr std::uint32_t probes_per_chunk = 16;  ///< as vertices
 constexpr std::chrono::milliseconds between_progress{100};
 
 double scaled(double length, int exponent) { return next_up(std::ldexp(length, exponent)); }
@@ -175,21 +177,22 @@ void OneSidedSearch::drop_identical() {
 
 void OneSidedSearch::probe() {
   probe_start();
-  const auto n = static_cast<std::uint32_t>(a_.vertices.size());
-  Searcher& searcher = *searchers_.front();
-  Nearest farthest{-1, 0};
-  std::uint32_t at = 0, hint = 0;
-  for (std::uint32_t i = 0; i < std::min(probes, n); ++i) {
-    const auto v = static_cast<std::uint32_t>(std::uint64_t{i} * n / std::min(probes, n));
-    const Nearest nearest = searcher.nearest(vertex(v), hint, 0);
-    hint = nearest.slot;
-    probe_on_b_ = probe_on_b_ || nearest.squared <= goal_.slack * goal_.slack;
-    if (nearest.squared > farthest.squared) {
-      farthest = nearest;
-      at = v;
+  const std::size_t n = a_.vertices.size(), count = std::min<std::size_t>(probes, n);
+  const auto probed = [&](std::size_t i) { return static_cast<std::uint32_t>(i * n / count); };
+  std::array<Nearest, probes> nearest;
+  for_each_range(count, probes_per_chunk, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t hint = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      nearest[i] = own_searcher().nearest(vertex(probed(i)), hint, 0);
+      hint = nearest[i].slot;
     }
+  });
+  std::size_t farthest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    probe_on_b_ = probe_on_b_ || nearest[i].squared <= goal_.slack * goal_.slack;
+    if (nearest[i].squared > nearest[farthest].squared) farthest = i;
   }
-  offer_vertex(at, farthest);
+  offer_vertex(probed(farthest), nearest[farthest]);
 }
 
 void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
