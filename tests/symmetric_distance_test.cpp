@@ -257,6 +257,32 @@ TEST(SymmetricDistance, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(x.b_to_a.witness.from.position, y.b_to_a.witness.from.position);
 }
 
+/// Builds and searches form teams of their own, whatever the caller's threads do meanwhile.
+TEST(SymmetricDistance, IsTheSameOnThreadsOfTheCallersOwn) {
+  const TriangleMesh a = icosphere(5), b = random_soup(13, 5000, 0.3);
+  DistanceOptions options;
+  options.threads = 2;
+  const SymmetricDistance alone = symmetric_distance(a, b, options);
+  std::atomic<int> same{0};
+#pragma omp parallel num_threads(3)
+  {
+#pragma omp for
+    for (int i = 0; i < 6; ++i) {
+      const SymmetricDistance here = symmetric_distance(a, b, options);
+      if (here.bounds.lower == alone.bounds.lower && here.bounds.upper == alone.bounds.upper) ++same;
+    }
+#pragma omp single
+    for (int i = 0; i < 6; ++i) {
+#pragma omp task shared(a, b, options, alone, same)
+      {
+        const SymmetricDistance here = symmetric_distance(a, b, options);
+        if (here.bounds.lower == alone.bounds.lower && here.bounds.upper == alone.bounds.upper) ++same;
+      }
+    }
+  }
+  EXPECT_EQ(same, 12);
+}
+
 TEST(CheckSymmetric, DecidesOnBothSidesOfTheDistance) {
   const TriangleMesh a = random_soup(23, 40, 0.3), b = random_soup(24, 40, 0.3);
   const Bvh tree_a(a), tree_b(b);
