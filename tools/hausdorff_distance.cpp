@@ -15,6 +15,7 @@
 #include "common/pending_file.h"
 #include "common/progress.h"
 #include "common/signals.h"
+#include "common/threads.h"
 #include "common/tool_main.h"
 #include "meshbound/certificate.h"
 #include "meshbound/distance.h"
@@ -251,10 +252,19 @@ void print_report(const DistanceReport& report) {
               report.threads == 1 ? "" : "s");
 }
 
-MeshFile read(const std::string& path, MeshReport& report) {
+/// Reads a mesh, and maps it if there is a map. Returns how far rounding has moved its image at most.
+double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, TriangleMesh& mesh,
+            MeshReport& report) {
   MeshFile file = read_mesh(path);
-  report = {path, {}, file.triangulated_polygons, file.decoded_strips, file.ignored_elements};
-  return file;
+  mesh = std::move(file.mesh);
+  double displacement = 0;
+  if (map) {
+    TransformedMesh image = transformed(mesh, *map);
+    mesh = std::move(image.mesh);
+    displacement = image.displacement_bound;
+  }
+  report = {path, summarise(mesh), file.triangulated_polygons, file.decoded_strips, file.ignored_elements};
+  return displacement;
 }
 
 DistanceOptions engine_options(const Arguments& arguments, const Question& question, const Stopwatch& watch,
@@ -322,25 +332,20 @@ int run(const Arguments& arguments) {
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
 
   DistanceReport report;
-  const MeshFile a = read(arguments.a, report.a);
-  MeshFile b = read(arguments.b, report.b);
-  if (map) {
-    TransformedMesh image = transformed(b.mesh, *map);
-    b.mesh = std::move(image.mesh);
-    question.displacement = image.displacement_bound;
-    report.transform_displacement = image.displacement_bound;
-  }
-  report.a.summary = summarise(a.mesh);
-  report.b.summary = summarise(b.mesh);
+  TriangleMesh a, b;
+  run_both(
+      arguments.common.threads, [&] { load(arguments.a, std::nullopt, a, report.a); },
+      [&] { question.displacement = load(arguments.b, map, b, report.b); });
+  if (map) report.transform_displacement = question.displacement;
   const double diagonal = report.a.summary.bbox_diagonal;
   if (tolerance) question.tolerance = tolerance->in_model_units(diagonal);
   if (error_bound) question.error_bound = error_bound->in_model_units(diagonal);
-  if (!tolerance && !error_bound) question.error_bound = default_error_bound(a.mesh, b.mesh, diagonal);
+  if (!tolerance && !error_bound) question.error_bound = default_error_bound(a, b, diagonal);
   report.seconds.read = watch.lap();
 
-  std::optional<Answer> found = answer_without_trees(question, a.mesh, b.mesh, arguments.method);
+  std::optional<Answer> found = answer_without_trees(question, a, b, arguments.method);
   if (!found) {
-    const auto [tree_a, tree_b] = build_trees(a.mesh, b.mesh, {arguments.common.threads});
+    const auto [tree_a, tree_b] = build_trees(a, b, {arguments.common.threads});
     report.seconds.build = watch.lap();
     ProgressBar bar("measuring", arguments.common.quiet);
     found = answer_by_trees(question, tree_a, tree_b, engine_options(arguments, question, watch, bar));
@@ -350,7 +355,7 @@ int run(const Arguments& arguments) {
   if (interrupted && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
   report.seconds.query = watch.lap();
   if (certificate && answer.exit_code == ExitDone &&
-      !write_certificate(*certificate, arguments, a.mesh, b.mesh, *question.tolerance, watch)) {
+      !write_certificate(*certificate, arguments, a, b, *question.tolerance, watch)) {
     if (interrupted) throw Error("interrupted before the certificate was complete; it was not written");
     std::fprintf(stderr, "hausdorff_distance: no time was left for the certificate; it was not written\n");
     answer.exit_code = ExitUndecided;

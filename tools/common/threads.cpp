@@ -3,6 +3,8 @@
 
 #include <omp.h>
 
+#include <array>
+#include <exception>
 #include <latch>
 #include <system_error>
 #include <thread>
@@ -32,8 +34,31 @@ int start_threads(int wanted) {
   const int threads = startable_threads(wanted > 0 ? wanted : omp_get_max_threads());
   omp_set_num_threads(threads);
 #pragma omp parallel num_threads(threads)
-  {}
+  {
+#pragma omp barrier  // the compiler drops a region that does nothing
+  }
   return threads;
+}
+
+void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second) {
+  if (threads < 2) {
+    first();
+    second();
+    return;
+  }
+  const std::array<const std::function<void()>*, 2> works{&first, &second};
+  std::array<std::exception_ptr, 2> errors;
+  // All threads, though two have work: OpenMP ends those that a team leaves out.
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    try {
+      (*works[i])();
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace meshbound::tools

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <functional>
 
 namespace meshbound::tools {
 
@@ -7,5 +8,8 @@ namespace meshbound::tools {
 /// `wanted` of them (0: as many as OpenMP has by default), or as many as the machine lets the process start. OpenMP
 /// itself would end the process at the first thread that it cannot start. Returns the number.
 int start_threads(int wanted);
+
+/// Calls both, by a thread each where `threads` is 2 or more. Rethrows what `first` throws before what `second` does.
+void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second);
 
 }  // namespace meshbound::tools
