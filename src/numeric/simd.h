@@ -56,6 +56,15 @@ inline Double4 square_root(Double4 a) {
 #endif
 }
 
+inline Float8 square_root(Float8 a) {
+#if defined(__AVX2__)
+  return _mm256_sqrt_ps(a);
+#else
+  for (int i = 0; i < 8; ++i) a[i] = __builtin_sqrtf(a[i]);
+  return a;
+#endif
+}
+
 inline double horizontal_maximum(Double4 a) {
   const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
   return low > high ? low : high;

@@ -18,26 +18,30 @@ inline Vec<float> unit_normal(const SampleFace& face) {
   return squared > 0 ? (1 / std::sqrt(squared)) * n : n;
 }
 
+inline void store8(std::vector<float>& all, std::size_t first, Float8 eight) {
+  std::memcpy(&all[first], &eight, sizeof eight);
+}
+
 inline void linearise(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
                       LinearHeights& heights) {
   heights.resize(points.size());
   for (std::size_t i = 0; i < points.size(); i += 8) {
     const Closest8 at = closest_of(points, i, faces);
-    for (int k = 0; k < 8; ++k) {
-      const std::size_t j = i + static_cast<std::size_t>(k);
-      const Vec<float> offset = {at.x[k] * by_tolerance, at.y[k] * by_tolerance, at.z[k] * by_tolerance};
-      float height = std::sqrt(dot(offset, offset));
-      Vec<float> way = offset;
-      if (height > least_way) {
-        way = (1 / height) * offset;
-      } else {
-        way = unit_normal(faces[static_cast<std::size_t>(at.face[k])]);
-        height = dot(way, offset);
-      }
-      const float weight = points.weight[j], share = weight * at.share[k];
-      heights.height[j] = weight * height;
-      heights.x[j] = share * way.x, heights.y[j] = share * way.y, heights.z[j] = share * way.z;
+    const Float8 x = at.x * by_tolerance, y = at.y * by_tolerance, z = at.z * by_tolerance;
+    Float8 height = square_root(x * x + y * y + z * z);
+    const Float8 by_height = 1.0F / height;
+    Float8 way_x = by_height * x, way_y = by_height * y, way_z = by_height * z;
+    for (unsigned on_face = lane_bits(~(height > least_way)); on_face != 0; on_face &= on_face - 1) {
+      const int k = std::countr_zero(on_face);
+      const Vec<float> normal = unit_normal(faces[static_cast<std::size_t>(at.face[k])]);
+      way_x[k] = normal.x, way_y[k] = normal.y, way_z[k] = normal.z;
+      height[k] = dot(normal, {x[k], y[k], z[k]});
     }
+    const Float8 weight = load8(points.weight, i), share = weight * at.share;
+    store8(heights.height, i, weight * height);
+    store8(heights.x, i, share * way_x);
+    store8(heights.y, i, share * way_y);
+    store8(heights.z, i, share * way_z);
   }
 }
 
@@ -83,7 +87,7 @@ inline std::array<float, HeightKernel::shares> largest_along(const LinearHeights
   }
   std::array<float, HeightKernel::shares> result = {};
   for (std::size_t k = 0; k < HeightKernel::shares; ++k) {
-    for (int lane = 0; lane < 8; ++lane) result[k] = std::fmax(result[k], largest[k][lane]);
+    for (int lane = 0; lane < 8; ++lane) result[k] = largest[k][lane] > result[k] ? largest[k][lane] : result[k];
   }
   return result;
 }

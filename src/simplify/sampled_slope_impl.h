@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Compiled once per instruction set.
 #pragma once
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "numeric/simd.h"
 #include "simplify/sampled_slope.h"
@@ -11,7 +13,7 @@ inline namespace MESHBOUND_ISA {
 
 inline Float8 load8(const std::vector<float>& all, std::size_t first) {
   Float8 eight;
-  for (std::size_t i = 0; i < 8; ++i) eight[static_cast<int>(i)] = all[first + i];
+  std::memcpy(&eight, &all[first], sizeof eight);
   return eight;
 }
 
@@ -37,6 +39,9 @@ struct Closest8 {
   }
 };
 
+constexpr Closest8 nothing_near = {
+    {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF}, {}, {}, {}, {}, {}};
+
 inline void offer_face(const SampleFace& f, float index, Float8 x, Float8 y, Float8 z, Closest8& closest) {
   const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
   const Float8 on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
@@ -57,18 +62,24 @@ inline void offer_face(const SampleFace& f, float index, Float8 x, Float8 y, Flo
 }
 
 inline Closest8 closest_of(const SamplePoints& points, std::size_t first, std::span<const SampleFace> faces) {
-  Closest8 at{broadcast8(HUGE_VALF), {}, {}, {}, {}, {}};
+  Closest8 at = nothing_near;
   const Float8 x = load8(points.x, first), y = load8(points.y, first), z = load8(points.z, first);
   for (std::size_t k = 0; k < faces.size(); ++k) offer_face(faces[k], static_cast<float>(k), x, y, z, at);
   return at;
 }
 
 inline void drop_far(SamplePoints& points, std::span<const SampleFace> faces, float tolerance) {
+  constexpr unsigned all_lanes = 0xff;
   for (std::size_t i = 0; i < points.size(); i += 8) {
-    const Closest8 at = closest_of(points, i, faces);
-    for (int k = 0; k < 8; ++k) {
-      if (!(at.squared[k] <= tolerance * tolerance)) points.weight[i + static_cast<std::size_t>(k)] = 0;
+    const Float8 x = load8(points.x, i), y = load8(points.y, i), z = load8(points.z, i);
+    Closest8 at = nothing_near;
+    unsigned near = 0;
+    for (std::size_t k = 0; k < faces.size() && near != all_lanes; ++k) {
+      offer_face(faces[k], 0, x, y, z, at);
+      near = lane_bits(at.squared <= tolerance * tolerance);
     }
+    for (unsigned far = ~near & all_lanes; far != 0; far &= far - 1)
+      points.weight[i + static_cast<std::size_t>(std::countr_zero(far))] = 0;
   }
 }
 

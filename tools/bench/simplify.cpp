@@ -38,62 +38,95 @@ constexpr Case cases[] = {{"fandisk", "cad/c3d_fandisk.obj", 0.1, 370, 330},
 /// CGAL's result may be off by its error bound.
 constexpr double cgal_error = 1e-3;  // tolerances
 
+/// Turns of the programs whose times are compared, and seconds after which one gets no more.
+constexpr std::size_t rounds = 5;
+constexpr double enough_seconds = 8;
+
 struct Outcome {
   ChildResult::Status status = ChildResult::Status::Failed;
-  double faces = 0, cpu = 0, wall = 0, certify = 0, share = 0, cgal_share = 0;
+  double faces = 0, share = 0, cgal_share = 0;
+  std::vector<double> cpus, walls, certifications;  ///< seconds, by turn
   [[nodiscard]] bool done() const { return status == ChildResult::Status::Done; }
+  [[nodiscard]] double cpu() const { return median(cpus); }
+  [[nodiscard]] double wall() const { return median(walls); }
+  [[nodiscard]] double certify() const { return median(certifications); }
 };
 
 class Cases {
  public:
   explicit Cases(const Options& options) : options_(options) {}
 
-  /// `simplify` in a child process; what it leaves is measured there too, by CGAL where `by_cgal`.
-  Outcome run(const TriangleMesh& mesh, double tolerance, bool by_cgal, const std::function<Simplified()>& simplify) {
+  /// `simplify` in a child process; what it leaves the first time is measured there too, by CGAL where `by_cgal`.
+  /// Returns the seconds it took, negative where it came to no end.
+  double turn(const TriangleMesh& mesh, double tolerance, bool by_cgal, const std::function<Simplified()>& simplify,
+              Outcome& into) {
+    const bool first = into.cpus.empty();
     const ChildResult child = run_in_child(options_.limit, [&] {
       const Simplified s = simplify();
+      std::vector<double> values = {s.cpu, s.wall, s.certify_cpu};
+      if (!first) return values;
       const double share = share_of_tolerance(mesh, s.mesh, tolerance);
       double cgal_share = 0;
       if (const auto pair = by_cgal ? CgalPair::make(mesh, s.mesh) : std::nullopt)
         cgal_share = pair->bounded_error(cgal_error * tolerance) / tolerance;
-      return std::vector<double>{
-          static_cast<double>(s.mesh.triangles.size()), s.cpu, s.wall, s.certify_cpu, share, cgal_share};
+      values.insert(values.end(), {static_cast<double>(s.mesh.triangles.size()), share, cgal_share});
+      return values;
     });
-    Outcome outcome;
-    outcome.status = child.status;
-    if (!outcome.done()) return outcome;
+    into.status = child.status;
+    if (!into.done()) return -1;
     const auto& v = child.values;
-    return {child.status, v[0], v[1], v[2], v[3], v[4], v[5]};
+    into.cpus.push_back(v[0]);
+    into.walls.push_back(v[1]);
+    into.certifications.push_back(v[2]);
+    if (first) into.faces = v[3], into.share = v[4], into.cgal_share = v[5];
+    return into.cpus.back();
+  }
+
+  Outcome run(const TriangleMesh& mesh, double tolerance, bool by_cgal, const std::function<Simplified()>& simplify) {
+    Outcome outcome;
+    turn(mesh, tolerance, by_cgal, simplify, outcome);
+    return outcome;
   }
 
   /// A result of ours, or of the bisection, must hold.
+  void must_hold(const Outcome& outcome) {
+    if (outcome.done() && (outcome.share > 1 || outcome.cgal_share > 1 + cgal_error)) all_hold_ = false;
+  }
   Outcome run_to_hold(const TriangleMesh& mesh, double tolerance, const std::function<Simplified()>& simplify) {
     const Outcome outcome = run(mesh, tolerance, true, simplify);
-    if (outcome.done() && (outcome.share > 1 || outcome.cgal_share > 1 + cgal_error)) all_hold_ = false;
+    must_hold(outcome);
     return outcome;
   }
 
   void row(const Case& c, const TriangleMesh& mesh) {
     const double tolerance = 0.01 * c.percent * used_bounding_box(mesh).diagonal().norm();
-    const auto ours = [&](cgal::Effort effort, int threads) {
-      return run_to_hold(mesh, tolerance, [&, effort, threads] { return bounded(mesh, tolerance, effort, threads); });
+    Outcome normal, two, free;
+    const auto ours = [&](int threads, Outcome& into) {
+      return turn(
+          mesh, tolerance, true, [&] { return bounded(mesh, tolerance, cgal::Effort::Normal, threads); }, into);
     };
-    const Outcome normal = ours(cgal::Effort::Normal, 1), two = ours(cgal::Effort::Normal, 2);
-    const auto faces = static_cast<std::size_t>(normal.faces);
-    const Outcome free = run(mesh, tolerance, false, [&] { return unbounded(mesh, faces); });
+    interleave({[&] { return ours(1, normal); }, [&] { return ours(2, two); },
+                [&] {
+                  const auto faces = static_cast<std::size_t>(normal.faces);
+                  return turn(
+                      mesh, tolerance, false, [&] { return unbounded(mesh, faces); }, free);
+                }},
+               rounds, enough_seconds);
+    must_hold(normal);
+    must_hold(two);
     Outcome high, envelope, bisection;
     if (!options_.quick) {
-      high = ours(cgal::Effort::High, 1);
+      high = run_to_hold(mesh, tolerance, [&] { return bounded(mesh, tolerance, cgal::Effort::High, 1); });
       envelope = run(mesh, tolerance, false, [&] { return in_envelope(mesh, tolerance); });
       bisection = run_to_hold(mesh, tolerance, [&] { return by_bisection(mesh, tolerance); });
     }
     if (normal.done() && free.done()) {
-      ratios_.push_back(normal.cpu / free.cpu);
-      ratios_of_two_.push_back(two.wall / free.wall);
-      certify_.push_back(normal.certify / normal.cpu);
+      ratios_.push_back(normal.cpu() / free.cpu());
+      ratios_of_two_.push_back(two.wall() / free.wall());
+      certify_.push_back(normal.certify() / normal.cpu());
     }
     const auto count = [](const Outcome& o) { return o.done() ? format(o.faces, 6) : std::string("-"); };
-    const auto seconds = [](const Outcome& o) { return o.done() ? format(o.cpu) : std::string("-"); };
+    const auto seconds = [](const Outcome& o) { return o.done() ? format(o.cpu()) : std::string("-"); };
     table_.rows.push_back({c.name,
                            format(c.percent),
                            format(double(mesh.triangles.size()), 7),
@@ -103,8 +136,8 @@ class Cases {
                            std::to_string(c.high),
                            seconds(normal),
                            seconds(free),
-                           format(normal.cpu / free.cpu),
-                           format(two.wall / free.wall),
+                           format(normal.cpu() / free.cpu()),
+                           format(two.wall() / free.wall()),
                            seconds(high),
                            format(normal.share, 6),
                            format(normal.cgal_share, 6),
@@ -135,7 +168,7 @@ class Cases {
       const double tolerance = 0.01 * percent * diagonal;
       const auto add = [&](const char* method, const std::function<Simplified()>& simplify) {
         const Outcome o = run_to_hold(mesh, tolerance, simplify);
-        if (o.done()) curves.rows.push_back({name, method, format(percent), format(o.faces, 7), format(o.cpu)});
+        if (o.done()) curves.rows.push_back({name, method, format(percent), format(o.faces, 7), format(o.cpu())});
       };
       add("normal", [&] { return bounded(mesh, tolerance, cgal::Effort::Normal, 1); });
       add("bisecting the count", [&] { return by_bisection(mesh, tolerance); });
