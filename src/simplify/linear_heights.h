@@ -12,16 +12,17 @@ namespace meshbound {
 /// eight. A point whose closest point lies on a moved face at the barycentric share s of the vertex, in direction n,
 /// has the slope s n; the closest points stay where they are on their faces.
 struct LinearHeights {
-  std::vector<float> height, x, y, z;
+  struct alignas(32) Block {
+    float height[8] = {}, x[8] = {}, y[8] = {}, z[8] = {};
+    bool operator==(const Block&) const = default;
+  };
+  std::vector<Block> blocks;
 
-  void resize(std::size_t size) {
-    for (std::vector<float>* all : {&height, &x, &y, &z}) all->resize(size);
-  }
-  void add(float at, float slope_x, float slope_y, float slope_z) {
-    height.push_back(at);
-    x.push_back(slope_x);
-    y.push_back(slope_y);
-    z.push_back(slope_z);
+  /// In a block of its own.
+  void add(float height, float slope_x, float slope_y, float slope_z) {
+    Block& block = blocks.emplace_back();
+    block.height[0] = height;
+    block.x[0] = slope_x, block.y[0] = slope_y, block.z[0] = slope_z;
   }
 };
 

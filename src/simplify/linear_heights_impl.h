@@ -18,15 +18,11 @@ inline Vec<float> unit_normal(const SampleFace& face) {
   return squared > 0 ? (1 / std::sqrt(squared)) * n : n;
 }
 
-inline void store8(std::vector<float>& all, std::size_t first, Float8 eight) {
-  std::memcpy(&all[first], &eight, sizeof eight);
-}
-
 inline void linearise(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
                       LinearHeights& heights) {
-  heights.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); i += 8) {
-    const Closest8 at = closest_of(points, i, faces);
+  heights.blocks.resize(points.blocks.size());
+  for (std::size_t i = 0; i < points.blocks.size(); ++i) {
+    const Closest8 at = closest_of(points.blocks[i], faces);
     const Float8 x = at.x * by_tolerance, y = at.y * by_tolerance, z = at.z * by_tolerance;
     Float8 height = square_root(x * x + y * y + z * z);
     const Float8 by_height = 1.0F / height;
@@ -37,11 +33,12 @@ inline void linearise(const SamplePoints& points, std::span<const SampleFace> fa
       way_x[k] = normal.x, way_y[k] = normal.y, way_z[k] = normal.z;
       height[k] = dot(normal, {x[k], y[k], z[k]});
     }
-    const Float8 weight = load8(points.weight, i), share = weight * at.share;
-    store8(heights.height, i, weight * height);
-    store8(heights.x, i, share * way_x);
-    store8(heights.y, i, share * way_y);
-    store8(heights.z, i, share * way_z);
+    const Float8 weight = load8(points.blocks[i].weight), share = weight * at.share;
+    LinearHeights::Block& block = heights.blocks[i];
+    store8(block.height, weight * height);
+    store8(block.x, share * way_x);
+    store8(block.y, share * way_y);
+    store8(block.z, share * way_z);
   }
 }
 
@@ -54,9 +51,9 @@ inline float sum_of_lanes(Float8 eight) {
 inline WeightedSums weighted_sums(const LinearHeights& heights, const HeightKernel::Move& move, float scale,
                                   int doublings) {
   Float8 weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
-  for (std::size_t i = 0; i < heights.height.size(); i += 8) {
-    const Float8 x = load8(heights.x, i), y = load8(heights.y, i), z = load8(heights.z, i);
-    const Float8 h = load8(heights.height, i) - x * move[0] - y * move[1] - z * move[2];
+  for (const LinearHeights::Block& block : heights.blocks) {
+    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
+    const Float8 h = load8(block.height) - x * move[0] - y * move[1] - z * move[2];
     Float8 power = (h * scale) * (h * scale), w = power;  // to the power of 2^k - 1 after k rounds
     for (int k = 1; k < doublings; ++k) power = power * power, w = w * power;
     const Float8 wx = w * x, wy = w * y, wz = w * z;
@@ -76,9 +73,9 @@ inline std::array<float, HeightKernel::shares> largest_along(const LinearHeights
                                                              const HeightKernel::Move& step,
                                                              const std::array<float, HeightKernel::shares>& share) {
   Float8 largest[HeightKernel::shares] = {};
-  for (std::size_t i = 0; i < heights.height.size(); i += 8) {
-    const Float8 x = load8(heights.x, i), y = load8(heights.y, i), z = load8(heights.z, i);
-    const Float8 h = load8(heights.height, i) - x * move[0] - y * move[1] - z * move[2];
+  for (const LinearHeights::Block& block : heights.blocks) {
+    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
+    const Float8 h = load8(block.height) - x * move[0] - y * move[1] - z * move[2];
     const Float8 change = x * step[0] + y * step[1] + z * step[2];
     for (std::size_t k = 0; k < HeightKernel::shares; ++k) {
       const Float8 after = h - change * share[k];

@@ -30,8 +30,7 @@ void LocalDeviation::begin(double tolerance, std::span<const std::uint32_t> orig
   set_faces(faces);
   const std::span<const std::uint32_t> corners = corners_.of(originals);
   const std::size_t stride = (corners.size() + most_samples - 1) / most_samples;
-  for (std::size_t i = 0; i < corners.size(); i += stride) samples_.add(vertices_[corners[i]] - origin_, 1);
-  while (samples_.size() % 8 != 0) samples_.add({}, 0);
+  for (std::size_t i = 0; i < corners.size(); i += stride) samples_.add(vertices_[corners[i]] - origin_);
   // Triangles that reach over the rim of the change have corners that other faces answer for.
   kernel_.drop_far(samples_, faces_, static_cast<float>(tolerance));
 }

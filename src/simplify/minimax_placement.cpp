@@ -50,9 +50,7 @@ HeightKernel::Move solve(const WeightedSums& sums, float mean_curvature) {
   return {step[0], step[1], step[2]};
 }
 
-void fill_up(SamplePoints& samples) {
-  while (samples.size() % 8 != 0) samples.add({}, 0);
-}
+std::size_t stride_of(std::size_t points, std::size_t room) { return (points + room - 1) / room; }
 
 }  // namespace
 
@@ -60,17 +58,13 @@ void MinimaxPlacement::begin(double tolerance, std::span<const std::uint32_t> or
                              std::uint32_t hint) {
   by_tolerance_ = 1 / tolerance;
   hint_ = hint;
-  samples_.clear();
+  few_.clear();
   if (faces.empty()) return;
   origin_ = faces.front()[0];
-  add_samples(originals);
   set_faces(faces, removed_);
-  few_.clear();
-  for (std::size_t i = 0; i < samples_.size(); i += coarseness)
-    few_.add({samples_.x[i], samples_.y[i], samples_.z[i]}, samples_.weight[i]);
-  fill_up(few_);
-  fill_up(samples_);
-  drop_far(few_);
+  corners_of_originals_ = corners_.of(originals);
+  originals_ = originals;
+  take_samples(coarseness, few_);
   only_few_ = true;
 }
 
@@ -79,24 +73,32 @@ void MinimaxPlacement::set_faces(std::span<const Corners> faces, std::vector<Sam
   for (const Corners& c : faces) to.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
 }
 
-/// Triangles that reach over the rim of the change have corners that other faces answer for.
-void MinimaxPlacement::drop_far(SamplePoints& samples) const {
-  slope_kernel_.drop_far(samples, removed_, static_cast<float>(1 / by_tolerance_));
+/// One in `coarseness` of the corners and middles that there is room for.
+void MinimaxPlacement::take_samples(std::size_t coarseness, SamplePoints& to) const {
+  const std::size_t stride = stride_of(corners_of_originals_.size(), most_samples);
+  std::size_t next = 0, at = 0;  // of all samples
+  for (std::size_t i = 0; i < corners_of_originals_.size(); i += stride, ++at) {
+    if (at != next) continue;
+    to.add(vertices_[corners_of_originals_[i]] - origin_);
+    next += coarseness;
+  }
+  if (stride <= 1) take_middles(coarseness, next, at, to);
+  // Triangles that reach over the rim of the change have corners that other faces answer for.
+  slope_kernel_.drop_far(to, removed_, static_cast<float>(1 / by_tolerance_));
 }
 
-void MinimaxPlacement::add_samples(std::span<const std::uint32_t> originals) {
-  const std::span<const std::uint32_t> corners = corners_.of(originals);
-  const auto stride_of = [](std::size_t points, std::size_t room) { return (points + room - 1) / room; };
-  const std::size_t stride = stride_of(corners.size(), most_samples);
-  for (std::size_t i = 0; i < corners.size(); i += stride) samples_.add(vertices_[corners[i]] - origin_, 1);
-  if (stride > 1) return;
-  const std::size_t step = stride_of(3 * originals.size() / 2, most_with_middles - samples_.size());
-  std::size_t middles = 0;
-  for (const std::uint32_t t : originals) {
+void MinimaxPlacement::take_middles(std::size_t coarseness, std::size_t next, std::size_t at, SamplePoints& to) const {
+  const std::size_t step = stride_of(3 * originals_.size() / 2, most_with_middles - at);
+  std::size_t skip = 0;
+  for (const std::uint32_t t : originals_) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t u = triangles_[t][k], v = triangles_[t][(k + 1) % 3];
-      if (u > v || middles++ % step != 0) continue;  // seen from the other side
-      samples_.add(0.5 * (vertices_[u] + vertices_[v]) - origin_, 1);
+      if (u > v) continue;  // seen from the other side
+      if (skip-- > 0) continue;
+      skip = step - 1;
+      if (at++ != next) continue;
+      to.add(0.5 * (vertices_[u] + vertices_[v]) - origin_);
+      next += coarseness;
     }
   }
 }
@@ -113,7 +115,6 @@ void MinimaxPlacement::add_vertex(Vec3 p, Proximity& original) {
   // It is the vertex that moves here, not the closest point.
   const auto slope = [&](double component) { return static_cast<float>(-component / height); };
   heights_.add(static_cast<float>(height), slope(offset.x), slope(offset.y), slope(offset.z));
-  while (heights_.height.size() % 8 != 0) heights_.add(0, 0, 0, 0);
 }
 
 MinimaxPlacement::Step MinimaxPlacement::step(std::span<const Corners> faces, Proximity& original) {
@@ -123,7 +124,8 @@ MinimaxPlacement::Step MinimaxPlacement::step(std::span<const Corners> faces, Pr
     const Step step = step_by(few_, faces.front()[0], original);
     if (step.there > hopeless_height) return step;
     only_few_ = false;
-    drop_far(samples_);
+    samples_.clear();
+    take_samples(1, samples_);
   }
   return step_by(samples_, faces.front()[0], original);
 }

@@ -28,6 +28,7 @@ class MinimaxPlacement {
 
   /// Samples the corners of the given original triangles, and where these are few also middles of edges, that lie
   /// within the tolerance of `faces`, those that the change takes away. `hint` is an original triangle near them.
+  /// `originals` must stay as it is until the last step.
   void begin(double tolerance, std::span<const std::uint32_t> originals, std::span<const Corners> faces,
              std::uint32_t hint);
 
@@ -40,9 +41,9 @@ class MinimaxPlacement {
   [[nodiscard]] Step step(std::span<const Corners> faces, Proximity& original);
 
  private:
-  void add_samples(std::span<const std::uint32_t> originals);
+  void take_samples(std::size_t coarseness, SamplePoints& to) const;
+  void take_middles(std::size_t coarseness, std::size_t next, std::size_t at, SamplePoints& to) const;
   void set_faces(std::span<const Corners> faces, std::vector<SampleFace>& to) const;
-  void drop_far(SamplePoints& samples) const;
   [[nodiscard]] Step step_by(const SamplePoints& samples, Vec3 vertex, Proximity& original);
   void add_vertex(Vec3 p, Proximity& original);
   [[nodiscard]] Step lowered() const;
@@ -54,8 +55,9 @@ class MinimaxPlacement {
   SlopeKernel slope_kernel_ = fastest_slope_kernel();
   double by_tolerance_ = 0;
   Vec3 origin_;
+  std::span<const std::uint32_t> originals_, corners_of_originals_;
   SamplePoints samples_, few_;
-  bool only_few_ = false;  ///< `samples_` have not been compared with `removed_` yet
+  bool only_few_ = false;  ///< `samples_` have not been taken yet
   std::vector<SampleFace> removed_, faces_;
   std::uint32_t hint_ = 0;
   LinearHeights heights_;

@@ -10,19 +10,25 @@ namespace meshbound {
 
 /// Points in single precision, in blocks of eight, near an origin of their own: a guide needs no more.
 struct SamplePoints {
-  std::vector<float> x, y, z;
-  std::vector<float> weight;  ///< 0 for those that fill up the last block
+  struct alignas(32) Block {
+    float x[8] = {}, y[8] = {}, z[8] = {};
+    float weight[8] = {};  ///< 0 for those that fill up the last block
+    bool operator==(const Block&) const = default;
+  };
+  std::vector<Block> blocks;
 
-  void clear() {
-    for (std::vector<float>* all : {&x, &y, &z, &weight}) all->clear();
+  void clear() { blocks.clear(), lane_ = 8; }
+  void add(Vec3 p) {
+    if (lane_ == 8) blocks.emplace_back(), lane_ = 0;
+    Block& block = blocks.back();
+    block.x[lane_] = static_cast<float>(p.x);
+    block.y[lane_] = static_cast<float>(p.y);
+    block.z[lane_] = static_cast<float>(p.z);
+    block.weight[lane_++] = 1;
   }
-  void add(Vec3 p, float share) {
-    x.push_back(static_cast<float>(p.x));
-    y.push_back(static_cast<float>(p.y));
-    z.push_back(static_cast<float>(p.z));
-    weight.push_back(share);
-  }
-  [[nodiscard]] std::size_t size() const { return x.size(); }
+
+ private:
+  std::size_t lane_ = 8;  ///< the next one of the last block
 };
 
 /// A triangle a, a + ab, a + ac with what is the same for all points.

@@ -3,7 +3,6 @@
 #pragma once
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "numeric/simd.h"
 #include "simplify/sampled_slope.h"
@@ -11,11 +10,8 @@
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
-inline Float8 load8(const std::vector<float>& all, std::size_t first) {
-  Float8 eight;
-  std::memcpy(&eight, &all[first], sizeof eight);
-  return eight;
-}
+inline Float8 load8(const float (&lanes)[8]) { return *reinterpret_cast<const Float8*>(lanes); }
+inline void store8(float (&lanes)[8], Float8 values) { *reinterpret_cast<Float8*>(lanes) = values; }
 
 inline Float8 clamped(Float8 x) {
   x = x > 0.0F ? x : Float8{};
@@ -61,34 +57,33 @@ inline void offer_face(const SampleFace& f, float index, Float8 x, Float8 y, Flo
   offer(v, w, (v >= 0.0F) & (w >= 0.0F) & (v + w <= 1.0F));
 }
 
-inline Closest8 closest_of(const SamplePoints& points, std::size_t first, std::span<const SampleFace> faces) {
+inline Closest8 closest_of(const SamplePoints::Block& points, std::span<const SampleFace> faces) {
   Closest8 at = nothing_near;
-  const Float8 x = load8(points.x, first), y = load8(points.y, first), z = load8(points.z, first);
+  const Float8 x = load8(points.x), y = load8(points.y), z = load8(points.z);
   for (std::size_t k = 0; k < faces.size(); ++k) offer_face(faces[k], static_cast<float>(k), x, y, z, at);
   return at;
 }
 
 inline void drop_far(SamplePoints& points, std::span<const SampleFace> faces, float tolerance) {
   constexpr unsigned all_lanes = 0xff;
-  for (std::size_t i = 0; i < points.size(); i += 8) {
-    const Float8 x = load8(points.x, i), y = load8(points.y, i), z = load8(points.z, i);
+  for (SamplePoints::Block& block : points.blocks) {
+    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
     Closest8 at = nothing_near;
     unsigned near = 0;
     for (std::size_t k = 0; k < faces.size() && near != all_lanes; ++k) {
       offer_face(faces[k], 0, x, y, z, at);
       near = lane_bits(at.squared <= tolerance * tolerance);
     }
-    for (unsigned far = ~near & all_lanes; far != 0; far &= far - 1)
-      points.weight[i + static_cast<std::size_t>(std::countr_zero(far))] = 0;
+    for (unsigned far = ~near & all_lanes; far != 0; far &= far - 1) block.weight[std::countr_zero(far)] = 0;
   }
 }
 
 inline void add_slope(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
                       SlopeSums& sums) {
   Float8 sum{}, worst{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
-  for (std::size_t i = 0; i < points.size(); i += 8) {
-    const Closest8 at = closest_of(points, i, faces);
-    const Float8 weight = load8(points.weight, i);
+  for (const SamplePoints::Block& block : points.blocks) {
+    const Closest8 at = closest_of(block, faces);
+    const Float8 weight = load8(block.weight);
     const Float8 square = weight * at.squared * (by_tolerance * by_tolerance);
     const Float8 ox = at.x * by_tolerance, oy = at.y * by_tolerance, oz = at.z * by_tolerance;
     const Float8 fourth = weight * square * square;
