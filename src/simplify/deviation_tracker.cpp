@@ -27,6 +27,7 @@ DeviationTracker::Impl::Impl(const MeshView& original, const Bvh& tree)
     }
   }
   affected_marks.reserve(triangles.size());
+  sampled_marks.reserve(triangles.size());
 }
 
 DeviationTracker::DeviationTracker(const MeshView& original, const Bvh& bvh, double tolerance)
@@ -88,15 +89,21 @@ void DeviationTracker::commit() {
 
 std::uint32_t DeviationTracker::Impl::gather_for_samples(std::span<const std::uint32_t> removed) {
   deviation_faces.clear();
+  for (const std::uint32_t face : removed) deviation_faces.push_back(corners[face]);
+  return removed.empty() ? 0 : nearest[removed.back()];
+}
+
+/// What the change that was examined last has found already, if that was one of these faces.
+std::span<const std::uint32_t> DeviationTracker::Impl::originals_of(std::span<const std::uint32_t> removed) {
+  if (around.known && around.all_change && std::ranges::equal(removed, around.removed)) return pending.affected;
   deviation_originals.clear();
-  std::uint32_t hint = 0;
+  sampled_marks.clear();
   for (const std::uint32_t face : removed) {
-    deviation_faces.push_back(corners[face]);
-    hint = nearest[face];
-    const auto of_face = cover.originals_of(face);
-    deviation_originals.insert(deviation_originals.end(), of_face.begin(), of_face.end());
+    for (const std::uint32_t t : cover.originals_of(face)) {
+      if (sampled_marks.insert(t)) deviation_originals.push_back(t);
+    }
   }
-  return hint;
+  return deviation_originals;
 }
 
 void DeviationTracker::Impl::gather_moved(std::span<const TrackedFace> added,
@@ -110,12 +117,12 @@ void DeviationTracker::Impl::gather_moved(std::span<const TrackedFace> added,
 
 void DeviationTracker::sample(std::span<const std::uint32_t> removed) {
   const std::uint32_t hint = impl_->gather_for_samples(removed);
-  impl_->deviation.begin(impl_->tolerance, impl_->deviation_originals, impl_->deviation_faces, hint);
+  impl_->deviation.begin(impl_->tolerance, impl_->originals_of(removed), impl_->deviation_faces, hint);
 }
 
 void DeviationTracker::sample_heights(std::span<const std::uint32_t> removed) {
   const std::uint32_t hint = impl_->gather_for_samples(removed);
-  impl_->minimax.begin(impl_->tolerance, impl_->deviation_originals, impl_->deviation_faces, hint);
+  impl_->minimax.begin(impl_->tolerance, impl_->originals_of(removed), impl_->deviation_faces, hint);
 }
 
 HeightStep DeviationTracker::height_step(std::span<const TrackedFace> added,

@@ -55,7 +55,7 @@ struct DeviationTracker::Impl {
   MinimaxPlacement minimax;
   std::vector<FaceCorners> deviation_faces;
   std::vector<std::uint32_t> deviation_originals;
-  MarkedIds removed_marks, kept_marks, affected_marks;
+  MarkedIds removed_marks, kept_marks, affected_marks, sampled_marks;
 
   /// Where a face is among the candidates of `forward` in the present round.
   struct Candidate {
@@ -110,8 +110,10 @@ struct DeviationTracker::Impl {
 
   Impl(const MeshView& original, const Bvh& tree);
   void set_tolerance(double value);
-  /// Faces, the original triangles they hold, and one near them, for samples; with the moved corner first.
+  /// Faces, for samples, and an original triangle near them; with the moved corner first.
   std::uint32_t gather_for_samples(std::span<const std::uint32_t> removed);
+  /// Original triangles that the faces stand for, each once.
+  [[nodiscard]] std::span<const std::uint32_t> originals_of(std::span<const std::uint32_t> removed);
   void gather_moved(std::span<const TrackedFace> added, std::span<const std::size_t> moved_corner);
   [[nodiscard]] double provable(double value) const;
   [[nodiscard]] double limit_around(const Eigen::AlignedBox3d& box) const;
