@@ -221,10 +221,11 @@ class DeviationMonitor {
   struct EdgeMemory {
     std::uint64_t refused_at = 0;  ///< clock; 0: never
     std::uint32_t uncovered = SurfaceChange::no_triangle;
+    bool hopeless = false;  ///< no placement came near keeping the bound
   };
   struct VertexMemory {
-    std::uint64_t moved_at = 0;    ///< clock of the last collapse into this vertex
-    std::uint64_t touched_at = 0;  ///< clock of the last collapse into this vertex or a neighbour
+    std::uint64_t moved_at = 0;    ///< clock of the last change of this vertex: a collapse into it, a move, a flip
+    std::uint64_t touched_at = 0;  ///< clock of the last change of this vertex or a neighbour
     bool locked = false;
   };
 
@@ -268,6 +269,7 @@ class DeviationMonitor {
   [[nodiscard]] std::vector<std::vector<Face>> components() const;
   void remove_component(const std::vector<Face>& component);
   void touch_around(Vertex v);
+  void changed(Vertex v);
   /// The k-th of the fallback placements beside `wanted`, for the edge whose star was gathered last.
   [[nodiscard]] std::optional<Point> fallback(int k, const Point& p0, const Point& p1, const Point& wanted);
   [[nodiscard]] std::optional<Point> minimax_placement(const Point& p0, const Point& p1, const Point& wanted);
@@ -308,6 +310,7 @@ class DeviationMonitor {
   std::optional<Halfedge> selected_;                    ///< popped from the queue, its placement not yet asked for
   std::optional<std::pair<Halfedge, Point>> refused_;   ///< by the placement, for the filter that follows
   bool refused_by_bound_ = false;
+  bool hopeless_ = false;  ///< said of the edge tested last by `minimax_placement`
   bool must_sample_ = false;                                        ///< another edge than the last time
   std::optional<std::pair<Eigen::Vector3d, double>> best_sampled_;  ///< placement of this edge, and its sum
   std::optional<std::pair<Halfedge, Point>> admitted_;

@@ -57,6 +57,13 @@ void DeviationMonitor<Mesh, VertexPointMap>::place(const Eigen::Vector3d& p) {
   for (std::size_t i = 0; i < added_.size(); ++i) added_[i].corners[moved_corner_[i]] = p;
 }
 
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::changed(Vertex v) {
+  VertexMemory memory = get(vertex_memory_, v);
+  memory.moved_at = memory.touched_at = clock_;
+  put(vertex_memory_, v, memory);
+}
+
 /// Newton's method with shorter steps where a whole one does not lower the sum or the guard forbids it.
 template <class Mesh, class VertexPointMap>
 auto DeviationMonitor<Mesh, VertexPointMap>::lower_deviation(const Eigen::Vector3d& p, double reach) -> Sampled {
@@ -161,7 +168,8 @@ auto DeviationMonitor<Mesh, VertexPointMap>::minimax_placement(const Point& p0, 
     if (!next) break;
     at = *next;
   }
-  if (least > internal::largest_provable_height) return std::nullopt;
+  hopeless_ = least > internal::largest_provable_height;
+  if (hopeless_) return std::nullopt;
   return to_point(best);
 }
 
@@ -171,6 +179,7 @@ void DeviationMonitor<Mesh, VertexPointMap>::commit_move(Vertex v, const Point& 
   put(points_, v, to);
   ++clock_;
   touch_around(v);
+  changed(v);
 }
 
 template <class Mesh, class VertexPointMap>
@@ -243,11 +252,7 @@ bool DeviationMonitor<Mesh, VertexPointMap>::make_flip(Edge e) {
   }
   put(edge_memory_, e, EdgeMemory{});
   ++clock_;
-  for (const Vertex v : around) {
-    VertexMemory memory = get(vertex_memory_, v);
-    memory.touched_at = clock_;
-    put(vertex_memory_, v, memory);
-  }
+  for (const Vertex v : around) changed(v);
   return true;
 }
 
