@@ -32,6 +32,14 @@ inline Float8 maximum(Float8 a, Float8 b) {
 #endif
 }
 
+inline Float8 minimum(Float8 a, Float8 b) {
+#if defined(__AVX2__)
+  return _mm256_min_ps(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
 inline Double4 maximum(Double4 a, Double4 b) {
 #if defined(__AVX2__)
   return _mm256_max_pd(a, b);

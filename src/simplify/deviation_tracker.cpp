@@ -27,7 +27,6 @@ DeviationTracker::Impl::Impl(const MeshView& original, const Bvh& tree)
     }
   }
   affected_marks.reserve(triangles.size());
-  sampled_marks.reserve(triangles.size());
 }
 
 DeviationTracker::DeviationTracker(const MeshView& original, const Bvh& bvh, double tolerance)
@@ -91,19 +90,6 @@ std::uint32_t DeviationTracker::Impl::gather_for_samples(std::span<const std::ui
   deviation_faces.clear();
   for (const std::uint32_t face : removed) deviation_faces.push_back(corners[face]);
   return removed.empty() ? 0 : nearest[removed.back()];
-}
-
-/// What the change that was examined last has found already, if that was one of these faces.
-std::span<const std::uint32_t> DeviationTracker::Impl::originals_of(std::span<const std::uint32_t> removed) {
-  if (around.known && around.all_change && std::ranges::equal(removed, around.removed)) return pending.affected;
-  deviation_originals.clear();
-  sampled_marks.clear();
-  for (const std::uint32_t face : removed) {
-    for (const std::uint32_t t : cover.originals_of(face)) {
-      if (sampled_marks.insert(t)) deviation_originals.push_back(t);
-    }
-  }
-  return deviation_originals;
 }
 
 void DeviationTracker::Impl::gather_moved(std::span<const TrackedFace> added,

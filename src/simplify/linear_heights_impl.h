@@ -22,14 +22,14 @@ inline void linearise(const SamplePoints& points, std::span<const SampleFace> fa
                       LinearHeights& heights) {
   heights.blocks.resize(points.blocks.size());
   for (std::size_t i = 0; i < points.blocks.size(); ++i) {
-    const Closest8 at = closest_of(points.blocks[i], faces);
+    const auto [at, face] = closest_of(points.blocks[i], faces);
     const Float8 x = at.x * by_tolerance, y = at.y * by_tolerance, z = at.z * by_tolerance;
     Float8 height = square_root(x * x + y * y + z * z);
     const Float8 by_height = 1.0F / height;
     Float8 way_x = by_height * x, way_y = by_height * y, way_z = by_height * z;
     for (unsigned on_face = lane_bits(~(height > least_way)); on_face != 0; on_face &= on_face - 1) {
       const int k = std::countr_zero(on_face);
-      const Vec<float> normal = unit_normal(faces[static_cast<std::size_t>(at.face[k])]);
+      const Vec<float> normal = unit_normal(faces[static_cast<std::size_t>(face[k])]);
       way_x[k] = normal.x, way_y[k] = normal.y, way_z[k] = normal.z;
       height[k] = dot(normal, {x[k], y[k], z[k]});
     }

@@ -13,54 +13,61 @@ inline namespace MESHBOUND_ISA {
 inline Float8 load8(const float (&lanes)[8]) { return *reinterpret_cast<const Float8*>(lanes); }
 inline void store8(float (&lanes)[8], Float8 values) { *reinterpret_cast<Float8*>(lanes) = values; }
 
-inline Float8 clamped(Float8 x) {
-  x = x > 0.0F ? x : Float8{};
-  return x < 1.0F ? x : broadcast8(1);
-}
+inline Float8 clamped(Float8 x, Float8 most) { return minimum(maximum(x, Float8{}), most); }
 
-/// The nearest so far: squared distance, offset from the closest point, the share that corner a has of it, and the
-/// face.
-struct Closest8 {
-  Float8 squared, x, y, z, share, face;
+/// Offsets from closest points, by lane, and the share that corner a has of these.
+struct Offset8 {
+  Float8 x, y, z, share, squared;
 
-  void offer(Float8 ox, Float8 oy, Float8 oz, Float8 corner_share, Float8 index, Mask8 valid) {
-    const Float8 square = ox * ox + oy * oy + oz * oz;
-    const Mask8 nearer = (square < squared) & valid;
-    squared = nearer ? square : squared;
-    x = nearer ? ox : x;
-    y = nearer ? oy : y;
-    z = nearer ? oz : z;
-    share = nearer ? corner_share : share;
-    face = nearer ? index : face;
+  Offset8(Float8 ox, Float8 oy, Float8 oz, Float8 of_corner)
+      : x(ox), y(oy), z(oz), share(of_corner), squared(ox * ox + oy * oy + oz * oz) {}
+  [[nodiscard]] Offset8 or_nearer(const Offset8& other) const {
+    const Mask8 nearer = other.squared < squared;
+    Offset8 result = *this;
+    result.x = nearer ? other.x : x;
+    result.y = nearer ? other.y : y;
+    result.z = nearer ? other.z : z;
+    result.share = nearer ? other.share : share;
+    result.squared = nearer ? other.squared : squared;
+    return result;
   }
 };
 
-constexpr Closest8 nothing_near = {
-    {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF}, {}, {}, {}, {}, {}};
-
-inline void offer_face(const SampleFace& f, float index, Float8 x, Float8 y, Float8 z, Closest8& closest) {
+/// For any w the nearest point of the line through w on ac and parallel to ab is found first: with the best w, that is
+/// the closest point unless it lies on ac or bc.
+inline Offset8 offset_from(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
+  const Float8 one = broadcast8(1);
   const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
   const Float8 on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
   const Float8 on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
-  const auto offer = [&](Float8 v, Float8 w, Mask8 valid) {
-    closest.offer(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
-                  1.0F - v - w, broadcast8(index), valid);
-  };
-  const Mask8 all = Mask8{} == Mask8{};
-  const Float8 zero{};
-  offer(clamped(on_ab * f.by_ab), zero, all);
-  offer(zero, clamped(on_ac * f.by_ac), all);
-  const Float8 along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc);
-  offer(1.0F - along, along, all);
-  const Float8 v = (f.ac_ac * on_ab - f.ab_ac * on_ac) * f.by_area;
-  const Float8 w = (f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area;
-  offer(v, w, (v >= 0.0F) & (w >= 0.0F) & (v + w <= 1.0F));
+  const Float8 w = clamped((f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area, one);
+  const Float8 v = clamped((on_ab - w * f.ab_ac) * f.by_ab, one - w);
+  const Offset8 inside(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
+                       one - v - w);
+  const Float8 on = clamped(on_ac * f.by_ac, one);
+  const Offset8 from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
+  const Float8 along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
+  const Offset8 from_bc(px - back * f.ab.x - along * f.ac.x, py - back * f.ab.y - along * f.ac.y,
+                        pz - back * f.ab.z - along * f.ac.z, Float8{});
+  return inside.or_nearer(from_ac).or_nearer(from_bc);
 }
 
+/// Of the face nearest so far.
+struct Closest8 {
+  Offset8 offset{Float8{}, Float8{}, broadcast8(HUGE_VALF), Float8{}};
+  Float8 face{};
+
+  void offer(const Offset8& other, Float8 index) {
+    face = other.squared < offset.squared ? index : face;
+    offset = offset.or_nearer(other);
+  }
+};
+
 inline Closest8 closest_of(const SamplePoints::Block& points, std::span<const SampleFace> faces) {
-  Closest8 at = nothing_near;
+  Closest8 at;
   const Float8 x = load8(points.x), y = load8(points.y), z = load8(points.z);
-  for (std::size_t k = 0; k < faces.size(); ++k) offer_face(faces[k], static_cast<float>(k), x, y, z, at);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    at.offer(offset_from(faces[k], x, y, z), broadcast8(static_cast<float>(k)));
   return at;
 }
 
@@ -68,12 +75,9 @@ inline void drop_far(SamplePoints& points, std::span<const SampleFace> faces, fl
   constexpr unsigned all_lanes = 0xff;
   for (SamplePoints::Block& block : points.blocks) {
     const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
-    Closest8 at = nothing_near;
     unsigned near = 0;
-    for (std::size_t k = 0; k < faces.size() && near != all_lanes; ++k) {
-      offer_face(faces[k], 0, x, y, z, at);
-      near = lane_bits(at.squared <= tolerance * tolerance);
-    }
+    for (std::size_t k = 0; k < faces.size() && near != all_lanes; ++k)
+      near |= lane_bits(offset_from(faces[k], x, y, z).squared <= tolerance * tolerance);
     for (unsigned far = ~near & all_lanes; far != 0; far &= far - 1) block.weight[std::countr_zero(far)] = 0;
   }
 }
@@ -82,7 +86,7 @@ inline void add_slope(const SamplePoints& points, std::span<const SampleFace> fa
                       SlopeSums& sums) {
   Float8 sum{}, worst{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
   for (const SamplePoints::Block& block : points.blocks) {
-    const Closest8 at = closest_of(block, faces);
+    const Offset8 at = closest_of(block, faces).offset;
     const Float8 weight = load8(block.weight);
     const Float8 square = weight * at.squared * (by_tolerance * by_tolerance);
     const Float8 ox = at.x * by_tolerance, oy = at.y * by_tolerance, oz = at.z * by_tolerance;

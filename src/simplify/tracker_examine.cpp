@@ -65,28 +65,46 @@ void DeviationTracker::Impl::select(const SurfaceChange& change) {
   pending.admitted = false;
   pending.covers.clear();
   pending.cover_end.clear();
-  const bool same_faces = around.known && std::equal(change.removed.begin(), change.removed.end(),
-                                                     around.removed.begin(), around.removed.end());
-  if (!same_faces) {
-    removed_marks.clear();
-    for (const std::uint32_t face : change.removed) {
-      removed_marks.reserve(face);
-      removed_marks.insert(face);
-    }
-  }
+  const bool same_faces = is_around(change.removed);
+  if (!same_faces) mark_removed(change.removed);
   select_faces(change);
   const bool all_change = pending.added.size() == change.added.size();
-  const bool again = same_faces && all_change && around.all_change &&
-                     std::equal(pending.added.begin(), pending.added.end(), around.added.begin(), around.added.end(),
-                                [](const TrackedFace& face, std::uint32_t id) { return face.id == id; });
-  if (again) return;
-  around.known = true;
+  const bool same_affected = same_faces && all_change && around.all_change;
+  const bool same_candidates =
+      same_affected && std::equal(pending.added.begin(), pending.added.end(), around.added.begin(), around.added.end(),
+                                  [](const TrackedFace& face, std::uint32_t id) { return face.id == id; });
+  if (same_candidates) return;
   around.entered = false;
-  around.all_change = all_change;
-  around.removed.assign(change.removed.begin(), change.removed.end());
   around.added.clear();
   for (const TrackedFace& face : pending.added) around.added.push_back(face.id);
-  select_affected(change);
+  if (!same_affected) select_affected(change.removed, all_change);
+}
+
+bool DeviationTracker::Impl::is_around(std::span<const std::uint32_t> removed) const {
+  return around.known && std::equal(removed.begin(), removed.end(), around.removed.begin(), around.removed.end());
+}
+
+void DeviationTracker::Impl::mark_removed(std::span<const std::uint32_t> removed) {
+  removed_marks.clear();
+  for (const std::uint32_t face : removed) {
+    removed_marks.reserve(face);
+    removed_marks.insert(face);
+  }
+  around.known = true;
+  around.removed.assign(removed.begin(), removed.end());
+}
+
+/// What the change that was examined last has found already, if that was one of these faces.
+std::span<const std::uint32_t> DeviationTracker::Impl::originals_of(std::span<const std::uint32_t> removed) {
+  if (!is_around(removed) || !around.all_change) {
+    pending.admitted = false;
+    mark_removed(removed);
+    kept_marks.clear();
+    around.entered = false;
+    around.added.clear();
+    select_affected(removed, true);
+  }
+  return pending.affected;
 }
 
 void DeviationTracker::Impl::select_faces(const SurfaceChange& change) {
@@ -105,10 +123,12 @@ void DeviationTracker::Impl::select_faces(const SurfaceChange& change) {
   }
 }
 
-void DeviationTracker::Impl::select_affected(const SurfaceChange& change) {
+/// Of the faces that are not kept: of all where `all_change`.
+void DeviationTracker::Impl::select_affected(std::span<const std::uint32_t> removed, bool all_change) {
+  around.all_change = all_change;
   affected_marks.clear();
   pending.affected.clear();
-  for (const std::uint32_t face : change.removed) {
+  for (const std::uint32_t face : removed) {
     kept_marks.reserve(face);
     if (kept_marks.contains(face)) continue;
     for (const std::uint32_t t : cover.originals_of(face)) {

@@ -54,8 +54,7 @@ struct DeviationTracker::Impl {
   LocalDeviation deviation;
   MinimaxPlacement minimax;
   std::vector<FaceCorners> deviation_faces;
-  std::vector<std::uint32_t> deviation_originals;
-  MarkedIds removed_marks, kept_marks, affected_marks, sampled_marks;
+  MarkedIds removed_marks, kept_marks, affected_marks;
 
   /// Where a face is among the candidates of `forward` in the present round.
   struct Candidate {
@@ -122,7 +121,9 @@ struct DeviationTracker::Impl {
 
   void select(const SurfaceChange& change);
   void select_faces(const SurfaceChange& change);
-  void select_affected(const SurfaceChange& change);
+  [[nodiscard]] bool is_around(std::span<const std::uint32_t> removed) const;
+  void mark_removed(std::span<const std::uint32_t> removed);
+  void select_affected(std::span<const std::uint32_t> removed, bool all_change);
   [[nodiscard]] Refusal examine(const SurfaceChange& change);
   [[nodiscard]] bool moved_vertex_near(const SurfaceChange& change);
   [[nodiscard]] std::uint32_t affected_near(Vec3 p) const;

@@ -247,8 +247,12 @@ class DeviationMonitor {
   }
   [[nodiscard]] bool is_border(Vertex v) const { return bool(CGAL::is_border(v, mesh_)); }
   [[nodiscard]] bool passes_guards() const;
-  [[nodiscard]] bool test(Halfedge h, Vertex v0, Vertex v1, const Point& placement, std::uint32_t try_first);
-  [[nodiscard]] bool test_gathered(Halfedge h, Vertex v0, Vertex v1, const Point& placement, std::uint32_t try_first);
+  template <class Profile>
+  [[nodiscard]] bool begin_test(const Profile& profile);
+  void end_test(Edge e, bool admitted);
+  template <class Profile>
+  [[nodiscard]] std::optional<Point> first_admitted(const Profile& profile, const Point& wanted);
+  [[nodiscard]] bool test_gathered(Halfedge h, Vertex v0, Vertex v1, const Point& placement);
   /// The faces around v0 and v1, v1 may be none, with `placement` for both.
   void gather_star(Vertex v0, Vertex v1, const Point& placement);
   /// The gathered star with another placement.
@@ -273,6 +277,7 @@ class DeviationMonitor {
   /// The k-th of the fallback placements beside `wanted`, for the edge whose star was gathered last.
   [[nodiscard]] std::optional<Point> fallback(int k, const Point& p0, const Point& p1, const Point& wanted);
   [[nodiscard]] std::optional<Point> minimax_placement(const Point& p0, const Point& p1, const Point& wanted);
+  void take_first_step();
   /// Moves the vertex of the gathered star from p, less far where the guards say so; where it is then, if anywhere
   /// else.
   [[nodiscard]] std::optional<Eigen::Vector3d> moved_within_guards(const Eigen::Vector3d& p, Eigen::Vector3d move);
@@ -309,8 +314,11 @@ class DeviationMonitor {
   std::vector<std::array<Eigen::Vector3d, 3>> before_;  ///< of each of `added_`
   std::optional<Halfedge> selected_;                    ///< popped from the queue, its placement not yet asked for
   std::optional<std::pair<Halfedge, Point>> refused_;   ///< by the placement, for the filter that follows
+  EdgeMemory tested_;                                   ///< of the edge tested last
   bool refused_by_bound_ = false;
-  bool hopeless_ = false;  ///< said of the edge tested last by `minimax_placement`
+  bool hopeless_ = false;                 ///< no placement of that edge comes near keeping the bound
+  std::optional<HeightStep> first_step_;  ///< of that edge, from where it was wanted
+  bool last_was_refused_ = false;
   bool must_sample_ = false;                                        ///< another edge than the last time
   std::optional<std::pair<Eigen::Vector3d, double>> best_sampled_;  ///< placement of this edge, and its sum
   std::optional<std::pair<Halfedge, Point>> admitted_;

@@ -142,6 +142,15 @@ auto DeviationMonitor<Mesh, VertexPointMap>::moved_within_guards(const Eigen::Ve
   return std::nullopt;
 }
 
+/// Of the gathered star. Not a proof, but nothing else is expected to keep the bound either.
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::take_first_step() {
+  tracker_.sample_heights(removed_);
+  first_step_ = tracker_.height_step(added_, moved_corner_);
+  hopeless_ = first_step_->there > internal::largest_provable_height;
+  refused_by_bound_ = refused_by_bound_ || hopeless_;
+}
+
 /// Starts from the first of the placements that the guards allow. None where no placement is expected to keep the
 /// bound.
 template <class Mesh, class VertexPointMap>
@@ -153,12 +162,12 @@ auto DeviationMonitor<Mesh, VertexPointMap>::minimax_placement(const Point& p0, 
     return passes_guards();
   });
   if (start == starts.end()) return std::nullopt;
-  tracker_.sample_heights(removed_);
+  if (!first_step_) take_first_step();
   const double reach = internal::longest_step * (to_eigen(p0) - to_eigen(p1)).norm();
   Eigen::Vector3d at = to_eigen(*start), best = at;
   double least = HUGE_VAL;
   for (int k = 0; k <= internal::most_minimax_steps; ++k) {
-    const HeightStep step = tracker_.height_step(added_, moved_corner_);
+    const HeightStep step = k == 0 ? *first_step_ : tracker_.height_step(added_, moved_corner_);
     if (step.here < least) least = step.here, best = at;
     const bool found = k > 0 && step.here <= internal::low_enough_height;
     if (found || step.there > internal::largest_provable_height || k == internal::most_minimax_steps) break;

@@ -167,20 +167,14 @@ bool DeviationMonitor<Mesh, VertexPointMap>::nothing_changed_since(const EdgeMem
 }
 
 template <class Mesh, class VertexPointMap>
-bool DeviationMonitor<Mesh, VertexPointMap>::test(Halfedge h, Vertex v0, Vertex v1, const Point& placement,
-                                                  std::uint32_t try_first) {
-  if (!locks_allow(v0, v1, placement)) return false;
-  gather_star(v0, v1, placement);
-  return test_gathered(h, v0, v1, placement, try_first);
-}
-
-template <class Mesh, class VertexPointMap>
-bool DeviationMonitor<Mesh, VertexPointMap>::test_gathered(Halfedge h, Vertex v0, Vertex v1, const Point& placement,
-                                                           std::uint32_t try_first) {
+bool DeviationMonitor<Mesh, VertexPointMap>::test_gathered(Halfedge h, Vertex v0, Vertex v1, const Point& placement) {
   if (search_placements && !is_promising(to_eigen(placement))) return false;
-  if (!admits_gathered(v0, v1, to_eigen(placement), try_first)) return false;
-  admitted_.emplace(h, placement);
-  return true;
+  if (admits_gathered(v0, v1, to_eigen(placement), tested_.uncovered)) {
+    admitted_.emplace(h, placement);
+    return true;
+  }
+  if (refused_by_bound_) tested_.uncovered = tracker_.last_uncovered();
+  return false;
 }
 
 template <class Mesh, class VertexPointMap>
@@ -199,77 +193,93 @@ bool DeviationMonitor<Mesh, VertexPointMap>::admits_gathered(Vertex v0, Vertex v
   return false;
 }
 
+/// False for an edge that need not be tried again yet.
+template <class Mesh, class VertexPointMap>
+template <class Profile>
+bool DeviationMonitor<Mesh, VertexPointMap>::begin_test(const Profile& profile) {
+  admitted_.reset();
+  refused_.reset();
+  refused_by_bound_ = false;
+  must_sample_ = true;
+  hopeless_ = false;
+  first_step_.reset();
+  tested_ = get(edge_memory_, edge(profile.v0_v1(), mesh_));
+  if (!nothing_changed_since(tested_, profile.v0(), profile.v1())) return true;
+  ++counts_.repeated;
+  return false;
+}
+
+template <class Mesh, class VertexPointMap>
+void DeviationMonitor<Mesh, VertexPointMap>::end_test(Edge e, bool admitted) {
+  last_was_refused_ = !admitted;
+  if (admitted) {
+    put(edge_memory_, e, EdgeMemory{});
+    return;
+  }
+  ++counts_.refused;
+  put(edge_memory_, e, EdgeMemory{++clock_, tested_.uncovered, hopeless_});
+}
+
 template <class Mesh, class VertexPointMap>
 template <class Profile>
 bool DeviationMonitor<Mesh, VertexPointMap>::admits(const Profile& profile, const Point& placement) {
   const std::pair<Halfedge, Point> asked(profile.v0_v1(), placement);
   if (admitted_ == asked) return true;
-  const bool refused = refused_ == asked;
-  admitted_.reset();
-  refused_.reset();
-  if (refused) return false;
-  refused_by_bound_ = false;
-  must_sample_ = true;
-  hopeless_ = false;
-  const Edge e = edge(profile.v0_v1(), mesh_);
-  const EdgeMemory memory = get(edge_memory_, e);
-  if (nothing_changed_since(memory, profile.v0(), profile.v1())) {
-    ++counts_.repeated;
+  if (refused_ == asked) {
+    admitted_.reset();
+    refused_.reset();
     return false;
   }
-  if (test(profile.v0_v1(), profile.v0(), profile.v1(), placement, memory.uncovered)) return true;
-  ++counts_.refused;
-  put(edge_memory_, e, EdgeMemory{++clock_, refused_by_bound_ ? tracker_.last_uncovered() : memory.uncovered});
-  return false;
+  if (!begin_test(profile)) return false;
+  bool admitted = locks_allow(profile.v0(), profile.v1(), placement);
+  if (admitted) {
+    gather_star(profile.v0(), profile.v1(), placement);
+    admitted = test_gathered(profile.v0_v1(), profile.v0(), profile.v1(), placement);
+  }
+  end_test(edge(profile.v0_v1(), mesh_), admitted);
+  return admitted;
 }
 
 template <class Mesh, class VertexPointMap>
 template <class Profile>
 std::optional<typename DeviationMonitor<Mesh, VertexPointMap>::Point>
 DeviationMonitor<Mesh, VertexPointMap>::admitted_placement(const Profile& profile, const Point& wanted) {
-  const bool locked = is_locked(profile.v0()) || is_locked(profile.v1());
-  if (locked) {
-    const Point& kept = get(points_, is_locked(profile.v0()) ? profile.v0() : profile.v1());
-    if (admits(profile, kept)) return kept;
-    refused_.emplace(profile.v0_v1(), wanted);
-    return std::nullopt;
-  }
-  if (admits(profile, wanted)) return wanted;
-  const Edge e = edge(profile.v0_v1(), mesh_);
-  EdgeMemory memory = get(edge_memory_, e);
-  const bool tested = memory.refused_at == clock_;
-  const bool movable = !preserve_boundary || !(is_border(profile.v0()) || is_border(profile.v1()));
   std::optional<Point> placement;
-  const auto admitted = [&](const Point& other) {
-    if (other == wanted) return false;
-    place(to_eigen(other));
-    if (test_gathered(profile.v0_v1(), profile.v0(), profile.v1(), other, memory.uncovered)) {
-      placement = other;
-      return true;
-    }
-    if (refused_by_bound_) memory.uncovered = tracker_.last_uncovered();
-    return false;
+  if (is_locked(profile.v0()) || is_locked(profile.v1())) {
+    const Point& kept = get(points_, is_locked(profile.v0()) ? profile.v0() : profile.v1());
+    if (admits(profile, kept)) placement = kept;
+  } else if (begin_test(profile)) {
+    gather_star(profile.v0(), profile.v1(), wanted);
+    placement = first_admitted(profile, wanted);
+    end_test(edge(profile.v0_v1(), mesh_), placement.has_value());
+  }
+  if (!placement) refused_.emplace(profile.v0_v1(), wanted);
+  return placement;
+}
+
+/// What is likely comes first: where the last edge was refused, so is this one, and samples may tell that.
+template <class Mesh, class VertexPointMap>
+template <class Profile>
+std::optional<typename DeviationMonitor<Mesh, VertexPointMap>::Point>
+DeviationMonitor<Mesh, VertexPointMap>::first_admitted(const Profile& profile, const Point& wanted) {
+  const bool movable = !preserve_boundary || !(is_border(profile.v0()) || is_border(profile.v1()));
+  const int fallbacks = movable ? fallback_placements : 0;
+  const auto admitted = [&](const std::optional<Point>& p) {
+    if (!p) return false;
+    place(to_eigen(*p));
+    return test_gathered(profile.v0_v1(), profile.v0(), profile.v1(), *p);
   };
-  bool found = false;
-  if (tested && movable) {
-    for (int k = 0; k < fallback_placements && !found; ++k) {
-      const std::optional<Point> other = fallback(k, profile.p0(), profile.p1(), wanted);
-      found = other && admitted(*other);
-    }
-    if (!found && search_placements) {
-      const std::optional<Point> other = searched_placement(profile.p0(), profile.p1());
-      found = other && admitted(*other);
-    }
+  if (last_was_refused_ && fallbacks > 0 && passes_guards()) take_first_step();
+  if (hopeless_) return std::nullopt;
+  const bool is_far = first_step_ && first_step_->here > internal::largest_provable_height;
+  if (!is_far && admitted(wanted)) return wanted;
+  for (int k = 0; k < fallbacks; ++k) {
+    const std::optional<Point> other = fallback(k, profile.p0(), profile.p1(), wanted);
+    if (other && (*other != wanted || is_far) && admitted(other)) return other;
   }
-  if (found) {
-    --counts_.refused;
-    put(edge_memory_, e, EdgeMemory{});
-    return placement;
-  }
-  memory.hopeless = tested ? hopeless_ : memory.hopeless;
-  put(edge_memory_, e, memory);
-  refused_.emplace(profile.v0_v1(), wanted);
-  return std::nullopt;
+  if (!movable || !search_placements) return std::nullopt;
+  const std::optional<Point> other = searched_placement(profile.p0(), profile.p1());
+  return admitted(other) ? other : std::nullopt;
 }
 
 template <class Mesh, class VertexPointMap>
