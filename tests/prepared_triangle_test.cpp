@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace {
@@ -30,6 +31,9 @@ TEST(PreparedTriangle, GivesWhatClosestOnTriangleGivesToTheLastBit) {
       EXPECT_EQ(found.offset.x, expected.offset.x);
       EXPECT_EQ(found.offset.y, expected.offset.y);
       EXPECT_EQ(found.offset.z, expected.offset.z);
+      const double squared = expected.squared_distance, less = std::nextafter(squared, 0.0);
+      EXPECT_TRUE(prepared.is_within(p, squared));
+      EXPECT_FALSE(prepared.is_within(p, less)) << squared;
     }
   }
 }

@@ -99,5 +99,8 @@ inline unsigned lane_bits(Mask4 mask) {
 #endif
 }
 
+/// The other way round.
+inline Mask4 mask_of_lanes(unsigned bits) { return (Mask4{1, 2, 4, 8} & static_cast<std::int64_t>(bits)) != 0; }
+
 }  // namespace MESHBOUND_ISA
 }  // namespace meshbound

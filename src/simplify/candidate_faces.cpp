@@ -36,7 +36,7 @@ const PreparedTriangle& CandidateFaces::triangle(int k) {
   return triangle;
 }
 
-bool CandidateFaces::holds(int k, Vec3 p) { return triangle(k).closest(p).squared_distance <= squared_tolerance_; }
+bool CandidateFaces::holds(int k, Vec3 p) { return triangle(k).is_within(p, squared_tolerance_); }
 
 FaceMask CandidateFaces::holding(Vec3 p, FaceMask among) {
   const double squared_reach = squared_tolerance_ * (1 + 2 * plane_slack);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 namespace meshbound {
@@ -40,28 +41,37 @@ DegreeCover::DegreeCover(const std::vector<Vec3>& vertices, const std::vector<st
 }
 
 /// Neighbours across edges of exactly two triangles, vertices of equal coordinates being one. Any other edge counts as
-/// boundary, which can only make a proof fail.
+/// boundary, which can only make a proof fail. Sides are sorted by their lower vertex, and compared with the others
+/// there.
 void DegreeCover::find_neighbours() {
-  struct Side {
-    std::uint32_t low, high, triangle, corner;
-  };
   const std::vector<std::uint32_t> first = first_of_equal(vertices_);
   neighbours_.assign(triangles_.size(), {no_neighbour, no_neighbour, no_neighbour});
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles_.size());
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    const auto& c = triangles_[t];
-    if (first[c[0]] == first[c[1]] || first[c[1]] == first[c[2]] || first[c[2]] == first[c[0]]) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(first[c[k]], first[c[(k + 1) % 3]]);
-      sides.push_back({low, high, t, k});
+  const auto for_each_side = [&](const auto& use) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const auto& c = triangles_[t];
+      const std::array<std::uint32_t, 3> v = {first[c[0]], first[c[1]], first[c[2]]};
+      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+      for (std::uint32_t k = 0; k < 3; ++k)
+        use(std::min(v[k], v[(k + 1) % 3]), Side{std::max(v[k], v[(k + 1) % 3]), t, k});
     }
+  };
+  std::vector<std::size_t> end(vertices_.size() + 1, 0);  // of the sides of each vertex, once these are put in
+  for_each_side([&](std::uint32_t low, const Side&) { ++end[low + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Side> sides(end.back());
+  for_each_side([&](std::uint32_t low, const Side& side) { sides[end[low]++] = side; });
+  std::size_t begin = 0;
+  for (const std::size_t stop : std::span(end).first(vertices_.size())) {
+    match(std::span(sides).subspan(begin, stop - begin));
+    begin = stop;
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
+}
+
+/// Sides that have one vertex in common.
+void DegreeCover::match(std::span<Side> sides) {
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.high < b.high; });
   for (std::size_t i = 0, j; i < sides.size(); i = j) {
-    for (j = i + 1; j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high;) ++j;
+    for (j = i + 1; j < sides.size() && sides[j].high == sides[i].high;) ++j;
     if (j - i != 2) continue;
     neighbours_[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;
     neighbours_[sides[i + 1].triangle][sides[i + 1].corner] = sides[i].triangle;

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/vec3.h"
@@ -41,7 +42,12 @@ class DegreeCover {
   };
   using ProjectedTriangle = std::array<Projected, 3>;
 
+  /// Of a triangle, at its corner and the next: the vertex of higher number.
+  struct Side {
+    std::uint32_t high, triangle, corner;
+  };
   void find_neighbours();
+  void match(std::span<Side> sides);
   [[nodiscard]] bool set_view(const std::array<Vec3, 3>& face, double tolerance, double magnitude);
   [[nodiscard]] Projected project(Vec3 p) const;
   [[nodiscard]] double outside(std::size_t side, const Projected& p) const {

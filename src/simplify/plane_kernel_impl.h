@@ -67,8 +67,7 @@ inline SlabBits test_slab(const PlaneBlock& block, Vec3 p, double tolerance, dou
 /// Lanes that are asked for the way back have the values at p and q swapped.
 inline Reach reach_in_slabs(const PlaneBlock& block, unsigned lanes_of_p, unsigned lanes_of_q, Vec3 p, Vec3 q,
                             double tolerance, double rim) {
-  const auto swapped = [&](int lane) -> std::int64_t { return ((lanes_of_q >> lane) & 1U) != 0 ? -1 : 0; };
-  const Mask4 back = {swapped(0), swapped(1), swapped(2), swapped(3)};
+  const Mask4 back = mask_of_lanes(lanes_of_q);
   const auto from_and_to = [&](double at_p, double at_q) {
     const Double4 first = broadcast4(at_p), second = broadcast4(at_q);
     return std::pair(select(back, second, first), select(back, first, second));
@@ -87,12 +86,8 @@ inline Reach reach_in_slabs(const PlaneBlock& block, unsigned lanes_of_p, unsign
                 to = plane_at(block, PlaneBlock::face, qx, qy, qz);
   const Double4 level = select(to > none, high, -high);
   share = select((to > high) | (to < -high), minimum((level - from) / (to - from), share), share);
-  Reach reach;
-  for (int lane = 0; lane < PlaneBlock::lanes; ++lane) {
-    if (((lanes_of_p >> lane) & 1U) != 0 && share[lane] > reach.forth) reach.forth = share[lane];
-    if (((lanes_of_q >> lane) & 1U) != 0 && share[lane] > reach.back) reach.back = share[lane];
-  }
-  return reach;
+  const auto largest = [&](Mask4 lanes) { return horizontal_maximum(maximum(select(lanes, share, none), none)); };
+  return {largest(mask_of_lanes(lanes_of_p)), largest(back)};
 }
 
 }  // namespace MESHBOUND_ISA
