@@ -317,6 +317,11 @@ TEST(LocalDeviation, KnowsItsSlopeOnEveryProcessor) {
   const std::vector<SampleFace> triangles = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
                                              SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
                                              SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  std::vector<SampleOffsets> portable, fastest;
+  portable_slope_kernel().offsets(points, triangles, portable);
+  fastest_slope_kernel().offsets(points, triangles, fastest);
+  EXPECT_EQ(portable.size(), 5U);
+  EXPECT_TRUE(portable == fastest);
   SlopeSums one, two;
   SamplePoints near = points, nearby = points;
   portable_slope_kernel().drop_far(near, triangles, 0.5F);

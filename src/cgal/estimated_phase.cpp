@@ -90,9 +90,9 @@ void EstimatedPhase::run(const CollapsePolicies& policies, const KeptParts& kept
 /// The faces around the edge as they are and as they would be. False where one would be folded or lose its area.
 template <class Profile>
 bool EstimatedPhase::gather(const Profile& profile, const Kernel::Point_3& placement) {
-  before_.clear();
-  after_.clear();
   const Vec3 moved = to_vec3(placement);
+  before_.clear(moved);
+  after_.clear(moved);
   for (const auto& t : profile.triangles()) {
     const std::array<SurfaceMesh::Vertex_index, 3> v = {t.v0, t.v1, t.v2};
     std::array<Vec3, 3> corners, changed;
@@ -119,20 +119,28 @@ template <class Profile>
 bool EstimatedPhase::admits(const Profile& profile, const Kernel::Point_3& placement) {
   const auto v0 = profile.v0(), v1 = profile.v1();
   if (!may_move(v0, placement) || !may_move(v1, placement) || !gather(profile, placement)) return false;
+  shifts_before_.clear();
+  shifts_after_.clear();
+  const auto ask = [](HeightField& field, std::vector<Heights>& shifts, Vec3 p, const Heights& shifted) {
+    field.ask(p);
+    shifts.push_back(shifted);
+  };
   const Heights between = heights_[v0].joined(heights_[v1]);
   const Vec3 moved = to_vec3(placement);
-  next_ = between.lowered(before_.height_of(moved));
-  for (const auto r : profile.link())
-    next_ = next_.joined(between.middle(heights_[r]).lowered(before_.height_of(0.5 * (moved + at(r)))));
+  ask(before_, shifts_before_, moved, between);
+  for (const auto r : profile.link()) ask(before_, shifts_before_, 0.5 * (moved + at(r)), between.middle(heights_[r]));
   for (const auto v : {v0, v1}) {
     const Vec3 p = at(v);
-    next_ = next_.joined(heights_[v].raised(after_.height_of(p)));
+    ask(after_, shifts_after_, p, heights_[v]);
     for (const auto h : CGAL::halfedges_around_target(mesh_.halfedge(v), mesh_)) {
       const auto r = mesh_.source(h);
-      if (r != v0 && r != v1)
-        next_ = next_.joined(heights_[v].middle(heights_[r]).raised(after_.height_of(0.5 * (p + at(r)))));
+      if (r != v0 && r != v1) ask(after_, shifts_after_, 0.5 * (p + at(r)), heights_[v].middle(heights_[r]));
     }
   }
+  const auto old_heights = before_.heights(), new_heights = after_.heights();
+  next_ = shifts_before_[0].lowered(old_heights[0]);
+  for (std::size_t i = 1; i < old_heights.size(); ++i) next_ = next_.joined(shifts_before_[i].lowered(old_heights[i]));
+  for (std::size_t i = 0; i < new_heights.size(); ++i) next_ = next_.joined(shifts_after_[i].raised(new_heights[i]));
   next_locked_ = is_locked(v0) || is_locked(v1);
   if (std::max(-next_.least, next_.most) <= limit_) return true;
   ++exceeded_;

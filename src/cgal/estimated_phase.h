@@ -63,7 +63,8 @@ class EstimatedPhase {
   std::uint64_t exceeded_ = 0, most_exceeded_ = 0;
   std::vector<Heights> heights_;  ///< by vertex
   HeightField before_, after_;
-  Heights next_;  ///< of the vertex of the collapse that was admitted
+  std::vector<Heights> shifts_before_, shifts_after_;  ///< heights that the points asked for shift
+  Heights next_;                                       ///< of the vertex of the collapse that was admitted
   bool next_locked_ = false, collapsing_ = false;
   std::uint64_t collapses_ = 0;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cgal/height_field.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace meshbound::cgal {
@@ -9,41 +8,37 @@ namespace {
 
 /// A point whose offset leans further from the normal than by this cosine, 45 degrees, lies beside the face: the
 /// offsets of points off a border or a needle say nothing about the side, and must not cancel.
-constexpr double least_cosine = 0.7;
+constexpr float least_cosine = 0.7F;
+
+Heights::Offset height_of(const Vec<float>& offset, float squared, const SampleFace& face) {
+  const Vec<float> normal = cross(face.ab, face.ac);
+  const float along = dot(normal, offset), area = std::sqrt(dot(normal, normal));
+  const double distance = std::sqrt(squared);
+  if (!(std::abs(along) > least_cosine * area * std::sqrt(squared))) return {-distance, distance};
+  return {std::copysign(distance, along), std::copysign(distance, along)};
+}
 
 }  // namespace
 
-void HeightField::add(const std::array<Vec3, 3>& c) {
-  Face& face = faces_.emplace_back();
-  const CornerTriangle<double> triangle{c[0], c[1] - c[0], c[2] - c[0]};
-  face.triangle = PreparedTriangle(triangle);
-  const Vec3 normal = cross(triangle.ab, triangle.ac);
-  const double area = length(normal);
-  if (area > 0) face.normal = (1 / area) * normal;
-  face.middle = (1.0 / 3) * (c[0] + c[1] + c[2]);
-  face.radius = std::sqrt(std::max(
-      {squared_length(c[0] - face.middle), squared_length(c[1] - face.middle), squared_length(c[2] - face.middle)}));
+void HeightField::clear(Vec3 origin) {
+  origin_ = origin;
+  faces_.clear();
+  points_.clear();
 }
 
-Heights::Offset HeightField::height_of(Vec3 p) {
-  if (last_ >= faces_.size()) last_ = 0;
-  std::size_t best = last_;
-  TriangleOffset<double> nearest = faces_[best].triangle.closest(p);
-  double least = std::sqrt(nearest.squared_distance);
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const Face& face = faces_[i];
-    if (i == last_ || std::abs(dot(face.normal, p - face.triangle.triangle().a)) >= least) continue;
-    if (squared_length(p - face.middle) >= (face.radius + least) * (face.radius + least)) continue;
-    const TriangleOffset<double> other = face.triangle.closest(p);
-    if (!(other.squared_distance < nearest.squared_distance)) continue;
-    nearest = other;
-    least = std::sqrt(nearest.squared_distance);
-    best = i;
+void HeightField::add(const std::array<Vec3, 3>& c) {
+  faces_.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
+}
+
+std::span<const Heights::Offset> HeightField::heights() {
+  kernel_.offsets(points_, faces_, offsets_);
+  heights_.clear();
+  for (const SampleOffsets& at : offsets_) {
+    for (std::size_t k = 0; k < 8; ++k)
+      heights_.push_back(
+          height_of({at.x[k], at.y[k], at.z[k]}, at.squared[k], faces_[static_cast<std::size_t>(at.face[k])]));
   }
-  last_ = best;
-  const double height = dot(faces_[best].normal, nearest.offset);
-  if (std::abs(height) < least_cosine * least) return {-least, least};
-  return {std::copysign(least, height), std::copysign(least, height)};
+  return std::span(heights_).first(points_.size());
 }
 
 }  // namespace meshbound::cgal

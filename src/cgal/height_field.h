@@ -2,9 +2,11 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "geometry/prepared_triangle.h"
+#include "geometry/vec3.h"
+#include "simplify/sampled_slope.h"
 
 namespace meshbound::cgal {
 
@@ -26,24 +28,25 @@ struct Heights {
   }
 };
 
-/// A few faces that are asked for the heights of many points above them.
+/// A few faces that are asked for the heights of points around them, in single precision: an estimate needs no more.
 class HeightField {
  public:
-  void clear() { faces_.clear(); }
+  /// No faces, no points. All that is added lies around `origin`.
+  void clear(Vec3 origin);
   void add(const std::array<Vec3, 3>& corners);
   [[nodiscard]] std::size_t size() const { return faces_.size(); }
-  /// Above the nearest face, below 0 on its other side.
-  [[nodiscard]] Heights::Offset height_of(Vec3 p);
+  void ask(Vec3 p) { points_.add(p - origin_); }
+  /// Of the points in the order in which they were asked for: above the nearest face, below 0 on its other side. At
+  /// least one face. Valid until the next call.
+  [[nodiscard]] std::span<const Heights::Offset> heights();
 
  private:
-  struct Face {
-    PreparedTriangle triangle;
-    Vec3 normal;  ///< unit, or 0 for zero area
-    Vec3 middle;
-    double radius = 0;  ///< of a ball around `middle` that holds the face
-  };
-  std::vector<Face> faces_;
-  std::size_t last_ = 0;  ///< the face nearest to the point before: a point beside it begins there
+  SlopeKernel kernel_ = fastest_slope_kernel();
+  Vec3 origin_;
+  std::vector<SampleFace> faces_;
+  SamplePoints points_;
+  std::vector<SampleOffsets> offsets_;
+  std::vector<Heights::Offset> heights_;
 };
 
 }  // namespace meshbound::cgal

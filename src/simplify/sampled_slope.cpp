@@ -36,7 +36,7 @@ void SlopeSums::add(Vec3 offset, double share) {
   }
 }
 
-SlopeKernel portable_slope_kernel() { return {drop_far, add_slope}; }
+SlopeKernel portable_slope_kernel() { return {offsets, drop_far, add_slope}; }
 
 SlopeKernel fastest_slope_kernel() {
 #if defined(MESHBOUND_HAS_AVX2)

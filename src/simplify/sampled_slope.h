@@ -26,6 +26,7 @@ struct SamplePoints {
     block.z[lane_] = static_cast<float>(p.z);
     block.weight[lane_++] = 1;
   }
+  [[nodiscard]] std::size_t size() const { return 8 * blocks.size() - (8 - lane_); }
 
  private:
   std::size_t lane_ = 8;  ///< the next one of the last block
@@ -51,8 +52,16 @@ struct SlopeSums {
   void add(Vec3 offset, double share);
 };
 
+/// Of eight points from the closest ones of some faces, and which face has it.
+struct alignas(32) SampleOffsets {
+  float x[8], y[8], z[8], squared[8], face[8];
+  bool operator==(const SampleOffsets&) const = default;
+};
+
 /// The inner loops, chosen once, by processor; all give the same result to the bit.
 struct SlopeKernel {
+  /// By block of points. At least one face.
+  void (*offsets)(const SamplePoints& points, std::span<const SampleFace> faces, std::vector<SampleOffsets>& offsets);
   /// Weight 0 for points further than `tolerance` from all faces.
   void (*drop_far)(SamplePoints& points, std::span<const SampleFace> faces, float tolerance);
   /// Adds the points, each against the face nearest to it. `by_tolerance` is 1 / tolerance.

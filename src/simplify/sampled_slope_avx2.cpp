@@ -4,6 +4,6 @@
 
 namespace meshbound {
 
-SlopeKernel avx2_slope_kernel() { return {drop_far, add_slope}; }
+SlopeKernel avx2_slope_kernel() { return {offsets, drop_far, add_slope}; }
 
 }  // namespace meshbound

@@ -71,6 +71,19 @@ inline Closest8 closest_of(const SamplePoints::Block& points, std::span<const Sa
   return at;
 }
 
+inline void offsets(const SamplePoints& points, std::span<const SampleFace> faces,
+                    std::vector<SampleOffsets>& offsets) {
+  offsets.resize(points.blocks.size());
+  for (std::size_t i = 0; i < points.blocks.size(); ++i) {
+    const auto [at, face] = closest_of(points.blocks[i], faces);
+    store8(offsets[i].x, at.x);
+    store8(offsets[i].y, at.y);
+    store8(offsets[i].z, at.z);
+    store8(offsets[i].squared, at.squared);
+    store8(offsets[i].face, face);
+  }
+}
+
 inline void drop_far(SamplePoints& points, std::span<const SampleFace> faces, float tolerance) {
   constexpr unsigned all_lanes = 0xff;
   for (SamplePoints::Block& block : points.blocks) {

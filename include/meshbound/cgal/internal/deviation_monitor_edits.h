@@ -31,10 +31,10 @@ constexpr double longest_step = 0.5;
 
 /// For a placement of least largest deviation: it is computed anew this many times, as closest points move with it.
 constexpr int most_minimax_steps = 3;
-/// The samples of the placement that is going to be proven are at most this far off, in tolerances: there are none
-/// between them.
-constexpr double largest_provable_height = 1.1;
-constexpr double low_enough_height = 1;
+/// No placement is expected to be proven where some sample stays further off than this, in tolerances, as far as
+/// distances are linear; and none is where one is further off than the tolerance (of 1,100 tried, none was).
+constexpr double hopeless_height = 1.1;
+constexpr double largest_provable_height = 1;
 constexpr int most_shorter_moves = 3;
 constexpr double shorter_move = 0.5;
 
@@ -147,7 +147,7 @@ template <class Mesh, class VertexPointMap>
 void DeviationMonitor<Mesh, VertexPointMap>::take_first_step() {
   tracker_.sample_heights(removed_);
   first_step_ = tracker_.height_step(added_, moved_corner_);
-  hopeless_ = first_step_->there > internal::largest_provable_height;
+  hopeless_ = first_step_->there > internal::hopeless_height;
   refused_by_bound_ = refused_by_bound_ || hopeless_;
 }
 
@@ -169,8 +169,8 @@ auto DeviationMonitor<Mesh, VertexPointMap>::minimax_placement(const Point& p0, 
   for (int k = 0; k <= internal::most_minimax_steps; ++k) {
     const HeightStep step = k == 0 ? *first_step_ : tracker_.height_step(added_, moved_corner_);
     if (step.here < least) least = step.here, best = at;
-    const bool found = k > 0 && step.here <= internal::low_enough_height;
-    if (found || step.there > internal::largest_provable_height || k == internal::most_minimax_steps) break;
+    const bool found = k > 0 && step.here <= internal::largest_provable_height;
+    if (found || step.there > internal::hopeless_height || k == internal::most_minimax_steps) break;
     const double length = step.move.norm();
     if (!(length > 0)) break;
     const auto next = moved_within_guards(at, std::min(1.0, reach / length) * step.move);

@@ -273,7 +273,7 @@ DeviationMonitor<Mesh, VertexPointMap>::first_admitted(const Profile& profile, c
   if (hopeless_) return std::nullopt;
   const bool is_far = first_step_ && first_step_->here > internal::largest_provable_height;
   if (!is_far && admitted(wanted)) return wanted;
-  for (int k = 0; k < fallbacks; ++k) {
+  for (int k = 0; k < fallbacks && !hopeless_; ++k) {
     const std::optional<Point> other = fallback(k, profile.p0(), profile.p1(), wanted);
     if (other && (*other != wanted || is_far) && admitted(other)) return other;
   }
