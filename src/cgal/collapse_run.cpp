@@ -35,7 +35,7 @@ constexpr std::uint64_t checks_between_looks = 64;
 constexpr double share_of_estimate = 0.7;
 /// And where as many edges have been left out as this share of the collapses that would halve the faces: what is left
 /// out now is collapsed later, at a higher cost than its turn.
-constexpr double most_left_out = 0.02;
+constexpr double most_left_out = 0.03;
 /// At the seams of parts that were estimated alone most collapses are overdue, and the end comes soon.
 constexpr double most_left_out_at_seams = 0.001;
 

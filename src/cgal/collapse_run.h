@@ -95,14 +95,18 @@ class CollapseRun {
   [[nodiscard]] FinishedPart finished();
   /// In place of a run: only its first collapses, by an estimate. Where nothing keeps from estimating.
   [[nodiscard]] FinishedPart estimated_part(const CollapseGoal& goal);
-  /// Goes on where the runs of parts ended: with a mesh joined from theirs. `original` is the whole.
-  CollapseRun(JoinedParts joined, const TriangleMesh& original, const SimplifyOptions& options, double tolerance);
+  /// Goes on where the runs of parts ended: with a mesh joined from theirs. `original` is the whole, and `tree` its
+  /// own.
+  CollapseRun(JoinedParts joined, const TriangleMesh& original, Bvh tree, const SimplifyOptions& options,
+              double tolerance);
   /// The same of estimated parts: the collapses at their seams are estimated as well, and all is proven. False where
   /// that failed; nothing else may be called then.
   CollapseRun(JoinedParts joined, const TriangleMesh& original, const SimplifyOptions& options);
   [[nodiscard]] bool prove_estimated(const CollapseGoal& goal);
   /// Before any other collapse.
   [[nodiscard]] ProvenMesh proven_mesh() const;
+  /// Of the original; nothing else may be called then.
+  [[nodiscard]] Bvh take_tree() { return monitor_->take_original_bvh(); }
   CollapseRun(const CollapseRun&) = delete;
   CollapseRun& operator=(const CollapseRun&) = delete;
 

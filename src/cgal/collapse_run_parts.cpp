@@ -77,7 +77,7 @@ std::vector<std::array<std::uint32_t, 2>> CollapseRun::settled_edges(const std::
   return settled;
 }
 
-CollapseRun::CollapseRun(JoinedParts joined, const TriangleMesh& original, const SimplifyOptions& options,
+CollapseRun::CollapseRun(JoinedParts joined, const TriangleMesh& original, Bvh tree, const SimplifyOptions& options,
                          double tolerance)
     : original_(original),
       options_(options),
@@ -87,7 +87,7 @@ CollapseRun::CollapseRun(JoinedParts joined, const TriangleMesh& original, const
       stats_of_parts_(joined.stats),
       work_of_parts_(joined.work),
       estimated_(joined.estimated) {
-  monitor_.emplace(copy_.mesh, original_, Bvh(original_, BvhOptions{options.threads}), joined.proofs, tolerance,
+  monitor_.emplace(copy_.mesh, original_, std::move(tree), joined.proofs, tolerance,
                    get(CGAL::vertex_point, copy_.mesh));
   set_up_monitor();
   policies_.emplace(options_.cost, kept_parts(), nullptr);

@@ -100,7 +100,8 @@ EndedBy Decimation::run_parts(const CollapseGoal& goal) {
   const EndedBy ended_by = end_of(parts);
   JoinedParts joined = join(std::move(parts), cutting, locked_);
   joined.estimated.restarts += restarts;
-  run_.emplace(std::move(joined), framed_original_, options_, goal.tolerance - goal.room);
+  run_.emplace(std::move(joined), framed_original_, Bvh(framed_original_, BvhOptions{options_.threads}), options_,
+               goal.tolerance - goal.room);
   polygons_.reset();
   return ended_by;
 }
@@ -123,6 +124,7 @@ std::optional<EndedBy> Decimation::run_estimated_parts(const CollapseGoal& goal,
   const TrackerStats stats = run_->stats();
   const EstimatedCollapses estimate = run_->estimated();
   const std::uint64_t work = run_->work_of_estimate();
+  Bvh tree = run_->take_tree();
   run_.reset();
   std::vector<FinishedPart> parts = cgal::run_parts(again, options_, goal);
   ended_by = end_of(parts);
@@ -132,7 +134,7 @@ std::optional<EndedBy> Decimation::run_estimated_parts(const CollapseGoal& goal,
   joined.stats += stats;
   joined.estimated = estimate;
   joined.work += work;
-  run_.emplace(std::move(joined), framed_original_, options_, goal.tolerance - goal.room);
+  run_.emplace(std::move(joined), framed_original_, std::move(tree), options_, goal.tolerance - goal.room);
   polygons_.reset();
   return ended_by;
 }

@@ -212,6 +212,8 @@ class DeviationMonitor {
   /// True when the last collapse that was refused broke the bound: not the normal guard, nor an unchanged repetition.
   [[nodiscard]] bool last_refusal_by_bound() const { return refused_by_bound_; }
   [[nodiscard]] const Bvh& original_bvh() const { return bvh_; }
+  /// For another monitor of the same original; this one can only be destroyed afterwards.
+  [[nodiscard]] Bvh take_original_bvh() { return std::move(bvh_); }
   [[nodiscard]] const DeviationTracker& tracker() const { return tracker_; }
   /// Calls `visit(corners)` for each face that the mesh would have after the collapse that was tested last.
   template <class Visit>
