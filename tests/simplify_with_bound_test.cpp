@@ -5,7 +5,9 @@
 
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <gtest/gtest.h>
 
@@ -451,6 +453,37 @@ TEST(DeviationMonitor, BoundsAPlainEdgeCollapseCallUnderAStackedFilter) {
   mesh.collect_garbage();
   EXPECT_EQ(monitor.faces(), mesh.number_of_faces());
   EXPECT_LE(symmetric_distance(Bvh(original), Bvh(to_triangle_mesh(mesh))).bounds.upper, 0.02);
+}
+
+/// Every vertex is far above or below its neighbours, so that no edge can be collapsed. A vertex that moves gives the
+/// edges that end there another chance, not those around it.
+TEST(DeviationMonitor, TriesAHopelessEdgeAgainOnlyWhenAnEndHasMoved) {
+  TriangleMesh rough = reference::unit_square(8);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> height(-1, 1);
+  for (Eigen::Vector3d& p : rough.vertices) p.z() = height(random);
+  SurfaceMesh mesh = to_surface_mesh(rough);
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.01);
+  const auto pass = [&] {
+    const std::uint64_t before = monitor.counts().refused;
+    monitor.begin_pass();
+    const SMS::Midpoint_placement<SurfaceMesh> middle;
+    EXPECT_EQ(SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                                 CGAL::parameters::get_cost(SMS::Edge_length_cost<SurfaceMesh>())
+                                     .get_placement(monitor.placement(middle))
+                                     .filter(monitor.filter())
+                                     .visitor(monitor.visitor())),
+              0);
+    return monitor.counts().refused - before;
+  };
+  EXPECT_GT(pass(), 100u);
+  EXPECT_EQ(pass(), 0u);
+  const auto inner =
+      std::find_if(mesh.vertices().begin(), mesh.vertices().end(), [&](auto v) { return !CGAL::is_border(v, mesh); });
+  ASSERT_NE(inner, mesh.vertices().end());
+  const Kernel::Point_3 p = mesh.point(*inner);
+  ASSERT_TRUE(monitor.move_vertex(*inner, Kernel::Point_3(p.x(), p.y(), p.z() + 0.004)));
+  EXPECT_EQ(pass(), mesh.degree(*inner));
 }
 
 /// Made elsewhere, without a bound, and unrelated to the original but by its place.

@@ -86,7 +86,7 @@ void CollapseRun::start_exactly() {
 void CollapseRun::set_up_monitor() {
   monitor_->normal_guard = NormalGuard();
   monitor_->preserve_boundary = options_.preserve_boundary;
-  monitor_->fallback_placements = fallback_placements;
+  monitor_->fallback_placements = options_.effort == Effort::Fast ? 0 : fallback_placements;
   monitor_->should_stop = [this](std::size_t faces) { return must_stop(faces); };
   if (!locked_.empty())
     monitor_->lock_vertices(boost::make_function_property_map<SurfaceMesh::Vertex_index>(

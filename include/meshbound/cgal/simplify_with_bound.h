@@ -26,7 +26,7 @@ enum class OnExceed {
 
 /// How long to look for a mesh with fewer faces. All hold the same bound.
 enum class Effort {
-  Fast,    ///< one pass over the edges, few placements
+  Fast,    ///< one pass over the edges, each with the placement of its cost only
   Normal,  ///< passes until nothing fits, several placements for each edge
   High     ///< then vertices are moved and edges flipped to make room for further collapses, again and again
 };
