@@ -62,7 +62,7 @@ void check_arguments(const MeshView& original, std::span<const double> tolerance
 FaceToleranceCheck check_face_tolerances(const MeshView& original, std::span<const double> tolerances, double tolerance,
                                          const MeshView& simplified) {
   check_arguments(original, tolerances, tolerance);
-  const Bvh original_tree(original), simplified_tree(simplified);
+  const auto [original_tree, simplified_tree] = build_trees(original, simplified);
   Proximity to_simplified(simplified_tree);
   const TriangleSet unchanged_in_simplified(simplified), unchanged_in_original(original);
   std::vector<Eigen::AlignedBox3d> boxes(original.triangle_count());
