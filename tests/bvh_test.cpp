@@ -231,9 +231,26 @@ TriangleMesh fan(std::uint32_t n) {
   return mesh;
 }
 
+/// Knots of four vertices, 16^3 of them, apart from each other: every fourth vertex has more edges to later ones than
+/// are compared with each other, and the work that is shared out begins with such a one each time.
+TriangleMesh knots() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> offset(0, 1e-3);
+  std::uniform_int_distribution<std::uint32_t> corner(0, 3);
+  TriangleMesh mesh;
+  for (std::uint32_t knot = 0; knot < 16 * 16 * 16; ++knot) {
+    const Vector3d place(knot % 16, knot / 16 % 16, knot / 256);
+    for (int i = 0; i < 4; ++i)
+      mesh.vertices.push_back(place + Vector3d(offset(random), offset(random), offset(random)));
+    for (int i = 0; i < 64; ++i)
+      mesh.triangles.push_back({4 * knot + corner(random), 4 * knot + corner(random), 4 * knot + corner(random)});
+  }
+  return mesh;
+}
+
 TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
   for (const TriangleMesh& mesh :
-       {icosphere(6), scrambled(icosphere(5)), random_soup(3, 20000, 0.1), unit_square(64), fan(20000)}) {
+       {icosphere(6), scrambled(icosphere(5)), random_soup(3, 20000, 0.1), unit_square(64), fan(20000), knots()}) {
     const Bvh one(mesh, {.threads = 1});
     for (const int threads : {2, 3, 20}) {
       SCOPED_TRACE(threads);

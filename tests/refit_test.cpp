@@ -116,6 +116,15 @@ TEST(Refit, GivesTheSameTreeForAnyNumberOfThreads) {
   expect_same_geometry(one, two);
 }
 
+/// More than a process may have: a team of that many ends it.
+TEST(Refit, FormsNoThreadsThatItHasNoWorkFor) {
+  const TriangleMesh shape = icosphere(3);
+  Bvh one(shape), many(shape, {.threads = 1000000});
+  one.refit(scaled(shape, 3), {.threads = 1});
+  many.refit(scaled(shape, 3), {.threads = 1000000});
+  expect_same_geometry(one, many);
+}
+
 TEST(Refit, TurnsTrianglesSoThatTheirLongestEdgeIsFirst) {
   Bvh tree(single_triangle({0, 0, 0}, {3, 0, 0}, {0, 1, 0}));
   const TriangleMesh moved = single_triangle({0, 0, 0}, {1, 0, 0}, {0, 5, 0});

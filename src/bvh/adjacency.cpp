@@ -4,6 +4,7 @@
 /// are those that its run of slots is the first to use: but for the seams between runs no thread writes where another
 /// one does.
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "bvh/build.h"
@@ -16,9 +17,9 @@ namespace {
 /// a word: ten times what a vertex of a scan has.
 constexpr std::uint32_t most_compared = 64;
 
-/// They are compared eight at a time, so what lies behind a bucket is read too.
+/// They are compared eight at a time, so what lies behind a bucket is read too; not beyond the buckets of a task, which
+/// another thread may be sorting.
 constexpr std::uint32_t compared_at_once = 8;
-constexpr std::uint32_t no_vertex = 0xffffffff;
 
 /// A closed surface has twice as many triangles as vertices.
 constexpr std::size_t vertices_per_task = triangles_per_task / 2;
@@ -46,7 +47,7 @@ class AdjacencyBuild {
         seams_(runs_),
         size_(runs_, 0) {
     bucket_end_.resize(data.vertices.size());
-    edges_.resize(3 * data.corners.size() + std::size_t{compared_at_once} * runs_);
+    edges_.resize(3 * data.corners.size());
   }
 
   void run() {
@@ -115,7 +116,7 @@ class AdjacencyBuild {
 
   [[nodiscard]] HalfEdge* edges_of(std::uint32_t run) {
     HalfEdge* edges = edges_.data();
-    for (std::uint32_t r = 0; r < run; ++r) edges += size_[r] + compared_at_once;
+    for (std::uint32_t r = 0; r < run; ++r) edges += size_[r];
     return edges;
   }
 
@@ -129,7 +130,6 @@ class AdjacencyBuild {
       if (near >= first) add(near, edge);
     });
     for_each_seam_edge(run, add);
-    std::fill_n(edges + size_[run], compared_at_once, HalfEdge{no_vertex, 0});
   }
 
   /// Half-edges of one edge form a ring in the order of their ids: a pair on a manifold edge, more where more triangles
@@ -145,14 +145,23 @@ class AdjacencyBuild {
   /// Those of the vertices from `from` to below `to`, in a run that begins with vertex `first`.
   void match_buckets(HalfEdge* edges, std::uint32_t first, std::uint32_t from, std::uint32_t to) {
     std::uint32_t begin = from == first ? 0 : bucket_end_[from - 1];
+    const std::uint32_t end_of_all = bucket_end_[to - 1];
     for (std::uint32_t v = from; v < to; ++v) {
       const std::uint32_t end = bucket_end_[v];
       if (end - begin > most_compared)
         match_by_sorting(edges + begin, edges + end);
-      else
+      else if (end_of_all - end >= compared_at_once)
         match_by_comparing(edges + begin, end - begin);
+      else
+        match_copy(edges + begin, end - begin);
       begin = end;
     }
+  }
+
+  void match_copy(const HalfEdge* edges, std::uint32_t count) {
+    std::array<HalfEdge, most_compared> copy{};
+    std::copy_n(edges, count, copy.begin());
+    match_by_comparing(copy.data(), count);
   }
 
   /// Each with all others, without branches that depend on where its like is.

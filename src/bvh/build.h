@@ -16,6 +16,12 @@ namespace meshbound {
 /// Triangles or vertices of a task: some ten microseconds of work.
 inline constexpr std::size_t triangles_per_task = 4096;
 
+/// Below this many triangles a build is over before another thread has woken up.
+inline constexpr std::size_t triangles_per_thread = 4096;
+
+/// Threads for a build or a refit of so many triangles. `wanted`: as `BvhOptions::threads`.
+std::size_t useful_threads(int wanted, std::size_t triangles);
+
 /// Box, diagonal and frame, and a new serial number. `box`: of the vertices that triangles use, model units.
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 

@@ -149,9 +149,6 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {
   return data;
 }
 
-/// Below this many triangles a build is over before another thread has woken up.
-constexpr std::size_t triangles_per_thread = 4096;
-
 /// What a run may have beyond the share of a thread: so much of a build can be left to others without cutting it up.
 constexpr double tolerated_excess = 0.2;
 
@@ -160,8 +157,7 @@ template <std::size_t count>
 std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<MeshView, count>& meshes, int wanted) {
   std::size_t triangles = 0;
   for (const MeshView& mesh : meshes) triangles += mesh.triangle_count();
-  const auto most = static_cast<std::size_t>(wanted > 0 ? wanted : omp_get_max_threads());
-  const std::size_t threads = std::min(most, 1 + triangles / triangles_per_thread);
+  const std::size_t threads = useful_threads(wanted, triangles);
   std::array<std::unique_ptr<const Bvh::Data>, count> trees;
   std::array<FirstError, count> errors;
 #pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
@@ -182,6 +178,11 @@ std::size_t bytes(const Vector& v) {
 }
 
 }  // namespace
+
+std::size_t useful_threads(int wanted, std::size_t triangles) {
+  const auto most = static_cast<std::size_t>(wanted > 0 ? wanted : omp_get_max_threads());
+  return std::min(most, 1 + triangles / triangles_per_thread);
+}
 
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   static std::atomic<std::uint64_t> last_serial{0};

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <omp.h>
-
 #include <algorithm>
 #include <string>
 
@@ -109,7 +107,6 @@ double tree_cost(const Bvh::Data& data) {
 
 void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
   const std::vector<std::uint8_t> turned = turns(*data_, moved);
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
   auto next = std::make_unique<Data>();
   set_frame(*next, box_of(*data_, moved));
   next->built_cost = data_->built_cost > 0 ? data_->built_cost : tree_cost(*data_);
@@ -117,7 +114,7 @@ void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
   next->corners = data_->corners;
   next->neighbours = data_->neighbours;
   next->triangle_of_slot = data_->triangle_of_slot;
-  with_team(threads, [&] {
+  with_team(static_cast<int>(useful_threads(options.threads, moved.triangle_count())), [&] {
     move_vertices(*next, moved);
     turn_triangles(*next, turned);
     build_normals(*next);
