@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
@@ -329,6 +331,26 @@ TEST(CheckSymmetric, IsUndecidedWhenABudgetRunsOut) {
     EXPECT_EQ(result.verdict, Verdict::Undecided);
     expect_meets(result.bounds, truth);
     expect_meets(symmetric_distance(a, b, options).bounds, truth);
+  }
+}
+
+/// Early or late, before the first step or in the middle of one: several threads are at work.
+TEST(SymmetricDistance, HoldsWhenAnotherThreadCancelsIt) {
+  const Bvh a(icosphere(5)), b(random_soup(37, 5000, 0.3));
+  const Bounds truth = symmetric_distance(a, b).bounds;
+  for (int microseconds = 1; microseconds < 50000; microseconds *= 2) {
+    std::atomic<bool> cancelled = false;
+    DistanceOptions options;
+    options.threads = 3;
+    options.error_bound = 1e-10;
+    options.cancel = &cancelled;
+    std::thread other([&] {
+      std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
+      cancelled = true;
+    });
+    const SymmetricDistance result = symmetric_distance(a, b, options);
+    other.join();
+    expect_meets(result.bounds, truth);
   }
 }
 

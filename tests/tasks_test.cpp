@@ -74,7 +74,21 @@ TEST(Tasks, HandOnAnExceptionWhenAllAreDone) {
   }
 }
 
+TEST(Tasks, HandOnAnExceptionOfATaskOfATask) {
+  for (const int threads : {1, 3, 40}) {
+    std::atomic<int> done{0};
+    const auto inner = [&](std::size_t i) {
+      if (i == 5) throw std::runtime_error("five");
+      ++done;
+    };
+    EXPECT_THROW(with_team(threads, [&] { for_each_task(10, [&](std::size_t) { for_each_task(10, inner); }); }),
+                 std::runtime_error);
+    EXPECT_EQ(done, 90);
+  }
+}
+
 TEST(Tasks, RunOneAfterTheOtherOutsideAnyTeam) {
+  for_each_task(0, [](std::size_t) { FAIL() << "there is nothing to do"; });
   std::vector<std::size_t> order;
   for_each_task(20, [&](std::size_t i) { order.push_back(i); });
   ASSERT_EQ(order.size(), 20U);
