@@ -106,11 +106,12 @@ void check_verdict(const ToleranceCheck& check, const Enclosure& forward, const 
     require(forward.most.compare(tolerance) > 0 || backward.most.compare(tolerance) > 0, "exceeds, but it is within");
 }
 
-/// The same surface, of triangles that are repeated until builds and searches of the library share their work.
-TriangleMesh repeated(TriangleMesh mesh) {
-  constexpr std::size_t triangles = 2100;
+/// The same surface, of triangles that are repeated until a search shares its work among so many threads.
+TriangleMesh repeated(TriangleMesh mesh, int threads) {
+  constexpr std::size_t triangles_per_thread = 1050;
   const std::size_t distinct = mesh.triangles.size();
-  while (mesh.triangles.size() < triangles) mesh.triangles.push_back(mesh.triangles[mesh.triangles.size() - distinct]);
+  while (mesh.triangles.size() < static_cast<std::size_t>(threads - 1) * triangles_per_thread)
+    mesh.triangles.push_back(mesh.triangles[mesh.triangles.size() - distinct]);
   return mesh;
 }
 
@@ -121,7 +122,7 @@ void check_same(const Bounds& one, const Bounds& many) {
 /// Several threads find what one finds, and the exact distance agrees.
 void check_threads(const TriangleMesh& a, const TriangleMesh& b, DistanceOptions options, int threads,
                    const Enclosure& forward, const Enclosure& backward) {
-  const auto [tree_a, tree_b] = build_trees(repeated(a), repeated(b), {threads});
+  const auto [tree_a, tree_b] = build_trees(repeated(a, threads), repeated(b, threads), {threads});
   const SymmetricDistance one = symmetric_distance(tree_a, tree_b, options);
   options.threads = threads;
   const SymmetricDistance many = symmetric_distance(tree_a, tree_b, options);
@@ -168,8 +169,11 @@ void check_distance(Bytes content) {
     check_verdict(check_symmetric(*tree_a, *tree_b, tolerance, options), forward, backward);
   }
   check_closest_point(*tree_b, b, a.vertices[a.triangles[0][0]]);
-  // Bits that choose nothing else. Seldom: it takes as long as a thousand of the others.
-  if (how >= 128 && kind >= 192) check_threads(a, b, options, 2 + static_cast<int>(kind / 16 % 2), forward, backward);
+  // Bits that choose nothing else. Seldom: it takes as long as a thousand of the others; cross-culling, which compares
+  // all of these triangles with each other, most.
+  if (how < 128 || kind < 192) return;
+  const int threads = options.method == Method::CellWalking ? 2 + static_cast<int>(kind / 16 % 2) : 2;
+  check_threads(a, b, options, threads, forward, backward);
 }
 
 }  // namespace meshbound::fuzz
