@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cgal/estimate_fault.h"
+#include "cgal/height_field.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/cgal/simplify_with_bound.h"
 #include "reference/small_meshes.h"
@@ -34,6 +36,34 @@ void expect_equal(const SimplifyResult& a, const SimplifyResult& b) {
   for (std::size_t i = 0; i < a.levels.size(); ++i) {
     EXPECT_EQ(a.levels[i].mesh.vertices, b.levels[i].mesh.vertices);
     EXPECT_EQ(a.levels[i].mesh.triangles, b.levels[i].mesh.triangles);
+  }
+}
+
+/// A square in the plane z = 1: points above and below it have the height over the plane, those beside it lie to both
+/// sides, and answers come in the order of the questions.
+TEST(HeightField, TellsPointsAboveFromThoseBelowAndBeside) {
+  HeightField field;
+  const Vec3 a{0, 0, 1}, b{1, 0, 1}, c{1, 1, 1}, d{0, 1, 1};
+  for (int round = 0; round < 2; ++round) {
+    field.clear({0.5, 0.5, 1});
+    field.add({a, b, c});
+    field.add({a, c, d});
+    EXPECT_EQ(field.size(), 2u);
+    for (int k = 0; k < 10; ++k) field.ask({0.1 * k, 0.3, 1 + 0.01 * (k + 1)});
+    for (int k = 0; k < 10; ++k) field.ask({0.3, 0.1 * k, 1 - 0.01 * (k + 1)});
+    field.ask({1.5, 0.5, 1.1});
+    const auto heights = field.heights();
+    ASSERT_EQ(heights.size(), 21u);
+    for (std::size_t k = 0; k < 10; ++k) {
+      const double height = 0.01 * (static_cast<double>(k) + 1);
+      EXPECT_NEAR(heights[k].low, height, 1e-6);
+      EXPECT_NEAR(heights[k].high, height, 1e-6);
+      EXPECT_NEAR(heights[10 + k].low, -height, 1e-6);
+      EXPECT_NEAR(heights[10 + k].high, -height, 1e-6);
+    }
+    const double beside = std::hypot(0.5, 0.1);
+    EXPECT_NEAR(heights[20].low, -beside, 1e-6);
+    EXPECT_NEAR(heights[20].high, beside, 1e-6);
   }
 }
 
