@@ -164,7 +164,8 @@ class DeviationTracker {
   void commit();
 
   /// For choosing among changes of the same faces, `removed`: `sample` takes points of the part of the original that
-  /// they stand for, and what was admitted may no longer be committed. `moved_corner` has the place, 0 to 2, of the corner that is to be moved in each of `added`.
+  /// they stand for, and what was admitted may no longer be committed. `moved_corner` has the place, 0 to 2, of the
+  /// corner that is to be moved in each of `added`.
   void sample(std::span<const std::uint32_t> removed);
   [[nodiscard]] SampledDeviation sampled_deviation(std::span<const TrackedFace> added,
                                                    std::span<const std::size_t> moved_corner);

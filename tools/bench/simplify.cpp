@@ -47,9 +47,11 @@ struct Outcome {
   double faces = 0, share = 0, cgal_share = 0;
   std::vector<double> cpus, walls, certifications;  ///< seconds, by turn
   [[nodiscard]] bool done() const { return status == ChildResult::Status::Done; }
-  [[nodiscard]] double cpu() const { return median(cpus); }
-  [[nodiscard]] double wall() const { return median(walls); }
-  [[nodiscard]] double certify() const { return median(certifications); }
+  [[nodiscard]] double cpu() const { return of(cpus); }
+  [[nodiscard]] double wall() const { return of(walls); }
+  [[nodiscard]] double certify() const { return of(certifications); }
+  /// Not a number where no turn came to its end.
+  static double of(const std::vector<double>& turns) { return turns.empty() ? NAN : median(turns); }
 };
 
 class Cases {

@@ -272,6 +272,7 @@ DeviationMonitor<Mesh, VertexPointMap>::first_admitted(const Profile& profile, c
   if (last_was_refused_ && fallbacks > 0 && passes_guards()) take_first_step();
   if (hopeless_) return std::nullopt;
   const bool is_far = first_step_ && first_step_->here > internal::largest_provable_height;
+  refused_by_bound_ = refused_by_bound_ || is_far;
   if (!is_far && admitted(wanted)) return wanted;
   for (int k = 0; k < fallbacks && !hopeless_; ++k) {
     const std::optional<Point> other = fallback(k, profile.p0(), profile.p1(), wanted);
