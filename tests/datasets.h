@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace meshbound::test {
 
@@ -18,6 +20,18 @@ inline std::optional<std::filesystem::path> dataset(const std::string& relative)
   for (const std::filesystem::path& folder : folders)
     if (!folder.empty() && std::filesystem::exists(folder / relative)) return folder / relative;
   return std::nullopt;
+}
+
+/// The files of one folder of the real meshes ("cad"), found as above, in order of their names; none when it is not on
+/// this machine.
+inline std::vector<std::filesystem::path> datasets_in(const std::string& folder) {
+  std::vector<std::filesystem::path> files;
+  const auto found = dataset(folder);
+  if (!found) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(*found))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace meshbound::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is true of every pair of triangle soups, tried on thousands of random ones: soups, lattices full of ties,
-// slivers, neighbours that share vertices, copies that moved a little.
+// slivers, neighbours that share vertices, the shapes of `hard_mesh`, copies that moved a little or lost their welding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/transform.h"
 #include "reference/claims.h"
+#include "reference/hard_meshes.h"
 #include "reference/point_triangle_cases.h"
 #include "reference/small_meshes.h"
 
@@ -45,15 +46,38 @@ TriangleMesh thin_soup(Random& random, int count) {
   return soup(triangles);
 }
 
+/// Points of the unit cube, or of a lattice in it, full of ties.
+class RandomChoices final : public Choices {
+ public:
+  explicit RandomChoices(Random& random) : random_(random), on_lattice_(random.below(2) == 0) {}
+  Vector3d point() override {
+    const Vector3d anywhere = random_.in_cube();
+    return on_lattice_ ? Vector3d((4 * anywhere).array().round() / 4) : anywhere;
+  }
+  unsigned below(unsigned n) override { return static_cast<unsigned>(random_.below(static_cast<int>(n))); }
+
+ private:
+  Random& random_;
+  bool on_lattice_;
+};
+
+TriangleMesh random_hard_mesh(Random& random) {
+  RandomChoices choices(random);
+  const auto shape = static_cast<HardShape>(random.below(static_cast<int>(hard_shapes)));
+  return hard_mesh(shape, choices, 1 + choices.below(40));
+}
+
 TriangleMesh random_mesh(Random& random) {
   const int count = 1 + random.below(20);
-  switch (random.below(4)) {
+  switch (random.below(5)) {
     case 0:
       return lattice_soup(random, count);
     case 1:
       return thin_soup(random, count);
     case 2:
       return random.below(2) == 0 ? icosphere(random.below(2)) : unit_square(1 + random.below(4));
+    case 3:
+      return random_hard_mesh(random);
     default:
       return random_soup(static_cast<std::uint32_t>(random.below(1 << 20)), count, random.power_of_ten(-2, 0));
   }
@@ -63,12 +87,12 @@ struct Pair {
   TriangleMesh a, b;
 };
 
-/// Two meshes that have nothing in common, or one and a copy of it whose vertices moved a little.
+/// Two meshes that have nothing in common, or one and a copy of it whose vertices moved a little, welded or not.
 Pair random_pair(std::uint32_t seed) {
   Random random(seed);
   TriangleMesh a = random_mesh(random);
   if (random.below(3) != 0) return {std::move(a), random_mesh(random)};
-  TriangleMesh b = a;
+  TriangleMesh b = random.below(2) == 0 ? a : unwelded(a);
   const double by = random.power_of_ten(-12, -1);
   for (Vector3d& v : b.vertices)
     if (random.below(2) == 0) v += by * random.in_cube();
@@ -210,6 +234,19 @@ TEST(Property, ABudgetThatRanOutIsSaid) {
     }
   });
   EXPECT_GT(cut_short, 100) << "no budget was short";
+}
+
+TEST(Property, WeldingChangesNothing) {
+  for_all(cases, [](std::uint32_t seed) {
+    const auto [a, b] = random_pair(seed);
+    Random random(seed + 5);
+    RandomChoices choices(random);
+    const TriangleMesh cut = with_seams(b, choices), soup = unwelded(b);
+    EXPECT_EQ(symmetric(b, soup).upper, 0);
+    expect_meets(symmetric(a, b), symmetric(a, soup));
+    expect_meets(symmetric(a, soup), symmetric(a, cut));
+    expect_meets(symmetric(a, cut), symmetric(a, b));
+  });
 }
 
 TEST(Property, ThreadsDoNotMatter) {

@@ -4,8 +4,11 @@
 
 #include <cmath>
 
+#include "meshbound/distance.h"
 #include "reference/brute_force.h"
 #include "reference/exact_distance.h"
+#include "reference/hard_meshes.h"
+#include "reference/point_triangle_cases.h"
 #include "reference/small_meshes.h"
 
 namespace meshbound::reference {
@@ -58,6 +61,40 @@ TEST(BruteForce, ContainsKnownDistances) {
   const Vector3d a(0, 0, 0), b(4, 0, 0), c(2, 3, 0);
   const TriangleMesh ends = soup({{a, a, a}, {b, b, b}, {c, c, c}});
   expect_contains(brute_force_one_sided(single_triangle(a, b, c), ends, 1e-4), 13.0 / 6, 1e-4);
+}
+
+class AnyChoices final : public Choices {
+ public:
+  explicit AnyChoices(std::uint32_t seed) : random_(seed) {}
+  Vector3d point() override { return random_.in_cube(); }
+  unsigned below(unsigned n) override { return static_cast<unsigned>(random_.below(static_cast<int>(n))); }
+
+ private:
+  Random random_;
+};
+
+TEST(HardMesh, HasAboutAsManyTrianglesAsWereAskedForAndIsValid) {
+  for (unsigned shape = 0; shape < hard_shapes; ++shape) {
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+      AnyChoices choices(seed);
+      const unsigned count = 1 + seed % 20;
+      const TriangleMesh mesh = hard_mesh(static_cast<HardShape>(shape), choices, count);
+      EXPECT_GE(mesh.triangles.size(), 1U) << shape << ' ' << seed;
+      EXPECT_LE(mesh.triangles.size(), count + 2) << shape << ' ' << seed;
+      EXPECT_NO_THROW(validate(mesh)) << shape << ' ' << seed;
+    }
+  }
+}
+
+TEST(HardMesh, SeamsAndSoupsAreTheSurfaceThatTheyWereCutFrom) {
+  AnyChoices choices(1);
+  const TriangleMesh sphere = icosphere(1);
+  const TriangleMesh soup = unwelded(sphere), cut = with_seams(sphere, choices);
+  EXPECT_EQ(soup.vertices.size(), 3 * sphere.triangles.size());
+  EXPECT_GT(cut.vertices.size(), sphere.vertices.size());
+  EXPECT_LT(cut.vertices.size(), soup.vertices.size());
+  EXPECT_TRUE(same_surface(sphere, soup));
+  EXPECT_TRUE(same_surface(sphere, cut));
 }
 
 }  // namespace
