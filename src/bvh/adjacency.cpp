@@ -3,6 +3,10 @@
 /// (a counting sort), where it meets the others of its edge. One thread fills the buckets of a run of vertices, which
 /// are those that its run of slots is the first to use: but for the seams between runs no thread writes where another
 /// one does.
+///
+/// First by the indices of the vertices. Where that leaves an edge with one triangle, edges are matched again by the
+/// positions of their ends (bvh/seam_positions.cpp): a walk crosses a seam whose two sides have vertices of their own,
+/// as in a triangle soup. Meshes whose triangles share all their vertices pay for a look at the result only.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -36,10 +40,27 @@ struct SeamEdge {
   HalfEdge edge;
 };
 
-class AdjacencyBuild {
+/// Edges are one edge when they join the same vertices.
+struct ByIndex {
+  [[nodiscard]] std::uint32_t operator()(std::uint32_t vertex) const { return vertex; }
+  [[nodiscard]] static bool takes(std::uint32_t, std::uint32_t) { return true; }
+};
+
+/// Edges are one edge when they join the same positions. `position`: see `seam_positions`; never above the index of the
+/// vertex, so that it belongs to the same run or an earlier one. Edges without length are left alone.
+struct ByPosition {
+  const std::uint32_t* position;
+  [[nodiscard]] std::uint32_t operator()(std::uint32_t vertex) const { return position[vertex]; }
+  [[nodiscard]] static bool takes(std::uint32_t u, std::uint32_t v) { return u != v && std::max(u, v) != no_position; }
+};
+
+/// Links the half-edges of each edge, by the ends that `Ends` gives to their vertices, as far as it takes them.
+template <class Ends>
+class HalfEdgeMatching {
  public:
-  AdjacencyBuild(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch)
+  HalfEdgeMatching(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch, Ends ends)
       : data_(data),
+        ends_(ends),
         first_vertex_(first_vertex),
         runs_(static_cast<std::uint32_t>(first_vertex.size()) - 1),
         bucket_end_(array_in<std::uint32_t>(scratch)),
@@ -51,7 +72,6 @@ class AdjacencyBuild {
   }
 
   void run() {
-    data_.neighbours.resize(data_.corners.size());
     for_each_run([&](std::uint32_t r) { count(r); });
     for_each_run([&](std::uint32_t r) { size_[r] = add_seams_and_sum(r); });
     for_each_run([&](std::uint32_t r) {
@@ -74,8 +94,10 @@ class AdjacencyBuild {
     for (std::uint32_t slot = begin(run); slot < end; ++slot) {
       const Triangle t = data_.corners[slot];
       for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t u = ends_(t[k]), v = ends_(t[(k + 1) % 3]);
+        if (!Ends::takes(u, v)) continue;
         // Without a branch, which would be guessed wrong half the time.
-        const std::uint32_t u = t[k], v = t[(k + 1) % 3], both = u ^ v, mask = 0U - static_cast<std::uint32_t>(u < v);
+        const std::uint32_t both = u ^ v, mask = 0U - static_cast<std::uint32_t>(u < v);
         use(v ^ (both & mask), HalfEdge{u ^ (both & mask), 4 * slot + k});
       }
     }
@@ -90,8 +112,6 @@ class AdjacencyBuild {
 
   void count(std::uint32_t run) {
     std::fill(bucket_end_.begin() + first_vertex_[run], bucket_end_.begin() + first_vertex_[run + 1], 0);
-    std::fill(data_.neighbours.begin() + begin(run), data_.neighbours.begin() + begin(run + 1),
-              std::array<Neighbour, 3>{});
     const std::uint32_t first = first_vertex_[run];
     std::uint32_t* const size = bucket_end_.data();
     for_each_half_edge(run, [&](std::uint32_t near, const HalfEdge& edge) {
@@ -196,10 +216,11 @@ class AdjacencyBuild {
 
   [[nodiscard]] bool runs_upward(std::uint32_t id) const {
     const Triangle& t = data_.corners[id / 4];
-    return t[id % 4] < t[(id % 4 + 1) % 3];
+    return ends_(t[id % 4]) < ends_(t[(id % 4 + 1) % 3]);
   }
 
   Bvh::Data& data_;
+  Ends ends_;
   const std::vector<std::uint32_t>& first_vertex_;  ///< by run
   std::uint32_t runs_;
   Array<std::uint32_t> bucket_end_;           ///< by vertex, from the first half-edge of its run
@@ -208,11 +229,24 @@ class AdjacencyBuild {
   std::vector<std::uint32_t> size_;           ///< half-edges by run
 };
 
+template <class Ends>
+void match_half_edges(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch, Ends ends) {
+  HalfEdgeMatching<Ends>(data, first_vertex, scratch, ends).run();
+  scratch.clear();
+}
+
 }  // namespace
 
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch) {
-  AdjacencyBuild(data, first_vertex, scratch).run();
-  scratch.clear();
+  data.neighbours.resize(data.corners.size());
+  for_each_range(data.corners.size(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
+    std::fill(data.neighbours.begin() + static_cast<std::ptrdiff_t>(begin),
+              data.neighbours.begin() + static_cast<std::ptrdiff_t>(end), std::array<Neighbour, 3>{});
+  });
+  const bool shares_vertices = data.vertices.size() < 3 * data.corners.size();
+  if (shares_vertices) match_half_edges(data, first_vertex, scratch, ByIndex{});
+  const Array<std::uint32_t> position = seam_positions(data);
+  if (!position.empty()) match_half_edges(data, first_vertex, scratch, ByPosition{position.data()});
 }
 
 }  // namespace meshbound

@@ -41,6 +41,14 @@ inline std::uint32_t run_begin(std::uint32_t n, std::uint32_t r, std::uint32_t r
 /// and after the last run their number.
 std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
 
+/// The position of a vertex that no edge with one triangle asks for.
+inline constexpr std::uint32_t no_position = 0xffffffff;
+
+/// By vertex, for those at the ends of edges that `neighbours` gives one triangle only, and for all others at their
+/// positions: the first vertex at the same position (coordinates of the working frame that are equal, 0 and -0 too).
+/// `no_position` for the others. Empty when no two vertices share a position. Expected O(n), by one thread.
+Array<std::uint32_t> seam_positions(const Bvh::Data& data);
+
 /// `neighbours`. `first_vertex`: as `place_vertices` returned it.
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
 void build_normals(Bvh::Data& data);
