@@ -2,10 +2,13 @@
 // hausdorff_distance by its command line: exit codes, JSON against the library and the schema, bad input.
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "datasets.h"
+#include "json_claims.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
@@ -43,29 +46,7 @@ class HausdorffTool : public testing::Test {
   std::string soup_ = folder_ / "soup.off";
 };
 
-/// Every required key of the schema is there, recursively. References point into the schema itself.
-void expect_required_keys(const json& schema, const json& part, const json& value, const std::string& where) {
-  if (part.contains("$ref")) {
-    const std::string name = part["$ref"].get<std::string>().substr(std::string("#/$defs/").size());
-    return expect_required_keys(schema, schema["$defs"][name], value, where);
-  }
-  if (part.contains("required")) {
-    for (const auto& key : part["required"]) EXPECT_TRUE(value.contains(key)) << where << " lacks " << key;
-  }
-  if (!part.contains("properties") || !value.is_object()) return;
-  for (const auto& [key, entry] : value.items()) {
-    EXPECT_TRUE(part["properties"].contains(key)) << where << " has a key that the schema does not know: " << key;
-    if (part["properties"].contains(key))
-      expect_required_keys(schema, part["properties"][key], entry, where + "/" + key);
-  }
-}
-
-json parsed(const ToolRun& result) {
-  const json document = json::parse(result.out);
-  const json schema = json::parse(content_of(MESHBOUND_SOURCE_DIR "/tools/schema/distance-1.schema.json"));
-  expect_required_keys(schema, schema, document, "document");
-  return document;
-}
+json parsed(const ToolRun& result) { return checked_document(result.out); }
 
 TEST_F(HausdorffTool, SaysWhatTheLibrarySays) {
   const ToolRun result = run({sphere_, soup_, "--json", "-", "--threads", "1"});
@@ -154,8 +135,29 @@ TEST_F(HausdorffTool, BuildsNoTreesForACopyThatHasHardlyMoved) {
   EXPECT_GT(parsed(run({sphere_, cube_, "--json", "-"}))["seconds"]["build"], 0.0);
 }
 
+/// The second direction is cut short by the first one's lower bound, and has a witness of its own nevertheless.
+TEST_F(HausdorffTool, BothWitnessesEndAtTheClosestPoint) {
+  const TriangleMesh sphere = read_mesh(sphere_).mesh, soup = read_mesh(soup_).mesh, cube = read_mesh(cube_).mesh;
+  const auto expect_both = [&](const std::vector<std::string>& arguments, const TriangleMesh& a,
+                               const TriangleMesh& b) {
+    const json distance = parsed(run(arguments))["distance"];
+    expect_nearest(distance["a_to_b"], b);
+    if (distance["b_to_a"]["searched"]) expect_nearest(distance["b_to_a"], a);
+  };
+  for (const std::string method : {"cell-walking", "cross-culling"}) {
+    SCOPED_TRACE(method);
+    expect_both({sphere_, soup_, "--json", "-", "--method", method}, sphere, soup);
+    expect_both({soup_, sphere_, "--json", "-", "--method", method}, soup, sphere);
+    expect_both({soup_, sphere_, "--json", "-", "--method", method, "--tolerance", "5"}, soup, sphere);
+    expect_both({soup_, sphere_, "--json", "-", "--method", method, "--tolerance", "0.01"}, soup, sphere);
+    expect_both({cube_, sphere_, "--json", "-", "--method", method}, cube, sphere);
+    expect_both({cube_, cube_, "--json", "-", "--method", method}, cube, cube);
+  }
+}
+
 TEST_F(HausdorffTool, LeavesOutWhatWasNotAskedFor) {
   const json document = parsed(run({cube_, large_, "--one-sided", "--json", "-"}));
+  expect_nearest(document["distance"]["a_to_b"], read_mesh(large_).mesh);
   EXPECT_FALSE(document["distance"].contains("b_to_a"));
   EXPECT_LE(document["distance"]["lower"], 1);
   EXPECT_GE(document["distance"]["upper"], 1);
@@ -190,6 +192,154 @@ TEST_F(HausdorffTool, MeasuresByThePapersMethodToo) {
   EXPECT_LE(paper["lower"], walked["upper"]);
   EXPECT_NE(walked["a_to_b"]["upper"], paper["a_to_b"]["upper"]) << "the method made no difference at all";
   expect_one_line_and_exit_2(run({cube_, soup_, "--method", "guessing"}));
+}
+
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of('\n') + 1;
+  return text.substr(text.rfind('\n', end - 1) + 1, end - text.rfind('\n', end - 1) - 1);
+}
+
+/// The corners of the large cube are sqrt(3) from the small one; the small cube lies within the large one's surface
+/// by 1.
+TEST_F(HausdorffTool, NamesTheWorstSpotItKnowsOfAFailedGateInItsLastLine) {
+  const std::vector<std::string> gate = {cube_, large_, "--tolerance", "0.9"};
+  const ToolRun failed = run(gate);
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_EQ(failed.err, "");
+  const std::regex form("FAIL 1(\\.\\d+)? > 0\\.9 at \\(\\S+ \\S+ \\S+\\), triangle \\d+ of A");
+  EXPECT_TRUE(std::regex_match(last_line(failed.out), form)) << failed.out;
+  EXPECT_NE(failed.out.find("B to A               not searched\n"), std::string::npos) << failed.out;
+  EXPECT_NE(failed.out.find("upper not searched\n"), std::string::npos) << failed.out;
+  EXPECT_EQ(failed.out.find("inf"), std::string::npos) << failed.out;
+
+  const ToolRun quiet = run({cube_, large_, "--tolerance", "0.9", "--quiet"});
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.err, last_line(failed.out) + "\n");
+  const json document = parsed(run({cube_, large_, "--tolerance", "0.9", "--json", "-"}));
+  EXPECT_EQ(document["outcome"], "exceeds");
+  EXPECT_EQ(document["distance"]["a_to_b"]["outcome"], "exceeds");
+  EXPECT_EQ(document["distance"]["b_to_a"], json({{"lower", 0.0}, {"upper", nullptr}, {"searched", false}}));
+  EXPECT_EQ(document["worst"]["direction"], "a_to_b");
+  EXPECT_EQ(document["worst"]["point"], document["distance"]["a_to_b"]["witness"]["from"]);
+  EXPECT_EQ(document["worst"]["triangle"], document["distance"]["a_to_b"]["witness"]["from_triangle"]);
+  EXPECT_EQ(document["worst"]["distance"], json({{"lower", document["distance"]["lower"]}, {"upper", nullptr}}));
+}
+
+/// However close the distance is to the tolerance, the line shows which of them is larger.
+TEST_F(HausdorffTool, ShowsTheDigitsThatMakeAGateFail) {
+  const std::string line = last_line(run({cube_, large_, "--one-sided", "--tolerance", "0.999999999"}).out);
+  double distance = 0, tolerance = 0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "FAIL %lf > %lf at", &distance, &tolerance), 2) << line;
+  EXPECT_GT(distance, tolerance) << line;
+}
+
+TEST_F(HausdorffTool, FindsTheWorstSpotAfterTheDecisionWhenAsked) {
+  const double truth = std::sqrt(3.0), error_bound = 2e-6 * truth;
+  for (const std::string tolerance : {"0.9", "1.8"}) {
+    SCOPED_TRACE(tolerance);
+    const ToolRun result = run({cube_, large_, "--tolerance", tolerance, "--worst", "--json", folder_ / "worst.json"});
+    EXPECT_EQ(result.exit_code, tolerance == "0.9" ? 1 : 0);
+    EXPECT_NE(result.out.find("worst spot           ("), std::string::npos) << result.out;
+    const json document = checked_document(content_of(folder_ / "worst.json"));
+    EXPECT_EQ(document["verdict"], tolerance == "0.9" ? "exceeds" : "within");
+    EXPECT_EQ(document["outcome"], "converged");
+    EXPECT_EQ(document["worst"]["direction"], "b_to_a");
+    EXPECT_EQ(document["worst"]["distance"]["upper"], document["distance"]["upper"]);
+    EXPECT_NEAR(document["worst"]["distance"]["lower"].get<double>(), truth, error_bound);
+    EXPECT_LE(document["distance"]["upper"].get<double>() - document["distance"]["lower"].get<double>(),
+              document["error_bound"].get<double>());
+    for (const json& coordinate : document["worst"]["point"]) EXPECT_NEAR(std::abs(coordinate.get<double>()), 2, 1e-5);
+  }
+  EXPECT_EQ(last_line(run({cube_, large_, "--tolerance", "0.9", "--worst"}).out).rfind("FAIL 1.73205 > 0.9 at (", 0),
+            0u);
+  EXPECT_NE(run({cube_, large_, "--worst"}).out.find("worst spot           ("), std::string::npos);
+  EXPECT_EQ(run({cube_, large_, "--tolerance", "1.8", "--worst", "--quiet"}).err, "");
+}
+
+/// Doubles near 1 are 2e-16 apart: no interval can be as narrow as the second of these.
+TEST_F(HausdorffTool, SaysDoneOnlyWhenTheIntervalIsAsNarrowAsAsked) {
+  const json done = parsed(run({sphere_, soup_, "--error-bound", "1e-9", "--json", "-"}));
+  EXPECT_EQ(done["verdict"], "done");
+  EXPECT_EQ(done["outcome"], "converged");
+  EXPECT_FALSE(done.contains("reason"));
+  EXPECT_LE(done["distance"]["upper"].get<double>() - done["distance"]["lower"].get<double>(), 1e-9);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--one-sided"}}) {
+    std::vector<std::string> arguments{sphere_, soup_, "--error-bound", "1e-18"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ToolRun text = run(arguments);
+    EXPECT_EQ(text.exit_code, 3);
+    EXPECT_TRUE(std::regex_match(last_line(text.out), std::regex("UNDECIDED width \\S+ > 1e-18: .+"))) << text.out;
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const json precise = parsed(run(arguments));
+    EXPECT_EQ(precise["verdict"], "undecided");
+    EXPECT_EQ(precise["outcome"], "precision");
+    EXPECT_NE(precise["reason"], "");
+  }
+}
+
+/// The default error bound is no exception: two specks far apart differ by less than doubles of that size tell.
+TEST_F(HausdorffTool, TheDefaultErrorBoundMustBeReachedToo) {
+  TriangleMesh speck = reference::cube(1e-9);
+  write_mesh(folder_ / "speck.off", speck);
+  for (Eigen::Vector3d& p : speck.vertices) p.x() += 1000;
+  write_mesh(folder_ / "far.off", speck);
+  const ToolRun result = run({folder_ / "speck.off", folder_ / "far.off", "--json", "-"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(parsed(result)["outcome"], "precision");
+}
+
+TEST_F(HausdorffTool, SaysThatTheTimeLimitEndedIt) {
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{"--error-bound", "1e-9"}, {}, {"--tolerance", "1"}}) {
+    std::vector<std::string> arguments{sphere_, soup_, "--time-limit", "0"};
+    arguments.insert(arguments.end(), asked.begin(), asked.end());
+    const ToolRun text = run(arguments);
+    EXPECT_EQ(text.exit_code, 3);
+    EXPECT_NE(last_line(text.out).find("the time limit came first"), std::string::npos) << text.out;
+    arguments.insert(arguments.end(), {"--json", "-"});
+    EXPECT_EQ(parsed(run(arguments))["outcome"], "budget");
+    arguments.insert(arguments.end(), {"--quiet"});
+    EXPECT_EQ(run(arguments).err, last_line(text.out) + "\n");
+  }
+}
+
+/// The decision stands; what came after it is said to be incomplete.
+TEST_F(HausdorffTool, SaysThatTheTimeLimitLeftTheWorstSpotOpen) {
+  const std::vector<std::string> arguments{sphere_, soup_, "--tolerance", "9", "--worst", "--time-limit", "0"};
+  const ToolRun text = run(arguments);
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_NE(text.out.find("not reached: the time limit came first"), std::string::npos) << text.out;
+}
+
+/// A mesh that is a point beside the other one.
+TEST_F(HausdorffTool, ShowsTheWitnessOfAPointLikeDirection) {
+  const Eigen::Vector3d p(0.8061316566424304, -0.8019195186906112, 0.757698417477433);
+  const TriangleMesh point{{p, p, p, {1e30, 0, 0}}, {{0, 1, 2}}};
+  const TriangleMesh mesh{{{-0.5, 0.4, -0.7}, {0.6, -0.3, 0.1}, {1.7, -1, 0.8}}, {{0, 1, 2}}};
+  write_mesh(folder_ / "point.off", point);
+  write_mesh(folder_ / "mesh.off", mesh);
+  const std::string text = run({folder_ / "mesh.off", folder_ / "point.off"}).out;
+  EXPECT_NE(text.find("witness            from (-0.5 0.4 -0.7) to (0.8061316566424304 -0.8019195186906112"),
+            std::string::npos)
+      << text;
+  const json distance = parsed(run({folder_ / "mesh.off", folder_ / "point.off", "--json", "-"}))["distance"];
+  expect_nearest(distance["a_to_b"], point);
+  expect_nearest(distance["b_to_a"], mesh);
+}
+
+TEST_F(HausdorffTool, PrintsTheFewestDigitsThatReadBack) {
+  const std::string text = run({sphere_, soup_}).out;
+  const std::regex line("(lower|witness) .*"), number("-?\\d[0-9.e+-]*");
+  std::size_t found = 0;
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) {
+    const std::string numbers = it->str();
+    for (std::sregex_iterator n(numbers.begin(), numbers.end(), number); n != end; ++n, ++found) {
+      char shortest[32];
+      *std::to_chars(shortest, shortest + sizeof shortest, std::stod(n->str())).ptr = '\0';
+      EXPECT_EQ(n->str(), shortest);
+    }
+  }
+  EXPECT_EQ(found, 18u) << text;
 }
 
 TEST_F(HausdorffTool, GivesTheSameForAnyNumberOfThreads) {
@@ -243,6 +393,8 @@ TEST_F(HausdorffTool, ExplainsItself) {
   EXPECT_EQ(help.exit_code, 0);
   for (const char* option : {"--error-bound", "--tolerance", "--one-sided", "--transform-b", "--json", "--time-limit"})
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  EXPECT_NE(help.out.find("Exit codes: 0 "), std::string::npos);
+  EXPECT_LT(run({cube_, large_, "--time-limit", "-1"}).err.size(), 120u);
   EXPECT_EQ(run({"--version"}).exit_code, 0);
 }
 

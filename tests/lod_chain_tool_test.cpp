@@ -104,7 +104,7 @@ TEST_F(LodChainTool, KeepsToTheOptionsThatAllToolsHave) {
   EXPECT_EQ(testing_tools::run_tool(LOD_CHAIN, {"--version"}).exit_code, 0);
   const std::string help = testing_tools::run_tool(LOD_CHAIN, {"--help"}).out;
   for (const char* option : {"--levels", "--pixels", "--screen-height", "--fov", "--distances", "--format", "--json",
-                             "--quiet", "--threads", "--cost", "--preserve-boundary", "--time-limit"})
+                             "--quiet", "--threads", "--cost", "--preserve-boundary", "--time-limit", "Exit codes: 0 "})
     EXPECT_NE(help.find(option), std::string::npos) << option;
 }
 
@@ -134,6 +134,18 @@ TEST_F(LodChainTool, WritesAllLevelsOrNone) {
   EXPECT_EQ(run({"--levels", "1e-12,0.01", "--format", "stl"}).exit_code, 1);
   EXPECT_EQ(content_of(in("chain/chain.json")), old);
   EXPECT_EQ(files(), 3u);
+}
+
+TEST_F(LodChainTool, SaysWhatItDrops) {
+  std::ofstream(in("painted.obj"))
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\ng side\nf 1//1 2//1 3//1\nf 2 4 3\n";
+  const ToolRun result =
+      testing_tools::run_tool(LOD_CHAIN, {in("painted.obj"), in("chain"), "--levels", "0.1", "--threads", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("\ndropped: 1 normal, 1 group\n"), std::string::npos) << result.out;
+  const Json json = Json::parse(content_of(in("chain/chain.json")));
+  EXPECT_EQ(json["original"]["dropped"]["normals"], 1);
+  EXPECT_EQ(json["original"]["dropped"]["groups"], 1);
 }
 
 /// No level is left out: where the time ended before its own mesh was proven, it has the best one that was.

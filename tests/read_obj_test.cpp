@@ -43,6 +43,19 @@ TEST(ReadObj, StepsOverStatementsThatAreNoGeometry) {
   EXPECT_EQ(file.ignored_elements, 0u);
 }
 
+TEST(ReadObj, CountsWhatItSteppedOver) {
+  EXPECT_EQ(read(three_vertices + "f 1 2 3\n").dropped, DroppedAttributes{});
+  const std::string names =
+      "mtllib a.mtl\no name\ng one two\ng one\ng one two\ns off\ns 0\ns 1\ns 2\ns 1\nusemtl x y\nusemtl x\nusemtl x y\n"
+      "g\nusemtl\n";
+  EXPECT_EQ(
+      read(names + three_vertices + "vn 0 0 1\nvn 0 0 \\\n-1\nvt 0 0\nvp 0 0\nf 1/1/1 2//2 3\n").dropped,
+      (DroppedAttributes{.texture_coordinates = 1, .normals = 2, .materials = 2, .groups = 3, .smoothing_groups = 2}));
+  EXPECT_EQ(read("v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 1 0 0 1\nf 1 2 3\n").dropped, (DroppedAttributes{.colours = 2}));
+  EXPECT_EQ(read("mtllib a.mtl\nmtllib b.mtl\n" + three_vertices + "f 1 2 3\n").dropped,
+            (DroppedAttributes{.materials = 2}));
+}
+
 TEST(ReadObj, CountsLinesAndPointsAsIgnored) {
   const MeshFile file = read(three_vertices + "l 1 2\np 1 2 3\nf\nf 1 2\nf 1 2 3\n");
   expect_triangle(file);

@@ -119,6 +119,16 @@ TEST(ReadOff, RefusesCountsThatTheFileCannotHoldBeforeAllocating) {
   EXPECT_CONTAINS(refused("OFF\n3 1 0\n" + three_vertices + "4000000000 0 1 2\n"), "corners");
 }
 
+TEST(ReadOff, CountsWhatItSteppedOver) {
+  EXPECT_EQ(read(triangle).dropped, DroppedAttributes{});
+  const std::string vertices = "0 0 0 1 2 3\n1 0 0 4 5 6\n0 1 0 7 8 9\n", face = "3 0 1 2\n";
+  EXPECT_EQ(read("OFF\n3 1 0\n" + vertices + face).dropped, (DroppedAttributes{.colours = 3}));
+  EXPECT_EQ(read("NOFF\n3 1 0\n" + vertices + face).dropped, (DroppedAttributes{.normals = 3}));
+  EXPECT_EQ(read("STCNOFF\n3 1 0\n" + vertices + face).dropped,
+            (DroppedAttributes{.texture_coordinates = 3, .normals = 3, .colours = 3}));
+  EXPECT_EQ(read("OFF\n3 1 0\n" + three_vertices + "3 0 1 2 255 0 0\n").dropped, (DroppedAttributes{.colours = 1}));
+}
+
 TEST(ReadOff, RefusesAFileThatEndsEarlyOrGoesOn) {
   EXPECT_CONTAINS(refused("OFF\n3 1 0\n0 0 0\n1 0 0.0000000\n0 1"), "the file ends");
   EXPECT_CONTAINS(refused("OFF\n3 2 0\n" + three_vertices + "3 0 1 2\n"), "the file ends");

@@ -109,8 +109,11 @@ TEST(ReadPly, StepsOverOtherPropertiesAndElements) {
       "element vertex 3\nproperty uchar red\nproperty float z\nproperty float y\nproperty list uchar double extra\n"
       "property float x\nelement marker 1000000000\nelement face 1\nproperty list uchar float texcoord\n" +
       corners + "property int flags\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n";
-  expect_triangle(read(ascii + elements +
-                       "1.5 2 7 8\nnan 0\n255 0 0 0 0\n0 0 0 2 1e999 x 1\n0 0 1 1 5 0\n2 .5 .5 3 0 1 2 9\n0 1\n"));
+  const MeshFile text = read(ascii + elements +
+                             "1.5 2 7 8\nnan 0\n255 0 0 0 0\n0 0 0 2 1e999 x 1\n0 0 1 1 5 0\n2 .5 .5 3 0 1 2 9\n0 1\n");
+  expect_triangle(text);
+  const DroppedAttributes dropped{.texture_coordinates = 1, .colours = 3, .other_properties = 6};
+  EXPECT_EQ(text.dropped, dropped);
   for (const bool big_endian : {false, true}) {
     Bytes b(big_endian);
     b.add<float>({1.5}).add<std::uint8_t>({2}).add<std::int16_t>({7, 8}).add<float>({2}).add<std::uint8_t>({0});
@@ -118,8 +121,23 @@ TEST(ReadPly, StepsOverOtherPropertiesAndElements) {
     b.add<std::uint8_t>({0}).add<float>({0, 0}).add<std::uint8_t>({2}).add<double>({8, 9}).add<float>({1});
     b.add<std::uint8_t>({0}).add<float>({0, 1}).add<std::uint8_t>({1}).add<double>({5}).add<float>({0});
     b.add<std::uint8_t>({2}).add<float>({.5, .5}).add<std::uint8_t>({3}).add<std::int32_t>({0, 1, 2, 9, 0, 1});
-    expect_triangle(read(start(big_endian) + elements + std::string(b)));
+    const MeshFile file = read(start(big_endian) + elements + std::string(b));
+    expect_triangle(file);
+    EXPECT_EQ(file.dropped, dropped);
   }
+}
+
+TEST(ReadPly, CountsAttributesByTheNamesOfTheirProperties) {
+  EXPECT_EQ(read(triangle).dropped, DroppedAttributes{});
+  const std::string attributes =
+      "comment TextureFile a b.png\ncomment \\\nelement material 2\nproperty int id\nelement vertex 3\n" + xyz +
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\n"
+      "property uchar alpha\nproperty float confidence\nelement face 1\n" +
+      corners + "property uchar red\nend_header\n";
+  EXPECT_EQ(
+      read(ascii + attributes + "1\n2\n0 0 0 0 0 1 0 0 9 1\n1 0 0 0 0 1 0 0 9 1\n0 1 0 0 0 1 0 0 9 1\n3 0 1 2 255\n")
+          .dropped,
+      (DroppedAttributes{.texture_coordinates = 3, .normals = 3, .colours = 4, .materials = 3, .other_properties = 1}));
 }
 
 TEST(ReadPly, TakesFacesBeforeVertices) {

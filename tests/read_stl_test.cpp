@@ -54,6 +54,16 @@ TEST(ReadStl, JoinsAllSolidsOfAText) {
       read("solid a\n" + facet + "endsolid a\nsolid\nendsolid\nsolid b facet\n" + across + "endsolid"));
 }
 
+TEST(ReadStl, CountsSeveralSolidsAndAttributeBytes) {
+  EXPECT_EQ(read("solid a\n" + facet + across + "endsolid a\n").dropped, DroppedAttributes{});
+  EXPECT_EQ(read("solid a\n" + facet + "endsolid a\nsolid b\n" + across + "endsolid").dropped,
+            (DroppedAttributes{.groups = 2}));
+  std::string bytes = binary("", 2, two_triangles);
+  EXPECT_EQ(read(bytes).dropped, DroppedAttributes{});
+  bytes.back() = '\x80';
+  EXPECT_EQ(read(bytes).dropped, (DroppedAttributes{.facet_attributes = 1}));
+}
+
 TEST(ReadStl, TakesAnyCaseAndSpacing) {
   expect_welded_square(
       read("\n SOLID #1 of 2\r\n  FACET Normal nan -nan(ind) 0\r\nOuter Loop vertex 0 0 0 Vertex 1 0 0\n"

@@ -179,7 +179,7 @@ TEST_F(SimplifyTool, AnswersHelpAndVersion) {
   EXPECT_EQ(help.exit_code, 0);
   for (const char* option :
        {"--tolerance", "--target-faces", "--target-ratio", "--on-exceed", "--levels", "--output-dir", "--cost",
-        "--preserve-boundary", "--feature-angle", "--time-limit", "--json", "--quiet", "--threads"})
+        "--preserve-boundary", "--feature-angle", "--time-limit", "--json", "--quiet", "--threads", "Exit codes: 0 "})
     EXPECT_NE(help.out.find(option), std::string::npos) << option;
 }
 
@@ -335,6 +335,24 @@ TEST_F(SimplifyTool, FindsFewerFacesWithMoreEffort) {
   EXPECT_GT(faces[0], faces[1]);
   EXPECT_GT(static_cast<double>(faces[1]), 1.05 * static_cast<double>(faces[2]));
   EXPECT_EQ(run("torus.off out.off --tolerance 0.01 --effort extreme").exit_code, 2);
+}
+
+/// Until attributes are carried: what is lost is said, in the text and in the JSON, and nothing where there is nothing.
+TEST_F(SimplifyTool, SaysWhatItDrops) {
+  write_mesh(in("plain.obj"), datasets::icosphere(1, 2));
+  std::ofstream(in("painted.obj")) << content_of(in("plain.obj"))
+                                   << "mtllib m.mtl\nusemtl paint\nvt 0 0\nvt 1 0\nl 1 2\n";
+  const Result painted = run("painted.obj out.ply --tolerance 0.02 --json r.json");
+  EXPECT_EQ(painted.exit_code, 0) << painted.err;
+  EXPECT_EQ(painted.err, "");
+  EXPECT_NE(painted.out.find("\ndropped: 2 texture coordinates, 1 material\n"), std::string::npos) << painted.out;
+  const Json original = Json::parse(content_of(in("r.json")))["original"];
+  EXPECT_EQ(original["dropped"]["texture_coordinates"], 2);
+  EXPECT_EQ(original["dropped"]["materials"], 1);
+  EXPECT_EQ(original["dropped"]["normals"], 0);
+  EXPECT_EQ(original["ignored_elements"], 1);
+  EXPECT_EQ(run("plain.obj out.ply --tolerance 0.02").out.find("dropped"), std::string::npos);
+  EXPECT_EQ(run("painted.obj out.ply --tolerance 0.02 --quiet").out, "");
 }
 
 /// Files of the wild and of malice: either a proven result, or one line and no file.

@@ -199,6 +199,7 @@ void Run::print_summary() const {
     if (level.view_distance) std::printf(", from view distance %s on", short_number(*level.view_distance).c_str());
     std::printf("\n");
   }
+  print_dropped(report_.original);
   std::printf("verdict    %s\n", to_string(report_.verdict).c_str());
   print_seconds(report_.seconds);
 }

@@ -326,6 +326,7 @@ void Run::print_summary() const {
   if (result_.dropped_triangles + result_.kept_triangles > 0)
     std::printf("input      %zu duplicate or degenerate triangles dropped, %zu kept as they are\n",
                 result_.dropped_triangles, result_.kept_triangles);
+  print_dropped(report_.original);
   print_seconds(report_.seconds);
   if (verdict_ != Verdict::Within) return;
   for (const GatedOutput& output : outputs_) {

@@ -97,8 +97,8 @@ void write_json(const Options& options, const Inputs& inputs, const Outcome& out
 void print(const Options& options, const Inputs& inputs, const Outcome& outcome) {
   const verify::Proof::Direction &forward = outcome.proof->original_to_simplified,
                                  &backward = outcome.proof->simplified_to_original;
-  std::printf("proven     %s and %s are within %.17g of each other\n", options.original.c_str(),
-              options.simplified.c_str(), outcome.proof->tolerance);
+  std::printf("proven     %s and %s are within %s of each other\n", options.original.c_str(),
+              options.simplified.c_str(), exact_number(outcome.proof->tolerance).c_str());
   std::printf("pieces     %llu of the original, %llu of the simplified mesh, %llu of them by degree\n",
               static_cast<unsigned long long>(forward.pieces), static_cast<unsigned long long>(backward.pieces),
               static_cast<unsigned long long>(forward.by_degree + backward.by_degree));
@@ -145,6 +145,7 @@ void declare(CLI::App& app, Options& options) {
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
       ->type_name("[FILE]")
       ->expected(0, 1);
+  app.footer("Exit codes: 0 proven, 1 rejected, 2 bad usage or files that cannot be read.");
   app.set_version_flag("--version", "verify_certificate " MESHBOUND_VERSION);
 }
 

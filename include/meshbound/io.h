@@ -12,12 +12,28 @@ enum class FileFormat { Off, Obj, Ply, Stl };
 /// From the extension of `path`, upper or lower case. Throws `InvalidInput` when it is none of ours.
 [[nodiscard]] FileFormat format_of(const std::filesystem::path& path);
 
+/// What a file tells about its mesh beyond the triangles. A `TriangleMesh` does not hold it, so whoever writes the mesh
+/// again loses it. Counts of what stands in the file, used by a face or not.
+struct DroppedAttributes {
+  std::size_t texture_coordinates = 0;
+  std::size_t normals = 0;           ///< other than the facet normals of STL, which follow from the corners
+  std::size_t colours = 0;           ///< of vertices and faces
+  std::size_t materials = 0;         ///< names in `usemtl`, or libraries where there are none; texture files (PLY)
+  std::size_t groups = 0;            ///< names of groups and objects (OBJ); solids where a file has several (STL)
+  std::size_t smoothing_groups = 0;  ///< OBJ
+  std::size_t facet_attributes = 0;  ///< binary STL: facets whose attribute bytes are not 0
+  std::size_t other_properties = 0;  ///< PLY: properties of any other name, once each
+
+  [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;
+};
+
 /// A mesh as read, and what the reader had to do to make triangles of it.
 struct MeshFile {
   TriangleMesh mesh;
   std::size_t triangulated_polygons = 0;  ///< faces of more than three corners, split into triangles
   std::size_t decoded_strips = 0;         ///< triangle strips (PLY `tristrips`)
   std::size_t ignored_elements = 0;       ///< faces of fewer than three corners, lines and points
+  DroppedAttributes dropped;
 };
 
 /// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double) or STL (ascii, binary; corners welded by

@@ -11,6 +11,7 @@
 
 #include "meshbound/bounds.h"
 #include "meshbound/distance.h"
+#include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/screen_space.h"
 
@@ -23,18 +24,41 @@ struct MeshReport {
   std::size_t triangulated_polygons = 0;  ///< see `MeshFile`
   std::size_t decoded_strips = 0;
   std::size_t ignored_elements = 0;
+  std::optional<DroppedAttributes> dropped = {};  ///< of a mesh that is written again
 };
+
+/// False for a direction that nobody has looked at, such as the second one of a decision that the first one ended: its
+/// bounds say nothing, and it has no witness.
+[[nodiscard]] bool was_searched(const OneSidedDistance& distance);
+
+/// The point that is furthest from the other mesh among those that a search has met.
+struct WorstSpot {
+  bool on_a = true;  ///< the point is on A (the original), else on B (the simplified mesh)
+  SurfacePoint point;
+  SurfacePoint nearest;  ///< on the other mesh
+  /// `lower`: this point is at least so far from the other mesh. `upper`: no point of either mesh is further, in the
+  /// directions that were asked for.
+  Bounds distance;
+};
+
+/// The witness of the direction with the larger lower bound. Absent when nothing was searched. `b_to_a` may be null.
+[[nodiscard]] std::optional<WorstSpot> worst_spot(const Bounds& bounds, const OneSidedDistance& a_to_b,
+                                                  const OneSidedDistance* b_to_a);
 
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
 struct DistanceReport {
-  std::string verdict;                ///< "done" (measured as wanted), "within", "exceeds" or "undecided"
-  std::optional<double> error_bound;  ///< wanted width of the interval; absent when only a decision was asked for
-  std::optional<double> tolerance;    ///< of the decision, if one was asked for
+  std::string verdict;  ///< "done" (the interval is as narrow as wanted), "within", "exceeds" or "undecided"
+  Outcome outcome = Outcome::Converged;  ///< of the whole question
+  std::string reason;                    ///< why the outcome is "budget" or "precision"; else empty
+  std::optional<double> error_bound;     ///< wanted width of the interval; absent when only a decision was asked for
+  std::optional<double> tolerance;       ///< of the decision, if one was asked for
   MeshReport a;
   MeshReport b;
   Bounds bounds;
   OneSidedDistance a_to_b;
-  std::optional<OneSidedDistance> b_to_a;        ///< absent when only one side was asked for
+  std::optional<OneSidedDistance> b_to_a;  ///< absent when only one side was asked for
+  std::optional<WorstSpot> worst;
+  bool worst_was_wanted = false;                 ///< by `--worst`: the text names it whatever the verdict
   std::optional<double> transform_displacement;  ///< rounding of the transformed vertices of B, within the bounds
   struct Seconds {
     double read = 0, build = 0, query = 0, total = 0;
@@ -105,7 +129,7 @@ struct LodReport {
 /// "within", "exceeds" or "undecided".
 [[nodiscard]] std::string to_string(Verdict verdict);
 
-/// "converged", "exceeds_tolerance", "budget_exhausted" or "precision_reached".
+/// "converged", "exceeds", "budget" or "precision".
 [[nodiscard]] std::string to_string(Outcome outcome);
 
 /// One JSON document, indented, with a newline at its end. Bytes of a path that are not UTF-8 become U+FFFD.

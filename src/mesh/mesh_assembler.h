@@ -36,6 +36,9 @@ class MeshAssembler {
 
   void ignore_element() { ++file_.ignored_elements; }
 
+  /// For the reader to count what it steps over.
+  [[nodiscard]] DroppedAttributes& dropped() { return file_.dropped; }
+
   [[nodiscard]] std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
 
   /// The mesh. Throws `InvalidInput` when there are no triangles or one uses a coordinate that is not finite or beyond

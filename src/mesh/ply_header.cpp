@@ -58,7 +58,12 @@ class HeaderReader {
     }
     line_ = cursor_.offset();
     const std::string_view keyword = cursor_.word();
-    if (keyword == "comment" || keyword == "obj_info") return cursor_.skip_line();
+    if (keyword == "comment" || keyword == "obj_info") {
+      const std::size_t comment = cursor_.offset();
+      if (cursor_.find_word_in_line() && cursor_.peek_word() == "TextureFile") ++header_.texture_files;
+      cursor_.seek(comment);  // a backslash in front of the line's end joins no lines here
+      return cursor_.skip_line();
+    }
     if (keyword == "format") {
       read_format();
     } else if (keyword == "element") {

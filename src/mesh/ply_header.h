@@ -32,7 +32,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
-  std::size_t end = 0;  ///< byte offset of the first byte after the header
+  std::size_t texture_files = 0;  ///< named by comments "TextureFile NAME", which MeshLab writes
+  std::size_t end = 0;            ///< byte offset of the first byte after the header
 };
 
 /// Parses the header (http://paulbourke.net/dataformats/ply/). Throws `InvalidInput` with the line of the defect. Does

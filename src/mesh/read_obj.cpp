@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Wavefront OBJ (http://paulbourke.net/dataformats/obj/): v and f are read, groups, materials, normals and texture
-// coordinates are stepped over.
+// coordinates are counted and stepped over.
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "mesh/mesh_assembler.h"
@@ -17,6 +18,21 @@ namespace {
 /// Geometry that is no polygon: reported as ignored.
 constexpr std::array<std::string_view, 5> other_geometry = {"l", "p", "curv", "curv2", "surf"};
 
+/// The different names that a kind of statement gives. They point into the file's bytes.
+class Names {
+ public:
+  void add(std::string_view name) {
+    if (name.empty() || name == last_) return;
+    names_.insert(name);
+    last_ = name;
+  }
+  [[nodiscard]] std::size_t count() const { return names_.size(); }
+
+ private:
+  std::unordered_set<std::string_view> names_;
+  std::string_view last_;  // runs of the same name are common
+};
+
 class ObjReader {
  public:
   explicit ObjReader(const MeshSource& source) : source_(source), cursor_(source), assembler_(source, Position::Line) {}
@@ -27,6 +43,7 @@ class ObjReader {
       source_.fail_at_line(largest_reference_offset_,
                            "a face refers to vertex " + std::to_string(largest_reference_) + ", but there are only " +
                                std::to_string(assembler_.vertex_count()) + " (counted from 1)");
+    count_names();
     return assembler_.finish();
   }
 
@@ -43,15 +60,52 @@ class ObjReader {
         source_.fail_at_line(offset, quote(keyword) + " does not start a statement of OBJ");
       if (std::find(other_geometry.begin(), other_geometry.end(), keyword) != other_geometry.end())
         assembler_.ignore_element();
-      while (cursor_.find_word_in_line()) cursor_.word();  // word by word: the statement may span joined lines
+      count_attribute(keyword, rest_of_statement());
     }
+  }
+
+  /// From the next word to the last one. Word by word: the statement may span joined lines.
+  std::string_view rest_of_statement() {
+    if (!cursor_.find_word_in_line()) return {};
+    const std::size_t from = cursor_.offset();
+    std::size_t to = from;
+    while (cursor_.find_word_in_line()) {
+      cursor_.word();
+      to = cursor_.offset();
+    }
+    return source_.bytes.substr(from, to - from);
+  }
+
+  void count_attribute(std::string_view keyword, std::string_view argument) {
+    DroppedAttributes& dropped = assembler_.dropped();
+    if (keyword == "vt")
+      ++dropped.texture_coordinates;
+    else if (keyword == "vn")
+      ++dropped.normals;
+    else if (keyword == "usemtl")
+      materials_.add(argument);
+    else if (keyword == "mtllib")
+      material_libraries_.add(argument);
+    else if (keyword == "g" || keyword == "o")
+      groups_.add(argument);
+    else if (keyword == "s" && argument != "off" && argument != "0")
+      smoothing_groups_.add(argument);
+  }
+
+  void count_names() {
+    DroppedAttributes& dropped = assembler_.dropped();
+    dropped.materials = materials_.count() > 0 ? materials_.count() : material_libraries_.count();
+    dropped.groups = groups_.count();
+    dropped.smoothing_groups = smoothing_groups_.count();
   }
 
   void read_vertex(std::size_t offset) {
     const double x = read_coordinate();
     const double y = read_coordinate();
     const double z = read_coordinate();
-    while (cursor_.find_word_in_line()) cursor_.number("a weight or a colour");
+    int more = 0;
+    for (; cursor_.find_word_in_line(); ++more) cursor_.number("a weight or a colour");
+    if (more >= 3) ++assembler_.dropped().colours;
     if (assembler_.vertex_count() == std::numeric_limits<std::uint32_t>::max())
       cursor_.fail("more than 2^32-1 vertices");
     assembler_.add_vertex({x, y, z}, offset);
@@ -102,6 +156,7 @@ class ObjReader {
   TextCursor cursor_;
   MeshAssembler assembler_;
   std::vector<std::uint32_t> corners_;
+  Names materials_, material_libraries_, groups_, smoothing_groups_;
   std::size_t largest_reference_ = 0;  // to a vertex not yet read, counted from 1
   std::size_t largest_reference_offset_ = 0;
 };

@@ -19,13 +19,25 @@ struct Counts {
   std::size_t faces = 0;
 };
 
-/// Reads [ST][C][N][4][n]OFF; what ST, C and N announce stands behind the coordinates and is skipped.
-void read_keyword(TextCursor& cursor) {
+/// What a keyword says that stands behind the coordinates of each vertex.
+struct Announced {
+  bool texture_coordinates = false, colours = false, normals = false;
+};
+
+/// Reads [ST][C][N][4][n]OFF; what ST, C and N announce is counted and skipped.
+Announced read_keyword(TextCursor& cursor) {
   if (!cursor.find_word()) cursor.fail("the file holds no OFF keyword");
   const std::string_view word = cursor.peek_word();
   std::string_view rest = word;
-  for (const std::string_view prefix : {"ST", "C", "N"})
-    if (rest.starts_with(prefix)) rest.remove_prefix(prefix.size());
+  const auto announces = [&rest](std::string_view prefix) {
+    const bool found = rest.starts_with(prefix);
+    if (found) rest.remove_prefix(prefix.size());
+    return found;
+  };
+  Announced announced;
+  announced.texture_coordinates = announces("ST");
+  announced.colours = announces("C");
+  announced.normals = announces("N");
   if (rest.starts_with("4OFF") || rest.starts_with("nOFF") || rest.starts_with("4nOFF"))
     cursor.fail("vertices of " + quote(word) + " are not points in three dimensions");
   if (!rest.starts_with("OFF") && !rest.starts_with("off"))
@@ -33,6 +45,7 @@ void read_keyword(TextCursor& cursor) {
   cursor.seek(cursor.offset() + word.size() - rest.size() + 3);
   if (cursor.find_word_in_line() && cursor.peek_word() == "BINARY")
     cursor.fail("binary OFF is not supported; convert it to text, PLY or STL");
+  return announced;
 }
 
 std::size_t read_count(TextCursor& cursor, const char* what) {
@@ -42,10 +55,19 @@ std::size_t read_count(TextCursor& cursor, const char* what) {
   return static_cast<std::size_t>(count);
 }
 
-/// Steps over numbers that are no concern of ours (colours, normals, texture coordinates), to the next line.
-void skip_numbers_in_line(TextCursor& cursor) {
-  while (cursor.find_word_in_line()) cursor.number("a number");
+/// Steps over the numbers of attributes to the next line. Returns whether there were any.
+bool skip_numbers_in_line(TextCursor& cursor) {
+  bool any = false;
+  for (; cursor.find_word_in_line(); any = true) cursor.number("a number");
   cursor.skip_line();
+  return any;
+}
+
+/// Numbers behind the coordinates that no keyword announces are colours.
+void count_attributes(const Announced& announced, DroppedAttributes& dropped) {
+  if (announced.texture_coordinates) ++dropped.texture_coordinates;
+  if (announced.normals) ++dropped.normals;
+  if (announced.colours || !(announced.texture_coordinates || announced.normals)) ++dropped.colours;
 }
 
 /// Some writers leave the edge count out: it is there when it follows on the same line or stands alone on the next.
@@ -85,7 +107,8 @@ double read_coordinate(TextCursor& cursor) {
   return cursor.number("a vertex coordinate");
 }
 
-void read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::uint32_t>& corners) {
+/// Returns whether the face has a colour.
+bool read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::uint32_t>& corners) {
   corners.clear();
   const std::size_t size = read_count(cursor, "the number of corners of a face");
   if (size > cursor.remaining() / 2 + 1)
@@ -98,7 +121,7 @@ void read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::ui
                   std::to_string(vertex_count) + " (counted from 0)");
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  skip_numbers_in_line(cursor);
+  return skip_numbers_in_line(cursor);
 }
 
 }  // namespace
@@ -106,7 +129,7 @@ void read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::ui
 MeshFile read_off(const MeshSource& source) {
   TextCursor cursor(source);
   MeshAssembler assembler(source, Position::Line);
-  read_keyword(cursor);
+  const Announced announced = read_keyword(cursor);
   const Counts counts = read_counts(cursor);
   constexpr std::size_t shortest_triangle = 8;  // bytes: "3 0 1 2\n"
   assembler.reserve(counts.vertices, std::min(counts.faces, cursor.remaining() / shortest_triangle + 1));
@@ -116,11 +139,11 @@ MeshFile read_off(const MeshSource& source) {
     const double y = read_coordinate(cursor);
     const double z = read_coordinate(cursor);
     assembler.add_vertex({x, y, z}, offset);
-    skip_numbers_in_line(cursor);
+    if (skip_numbers_in_line(cursor)) count_attributes(announced, assembler.dropped());
   }
   std::vector<std::uint32_t> corners;
   for (std::size_t i = 0; i < counts.faces; ++i) {
-    read_face(cursor, counts.vertices, corners);
+    if (read_face(cursor, counts.vertices, corners)) ++assembler.dropped().colours;
     assembler.add_polygon(corners);
   }
   if (cursor.find_word())

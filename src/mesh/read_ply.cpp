@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // PLY (http://paulbourke.net/dataformats/ply/): vertices, faces and the triangle strips of the Stanford repository;
-// every other element and property is stepped over.
+// every other element and property is counted and stepped over.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/mesh_assembler.h"
+#include "mesh/ply_attributes.h"
 #include "mesh/ply_header.h"
 #include "mesh/ply_values.h"
 #include "mesh/readers.h"
@@ -34,6 +35,7 @@ class PlyReader {
     reserve();
     for (const PlyElement& element : header_.elements) {
       refuse_count_beyond_file(element);
+      count_attributes(element, assembler_.dropped());
       if (element.name == "vertex") {
         read_vertices(element);
       } else if (element.name == "face") {
@@ -45,6 +47,8 @@ class PlyReader {
       }
     }
     if (!values_.at_end()) values_.fail("the file goes on after the last element that its header declares");
+    assembler_.dropped().texture_coordinates += texture_numbers_ / 2;
+    assembler_.dropped().materials += header_.texture_files;
     return assembler_.finish();
   }
 
@@ -118,7 +122,8 @@ class PlyReader {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& p : element.properties) {
         if (!lists_corners(p)) {
-          skip_property(p);
+          const std::uint64_t skipped = skip_property(p);
+          if (lists_texture_coordinates(p)) texture_numbers_ += skipped;
         } else if (strips) {
           read_strip(p);
         } else {
@@ -157,7 +162,12 @@ class PlyReader {
     return static_cast<std::uint64_t>(size);
   }
 
-  void skip_property(const PlyProperty& p) { values_.skip(p.type, p.is_list ? list_size(p) : 1); }
+  /// Returns the number of values.
+  std::uint64_t skip_property(const PlyProperty& p) {
+    const std::uint64_t count = p.is_list ? list_size(p) : 1;
+    values_.skip(p.type, count);
+    return count;
+  }
 
   void skip_element(const PlyElement& element) {
     if (element.properties.empty()) return;  // takes no bytes, however many there are
@@ -180,6 +190,7 @@ class PlyReader {
   std::vector<Role> vertex_roles_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::int64_t> strip_;
+  std::uint64_t texture_numbers_ = 0;  // in lists of texture coordinates
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ constexpr std::size_t count_offset = 80;  // bytes
 constexpr std::size_t records_offset = 84;
 constexpr std::size_t record_size = 50;     // normal, three corners, two bytes of attributes
 constexpr std::size_t corners_offset = 12;  // in a record
+constexpr std::size_t attribute_offset = 48;
 
 bool equal_ignoring_case(std::string_view word, std::string_view lower_case) {
   return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
@@ -53,6 +54,7 @@ class StlTextReader {
       const std::string_view word = cursor_.peek_word();
       if (equal_ignoring_case(word, in_solid ? "endsolid" : "solid")) {
         in_solid = !in_solid;
+        if (in_solid) ++solids_;
         cursor_.skip_line();  // the rest is a name: any words
       } else if (in_solid && equal_ignoring_case(word, "facet")) {
         read_facet();
@@ -61,6 +63,7 @@ class StlTextReader {
       }
     }
     if (in_solid) cursor_.fail("the file ends before 'endsolid'");
+    if (solids_ > 1) assembler_.dropped().groups = solids_;
     return assembler_.finish();
   }
 
@@ -105,6 +108,7 @@ class StlTextReader {
   MeshAssembler assembler_;
   WeldedCorners corners_;
   std::vector<std::uint32_t> polygon_;
+  std::size_t solids_ = 0;
   std::size_t word_ = 0;  // where the last word starts
 };
 
@@ -144,6 +148,8 @@ MeshFile read_binary(const MeshSource& source) {
       triangle[k] = corners.add(p, offset);
     }
     assembler.add_polygon(triangle);
+    const char* const attribute = source.bytes.data() + records_offset + i * record_size + attribute_offset;
+    if (load_little_endian<std::uint16_t>(attribute) != 0) ++assembler.dropped().facet_attributes;
   }
   return assembler.finish();
 }

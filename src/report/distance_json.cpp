@@ -10,7 +10,8 @@ std::string to_json(const DistanceReport& from) {
   std::vector<const OneSidedDistance*> directions = {&from.a_to_b};
   if (from.b_to_a) directions.push_back(&*from.b_to_a);
 
-  Json json = {{"schema", "meshbound/distance/1"}, {"verdict", from.verdict}};
+  Json json = {{"schema", "meshbound/distance/1"}, {"verdict", from.verdict}, {"outcome", to_string(from.outcome)}};
+  if (!from.reason.empty()) json["reason"] = from.reason;
   json["error_bound"] = from.error_bound ? number(*from.error_bound) : Json(nullptr);
   if (from.tolerance) json["tolerance"] = length(*from.tolerance, diagonal);
   json["a"] = mesh(from.a);
@@ -19,6 +20,7 @@ std::string to_json(const DistanceReport& from) {
   json["distance"] = bounds(from.bounds);
   json["distance"]["a_to_b"] = one_sided(from.a_to_b);
   if (from.b_to_a) json["distance"]["b_to_a"] = one_sided(*from.b_to_a);
+  if (from.worst) json["worst"] = worst(*from.worst, "a_to_b", "b_to_a");
   json["stats"] = stats(directions);
   json["seconds"] = {{"read", number(from.seconds.read)},
                      {"build", number(from.seconds.build)},

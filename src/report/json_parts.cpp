@@ -9,9 +9,15 @@ namespace {
 
 Json point(const Eigen::Vector3d& p) { return Json::array({number(p.x()), number(p.y()), number(p.z())}); }
 
-/// A search that ran has looked at a triangle; an untouched result still has the interval [0, inf].
-bool was_searched(const OneSidedDistance& distance) {
-  return std::isfinite(distance.bounds.upper) || distance.bounds.lower > 0 || distance.stats.closest_point_queries > 0;
+Json dropped(const DroppedAttributes& dropped) {
+  return {{"texture_coordinates", dropped.texture_coordinates},
+          {"normals", dropped.normals},
+          {"colours", dropped.colours},
+          {"materials", dropped.materials},
+          {"groups", dropped.groups},
+          {"smoothing_groups", dropped.smoothing_groups},
+          {"facet_attributes", dropped.facet_attributes},
+          {"other_properties", dropped.other_properties}};
 }
 
 }  // namespace
@@ -23,15 +29,17 @@ Json length(double absolute, double diagonal) {
 }
 
 Json mesh(const MeshReport& mesh) {
-  return {{"path", mesh.path},
-          {"vertices", mesh.summary.vertices},
-          {"faces", mesh.summary.faces},
-          {"components", mesh.summary.components},
-          {"closed", mesh.summary.closed},
-          {"bbox_diagonal", number(mesh.summary.bbox_diagonal)},
-          {"triangulated_polygons", mesh.triangulated_polygons},
-          {"decoded_strips", mesh.decoded_strips},
-          {"ignored_elements", mesh.ignored_elements}};
+  Json json = {{"path", mesh.path},
+               {"vertices", mesh.summary.vertices},
+               {"faces", mesh.summary.faces},
+               {"components", mesh.summary.components},
+               {"closed", mesh.summary.closed},
+               {"bbox_diagonal", number(mesh.summary.bbox_diagonal)},
+               {"triangulated_polygons", mesh.triangulated_polygons},
+               {"decoded_strips", mesh.decoded_strips},
+               {"ignored_elements", mesh.ignored_elements}};
+  if (mesh.dropped) json["dropped"] = dropped(*mesh.dropped);
+  return json;
 }
 
 Json bounds(const Bounds& bounds) { return {{"lower", number(bounds.lower)}, {"upper", number(bounds.upper)}}; }
@@ -46,10 +54,19 @@ Json witness(const Witness& witness) {
 
 Json one_sided(const OneSidedDistance& distance) {
   Json json = bounds(distance.bounds);
+  json["searched"] = was_searched(distance);
   if (!was_searched(distance)) return json;
   json["outcome"] = to_string(distance.outcome);
   json["witness"] = witness(distance.witness);
   return json;
+}
+
+Json worst(const WorstSpot& spot, const char* from_a, const char* from_b) {
+  return {{"direction", spot.on_a ? from_a : from_b},
+          {"point", point(spot.point.position)},
+          {"triangle", spot.point.triangle},
+          {"nearest", point(spot.nearest.position)},
+          {"distance", bounds(spot.distance)}};
 }
 
 Json symmetric(const SymmetricDistance& distance) {
@@ -143,13 +160,13 @@ std::string to_string(Outcome outcome) {
     case Outcome::Converged:
       return "converged";
     case Outcome::ExceedsTolerance:
-      return "exceeds_tolerance";
+      return "exceeds";
     case Outcome::BudgetExhausted:
-      return "budget_exhausted";
+      return "budget";
     case Outcome::PrecisionReached:
       break;
   }
-  return "precision_reached";
+  return "precision";
 }
 
 }  // namespace meshbound

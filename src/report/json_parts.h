@@ -26,8 +26,12 @@ using Json = nlohmann::ordered_json;
 /// {"from":[x,y,z],"to":[x,y,z],"from_triangle":..,"to_triangle":..,"distance":..}
 [[nodiscard]] Json witness(const Witness& witness);
 
-/// Bounds, outcome and witness of one direction; no witness where nothing was searched.
+/// Bounds, whether the direction was searched, and if so its outcome and witness.
 [[nodiscard]] Json one_sided(const OneSidedDistance& distance);
+
+/// {"direction":..,"point":[x,y,z],"triangle":..,"nearest":[x,y,z],"distance":{"lower":..,"upper":..}}; `from_a` and
+/// `from_b` name the directions.
+[[nodiscard]] Json worst(const WorstSpot& spot, const char* from_a, const char* from_b);
 
 /// Bounds of both directions and their maximum; a is the original, b the simplified mesh.
 [[nodiscard]] Json symmetric(const SymmetricDistance& distance);

@@ -10,6 +10,9 @@ std::string to_json(const SimplifyReport& from) {
   json["original"] = mesh(from.original);
   json["simplified"] = mesh(from.simplified);
   json["distance"] = symmetric(from.distance);
+  const SymmetricDistance& distance = from.distance;
+  if (const auto spot = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a))
+    json["worst"] = worst(*spot, "original_to_simplified", "simplified_to_original");
   json["stopped_by"] = from.stopped_by;
   json["effort"] = from.effort;
   json["pruned"] = {{"components", from.pruned.components}, {"faces", from.pruned.faces}};

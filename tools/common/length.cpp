@@ -28,6 +28,11 @@ std::string short_number(double value) {
   return text;
 }
 
+std::string exact_number(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 std::string both_units(double absolute, double diagonal) {
   if (!(diagonal > 0) || !std::isfinite(absolute / diagonal * 100)) return short_number(absolute);
   return short_number(absolute) + " (" + short_number(absolute / diagonal * 100) + "% of the diagonal)";

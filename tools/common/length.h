@@ -21,4 +21,7 @@ struct Length {
 /// Six significant digits, for people.
 [[nodiscard]] std::string short_number(double value);
 
+/// The fewest digits that read back as the same double: "0.05" where 17 digits say 0.050000000000000003.
+[[nodiscard]] std::string exact_number(double value);
+
 }  // namespace meshbound::tools

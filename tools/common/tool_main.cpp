@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <new>
 
 #include "common/brief_waits.h"
@@ -20,6 +19,13 @@ int complain(const CLI::App& app, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
   return ExitBadInput;
+}
+
+/// What is wrong with a text as a number of seconds; empty: nothing.
+std::string seconds(const std::string& text) {
+  double value = -1;
+  const bool is_number = CLI::detail::lexical_cast(text, value);
+  return is_number && value >= 0 ? "" : "'" + text + "' is not a number of seconds, 0 or more";
 }
 
 }  // namespace
@@ -46,13 +52,16 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
            options.has_time_limit = true;
          },
          "Seconds after which the tool ends with what it has proven (exit 3)")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()));
+      ->check(seconds);
   app.add_option_function<std::string>(
          "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
       ->type_name("[FILE]")
       ->expected(0, 1);
   app.final_callback([&options] { options.threads = start_threads(options.threads); });
+  app.footer(
+      "Exit codes: 0 done or within the tolerance, 1 not within it, 2 bad usage or input, 3 undecided or ended by a "
+      "limit.");
   app.set_version_flag("--version", app.get_name() + " " MESHBOUND_VERSION);
 }
 

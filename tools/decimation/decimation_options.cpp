@@ -12,6 +12,9 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
                  "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
       ->check(CLI::Range(0.0, 180.0));
   add_common_options(app, options.common);
+  app.description(app.get_description() +
+                  " Outputs carry triangles only: texture coordinates, normals, colours, materials and groups are "
+                  "counted and dropped.");
 }
 
 }  // namespace meshbound::tools

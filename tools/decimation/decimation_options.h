@@ -15,7 +15,8 @@ struct DecimationOptions {
   CommonOptions common;
 };
 
-/// Adds --cost, --preserve-boundary, --feature-angle and what `add_common_options` adds.
+/// Adds --cost, --preserve-boundary, --feature-angle and what `add_common_options` adds, and says in the description
+/// what outputs do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
 
 }  // namespace meshbound::tools

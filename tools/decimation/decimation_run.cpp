@@ -10,6 +10,7 @@
 
 #include "common/length.h"
 #include "common/signals.h"
+#include "decimation/dropped_attributes.h"
 #include "meshbound/io.h"
 
 namespace meshbound::tools {
@@ -26,9 +27,11 @@ constexpr double relative_error_bound = 1e-6;
 DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(watch_interrupts()), shared_(options) {}
 
 void DecimationRun::read_original(MeshReport& report) {
-  original_ = read_mesh(shared_.input).mesh;
+  MeshFile file = read_mesh(shared_.input);
+  original_ = std::move(file.mesh);
   validate(original_);
-  report = {shared_.input, summarise(original_)};
+  report = {shared_.input,       summarise(original_),  file.triangulated_polygons,
+            file.decoded_strips, file.ignored_elements, file.dropped};
   diagonal_ = report.summary.bbox_diagonal;
   const Eigen::AlignedBox3d box = used_bounding_box(original_);
   largest_coordinate_ = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
@@ -80,6 +83,11 @@ bool DecimationRun::must_fall_back(const GatedOutput& output) const {
 
 int DecimationRun::threads() const {
   return shared_.common.threads > 0 ? shared_.common.threads : omp_get_max_threads();
+}
+
+void print_dropped(const MeshReport& original) {
+  if (original.dropped && *original.dropped != DroppedAttributes{})
+    std::printf("dropped: %s\n", listed(*original.dropped).c_str());
 }
 
 void print_seconds(const SimplifyReport::Seconds& seconds) {

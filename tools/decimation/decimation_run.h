@@ -47,6 +47,9 @@ class DecimationRun {
   double largest_coordinate_ = 0;
 };
 
+/// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries.
+void print_dropped(const MeshReport& original);
+
 /// "seconds    read 0.01, simplify ...", a line on stdout.
 void print_seconds(const SimplifyReport::Seconds& seconds);
 

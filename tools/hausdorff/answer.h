@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+
+#include "common/tool_main.h"
+#include "hausdorff/question.h"
+#include "meshbound/distance.h"
+
+namespace meshbound::tools {
+
+struct Answer {
+  Bounds bounds;
+  OneSidedDistance a_to_b;
+  std::optional<OneSidedDistance> b_to_a;  ///< absent when only one side was asked for
+  // What `conclude` makes of it:
+  std::string verdict;
+  Outcome outcome = Outcome::Converged;
+  std::string reason;  ///< why not everything that was asked is known; else empty
+  ExitCode exit_code = ExitUndecided;
+};
+
+/// What needs no trees: the same surface, or a copy of it that has hardly moved.
+[[nodiscard]] std::optional<Answer> answer_without_trees(const Question& question, const TriangleMesh& a,
+                                                         const TriangleMesh& b, Method method);
+
+/// Decides, measures, or both. `options` give the method, the threads, the budget of all of it and what watches it.
+[[nodiscard]] Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b,
+                                     const DistanceOptions& options);
+
+/// Allows for the rounding of B's image, and says what came of the question: verdict, outcome, reason and exit code.
+/// A measurement is "done" only when its interval is as narrow as was asked.
+void conclude(Answer& answer, const Question& question);
+
+}  // namespace meshbound::tools

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "hausdorff/question.h"
+
+#include <algorithm>
+#include <map>
+
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/transform.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// Default width of the interval: 1e-6 of the diagonal of A; of both meshes together when A is a single point.
+double default_error_bound(const TriangleMesh& a, const TriangleMesh& b, double diagonal) {
+  if (diagonal > 0) return 1e-6 * diagonal;
+  const Eigen::AlignedBox3d box = used_bounding_box(a).merged(used_bounding_box(b));
+  return 1e-6 * (box.max() - box.min()).stableNorm();
+}
+
+}  // namespace
+
+void add_arguments(CLI::App& app, Arguments& arguments) {
+  app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY or STL")->required();
+  app.add_option("B", arguments.b, "The mesh to compare with it")->required();
+  app.add_option("--error-bound", arguments.error_bound,
+                 "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");
+  app.add_option("--tolerance", arguments.tolerance,
+                 "Decide whether the distance is at most this (units as above): exit 0 within, 1 exceeds, 3 undecided. "
+                 "Stops as soon as that is known, unless --error-bound or --worst is given too");
+  app.add_flag("--worst", arguments.worst,
+               "Find the worst spot to the error bound and print it; with --tolerance after the decision, which ends "
+               "with the first spot beyond");
+  app.add_flag("--one-sided", arguments.one_sided, "Only from A to B");
+  app.add_option("--transform-b", arguments.transform_b,
+                 "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
+  app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
+  app.add_option("--certificate", arguments.certificate,
+                 "With --tolerance: write the proof that the distance is within it, for verify_certificate");
+  const std::map<std::string, Method> methods{{"cell-walking", Method::CellWalking},
+                                              {"cross-culling", Method::CrossCulling}};
+  app.add_option("--method", arguments.method,
+                 "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
+      ->transform(CLI::CheckedTransformer(methods));
+  add_common_options(app, arguments.common);
+}
+
+TypedLengths parse_lengths(const Arguments& arguments) {
+  TypedLengths lengths;
+  if (!arguments.error_bound.empty()) lengths.error_bound = parse_length("--error-bound", arguments.error_bound);
+  if (!arguments.tolerance.empty()) lengths.tolerance = parse_length("--tolerance", arguments.tolerance);
+  if (arguments.certificate.empty()) return lengths;
+  if (arguments.tolerance.empty() || arguments.one_sided || !arguments.transform_b.empty())
+    throw InvalidInput("--certificate needs --tolerance, both directions and the meshes as they are in the files");
+  return lengths;
+}
+
+double Question::tolerance_of_image() const { return widened({*tolerance, *tolerance}, displacement).lower; }
+
+double Question::error_bound_of_image() const {
+  // Both ends of the interval move by the displacement, and are rounded outward.
+  return std::max(0.0, *error_bound - 4 * displacement);
+}
+
+Question question_about(const TriangleMesh& a, const TriangleMesh& b, const Arguments& arguments,
+                        const TypedLengths& lengths, double diagonal, double displacement) {
+  Question question;
+  question.one_sided = arguments.one_sided;
+  question.displacement = displacement;
+  if (lengths.tolerance) question.tolerance = lengths.tolerance->in_model_units(diagonal);
+  if (lengths.error_bound) question.error_bound = lengths.error_bound->in_model_units(diagonal);
+  question.decide_first = arguments.worst && question.tolerance;
+  const bool decision_only = question.tolerance && !arguments.worst;
+  if (!question.error_bound && !decision_only) question.error_bound = default_error_bound(a, b, diagonal);
+  return question;
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+
+#include "common/length.h"
+#include "common/tool_main.h"
+#include "meshbound/distance.h"
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound::tools {
+
+/// The command line of hausdorff_distance.
+struct Arguments {
+  std::string a;
+  std::string b;
+  std::string error_bound;
+  std::string tolerance;
+  std::string transform_b;
+  bool one_sided = false;
+  bool worst = false;
+  bool profile = false;
+  std::string certificate;
+  Method method = Method::CellWalking;
+  CommonOptions common;
+};
+
+void add_arguments(CLI::App& app, Arguments& arguments);
+
+/// The lengths of the command line as typed. They are parsed before any mesh is read, so that a typing error does not
+/// cost a long read.
+struct TypedLengths {
+  std::optional<Length> error_bound;
+  std::optional<Length> tolerance;
+};
+
+/// Throws `InvalidInput` for lengths that are none and for options that exclude each other.
+[[nodiscard]] TypedLengths parse_lengths(const Arguments& arguments);
+
+/// What is asked about two meshes; lengths in model units.
+struct Question {
+  std::optional<double> error_bound;  ///< wanted width of the interval; absent: only the decision is wanted
+  std::optional<double> tolerance;    ///< to decide against
+  bool decide_first = false;          ///< both: the decision, with no time lost on the interval, then the interval
+  bool one_sided = false;
+  double displacement = 0;  ///< rounding of the transformed B: every bound is widened by it
+
+  /// Largest tolerance which, met by the rounded image of B, is met by the exact one.
+  [[nodiscard]] double tolerance_of_image() const;
+  /// Width that is left for the interval of the rounded image of B.
+  [[nodiscard]] double error_bound_of_image() const;
+};
+
+/// The question about these meshes; `diagonal` is that of A.
+[[nodiscard]] Question question_about(const TriangleMesh& a, const TriangleMesh& b, const Arguments& arguments,
+                                      const TypedLengths& lengths, double diagonal, double displacement);
+
+}  // namespace meshbound::tools
