@@ -9,16 +9,18 @@
 
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
+#include "json_claims.h"
 #include "meshbound/io.h"
 #include "run_tool.h"
 
 namespace meshbound {
 namespace {
 
+using testing_tools::checked_document;
+using testing_tools::Json;
 using testing_tools::run_tool;
 using testing_tools::TemporaryFolder;
 using testing_tools::ToolRun;
-using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 class CertificateTools : public testing::Test {
@@ -73,23 +75,20 @@ TEST_F(CertificateTools, VerifierTellsInJson) {
             0);
   const ToolRun run = verify("torus.off", "small.ply", "c", {"--json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const Json json = Json::parse(run.out);
+  const Json json = checked_document(run.out);
   EXPECT_EQ(json["schema"], "meshbound/verify/1");
   EXPECT_EQ(json["verdict"], "proven");
   EXPECT_EQ(json["tolerance"], 0.03);
   EXPECT_EQ(json["certificate"]["bytes"], fs::file_size(in("c")));
   EXPECT_EQ(json["original"]["faces"], 1600);
   EXPECT_GE(json["original_to_simplified"]["pieces"], 1600);
-  const Json schema = Json::parse(testing_tools::content_of(MESHBOUND_SOURCE_DIR "/tools/schema/verify-1.schema.json"));
-  for (const auto& key : schema["required"]) EXPECT_TRUE(json.contains(key)) << key;
-  for (const auto& [key, value] : json.items()) EXPECT_TRUE(schema["properties"].contains(key)) << key;
-  const Json simplified = Json::parse(testing_tools::content_of(in("j")));
+  const Json simplified = checked_document(testing_tools::content_of(in("j")));
   EXPECT_EQ(simplified["certificates"][0]["path"], in("c"));
   EXPECT_EQ(simplified["certificates"][0]["bytes"], fs::file_size(in("c")));
   const ToolRun rejected = verify("small.ply", "torus.off", "c", {"--json"});
   EXPECT_EQ(rejected.exit_code, 1);
-  EXPECT_EQ(Json::parse(rejected.out)["verdict"], "rejected");
-  EXPECT_NE(Json::parse(rejected.out)["reason"].get<std::string>().find("not the one"), std::string::npos);
+  EXPECT_EQ(checked_document(rejected.out)["verdict"], "rejected");
+  EXPECT_NE(checked_document(rejected.out)["reason"].get<std::string>().find("not the one"), std::string::npos);
   EXPECT_EQ(verify("torus.off", "small.ply", "c", {"--quiet"}).out, "");
 }
 
@@ -183,6 +182,18 @@ TEST_F(CertificateTools, AnyTwoMeshesCanBeCertified) {
   EXPECT_EQ(certify({"--tolerance", "0.08", "--transform-b", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"}).exit_code, 2);
   EXPECT_EQ(certify({}).exit_code, 2);
   EXPECT_EQ(file_count(), before);
+}
+
+/// The decision itself needs no time where the meshes are the same.
+TEST_F(CertificateTools, SaysThatTheTimeLimitLeftTheCertificateUndone) {
+  const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in("torus.off"), in("torus.off"), "--tolerance", "1", "--json", "-",
+                                                    "--certificate", in("c"), "--time-limit", "0"});
+  EXPECT_EQ(run.exit_code, 3);
+  const Json json = checked_document(run.out);
+  EXPECT_EQ(json["verdict"], "within");
+  EXPECT_EQ(json["outcome"], "budget");
+  EXPECT_NE(json["reason"].get<std::string>().find("certificate"), std::string::npos);
+  EXPECT_FALSE(fs::exists(in("c")));
 }
 
 TEST_F(CertificateTools, RealMeshesAreCertified) {

@@ -139,6 +139,8 @@ int run(const Arguments& arguments) {
     if (interrupted) throw Error("interrupted before the certificate was complete; it was not written");
     std::fprintf(stderr, "hausdorff_distance: no time was left for the certificate; it was not written\n");
     answer.exit_code = ExitUndecided;
+    answer.outcome = Outcome::BudgetExhausted;
+    answer.reason = "the time limit came before the certificate was complete";
   }
   report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
   report.seconds.total = watch.seconds();

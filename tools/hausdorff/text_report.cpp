@@ -48,9 +48,10 @@ void print_direction(const char* label, const OneSidedDistance& distance, double
               exact_point(distance.witness.nearest.position).c_str());
 }
 
+/// The mesh is named where it is B: a reader of a log expects A, the original.
 std::string place(const WorstSpot& worst) {
-  return short_point(worst.point.position) + ", triangle " + std::to_string(worst.point.triangle) + " of " +
-         (worst.on_a ? "A" : "B");
+  return short_point(worst.point.position) + ", triangle " + std::to_string(worst.point.triangle) +
+         (worst.on_a ? "" : " of B");
 }
 
 unsigned long long count(std::uint64_t n) { return n; }  // printf has no portable letter for it
@@ -113,7 +114,8 @@ void print_report(const DistanceReport& report, bool profile) {
     const bool all_searched = was_searched(report.a_to_b) && was_searched(*report.b_to_a);
     print_bounds("Hausdorff distance", report.bounds, all_searched ? "not known" : "not searched", diagonal);
   }
-  if (report.worst_was_wanted && report.worst) std::printf("%-20s %s\n", "worst spot", place(*report.worst).c_str());
+  if (report.worst_was_wanted && report.worst)
+    std::printf("%-20s %s%s\n", "worst spot", place(*report.worst).c_str(), report.worst->on_a ? " of A" : "");
   if (report.error_bound)
     std::printf("%-20s %s%s\n", "error bound", both_units(*report.error_bound, diagonal).c_str(),
                 report.reason.empty() ? "" : (", not reached: " + report.reason).c_str());

@@ -11,7 +11,7 @@ namespace meshbound::tools {
 void print_report(const DistanceReport& report, bool profile);
 
 /// The line that a log needs of an answer that is no success, "FAIL 0.0433 > 0.04 at (-0.988 19.617 2.367), triangle
-/// 12370 of A" or "UNDECIDED ...: why", without a newline; empty for a success.
+/// 12370" (of A, where it does not say "of B") or "UNDECIDED ...: why", without a newline; empty for a success.
 [[nodiscard]] std::string closing_line(const DistanceReport& report);
 
 }  // namespace meshbound::tools
