@@ -22,7 +22,11 @@ int bench_main(int argc, char** argv, const char* description, const std::functi
     std::filesystem::create_directories(options.out);
     std::filesystem::create_directories(options.cache);
     options.machine = machine_line();
-    return run(options);
+    const int code = run(options);
+    if (options.only.empty() || options.found_any()) return code;
+    std::fprintf(stderr, "%s: --only %s: nothing that it could measure has this in its name\n", argv[0],
+                 options.only.c_str());
+    return nothing_measured;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
     return 2;

@@ -16,11 +16,23 @@ struct Options {
   std::string only;                       ///< measures only what has this in its name
   std::string machine;                    ///< one line for every table
 
-  [[nodiscard]] bool wants(std::string_view name) const { return name.find(only) != std::string_view::npos; }
+  [[nodiscard]] bool wants(std::string_view name) const {
+    const bool wanted = name.find(only) != std::string_view::npos;
+    found_ = found_ || wanted;
+    return wanted;
+  }
+  /// Whether `wants` has ever said yes.
+  [[nodiscard]] bool found_any() const { return found_; }
+
+ private:
+  mutable bool found_ = false;
 };
 
+/// Exit code of a benchmark of which `--only` leaves nothing, so that tools/bench/run can ask the others.
+inline constexpr int nothing_measured = 4;
+
 /// Parses, creates the folders and calls `run`, whose result is the exit code; an exception becomes one line on stderr
-/// and exit code 2.
+/// and exit code 2, and so does an `--only` that no name contains, with exit code `nothing_measured`.
 int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run);
 
 }  // namespace meshbound::bench

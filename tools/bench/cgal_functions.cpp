@@ -44,6 +44,10 @@ double CgalPair::bounded_error(double error_bound) const {
   return PMP::bounded_error_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(meshes_->a, meshes_->b, error_bound);
 }
 
+double CgalPair::one_sided_bounded_error(double error_bound) const {
+  return PMP::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(meshes_->a, meshes_->b, error_bound);
+}
+
 double CgalPair::approximate(double points_per_area) const {
   CGAL::get_default_random() = CGAL::Random(2009);  // the parameter random_seed does not reach every sampler
   if (points_per_area == 0)

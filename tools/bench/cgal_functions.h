@@ -17,6 +17,8 @@ class CgalPair {
 
   /// `bounded_error_symmetric_Hausdorff_distance`.
   [[nodiscard]] double bounded_error(double error_bound) const;
+  /// `bounded_error_Hausdorff_distance` from the first to the second.
+  [[nodiscard]] double one_sided_bounded_error(double error_bound) const;
   /// `approximate_symmetric_Hausdorff_distance` with a fixed seed; `points_per_area` of 0 leaves the number of samples
   /// at its default.
   [[nodiscard]] double approximate(double points_per_area = 0) const;

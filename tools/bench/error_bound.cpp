@@ -95,6 +95,7 @@ int run(const Options& options) {
   Recipe finer{*bunny};
   finer.subdivisions = 1;
   curves.add({"bunny / its subdivision", make({*bunny}, options.cache), make(finer, options.cache)});
+  if (!options.found_any()) return 0;
   write_file(options.out / "error_bound.md", table.markdown());
   return 0;
 }

@@ -12,6 +12,7 @@ Bounds measure(const Bvh& a, const Bvh& b, const OurTask& task) {
   options.threads = task.threads;
   if (task.tolerance >= 0) return check_symmetric(a, b, task.tolerance, options).bounds;
   options.error_bound = task.error_bound;
+  if (task.one_sided) return one_sided_distance(a, b, options).bounds;
   return symmetric_distance(a, b, options).bounds;
 }
 
@@ -21,7 +22,8 @@ OurRun run_ours(const TriangleMesh& a, const TriangleMesh& b, const OurTask& tas
   const ChildResult child = run_in_child(task.limit, [&] {
     const Stopwatch watch;
     // What `symmetric_distance` and `check_symmetric` of two meshes do, with the time of building apart.
-    if (const auto known = distance_without_trees(a, b, task.tolerance < 0 ? task.error_bound : task.tolerance)) {
+    const double limit = task.tolerance < 0 ? task.error_bound : task.tolerance;
+    if (const auto known = task.one_sided ? std::nullopt : distance_without_trees(a, b, limit)) {
       const Times all = watch.elapsed();
       return std::vector<double>{known->bounds.lower, known->bounds.upper, 0, 0, all.wall, all.cpu};
     }

@@ -7,7 +7,8 @@
 
 namespace meshbound::bench {
 
-/// One measurement of `symmetric_distance` or, where a tolerance is given, of `check_symmetric`.
+/// One measurement of `symmetric_distance`, of `one_sided_distance` from a to b or, where a tolerance is given, of
+/// `check_symmetric`.
 struct OurRun {
   ChildResult::Status status = ChildResult::Status::Failed;
   std::string error;
@@ -22,6 +23,7 @@ struct OurTask {
   double tolerance = -1;      ///< decides this instead of measuring, when not negative
   int threads = 1;
   double limit = 120;  ///< seconds of processor time
+  bool one_sided = false;
 };
 
 /// In a child process of its own.

@@ -81,6 +81,16 @@ std::vector<PairSpec> table_pairs() {
   return pairs;
 }
 
+std::vector<PairSpec> decimation_pairs() {
+  std::vector<PairSpec> pairs;
+  for (const char* folder : {"cad", "organic", "scan", "game", "cgal", "npm"})
+    for (const fs::path& file : list_dataset(folder))
+      for (const double ratio : {0.5, 0.1})
+        pairs.push_back(with_decimation(std::string(folder) + '/' + file.filename().string(), {file}, ratio,
+                                        std::numeric_limits<double>::quiet_NaN()));
+  return pairs;
+}
+
 std::vector<PairSpec> dataset_pairs() {
   std::vector<PairSpec> pairs;
   const std::vector<fs::path> members = list_dataset("pairs");
@@ -90,11 +100,7 @@ std::vector<PairSpec> dataset_pairs() {
                        "real",
                        {members[i]},
                        {members[j], members[i]}});
-  for (const char* folder : {"cad", "organic", "scan", "game", "cgal", "npm"})
-    for (const fs::path& file : list_dataset(folder))
-      for (const double ratio : {0.5, 0.1})
-        pairs.push_back(with_decimation(std::string(folder) + '/' + file.filename().string(), {file}, ratio,
-                                        std::numeric_limits<double>::quiet_NaN()));
+  for (PairSpec& pair : decimation_pairs()) pairs.push_back(std::move(pair));
   return pairs;
 }
 

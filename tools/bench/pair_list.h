@@ -22,7 +22,10 @@ struct PairSpec {
 /// stderr.
 [[nodiscard]] std::vector<PairSpec> table_pairs();
 
-/// Every two meshes of a family of pairs/, and every mesh of cad, organic, scan and game with its decimations.
+/// Every mesh of cad, organic, scan and game, and of the fetcher's folders, with its decimations to 50% and 10%.
+[[nodiscard]] std::vector<PairSpec> decimation_pairs();
+
+/// Every two meshes of a family of pairs/, and `decimation_pairs`.
 [[nodiscard]] std::vector<PairSpec> dataset_pairs();
 
 }  // namespace meshbound::bench

@@ -212,6 +212,7 @@ int run(const Options& options) {
     std::printf("%s\n", Table{table.columns, {table.rows.back()}}.markdown().c_str());
     std::fflush(stdout);
   }
+  if (!options.found_any()) return 0;
   const std::string text = table.markdown() + '\n' + summary(ratios, speed_ups);
   write_file(options.out / "pairs.md", text);
   std::printf("%s", text.c_str());

@@ -183,6 +183,7 @@ int run(const Options& options) {
     std::printf("%s\n", Table{table.columns, {table.rows.back()}}.markdown().c_str());
     std::fflush(stdout);
   }
+  if (!options.found_any()) return 0;
   write_file(options.out / "paper.md", table.markdown());
   return 0;
 }

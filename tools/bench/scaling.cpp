@@ -142,6 +142,7 @@ int run(const Options& options) {
     exponents += std::string(family.name) + ": processor time grows with the power " +
                  format(fitted_exponent(sizes, seconds)) + " of the size (target 1.1).\n";
   }
+  if (!options.found_any()) return 0;
   const std::string text = table.markdown() +
                            "\nTargets: 200 bytes a triangle at 1M and more; 60 s on two threads at "
                            "10M a side; speed-up 1.7 above 50k.\n\n" +

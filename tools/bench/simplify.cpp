@@ -224,7 +224,7 @@ int run(const Options& options) {
     const auto file = find_dataset({c.file});
     if (!options.quick && file && options.wants(c.name)) all.curve(c.name, read_mesh(*file).mesh, curves);
   }
-  return all.finish();
+  return options.found_any() ? all.finish() : 0;
 }
 
 }  // namespace
