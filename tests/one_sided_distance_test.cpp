@@ -478,5 +478,18 @@ TEST(Proximity, AgreesWithTheDistanceOfTheTriangle) {
   }
 }
 
+TEST(OneSidedDistance, ToAPointFarAwayIsConvergedOnlyWhereItIsNarrowEnough) {
+  const TriangleMesh tiny = scaled(unit_square(1), 1e-300), far = moved(unit_square(2), {1e9, 0, 0});
+  const Bvh from(far), to(tiny);
+  DistanceOptions options;
+  options.error_bound = 0;
+  const OneSidedDistance exact = one_sided_distance(from, to, options);
+  EXPECT_LT(exact.bounds.lower, exact.bounds.upper);
+  EXPECT_EQ(exact.outcome, Outcome::PrecisionReached);
+  options.error_bound = 2 * (exact.bounds.upper - exact.bounds.lower);
+  EXPECT_EQ(one_sided_distance(from, to, options).outcome, Outcome::Converged);
+  EXPECT_EQ(check_one_sided(from, to, 2e9).a_to_b.outcome, Outcome::Converged);
+}
+
 }  // namespace
 }  // namespace meshbound

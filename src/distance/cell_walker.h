@@ -14,8 +14,10 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
+#include "distance/choice.h"
 #include "distance/piece.h"
 #include "distance/proven_bounds.h"
 
@@ -27,12 +29,15 @@ inline constexpr std::uint32_t steps_between_queries = 8;
 inline constexpr std::uint32_t steps_of_sweep = 32;
 /// Corners more than so many targets off the first point that is tried on a triangle are rarely near another one of it.
 inline constexpr double hopeless_targets = 3;
-/// Cuts, and queries, after which a piece is only halved: it walks in circles. What is left to `deepest_cut` halves its
-/// diameter thirty times.
+/// Cuts after which a piece is only halved, and queries after which it is halved once: it walks in circles.
 inline constexpr std::uint32_t halve_from_depth = 60;
 inline constexpr std::uint32_t halve_from_rounds = 24;
-/// Corners from which a piece is halved, so that three cuts by a cell still fit.
-inline constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
+/// Splits between two triangles after which a piece walks no more: around a vertex of B the cells by edges may lead it
+/// back to where it came from. And those after which it is halved, which makes bisectors straighter.
+inline constexpr std::uint32_t splits_before_resolving = 3;
+inline constexpr std::uint32_t splits_before_halving = 8;
+/// Cuts after which the walk leaves a piece to subdivision, which may cut it until `deepest_cut`.
+inline constexpr std::uint32_t deepest_walk = 90;
 
 inline namespace MESHBOUND_ISA {
 
@@ -40,12 +45,13 @@ class CellWalker : public ProvenBounds {
  public:
   using ProvenBounds::ProvenBounds;
 
-  /// Covers one triangle of A, starting at triangle `slot` of B.
+  /// Covers one triangle of A, starting at triangle `slot` of B, but for the pieces that it leaves `unfinished`.
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
              std::uint64_t max_cuts) {
     set_from(from_slot);
     cuts_left_ = max_cuts;
     stack_.clear();
+    unfinished_.clear();
     stack_.push_back(whole_triangle(a, b, c, slot));
     while (!stack_.empty()) {
       const Piece piece = stack_.back();
@@ -53,6 +59,14 @@ class CellWalker : public ProvenBounds {
       step(piece);
     }
   }
+
+  /// A piece that so many cuts have not bounded, within the root of `upper_squared` of B.
+  struct Unfinished {
+    Piece piece;
+    double upper_squared;
+  };
+  [[nodiscard]] const std::vector<Unfinished>& unfinished() const { return unfinished_; }
+  [[nodiscard]] std::uint64_t cuts_left() const { return cuts_left_; }
 
   /// Covers one triangle of A by at most `max_pieces` pieces, walking from triangle `slot` of B without any query, with
   /// at most `max_cuts` cuts (0: one piece only). Returns the number of pieces; 0 when that is not enough: nothing is
@@ -75,7 +89,11 @@ class CellWalker : public ProvenBounds {
       const bool hopeful = quick <= hopeless_targets * hopeless_targets * accepted_squared_;
       if (hopeful && done_with(largest_squared_distance(piece, t), piece.slot)) continue;
       const bool lost = pieces >= max_pieces || piece.age >= steps_of_sweep || must_halve(piece);
-      if (lost || cuts_left_ == 0 || !walk(piece)) return 0;
+      if (lost || cuts_left_ == 0) return 0;
+      if (piece.count > Piece::crowded)
+        push_halves_by_diagonal(piece);
+      else if (piece.in_cell || !walk(piece))
+        return 0;
     }
     return pieces;
   }
@@ -90,15 +108,24 @@ class CellWalker : public ProvenBounds {
     const Farthest farthest = farthest_corner(piece, t);
     if (done_with(farthest.squared, piece.slot)) return;
     if (cuts_left_ == 0 || decided()) return give_up(farthest.squared);
-    const bool due = piece.age >= steps_between_queries || must_halve(piece);
-    if (due)
+    if (piece.count > Piece::crowded) return push_halves_by_diagonal(piece);
+    const bool walks = !piece.in_cell && piece.splits < splits_before_resolving;
+    if (must_halve(piece) || (walks && piece.age >= steps_between_queries))
       query_and_walk(piece, farthest);
-    else if (!walk(piece))
-      push(piece, piece.slot, steps_between_queries);
+    else if (!walks || !walk(piece))
+      resolve(piece, farthest);
   }
 
   static bool must_halve(const Piece& piece) {
-    return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds || piece.count > crowded_piece;
+    return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds;
+  }
+
+  /// So that three cuts by a cell fit again.
+  void push_halves_by_diagonal(const Piece& piece) {
+    Piece first, second;
+    split_by_diagonal(piece, first, second);
+    stack_.push_back(first);
+    stack_.push_back(second);
   }
 
   void push(const Piece& piece, std::uint32_t slot, std::uint32_t age, bool trimmed = false) {
@@ -106,13 +133,32 @@ class CellWalker : public ProvenBounds {
     stack_.back().slot = slot;
     stack_.back().age = age;
     stack_.back().trimmed = trimmed;
+    stack_.back().in_cell = false;
+    stack_.back().rival = no_slot;
+  }
+
+  void push_in_cell(const Piece& piece, std::uint32_t slot, std::uint32_t rival = no_slot) {
+    push(piece, slot, 1);
+    stack_.back().in_cell = true;
+    stack_.back().rival = rival;
+  }
+
+  /// The parts of a piece on both sides of a line where its candidate stops to serve and `other` begins to.
+  void push_split(Piece& near, Piece& far, const Piece& piece, std::uint32_t other) {
+    near.splits = far.splits = piece.splits + 1;
+    push_in_cell(near, piece.slot, other);
+    push(far, other, 1);
   }
 
   bool cut_and_count(const Piece& piece, const PlaneSides& sides, Piece& inside, Piece& outside) {
     if (!cut(piece, sides, inside, outside)) return false;
+    count_cut();
+    return true;
+  }
+
+  void count_cut() {
     ++counters_.cuts;
     if (cuts_left_ > 0) --cuts_left_;
-    return true;
   }
 
   /// The planes of a cell: lane k runs through the edge from corner k to k + 1, along the bisector of the normals on
@@ -188,8 +234,12 @@ class CellWalker : public ProvenBounds {
       rest = inside;
       changed = true;
     }
-    if (changed) push(rest, piece.slot, outward > 0 ? piece.age : steps_between_queries, outward > 0);
-    return changed;
+    if (!changed) return false;
+    if (outward > 0)
+      push(rest, piece.slot, piece.age, true);
+    else
+      push_in_cell(rest, piece.slot);
+    return true;
   }
 
   /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges. Of
@@ -211,7 +261,7 @@ class CellWalker : public ProvenBounds {
   void query_and_walk(const Piece& piece, const Farthest& farthest) {
     const Vec3 probe = probe_point(piece, farthest.corner);
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
-    find_nearest(b_, probe, 0, nearest, counters_.queries);
+    find_nearest(b_, probe, near_enough(), nearest, counters_.queries);
     offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
     if (done_with(farthest.squared, piece.slot) || done_with(lipschitz * lipschitz, nearest.slot)) return;
@@ -220,61 +270,109 @@ class CellWalker : public ProvenBounds {
     next.age = 0;
     next.trimmed = false;
     double bound = std::min(farthest.squared, lipschitz * lipschitz);
+    Farthest worst = farthest;
     if (nearest.slot != piece.slot) {
-      const double other = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
-      if (done_with(other, nearest.slot)) return;
-      bound = std::min(bound, other);
+      worst = farthest_corner(piece, triangle_at(b_, nearest.slot));
+      if (done_with(worst.squared, nearest.slot)) return;
+      bound = std::min(bound, worst.squared);
       next.slot = nearest.slot;
     }
-    if (piece.depth >= deepest_cut) return give_up(bound);
+    if (piece.depth >= deepest_walk) return unfinished_.push_back({piece, bound});
     if (must_halve(piece)) return halve(next, piece.slot, next.slot, bound);
-    if (!walk(next)) resolve(next, farthest.corner, bound);
+    if (!walk(next)) resolve_at_corners(next, worst.corner, bound);
   }
 
-  /// The piece is inside the cell of its candidate, yet a corner is too far from it: another sheet of B, or a vertex
-  /// where cells by edges are not the Voronoi cells, is nearer. Ask at every corner, and split between the two answers.
-  void resolve(const Piece& piece, std::uint32_t worst, double bound) {
+  /// The piece is inside the cell of its candidate t, yet a corner is too far from it: another sheet of B, or a vertex
+  /// where cells by edges are not the Voronoi cells, is nearer. Asks near the worst corner, then at the corners beyond
+  /// the target, and splits the piece between t and the first triangle that serves one of them better.
+  void resolve(const Piece& piece, const Farthest& farthest) {
+    Piece next = piece;
+    ++next.rounds;
+    double bound = farthest.squared;
+    if (piece.splits >= splits_before_halving)
+      halve_in_cell(next, bound);
+    else if (!split_by_query(next, probe_point(piece, farthest.corner), bound))
+      resolve_at_corners(next, farthest.corner, bound);
+  }
+
+  void resolve_at_corners(const Piece& piece, std::uint32_t worst, double bound) {
     ++counters_.resolved;
     const CornerTriangle<double> t = triangle_at(b_, piece.slot);
-    const Vec3 here = piece.corner(worst) - closest_on_triangle(t, piece.corner(worst)).offset;
-    std::uint32_t other = piece.slot;
-    Vec3 there;
-    double apart = 0;
-    for (std::uint32_t i = 0; i < piece.count; ++i) {
-      const Vec3 corner = piece.corner(i);
-      Nearest nearest{closest_on_triangle(t, corner).squared_distance, piece.slot};
-      find_nearest(b_, corner, 0, nearest, counters_.queries);
-      offer(corner, nearest, piece.depth);
-      if (nearest.slot == piece.slot) continue;
-      const CornerTriangle<double> candidate = triangle_at(b_, nearest.slot);
-      const double squared = farthest_corner(piece, candidate).squared;
-      if (done_with(squared, nearest.slot)) return;
-      bound = std::min(bound, squared);
-      const Vec3 point = corner - closest_on_triangle(candidate, corner).offset;
-      if (squared_length(point - here) > apart) {
-        apart = squared_length(point - here);
-        there = point;
-        other = nearest.slot;
-      }
+    for (std::uint32_t k = 0; k < piece.count; ++k) {
+      const Vec3 corner = piece.corner((worst + k) % piece.count);
+      if (accepts(closest_on_triangle(t, corner).squared_distance)) continue;
+      if (split_by_query(piece, corner, bound)) return;
     }
-    if (done_with(bound)) return;
-    if (!split_between(piece, here, there, other)) halve(piece, piece.slot, other, bound);
+    if (!done_with(bound)) halve_in_cell(piece, bound);
   }
 
-  bool split_between(const Piece& piece, const Vec3& here, const Vec3& there, std::uint32_t other) {
-    if (other == piece.slot) return false;
-    const Vec3 normal = there - here;
-    const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (here + there)));
-    if (!(sides.least < 0 && sides.most > 0)) return false;
+  /// Asks which triangle is near a point of the piece, and lowers `bound` by it. True when the piece has been bounded
+  /// by that triangle, or split between it and the candidate.
+  bool split_by_query(const Piece& piece, const Vec3& p, double& bound) {
+    Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), p).squared_distance, piece.slot};
+    find_nearest(b_, p, near_enough(), nearest, counters_.queries);
+    offer(p, nearest, piece.depth + 1);
+    if (nearest.slot == piece.slot) return false;
+    const double squared = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
+    bound = std::min(bound, squared);
+    return done_with(squared, nearest.slot) || split_at_triple(piece, p, nearest.slot) ||
+           split_between(piece, nearest.slot);
+  }
+
+  /// A squared distance within which a candidate is good enough: half the target. Where many triangles are equally near
+  /// a point, to look for the nearest of them means to look at all.
+  [[nodiscard]] double near_enough() const { return 0.25 * accepted_squared_; }
+
+  /// Splits a piece by a chord between the points of its boundary where its candidate t stops to serve: where t is
+  /// neither within the target nor as near as `other`. On the near side every corner is then bounded by t, on the far
+  /// side by `other`, as well as by both: a tie costs one cut, whatever the precision. False where the piece cannot be
+  /// split so.
+  bool split_between(const Piece& piece, std::uint32_t other) {
+    const Choice choice{triangle_at(b_, piece.slot), triangle_at(b_, other),
+                        std::sqrt(accepted_squared_) * (1 - 0x1p-50)};
+    double excess[Piece::capacity] = {};
+    for (std::uint32_t i = 0; i < piece.count; ++i) excess[i] = choice.excess(piece.corner(i));
+    std::uint32_t changes = 0, leaves = 0, returns = 0;
+    for (std::uint32_t i = 0; i < piece.count; ++i) {
+      const std::uint32_t j = i + 1 == piece.count ? 0 : i + 1;
+      if ((excess[i] > 0) == (excess[j] > 0)) continue;
+      ++changes;
+      (excess[j] > 0 ? leaves : returns) = i;
+    }
+    if (changes == 0 && excess[0] > 0) {  // `other` is nearer all over
+      push(piece, other, steps_between_queries);
+      return true;
+    }
+    if (changes != 2) return false;
+    const auto after = [&](std::uint32_t i) { return i + 1 == piece.count ? 0 : i + 1; };
+    const BoundaryPoint leave{leaves, choice.last_served(piece.corner(leaves), excess[leaves],
+                                                         piece.corner(after(leaves)), excess[after(leaves)])};
+    const BoundaryPoint back{returns, 1 - choice.last_served(piece.corner(after(returns)), excess[after(returns)],
+                                                             piece.corner(returns), excess[returns])};
     Piece near, far;
-    if (!cut_and_count(piece, sides, near, far)) return false;
-    push(near, piece.slot, 1);
-    push(far, other, 1);
+    if (!cut_by_chord(piece, back, leave, near, far)) return false;
+    count_cut();
+    push_split(near, far, piece, other);
     return true;
   }
 
-  /// Last resort: cut across the longest diagonal; the parts shrink, so the Lipschitz bound ends it.
-  void halve(const Piece& piece, std::uint32_t near_slot, std::uint32_t far_slot, double bound) {
+  /// Splits a piece from which something has been cut off, and where now a third triangle is nearest at p: by a line
+  /// through the point that is equally far from all three. Chords alone would close in on that point step by step.
+  bool split_at_triple(const Piece& piece, const Vec3& p, std::uint32_t third) {
+    if (piece.rival == no_slot || piece.rival == third) return false;
+    const CornerTriangle<double> t = triangle_at(b_, piece.slot), u = triangle_at(b_, third);
+    const std::optional<Vec3> point = equidistant_point(piece, p, t, triangle_at(b_, piece.rival), u);
+    if (!point) return false;
+    const Vec3 normal = lead(t, u, *point).gradient;
+    const PlaneSides sides = sides_of(piece, normal, dot(normal, *point));
+    Piece near, far;
+    if (!(sides.least < 0 && sides.most > 0) || !cut_and_count(piece, sides, near, far)) return false;
+    push_split(near, far, piece, third);
+    return true;
+  }
+
+  /// Cuts across the longest diagonal: the parts shrink, so the Lipschitz bound ends it at last.
+  bool halves_of(const Piece& piece, Piece& near, Piece& far) {
     Vec3 from, to;
     double longest = -1;
     for (std::uint32_t i = 0; i < piece.count; ++i) {
@@ -289,14 +387,29 @@ class CellWalker : public ProvenBounds {
     }
     const Vec3 normal = to - from;
     const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
+    if (!(sides.least < 0 && sides.most > 0) || !cut_and_count(piece, sides, near, far)) return false;
+    near.rounds = far.rounds = near.splits = far.splits = 0;
+    return true;
+  }
+
+  void halve(const Piece& piece, std::uint32_t near_slot, std::uint32_t far_slot, double bound) {
     Piece near, far;
-    if (!(sides.least < 0 && sides.most > 0) || !cut_and_count(piece, sides, near, far)) return give_up(bound);
+    if (!halves_of(piece, near, far)) return give_up(bound);
     push(near, near_slot, steps_between_queries);
     push(far, far_slot, steps_between_queries);
   }
 
+  void halve_in_cell(const Piece& piece, double bound) {
+    if (piece.depth >= deepest_walk) return unfinished_.push_back({piece, bound});
+    Piece near, far;
+    if (!halves_of(piece, near, far)) return give_up(bound);
+    push_in_cell(near, piece.slot);
+    push_in_cell(far, piece.slot);
+  }
+
   std::uint64_t cuts_left_ = 0;
   std::vector<Piece> stack_;
+  std::vector<Unfinished> unfinished_;
 };
 
 }  // namespace MESHBOUND_ISA

@@ -10,30 +10,73 @@
 namespace meshbound {
 namespace {
 
+void run_after_probe(OneSidedSearch& search) {
+  search.run(&OneSidedSearch::drop_identical, &PhaseSeconds::matching);
+  search.run(&OneSidedSearch::drop_proven, &PhaseSeconds::matching);
+  search.run(&OneSidedSearch::cull_nodes, &PhaseSeconds::culling_on_a);
+  search.run(&OneSidedSearch::sweep, &PhaseSeconds::culling_on_b);
+  search.run(&OneSidedSearch::query_vertices, &PhaseSeconds::culling_on_b);
+  search.run(&OneSidedSearch::bound_triangles, &PhaseSeconds::culling_on_b);
+  search.run(&OneSidedSearch::refine_rest, &PhaseSeconds::subdivision);
+}
+
 void run_steps(OneSidedSearch& search, Method method) {
   if (method == Method::CrossCulling) {
     search.run(&OneSidedSearch::cross_cull, &PhaseSeconds::culling_on_a);
+    search.run(&OneSidedSearch::refine_rest, &PhaseSeconds::subdivision);
   } else {
     search.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
-    search.run(&OneSidedSearch::drop_identical, &PhaseSeconds::matching);
-    search.run(&OneSidedSearch::drop_proven, &PhaseSeconds::matching);
-    search.run(&OneSidedSearch::cull_nodes, &PhaseSeconds::culling_on_a);
-    search.run(&OneSidedSearch::sweep, &PhaseSeconds::culling_on_b);
-    search.run(&OneSidedSearch::query_vertices, &PhaseSeconds::culling_on_b);
-    search.run(&OneSidedSearch::bound_triangles, &PhaseSeconds::culling_on_b);
+    run_after_probe(search);
   }
-  search.run(&OneSidedSearch::refine_rest, &PhaseSeconds::subdivision);
 }
+
+OneSidedDistance finish(OneSidedSearch& search) {
+  run_after_probe(search);
+  search.remember_hints();
+  return search.result();
+}
+
+Mapping mapping_of(const OneSidedTask& task) {
+  return mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
+}
+
+bool fits_frame(const Mapping& map) { return map.magnitude <= largest_magnitude; }
 
 }  // namespace
 
 OneSidedDistance search_one_sided(const OneSidedTask& task) {
-  const Mapping map = mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
-  if (!(map.magnitude <= largest_magnitude)) return distance_to_point_like(task);
+  const Mapping map = mapping_of(task);
+  if (!fits_frame(map)) return distance_to_point_like(task);
   OneSidedSearch search(task, map);
   with_team(search.threads(), [&] { run_steps(search, task.options.method); });
   search.remember_hints();
   return search.result();
+}
+
+std::pair<OneSidedDistance, OneSidedDistance> search_both(const OneSidedTask& forward, const OneSidedTask& back) {
+  const Mapping forward_map = mapping_of(forward), back_map = mapping_of(back);
+  if (forward.options.method == Method::CrossCulling || !fits_frame(forward_map) || !fits_frame(back_map)) {
+    OneSidedDistance first = search_one_sided(forward);
+    OneSidedTask seeded = back;
+    seeded.known_lower = first.bounds.lower;
+    return {std::move(first), search_one_sided(seeded)};
+  }
+  OneSidedSearch there(forward, forward_map), here(back, back_map);
+  std::pair<OneSidedDistance, OneSidedDistance> results;
+  with_team(there.threads(), [&] {
+    there.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
+    here.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
+    if (here.proven_lower() > there.proven_lower()) {
+      results.second = finish(here);
+      there.raise_known_lower(results.second.bounds.lower);
+      results.first = finish(there);
+    } else {
+      results.first = finish(there);
+      here.raise_known_lower(results.first.bounds.lower);
+      results.second = finish(here);
+    }
+  });
+  return results;
 }
 
 }  // namespace meshbound

@@ -16,18 +16,23 @@ Eigen::Vector3d to_world(const PlacedModel& model, const Vec3& working) {
 
 }  // namespace
 
-/// The best lower bound of this direction, or at least the furthest point met: where the other direction's bound
-/// served, or the distance is 0, no point was proven on the way.
+/// The point that realises the best lower bound of this direction, else the furthest vertex met: where the other
+/// direction's bound served, or the distance is 0, no point was proven on the way. Its closest triangle is asked for
+/// here, once: on the way any triangle near enough served.
 LowerBound OneSidedSearch::proven_witness() {
-  if (own_lower_.lower > 0) return own_lower_;
+  LowerBound found = own_lower_;
+  if (!(found.lower > 0)) {
+    found.point = vertex(farthest_vertex_);
+    found.nearest_slot = farthest_nearest_.squared < 0 ? 0 : farthest_nearest_.slot;
+    found.from_slot = slot_using_vertex(a_, farthest_vertex_);
+  }
   Searcher& searcher = *searchers_.front();
-  if (farthest_nearest_.squared < 0) farthest_nearest_ = searcher.nearest(vertex(farthest_vertex_), 0, 0);
+  const Nearest nearest = searcher.nearest(found.point, found.nearest_slot, 0);
+  found.nearest_slot = nearest.slot;
+  if (found.lower > 0) return found;
   searcher.begin({});
-  searcher.offer(vertex(farthest_vertex_), farthest_nearest_, no_slot);
-  LowerBound found = searcher.lower();
-  found.point = vertex(farthest_vertex_);
-  found.nearest_slot = farthest_nearest_.slot;
-  found.from_slot = slot_using_vertex(a_, farthest_vertex_);
+  searcher.offer(found.point, nearest, found.from_slot);
+  found.lower = searcher.lower().lower;
   return found;
 }
 
@@ -88,8 +93,8 @@ OneSidedDistance OneSidedSearch::result() {
   result.bounds.upper = std::max({b_.frame.length_up(upper), kept_upper_, result.bounds.lower});
   result.witness = witness_at(lower);
   remember_start(lower);
-  const double proven = std::max(result.bounds.lower, task_.known_lower);
-  const bool narrow = result.bounds.upper <= proven + task_.error_bound && !task_.decide_only;
+  const double proven = std::max(result.bounds.lower, known_lower_);
+  const bool narrow = result.bounds.upper - proven <= task_.error_bound && !task_.decide_only;
   if (decided())
     result.outcome = Outcome::ExceedsTolerance;
   else if (narrow || (result.bounds.upper <= task_.tolerance && task_.decide_only))

@@ -62,12 +62,22 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
       map_(map),
       goal_(make_goal(task, map)),
       scale_to_model_(std::ldexp(1.0, b_.frame.exponent)),
+      known_lower_(0),
       cuts_left_(task.options.budget.subdivisions),
       last_progress_(task.start) {
   for (int i = 0; i < thread_count(task); ++i) searchers_.push_back(make_searcher(b_, goal_));
-  lower_.lower = b_.frame.working_length_down(task.known_lower);
+  raise_known_lower(task.known_lower);
   stats_.triangles = a_.triangle_count();
 }
+
+void OneSidedSearch::raise_known_lower(double lower) {
+  if (!(lower > known_lower_)) return;
+  known_lower_ = lower;
+  const double working = b_.frame.working_length_down(lower);
+  if (working > lower_.lower) lower_.lower = working;
+}
+
+double OneSidedSearch::proven_lower() const { return b_.frame.length_down(std::max(0.0, own_lower_.lower)); }
 
 void OneSidedSearch::run(void (OneSidedSearch::*step)(), double PhaseSeconds::*phase) {
   const Clock::time_point start = Clock::now();

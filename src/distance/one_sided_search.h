@@ -19,6 +19,11 @@ class OneSidedSearch {
   OneSidedSearch(const OneSidedTask& task, const Mapping& map);
   [[nodiscard]] int threads() const { return static_cast<int>(searchers_.size()); }
 
+  /// A lower bound already known of the quantity that is wanted, model units (`OneSidedTask::known_lower`).
+  void raise_known_lower(double lower);
+  /// The largest distance that a point of A is proven to have so far, model units.
+  [[nodiscard]] double proven_lower() const;
+
   void probe();            ///< a few vertices, for a first lower bound
   void drop_identical();   ///< triangles that B has too, if a probe lay on B: at distance 0 without arithmetic
   void drop_proven();      ///< triangles that an earlier search has proven to be near enough
@@ -120,7 +125,8 @@ class OneSidedSearch {
   std::vector<std::uint32_t> wanted_;                 ///< vertices of A
   std::unique_ptr<VertexNearest[]> nearest_;          ///< by A's vertex; set for wanted ones only
   std::vector<Open> open_;
-  LowerBound lower_;                   ///< starts at `known_lower`
+  double known_lower_;                 ///< model units
+  LowerBound lower_;                   ///< never below `known_lower_`
   LowerBound own_lower_;               ///< proven for this direction
   std::uint32_t farthest_vertex_ = 0;  ///< met so far
   Nearest farthest_nearest_{-1, 0};

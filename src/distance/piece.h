@@ -1,36 +1,43 @@
 // SPDX-License-Identifier: MIT
 /// Convex pieces of a triangle of A and their cuts. Compiled once per instruction set (numeric/isa.h).
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
+#include "bvh/bvh_data.h"
 #include "geometry/point_triangle.h"
 #include "numeric/simd.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
+/// What the walk knows of a piece, and how it came to be.
+struct alignas(32) PieceState {
+  std::uint32_t count = 0;        ///< of corners
+  std::uint32_t slot = 0;         ///< candidate triangle of B
+  std::uint32_t rival = no_slot;  ///< the triangle whose part the last split cut off from this piece
+  std::uint32_t depth = 0;        ///< cuts that led here
+  std::uint32_t rounds = 0;       ///< queries that led here since the last halving
+  std::uint32_t splits = 0;       ///< between a candidate and another triangle that led here since the last halving
+  std::uint32_t age = 0;          ///< steps walked since a query chose or confirmed a candidate
+  bool trimmed = false;           ///< lies inside the pushed-out cell of its candidate, so only the cell itself cuts it
+  bool in_cell = false;           ///< lies inside that cell itself
+};
+
 /// A convex polygon in the plane of a triangle of A, up to the rounding of its cuts, with the triangle of B that is
 /// tried for it. Corners are stored lane by lane; unused lanes up to the next multiple of four repeat the last corner.
-struct alignas(32) Piece {
+struct Piece : PieceState {
   static constexpr std::uint32_t capacity = 12;
-  std::uint32_t count = 0;
-  std::uint32_t slot = 0;    ///< candidate triangle of B
-  std::uint32_t depth = 0;   ///< cuts that led here
-  std::uint32_t rounds = 0;  ///< queries that led here
-  std::uint32_t age = 0;     ///< steps walked since a query chose or confirmed a candidate
-  bool trimmed = false;      ///< lies inside the pushed-out cell of its candidate, so only the cell itself cuts it
+  /// A cut of a piece of up to so many corners always fits: k corners on one side have at most 2 min(k, count - k)
+  /// crossings around them, k + 2 min(k, 8 - k) <= 12.
+  static constexpr std::uint32_t crowded = 8;
   alignas(32) double x[capacity], y[capacity], z[capacity];
 
   Piece() {}  // NOLINT: corners beyond `count` stay as they are, pieces are made by the million
   Piece(const Piece& other) { *this = other; }
   /// Copies only the lanes in use: most pieces have three or four corners.
   Piece& operator=(const Piece& other) {
-    count = other.count;
-    slot = other.slot;
-    depth = other.depth;
-    rounds = other.rounds;
-    age = other.age;
-    trimmed = other.trimmed;
+    PieceState::operator=(other);
     for (std::uint32_t first = 0; first < count; first += 4) {
       *reinterpret_cast<Double4*>(x + first) = *reinterpret_cast<const Double4*>(other.x + first);
       *reinterpret_cast<Double4*>(y + first) = *reinterpret_cast<const Double4*>(other.y + first);
@@ -135,14 +142,26 @@ inline PlaneSides sides_of(const Piece& piece, const Vec3& normal, double offset
   return sides;
 }
 
+/// Whether both parts of a cut have room for their corners.
+inline bool parts_fit(const Piece& piece, const PlaneSides& sides) {
+  std::uint32_t inside = 0, outside = 0;
+  for (std::uint32_t i = 0; i < piece.count; ++i) {
+    const double s = sides.value[i], e = sides.value[i + 1 == piece.count ? 0 : i + 1];
+    const bool crossed = (s < 0 && e > 0) || (s > 0 && e < 0);
+    inside += static_cast<std::uint32_t>(s <= 0) + static_cast<std::uint32_t>(crossed);
+    outside += static_cast<std::uint32_t>(s >= 0) + static_cast<std::uint32_t>(crossed);
+  }
+  return inside <= Piece::capacity && outside <= Piece::capacity;
+}
+
 /// Cuts a piece in two along edges whose ends lie on different sides; both parts share each new corner. The parts cover
 /// the piece whatever the signs are: new corners lie on the piece's edges, what they cut off is a run of corners of one
 /// side, and the hull of the new corners belongs to both. False, and nothing cut, when a part would not fit in
 /// `capacity`.
 inline bool cut(const Piece& piece, const PlaneSides& sides, Piece& inside, Piece& outside) {
+  if (piece.count > Piece::crowded && !parts_fit(piece, sides)) return false;
   inside.count = outside.count = 0;
   for (std::uint32_t i = 0; i < piece.count; ++i) {
-    if (inside.count + 2 > Piece::capacity || outside.count + 2 > Piece::capacity) return false;
     const std::uint32_t j = i + 1 == piece.count ? 0 : i + 1;
     const double s = sides.value[i], e = sides.value[j];
     const Vec3 from = piece.corner(i);
@@ -157,9 +176,66 @@ inline bool cut(const Piece& piece, const PlaneSides& sides, Piece& inside, Piec
   for (Piece* part : {&inside, &outside}) {
     part->depth = piece.depth + 1;
     part->rounds = piece.rounds;
+    part->splits = piece.splits;
     if (part->count > 0) part->pad();
   }
   return true;
+}
+
+/// The point `share` of the way along the edge from corner `edge` to the next.
+struct BoundaryPoint {
+  std::uint32_t edge;
+  double share;  ///< 0 <= share <= 1
+};
+
+/// Cuts a piece in two by the chord between points on two different edges; both parts share the new corners. The
+/// corners after `from` up to `to` are those of `first`. False, and nothing cut, when a part would not fit in
+/// `capacity`.
+inline bool cut_by_chord(const Piece& piece, const BoundaryPoint& from, const BoundaryPoint& to, Piece& first,
+                         Piece& second) {
+  const auto next = [&](std::uint32_t i) { return i + 1 == piece.count ? 0 : i + 1; };
+  const std::uint32_t in_first = (to.edge + piece.count - from.edge) % piece.count;
+  if (std::max(in_first, piece.count - in_first) + 2 > Piece::capacity) return false;
+  const auto at = [&](const BoundaryPoint& p) {
+    return piece.corner(p.edge) + p.share * (piece.corner(next(p.edge)) - piece.corner(p.edge));
+  };
+  const auto fill = [&](Piece& part, const BoundaryPoint& begin, const BoundaryPoint& end) {
+    part.count = 0;
+    part.depth = piece.depth + 1;
+    part.rounds = piece.rounds;
+    part.splits = piece.splits;
+    part.add(at(begin));
+    for (std::uint32_t i = next(begin.edge);; i = next(i)) {
+      part.add(piece.corner(i));
+      if (i == end.edge) break;
+    }
+    part.add(at(end));
+    part.pad();
+  };
+  fill(first, from, to);
+  fill(second, to, from);
+  return true;
+}
+
+/// Splits a piece of at least four corners along the shortest diagonal that leaves half of the corners on each side.
+/// No corner is computed, so nothing is rounded.
+inline void split_by_diagonal(const Piece& piece, Piece& first, Piece& second) {
+  const std::uint32_t half = piece.count / 2;
+  std::uint32_t from = 0;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < half; ++i) {
+    const double squared = squared_length(piece.corner(i + half) - piece.corner(i));
+    if (squared < shortest) {
+      shortest = squared;
+      from = i;
+    }
+  }
+  first = second = piece;
+  first.count = second.count = 0;
+  for (std::uint32_t i = 0; i <= half; ++i) first.add(piece.corner(from + i));
+  for (std::uint32_t i = half; i <= piece.count; ++i) second.add(piece.corner((from + i) % piece.count));
+  first.pad();
+  second.pad();
 }
 
 }  // namespace MESHBOUND_ISA

@@ -44,8 +44,9 @@ OneSidedDistance distance_to_point_like(const OneSidedTask& task) {
   result.witness.from = {world(task.a, a.vertices[farthest]), a.triangle_of_slot[slot_using_vertex(a, farthest)]};
   result.witness.nearest = {centre, b.triangle_of_slot[0]};
   result.witness.distance = distance;
-  result.outcome = slack <= task.error_bound || result.bounds.upper <= task.tolerance ? Outcome::Converged
-                                                                                      : Outcome::PrecisionReached;
+  const bool wanted = task.decide_only ? result.bounds.upper <= task.tolerance
+                                       : result.bounds.upper - result.bounds.lower <= task.error_bound;
+  result.outcome = wanted ? Outcome::Converged : Outcome::PrecisionReached;
   if (task.decide_only && result.bounds.lower > task.tolerance) result.outcome = Outcome::ExceedsTolerance;
   result.stats.triangles = a.triangle_count();
   result.stats.culled_on_a_percent = 100;

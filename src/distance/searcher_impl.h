@@ -39,6 +39,8 @@ class SearcherImpl final : public Searcher {
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
              std::uint64_t max_cuts) override {
     walker_.cover(a, b, c, from_slot, slot, max_cuts);
+    for (const auto& [piece, upper_squared] : walker_.unfinished())
+      subdivision().refine(piece, upper_squared, walker_.cuts_left());
   }
 
   Swept sweep(const TriangleCorners& triangle, std::uint32_t& hint, std::uint64_t max_cuts) override {
@@ -64,9 +66,8 @@ class SearcherImpl final : public Searcher {
 
   void subdivide(const TriangleCorners& triangle, std::uint32_t from_slot, double upper_squared,
                  std::uint64_t max_cuts) override {
-    if (!subdivision_) subdivision_.emplace(walker_);
     walker_.set_from(from_slot);
-    subdivision_->refine(triangle, upper_squared, max_cuts);
+    subdivision().refine(triangle, upper_squared, max_cuts);
   }
 
   double farthest_squared(const std::array<Vec3, 8>& box, std::uint32_t slot) override {
@@ -82,6 +83,11 @@ class SearcherImpl final : public Searcher {
   [[nodiscard]] const WalkCounters& counters() const override { return walker_.counters(); }
 
  private:
+  Subdivision& subdivision() {
+    if (!subdivision_) subdivision_.emplace(walker_);
+    return *subdivision_;
+  }
+
   CellWalker walker_;  ///< keeps the bounds of both ways to cover a triangle
   std::optional<Subdivision> subdivision_;
 };

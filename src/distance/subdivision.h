@@ -39,10 +39,23 @@ class Subdivision {
   /// Covers one triangle of A that is known to be within the root of `upper_squared` of B.
   void refine(const TriangleCorners& triangle, double upper_squared, std::uint64_t max_subdivisions) {
     subdivisions_left_ = max_subdivisions;
-    candidates_.clear();
-    collect_candidates(b_, triangle, upper_squared, slack(), candidates_, bounds_.counters().queries);
-    parts_.clear();
-    parts_.push_back({triangle, upper_squared, 0, candidates_.size(), 0});
+    begin({triangle, upper_squared, 0, 0, 0});
+    run();
+  }
+
+  /// Covers a piece of a triangle of A that is known to be within the root of `upper_squared` of B, fanned out into
+  /// triangles: its diagonals are exact.
+  void refine(const Piece& piece, double upper_squared, std::uint64_t max_subdivisions) {
+    subdivisions_left_ = max_subdivisions;
+    for (std::uint32_t i = 2; i < piece.count; ++i) {
+      begin({{piece.corner(0), piece.corner(i - 1), piece.corner(i)}, upper_squared, 0, 0, piece.depth});
+      offer_corners(parts_.back());
+      run();
+    }
+  }
+
+ private:
+  void run() {
     while (!parts_.empty()) {
       const Part part = parts_.back();
       parts_.pop_back();
@@ -51,7 +64,6 @@ class Subdivision {
     }
   }
 
- private:
   /// A part of the triangle, with its L in candidates_[first, last).
   struct Part {
     TriangleCorners corners;
@@ -73,6 +85,24 @@ class Subdivision {
   };
 
   [[nodiscard]] double slack() const { return bounds_.goal().largest_slack(); }
+
+  /// Collects L for a first part.
+  void begin(Part part) {
+    candidates_.clear();
+    collect_candidates(b_, part.corners, part.upper_squared, slack(), candidates_, bounds_.counters().queries);
+    part.last_candidate = candidates_.size();
+    parts_.clear();
+    parts_.push_back(part);
+  }
+
+  /// The corners of a whole triangle were offered before; those of a piece may not have been.
+  void offer_corners(const Part& part) {
+    const std::array<std::size_t, 3> nearest = nearest_candidates(part);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Candidate& candidate = candidates_[nearest[k]];
+      bounds_.offer(part.corners[k], {candidate.squared[k], candidate.slot}, part.depth);
+    }
+  }
 
   void step(const Part& part) {
     // A look at the clock costs as much as a part; a thousand parts take milliseconds.
