@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
   namespace datasets = meshbound::datasets;
-  CLI::App app{"Writes a mesh of known shape and unit size; the format follows the extension of FILE."};
+  CLI::App app("Writes a mesh of known shape and unit size; the format follows the extension of FILE.",
+               "generate_mesh");
   std::string kind;
   std::string path;
   std::size_t faces = 100'000;

@@ -115,7 +115,7 @@ ToolRun run_and_interrupt(const std::string& command, int signal) {
 
 TEST_P(Faults, AnInterruptEndsItInOneLine) {
   prepare(150);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const ToolRun run = run_and_interrupt(command(), signal);
     expect_one_line_and_nothing_left(run);
     EXPECT_NE(run.err.find("interrupted"), std::string::npos) << run.err;

@@ -165,6 +165,53 @@ TEST(Writing, FollowsASymbolicLink) {
   EXPECT_EQ(read_mesh(folder / "real/m.off").mesh.triangles.size(), 1u);
 }
 
+TEST(Writing, MakesWhatADanglingLinkPointsTo) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "real");
+  std::filesystem::create_symlink("real/m.off", folder / "link.off");
+  std::filesystem::create_symlink("link.off", folder / "second.off");
+  write_mesh(folder / "second.off", triangle);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "second.off"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.off"));
+  EXPECT_EQ(read_mesh(folder / "real/m.off").mesh.triangles.size(), 1u);
+}
+
+/// Its owner may change the mode; nobody else may decide that it does not count. The superuser is no exception.
+TEST(Writing, RefusesAWriteProtectedFile) {
+  const TemporaryFolder folder;
+  write_file(folder / "m.off", "old");
+  ::chmod((folder / "m.off").c_str(), 0444);
+  EXPECT_THROW(write_mesh(folder / "m.off", triangle), IoError);
+  EXPECT_EQ(content_of(folder / "m.off"), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(Writing, NamesThePathThatTheUserGave) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("missing/target.off", folder / "m.off");
+  try {
+    write_mesh(folder / "m.off", triangle);
+    FAIL() << "written into a folder that is not there";
+  } catch (const IoError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind((folder / "m.off").string() + ": ", 0), 0u) << error.what();
+  }
+}
+
+TEST(Cancelling, EndsReadingAndWritingAndLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  const std::atomic<bool> cancel = true;
+  WriteOptions writing;
+  writing.cancel = &cancel;
+  for (const char* name : {"m.off", "m.obj", "m.ply", "m.stl"}) {
+    write_mesh(folder / name, triangle);
+    const std::string before = content_of(folder / name);
+    EXPECT_THROW(read_mesh(folder / name, {&cancel}), Interrupted) << name;
+    EXPECT_THROW(write_mesh(folder / name, triangle, writing), Interrupted) << name;
+    EXPECT_EQ(content_of(folder / name), before) << name;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 4) << "a temporary file was left";
+}
+
 TEST(Writing, ReportsAFullDevice) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const TemporaryFolder folder;

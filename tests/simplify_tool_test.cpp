@@ -240,7 +240,8 @@ TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
   near.vertices[17] *= 1.001;
   DistanceOptions options;
   options.tolerance = 0.002;
-  tools::GatedOutput proven(in("proven.off")), late(in("late.off")), first(in("first.off"));
+  const std::atomic<bool> never = false;
+  tools::GatedOutput proven(in("proven.off"), never), late(in("late.off"), never), first(in("first.off"), never);
   proven.write(near);
   proven.measure(tree, options);
   ASSERT_EQ(proven.verdict(), Verdict::Within);
@@ -279,7 +280,8 @@ TEST_F(SimplifyTool, CatchesASabotagedResultAtTheGate) {
   sabotaged.vertices[17] *= 1.021;
   DistanceOptions options;
   options.tolerance = 0.02;
-  tools::GatedOutput output(in("out.off"));
+  const std::atomic<bool> never = false;
+  tools::GatedOutput output(in("out.off"), never);
   output.write(sabotaged);
   output.measure(Bvh(sphere), options);
   EXPECT_EQ(output.verdict(), Verdict::Exceeds);

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "common/affine_argument.h"
+#include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/output.h"
-#include "common/pending_file.h"
 #include "common/progress.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
@@ -19,6 +19,7 @@
 #include "hausdorff/answer.h"
 #include "hausdorff/question.h"
 #include "hausdorff/text_report.h"
+#include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -33,7 +34,7 @@ using namespace meshbound::tools;
 /// Reads a mesh, and maps it if there is a map. Returns how far rounding has moved its image at most.
 double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, TriangleMesh& mesh,
             MeshReport& report) {
-  MeshFile file = read_mesh(path);
+  MeshFile file = read_mesh(path, {&interrupted()});
   mesh = std::move(file.mesh);
   double displacement = 0;
   if (map) {
@@ -49,26 +50,33 @@ DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watc
   DistanceOptions options;
   options.method = arguments.method;
   options.threads = arguments.common.threads;
-  options.cancel = &watch_interrupts();
+  options.cancel = &interrupted();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   if (arguments.common.has_time_limit)
     options.budget.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
   return options;
 }
 
+/// Before any work: nothing that is written may replace what is read, and everything can be written.
+void check_paths(const Arguments& arguments) {
+  require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--transform-b", arguments.transform_b}},
+                         {{"--json", arguments.common.json}, {"--certificate", arguments.certificate}});
+  if (!arguments.common.json.empty()) check_writable(arguments.common.json);
+}
+
 /// The proof of a tolerance that was found to hold. False when there was no time for it.
-bool write_certificate(PendingFile& file, const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
+bool write_certificate(AtomicFile& file, const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
                        double tolerance, const Stopwatch& watch) {
   ProgressBar bar("proving", arguments.common.quiet);
   CertificateOptions options;
   options.threads = arguments.common.threads;
-  options.cancel = &watch_interrupts();
+  options.cancel = &interrupted();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   if (arguments.common.has_time_limit) options.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
   const auto certificate = build_certificate(a, b, tolerance, options);
   if (!certificate) return false;
-  file.write(certificate->bytes);
-  file.publish();
+  file.write({reinterpret_cast<const char*>(certificate->bytes.data()), certificate->bytes.size()});
+  file.commit();
   return true;
 }
 
@@ -104,12 +112,11 @@ void tell(const DistanceReport& report, const Arguments& arguments) {
 
 int run(const Arguments& arguments) {
   Stopwatch watch;
-  const std::atomic<bool>& interrupted = watch_interrupts();
   const TypedLengths lengths = parse_lengths(arguments);
-  std::optional<PendingFile> certificate;
-  if (!arguments.certificate.empty()) certificate.emplace(arguments.certificate);
-  if (certificate && (certificate->is_at(arguments.a) || certificate->is_at(arguments.b)))
-    throw InvalidInput("--certificate: " + arguments.certificate + " is one of the meshes");
+  check_paths(arguments);
+  std::optional<AtomicFile> certificate;
+  if (!arguments.certificate.empty())
+    certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, &interrupted());
   std::optional<Eigen::Affine3d> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
 
@@ -132,11 +139,11 @@ int run(const Arguments& arguments) {
   }
   Answer& answer = *found;
   conclude(answer, question);
-  if (interrupted && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
+  if (interrupted() && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
   report.seconds.query = watch.lap();
   if (certificate && answer.exit_code == ExitDone &&
       !write_certificate(*certificate, arguments, a, b, *question.tolerance, watch)) {
-    if (interrupted) throw Error("interrupted before the certificate was complete; it was not written");
+    if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
     std::fprintf(stderr, "hausdorff_distance: no time was left for the certificate; it was not written\n");
     answer.exit_code = ExitUndecided;
     answer.outcome = Outcome::BudgetExhausted;

@@ -8,8 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/output.h"
+#include "common/output_folder.h"
+#include "common/signals.h"
 #include "decimation/decimation_run.h"
 #include "meshbound/error.h"
 
@@ -40,28 +43,6 @@ void declare(CLI::App& app, Options& options) {
   add_decimation_options(app, options);
 }
 
-/// The folder of the chain; one that was made for it goes again when nothing came to stand in it.
-class OutputFolder {
- public:
-  explicit OutputFolder(std::filesystem::path path) : path_(std::move(path)) {
-    std::error_code error;
-    made_ = std::filesystem::create_directories(path_, error);
-    if (!std::filesystem::is_directory(path_, error))
-      throw IoError("cannot make the folder " + path_.string() + "; name one that can be written to");
-  }
-  ~OutputFolder() {
-    std::error_code ignored;
-    if (made_ && std::filesystem::is_empty(path_, ignored)) std::filesystem::remove(path_, ignored);
-  }
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-  bool made_ = false;
-};
-
 /// One run of the tool, in the order of its phases.
 class Run : DecimationRun {
  public:
@@ -70,6 +51,9 @@ class Run : DecimationRun {
 
  private:
   void check_usage() const;
+  void check_paths() const;
+  [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
+  [[nodiscard]] std::filesystem::path chain_path() const;
   void read();
   void choose_tolerances();
   void open_outputs();
@@ -87,6 +71,7 @@ class Run : DecimationRun {
 
 int Run::operator()() {
   check_usage();
+  check_paths();
   read();
   choose_tolerances();
   open_outputs();
@@ -119,6 +104,19 @@ void Run::check_usage() const {
     throw InvalidInput("--pixels, --screen-height, --fov and --distances belong together; one is missing");
 }
 
+std::filesystem::path Run::level_path(std::size_t index) const {
+  return std::filesystem::path(options_.folder) / ("lod_" + std::to_string(index) + "." + options_.format);
+}
+
+std::filesystem::path Run::chain_path() const { return std::filesystem::path(options_.folder) / "chain.json"; }
+
+void Run::check_paths() const {
+  std::vector<NamedPath> outputs{{"DIR", chain_path()}, {"--json", options_.common.json}};
+  for (std::size_t i = 0; i < options_.levels.size() + options_.distances.size(); ++i)
+    outputs.push_back({"DIR", level_path(i)});
+  require_distinct_files({{"IN", options_.input}}, outputs);
+}
+
 void Run::read() {
   read_original(report_.original);
   report_.seconds.read = watch_.lap();
@@ -138,8 +136,9 @@ void Run::choose_tolerances() {
 
 void Run::open_outputs() {
   folder_.emplace(options_.folder);
-  for (std::size_t i = 0; i < tolerances_.size(); ++i)
-    outputs_.emplace_back(folder_->path() / ("lod_" + std::to_string(i) + "." + options_.format));
+  for (std::size_t i = 0; i < tolerances_.size(); ++i) outputs_.emplace_back(level_path(i), interrupted_);
+  check_writable(chain_path());
+  if (!options_.common.json.empty()) check_writable(options_.common.json);
 }
 
 void Run::make_levels() {
@@ -185,9 +184,10 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
 }
 
 void Run::publish() {
+  const UninterruptedScope together;
   // The report names the files, so it comes last; an interrupted rename leaves the old report with the old names.
   for (GatedOutput& output : outputs_) output.publish();
-  write_text((folder_->path() / "chain.json").string(), to_json(report_));
+  write_text(chain_path(), to_json(report_));
 }
 
 void Run::print_summary() const {

@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <vector>
 
+#include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/output.h"
-#include "common/pending_file.h"
+#include "common/output_folder.h"
+#include "common/signals.h"
 #include "decimation/decimation_run.h"
+#include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
 
@@ -64,6 +66,9 @@ class Run : DecimationRun {
   int operator()();
 
  private:
+  void check_paths() const;
+  [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
+  [[nodiscard]] std::filesystem::path certificate_path(std::size_t index) const;
   void read();
   void choose_tolerances();
   void open_outputs();
@@ -71,15 +76,16 @@ class Run : DecimationRun {
   void certify();
   void write_certificates();
   void end_if_interrupted() const;
-  [[nodiscard]] std::filesystem::path save_reproducer(GatedOutput& rejected, double tolerance) const;
+  [[nodiscard]] std::filesystem::path save_reproducer(const GatedOutput& rejected, double tolerance) const;
   void publish();
   void report();
   void print_summary() const;
   [[nodiscard]] std::string end_reason() const;
 
   const Options& options_;
+  std::optional<OutputFolder> folder_;  ///< of the levels
   std::vector<GatedOutput> outputs_;
-  std::vector<PendingFile> certificates_;  ///< of the outputs, when they are asked for
+  std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
   cgal::SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
@@ -88,6 +94,7 @@ class Run : DecimationRun {
 };
 
 int Run::operator()() {
+  check_paths();
   read();
   choose_tolerances();
   open_outputs();
@@ -124,34 +131,46 @@ void Run::choose_tolerances() {
   report_.tolerance = tolerances_.back();
 }
 
+/// `index` 0 is that of the smallest tolerance.
+std::filesystem::path Run::level_path(std::size_t index) const {
+  const std::filesystem::path out = options_.output;
+  const std::filesystem::path folder =
+      options_.output_dir.empty() ? out.parent_path() : std::filesystem::path(options_.output_dir);
+  return folder / (out.stem().string() + "_level_" + std::to_string(index + 1) + out.extension().string());
+}
+
+std::filesystem::path Run::certificate_path(std::size_t index) const {
+  const std::filesystem::path certificate = options_.certificate;
+  return certificate.parent_path() /
+         (certificate.stem().string() + "_level_" + std::to_string(index + 1) + certificate.extension().string());
+}
+
+/// Before any work: nothing that is written may replace what is read, or what is written besides.
+void Run::check_paths() const {
+  std::vector<NamedPath> outputs{
+      {"OUT", options_.output}, {"--json", options_.common.json}, {"--certificate", options_.certificate}};
+  for (std::size_t i = 0; i < options_.levels.size(); ++i) {
+    outputs.push_back({"--levels", level_path(i)});
+    if (!options_.certificate.empty()) outputs.push_back({"--certificate", certificate_path(i)});
+  }
+  require_distinct_files({{"IN", options_.input}}, outputs);
+  if (!options_.common.json.empty()) check_writable(options_.common.json);
+}
+
 /// One output for each tolerance but the last, when levels are asked for; then OUT.
 void Run::open_outputs() {
-  const std::filesystem::path out = options_.output;
   if (!options_.levels.empty()) {
-    const std::filesystem::path folder =
-        options_.output_dir.empty() ? out.parent_path() : std::filesystem::path(options_.output_dir);
-    if (!options_.output_dir.empty()) std::filesystem::create_directories(folder);
+    if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
     for (std::size_t i = 0; i < tolerances_.size(); ++i) {
-      std::ostringstream name;
-      name << out.stem().string() << "_level_" << i + 1 << out.extension().string();
       const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
-      if (is_level) outputs_.emplace_back(folder / name.str());
+      if (is_level) outputs_.emplace_back(level_path(i), interrupted_);
     }
   }
-  outputs_.emplace_back(out);
+  outputs_.emplace_back(options_.output, interrupted_);
   if (options_.certificate.empty()) return;
-  const std::filesystem::path certificate = options_.certificate;
-  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) {
-    const std::string level = "_level_" + std::to_string(i + 1);
-    certificates_.emplace_back(certificate.parent_path() /
-                               (certificate.stem().string() + level + certificate.extension().string()));
-  }
-  certificates_.emplace_back(certificate);
-  for (const PendingFile& file : certificates_) {
-    bool is_mesh = file.is_at(options_.input);
-    for (const GatedOutput& output : outputs_) is_mesh = is_mesh || file.is_at(output.path());
-    if (is_mesh) throw InvalidInput("--certificate: " + file.path().string() + " is one of the meshes");
-  }
+  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
+    certificates_.emplace_back(certificate_path(i), AtomicFile::Stream::Staged, &interrupted_);
+  certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, &interrupted_);
 }
 
 void Run::simplify() {
@@ -207,13 +226,13 @@ void Run::end_if_interrupted() const {
 }
 
 /// The folder OUT.reproducer: the original, the mesh that was rejected, and everything that led from one to the other.
-std::filesystem::path Run::save_reproducer(GatedOutput& rejected, double tolerance) const {
+std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double tolerance) const {
   const std::filesystem::path folder = options_.output + ".reproducer", input = options_.input;
   const auto original = folder / ("original" + input.extension().string());
   const auto result = folder / ("rejected" + rejected.path().extension().string());
   std::filesystem::create_directories(folder);
   std::filesystem::copy_file(input, original, std::filesystem::copy_options::overwrite_existing);
-  rejected.keep_rejected_as(result);
+  rejected.copy_rejected_to(result);
   nlohmann::json options = {{"schema", "meshbound/reproducer/1"},
                             {"version", MESHBOUND_VERSION},
                             {"original", original.filename().string()},
@@ -231,7 +250,7 @@ std::filesystem::path Run::save_reproducer(GatedOutput& rejected, double toleran
   if (options_.feature_angle) options["feature_angle"] = *options_.feature_angle;
   if (options_.target_ratio) options["target_ratio"] = *options_.target_ratio;
   if (options_.common.has_time_limit) options["time_limit"] = options_.common.time_limit;
-  std::ofstream(folder / "options.json") << options.dump(2) << '\n';
+  write_text(folder / "options.json", options.dump(2) + '\n');
   return folder;
 }
 
@@ -255,16 +274,19 @@ void Run::write_certificates() {
       certificate_was_late_ = true;
       return;
     }
-    certificates_[i].write(certificate->bytes);
-    report_.certificates.push_back({certificates_[i].path().string(), certificate->bytes.size()});
+    const std::vector<std::uint8_t>& bytes = certificate->bytes;
+    certificates_[i].write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    certificates_[i].complete();
+    report_.certificates.push_back({certificates_[i].path().string(), bytes.size()});
   }
   report_.seconds.certificate = watch_.lap();
 }
 
 /// The certificates last: one that is there speaks of a mesh that is there.
 void Run::publish() {
+  const UninterruptedScope together;
   for (GatedOutput& output : outputs_) output.publish();
-  for (PendingFile& certificate : certificates_) certificate.publish();
+  for (AtomicFile& certificate : certificates_) certificate.commit();
 }
 
 void Run::report() {

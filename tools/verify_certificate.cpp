@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/output.h"
 #include "common/tool_main.h"
@@ -110,6 +111,10 @@ void print(const Options& options, const Inputs& inputs, const Outcome& outcome)
 }
 
 int run(const Options& options) {
+  require_distinct_files(
+      {{"ORIGINAL", options.original}, {"SIMPLIFIED", options.simplified}, {"CERTIFICATE", options.certificate}},
+      {{"--json", options.json}});
+  if (!options.json.empty()) check_writable(options.json);
   Outcome outcome;
   Clock::time_point start = Clock::now();
   const Inputs inputs{read_mesh(options.original).mesh, read_mesh(options.simplified).mesh,

@@ -15,6 +15,11 @@ class InvalidInput : public Error {
   using Error::Error;
 };
 
+/// The work was cancelled through the flag in its options; nothing was changed.
+class Interrupted : public Error {
+  using Error::Error;
+};
+
 /// A file or folder cannot be opened, mapped, read, written or renamed.
 class IoError : public Error {
   using Error::Error;

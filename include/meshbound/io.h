@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 
@@ -36,16 +37,21 @@ struct MeshFile {
   DroppedAttributes dropped;
 };
 
+struct ReadOptions {
+  const std::atomic<bool>* cancel = nullptr;  ///< reading ends with `Interrupted` soon after this is set; not owned
+};
+
 /// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double) or STL (ascii, binary; corners welded by
 /// exact coordinates). Polygons are split into fans from their first corner. Degenerate and duplicate triangles are
-/// kept. Throws `IoError` when the file cannot be read, `InvalidInput` with path, line or byte offset and defect when
-/// it is malformed, holds no faces, a non-finite used coordinate or an index out of range. O(size), one pass, never
-/// allocates more than the file can justify.
-[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path);
+/// kept. Throws `IoError` when the file cannot be read, `Interrupted` as the options say, `InvalidInput` with path,
+/// line or byte offset and defect when it is malformed, holds no faces, a non-finite used coordinate or an index out of
+/// range. O(size), one pass, never allocates more than the file can justify.
+[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 struct WriteOptions {
   bool ascii = false;             ///< PLY and STL: text instead of binary
   bool single_precision = false;  ///< PLY: float coordinates (STL is always float, OFF and OBJ always 17 digits)
+  const std::atomic<bool>* cancel = nullptr;  ///< writing ends with `Interrupted` soon after this is set; not owned
 };
 
 /// The mesh that `read_mesh` gives back after `write_mesh`, bit for bit: coordinates rounded to the precision of the
@@ -56,8 +62,11 @@ struct WriteOptions {
                                        const WriteOptions& options = {});
 
 /// Writes to a temporary name in the same folder, then renames: `path` either keeps what it had or holds the whole
-/// mesh. Throws `IoError` (also when the disk is full), `InvalidInput` for an unknown extension and where `rounded_for`
-/// does; nothing is written then. O(n). Safe to call from several threads, as is all of this header.
+/// mesh. Symbolic links are followed, also to a file that is not there yet; a file that is replaced leaves its
+/// permissions to the new one; devices and FIFOs are written to as they are. Throws `IoError` (also when the disk is
+/// full, and for a file that grants writing to nobody, whoever asks), `InvalidInput` for an unknown extension and where
+/// `rounded_for` does, `Interrupted` as the options say; nothing is written then. O(n). Safe to call from several
+/// threads, as is all of this header.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
 
 }  // namespace meshbound

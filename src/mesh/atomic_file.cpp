@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -19,84 +19,124 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 20;  // bytes: large enough that system calls cost nothing
 
-/// A name beside `target` that no other process or thread uses.
-std::filesystem::path temporary_name(const std::filesystem::path& target) {
+/// A name in `folder` that no other process or thread uses, short enough for every file system.
+std::filesystem::path temporary_name(const std::filesystem::path& folder) {
   static std::atomic<unsigned> counter{0};
-  return target.parent_path() / (".meshbound-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+  return folder / (".meshbound-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
 }
 
-/// Where a chain of symbolic links ends, even if nothing is there yet.
-std::filesystem::path follow_links(std::filesystem::path path) {
-  constexpr int longest_chain = 40;  // as the kernel's own limit
-  std::error_code error;
-  for (int i = 0; i < longest_chain && std::filesystem::is_symlink(path, error); ++i) {
-    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
-    if (error) break;
-    path = path.parent_path() / next;  // an absolute `next` replaces the folder
-  }
-  return path;
+/// What the replaced file had. Where the file system has no owners or permissions this changes nothing that matters.
+void hand_over(int fd, const OutputTarget::Owner& owner) {
+  const bool same_owner = ::fchown(fd, owner.user, owner.group) == 0;
+  // Running as the owner must not become running as somebody else.
+  (void)::fchmod(fd, same_owner ? owner.mode : owner.mode & 0777);
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& path)
-    : path_(path), target_(follow_links(path)), buffer_(buffer_size) {
-  struct stat status {};
-  const bool exists = ::stat(target_.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (exists && S_ISCHR(status.st_mode)) {
-    fd_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-    if (fd_ < 0) fail(errno);
-    return;
-  }
-  if (exists && !S_ISREG(status.st_mode)) throw IoError(path_.string() + ": cannot write: not a regular file");
-
-  std::filesystem::path name = temporary_name(target_);
-  fd_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd_ < 0) fail(errno);
-  temporary_ = std::move(name);
-  // A file that is replaced keeps its permissions; where the file system has none this changes nothing that matters.
-  if (exists) (void)::fchmod(fd_, status.st_mode & 07777);
-}
+AtomicFile::AtomicFile(std::filesystem::path path, Stream stream, const std::atomic<bool>* cancel)
+    : path_(std::move(path)), target_(output_target(path_)), stream_(stream), cancel_(cancel) {}
 
 AtomicFile::~AtomicFile() {
   if (fd_ >= 0) ::close(fd_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
+void AtomicFile::open() {
+  if (fd_ >= 0) return;
+  buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size);
+  if (target_.is_stream && stream_ == Stream::Direct) return open_stream();
+  std::filesystem::path name =
+      temporary_name(target_.is_stream ? std::filesystem::temp_directory_path() : target_.path.parent_path());
+  listed_.emplace(name);  // before it is there, so that nothing can come in between
+  const mode_t mode = target_.is_stream ? 0600 : 0666;
+  fd_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (fd_ < 0) fail(errno);
+  temporary_ = std::move(name);
+  if (target_.replaced) hand_over(fd_, *target_.replaced);
+}
+
+void AtomicFile::open_stream() {
+  do {
+    fd_ = target_.descriptor >= 0 ? ::fcntl(target_.descriptor, F_DUPFD_CLOEXEC, 0)
+                                  : ::open(target_.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    end_if_cancelled();  // opening a FIFO waits for its reader, until a signal comes
+  } while (fd_ < 0 && errno == EINTR);
+  if (fd_ < 0) fail(errno);
+}
+
 void AtomicFile::write(std::string_view bytes) {
-  if (bytes.size() > buffer_.size() - filled_) {
+  open();
+  if (bytes.size() > buffer_size - filled_) {
     flush();
-    if (bytes.size() > buffer_.size()) return write_through(bytes.data(), bytes.size());
+    if (bytes.size() > buffer_size) return write_through(bytes.data(), bytes.size());
   }
-  std::memcpy(buffer_.data() + filled_, bytes.data(), bytes.size());
+  std::memcpy(buffer_.get() + filled_, bytes.data(), bytes.size());
   filled_ += bytes.size();
 }
 
 char* AtomicFile::room(std::size_t size) {
-  if (size > buffer_.size() - filled_) flush();
-  return buffer_.data() + filled_;
+  open();
+  if (size > buffer_size - filled_) flush();
+  return buffer_.get() + filled_;
+}
+
+void AtomicFile::complete() {
+  open();
+  flush();
+  buffer_.reset();
+  close();
 }
 
 void AtomicFile::commit() {
-  flush();
-  // Network file systems report a full disk only here.
-  if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
+  if (fd_ >= 0 || temporary_.empty()) complete();
   if (temporary_.empty()) return;
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (target_.is_stream) return send_staged();
+  if (std::rename(temporary_.c_str(), target_.path.c_str()) != 0) fail(errno);
   temporary_.clear();
+  listed_.reset();
 }
 
-void AtomicFile::flush() { write_through(buffer_.data(), std::exchange(filled_, 0)); }
+/// The staged file stays until the destructor removes it.
+void AtomicFile::send_staged() {
+  const int staged = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (staged < 0) fail(errno);
+  buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size);
+  try {
+    open_stream();
+    ssize_t count = 0;
+    while ((count = ::read(staged, buffer_.get(), buffer_size)) != 0) {
+      if (count > 0) write_through(buffer_.get(), static_cast<std::size_t>(count));
+      if (count < 0 && errno != EINTR) fail(errno);
+    }
+    close();
+  } catch (...) {
+    ::close(staged);
+    throw;
+  }
+  ::close(staged);
+}
+
+void AtomicFile::flush() { write_through(buffer_.get(), std::exchange(filled_, 0)); }
 
 void AtomicFile::write_through(const char* from, std::size_t size) {
   while (size > 0) {
-    const ssize_t written = ::write(fd_, from, size);
+    end_if_cancelled();
+    const ssize_t written = ::write(fd_, from, std::min(size, buffer_size));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     from += written;
     size -= static_cast<std::size_t>(written);
   }
+}
+
+void AtomicFile::end_if_cancelled() const {
+  if (cancel_ != nullptr && *cancel_) throw Interrupted(path_.string() + ": interrupted while it was written");
+}
+
+void AtomicFile::close() {
+  // Network file systems report a full disk only here.
+  if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
 }
 
 void AtomicFile::fail(int error) const { throw IoError(path_.string() + ": cannot write: " + std::strerror(error)); }

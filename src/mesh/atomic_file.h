@@ -1,42 +1,74 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string_view>
-#include <vector>
+
+#include "mesh/output_target.h"
+#include "mesh/temporary_files.h"
 
 namespace meshbound {
 
 /// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`,
-/// removed by the destructor otherwise. A symbolic link is followed, so that what it points to is replaced. A device
-/// (`/dev/stdout`) is written to as it is. Buffered; every member throws `IoError`, also when the disk is full.
+/// removed otherwise by the destructor, or by `remove_temporary_files`. A symbolic link is followed, so that what it
+/// points to is replaced, or made. A file that is replaced leaves its permissions to the new one. Devices and FIFOs are
+/// written to as they are. Buffered; every member throws `IoError` with the path as it was given, also when the disk is
+/// full.
 class AtomicFile {
  public:
-  explicit AtomicFile(const std::filesystem::path& path);
+  /// How a device or FIFO is written to, which cannot be read back.
+  enum class Stream {
+    Direct,  ///< at once
+    Staged   ///< by `commit`; until then the bytes stand in a file in the folder for temporary files
+  };
+
+  /// Checks that `path` can be written to (see `output_target`) and touches nothing yet. Writing throws `Interrupted`
+  /// once `cancel` is set; null: never.
+  explicit AtomicFile(std::filesystem::path path, Stream stream = Stream::Direct,
+                      const std::atomic<bool>* cancel = nullptr);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }  ///< as the caller named it
 
   void write(std::string_view bytes);
 
   /// At least `size` bytes (up to `largest_room`) to be filled; `use` then takes those before `end`.
   static constexpr std::size_t largest_room = 4096;
   [[nodiscard]] char* room(std::size_t size);
-  void use(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.data()); }
+  void use(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.get()); }
 
-  /// Makes the file visible under its name. Call once, last.
+  /// Ends the writing: every byte has reached the file from here on. Call once.
+  void complete();
+
+  /// The file that holds what was written, between `complete` and `commit`. Empty for a stream that is not staged.
+  [[nodiscard]] const std::filesystem::path& staged() const { return temporary_; }
+
+  /// Makes the file visible under its name, or sends what was staged to the stream. Call once, last.
   void commit();
 
  private:
+  void open();
+  void open_stream();
   void flush();
   void write_through(const char* from, std::size_t size);
+  void send_staged();
+  void end_if_cancelled() const;
+  void close();
   [[noreturn]] void fail(int error) const;
 
-  std::filesystem::path path_;       // as the caller named it, for messages
-  std::filesystem::path target_;     // links resolved
-  std::filesystem::path temporary_;  // empty when writing to a device, and after the rename
+  std::filesystem::path path_;  // as the caller named it, for messages
+  OutputTarget target_;
+  Stream stream_;
+  const std::atomic<bool>* cancel_;
+  std::filesystem::path temporary_;  // empty when writing to a stream, and after the rename
+  std::optional<TemporaryName> listed_;
   int fd_ = -1;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;
   std::size_t filled_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -13,6 +14,8 @@
 
 namespace meshbound {
 namespace {
+
+constexpr std::size_t largest_read = std::size_t{1} << 24;  // bytes between two looks at the flag: some milliseconds
 
 class FileDescriptor {
  public:
@@ -34,18 +37,19 @@ class FileDescriptor {
 
 }  // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& path) {
+FileBytes::FileBytes(const std::filesystem::path& path, const std::atomic<bool>* cancel, std::size_t limit) {
   // O_NONBLOCK: opening a fifo must not wait for somebody to write into it.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) refuse(path, std::strerror(errno));
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) refuse(path, std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder, not a mesh file");
+  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder, not a file");
   if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file; copy the data into one first");
-  const auto size = static_cast<std::size_t>(status.st_size);
+  const std::size_t size = std::min(static_cast<std::size_t>(status.st_size), limit);
   data_ = std::make_unique_for_overwrite<char[]>(size);
   while (size_ < size) {
-    const ssize_t count = ::read(file.get(), data_.get() + size_, size - size_);
+    if (cancel != nullptr && *cancel) throw Interrupted(path.string() + ": interrupted while it was read");
+    const ssize_t count = ::read(file.get(), data_.get() + size_, std::min(size - size_, largest_read));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path, std::strerror(errno));
     if (count == 0) refuse(path, "it became shorter while it was read; wait until it is complete");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -11,9 +13,10 @@ namespace meshbound {
 /// somebody shortens the file while it is parsed, and no message can be given.
 class FileBytes {
  public:
-  /// Throws `IoError` when `path` is missing, unreadable, anything but a regular file, or shortened meanwhile. Never
-  /// blocks.
-  explicit FileBytes(const std::filesystem::path& path);
+  /// Throws `IoError` when `path` is missing, unreadable, anything but a regular file, or shortened meanwhile;
+  /// `Interrupted` once `cancel` is set (null: never). Never blocks. Reads the first `limit` bytes and no more.
+  explicit FileBytes(const std::filesystem::path& path, const std::atomic<bool>* cancel = nullptr,
+                     std::size_t limit = std::numeric_limits<std::size_t>::max());
 
   [[nodiscard]] std::string_view bytes() const { return {data_.get(), size_}; }
 

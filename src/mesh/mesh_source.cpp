@@ -20,6 +20,10 @@ std::size_t line_number(std::string_view bytes, std::size_t offset) {
 
 }  // namespace
 
+void MeshSource::end_if_cancelled() const {
+  if (cancel != nullptr && *cancel) throw Interrupted(path.string() + ": interrupted while it was read");
+}
+
 void MeshSource::fail_at_line(std::size_t offset, const std::string& defect) const {
   fail("line " + std::to_string(line_number(bytes, offset)) + ": " + defect);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -11,7 +12,11 @@ namespace meshbound {
 struct MeshSource {
   std::filesystem::path path;
   std::string_view bytes;
-  std::size_t begin = 0;  ///< where the content starts: after a byte order mark
+  std::size_t begin = 0;                      ///< where the content starts: after a byte order mark
+  const std::atomic<bool>* cancel = nullptr;  ///< set when the reading is to end; null: never
+
+  /// Throws `Interrupted` once `cancel` is set.
+  void end_if_cancelled() const;
 
   /// Throw `InvalidInput` naming the file, the line (counted only now, so that parsing need not) or byte, and `defect`.
   [[noreturn]] void fail_at_line(std::size_t offset, const std::string& defect) const;

@@ -9,7 +9,8 @@
 namespace meshbound {
 
 /// `read_mesh` of a file with this name and these bytes, without the file system.
-[[nodiscard]] MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes);
+[[nodiscard]] MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes,
+                                  const ReadOptions& options = {});
 
 // One reader per format. Each throws `InvalidInput` for what is malformed; see `read_mesh`.
 [[nodiscard]] MeshFile read_off(const MeshSource& source);

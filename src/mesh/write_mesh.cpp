@@ -64,24 +64,26 @@ TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& 
   return format == FileFormat::Stl ? welded(result) : result;
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                const WriteOptions& options) {
   const FileFormat format = format_of(path);
   refuse_unwritable(path, format, mesh, options);
-  AtomicFile file(path);
   switch (format) {
     case FileFormat::Off:
-      write_off(file, mesh);
-      break;
+      return write_off(file, mesh);
     case FileFormat::Obj:
-      write_obj(file, mesh);
-      break;
+      return write_obj(file, mesh);
     case FileFormat::Ply:
-      write_ply(file, mesh, options);
-      break;
+      return write_ply(file, mesh, options);
     case FileFormat::Stl:
-      write_stl(file, mesh, options);
-      break;
+      return write_stl(file, mesh, options);
   }
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+  (void)format_of(path);  // an unknown extension is the better message where both are wrong
+  AtomicFile file(path, AtomicFile::Stream::Direct, options.cancel);
+  write_mesh(file, path, mesh, options);
   file.commit();
 }
 

@@ -10,6 +10,10 @@
 
 namespace meshbound {
 
+/// `write_mesh` into a file that the caller commits, in the format that the extension of `path` names.
+void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                const WriteOptions& options);
+
 // One writer per format, for a mesh that `write_mesh` has found to be valid and within the range of the format.
 void write_off(AtomicFile& file, const TriangleMesh& mesh);
 void write_obj(AtomicFile& file, const TriangleMesh& mesh);

@@ -1,37 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "common/gated_output.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <sstream>
-#include <string>
-#include <system_error>
 #include <utility>
 
-#include "common/output_target.h"
+#include "mesh/file_bytes.h"
+#include "mesh/readers.h"
+#include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 
 namespace meshbound::tools {
 
-GatedOutput::GatedOutput(std::filesystem::path path) : path_(std::move(path)) {
+GatedOutput::GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel)
+    : path_(std::move(path)), cancel_(cancel) {
   (void)format_of(path_);
-  target_ = output_target(path_);
+  restart();
 }
 
-GatedOutput::GatedOutput(GatedOutput&& other) noexcept
-    : path_(std::move(other.path_)),
-      target_(std::move(other.target_)),
-      temporary_(std::exchange(other.temporary_, {})),
-      verdict_(other.verdict_),
-      distance_(other.distance_),
-      summary_(other.summary_) {}
-
-GatedOutput::~GatedOutput() {
-  std::error_code ignored;
-  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
-}
+void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, &cancel_); }
 
 double GatedOutput::largest_rounding(double largest) const {
   if (format_of(path_) != FileFormat::Stl) return 0;
@@ -40,13 +27,15 @@ double GatedOutput::largest_rounding(double largest) const {
 }
 
 void GatedOutput::write(const TriangleMesh& mesh) {
-  std::ostringstream name;
-  name << '.' << target_.stem().string() << ".unproven" << getpid() << target_.extension().string();
-  temporary_ = target_.parent_path() / name.str();
-  write_mesh(temporary_, rounded_for(temporary_, mesh));
+  restart();
+  write_mesh(*file_, path_, rounded_for(path_, mesh), {});
+  file_->complete();
 }
 
-TriangleMesh GatedOutput::written_mesh() const { return read_mesh(temporary_).mesh; }
+TriangleMesh GatedOutput::written_mesh() const {
+  const FileBytes bytes(file_->staged(), &cancel_);
+  return parse_mesh(path_, bytes.bytes(), {&cancel_}).mesh;
+}
 
 const SymmetricDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
   const TriangleMesh mesh = written_mesh();
@@ -66,9 +55,9 @@ void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& orig
     measure(tree, options);
     return;
   }
-  std::error_code error;
-  std::filesystem::copy_file(smaller->temporary_, temporary_, std::filesystem::copy_options::overwrite_existing, error);
-  if (error) throw IoError("cannot write " + path_.string() + ": " + error.message());
+  restart();
+  file_->write(FileBytes(smaller->file_->staged(), &cancel_).bytes());
+  file_->complete();
   verdict_ = smaller->verdict_;
   distance_ = smaller->distance_;
   summary_ = smaller->summary_;
@@ -77,17 +66,13 @@ void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& orig
 void GatedOutput::publish() {
   if (verdict_ != Verdict::Within)
     throw Error(path_.string() + " is not proven to be within the tolerance: not written");
-  std::error_code error;
-  std::filesystem::rename(temporary_, target_, error);
-  if (error) throw IoError("cannot write " + path_.string() + ": " + error.message());
-  temporary_.clear();
+  file_->commit();
 }
 
-void GatedOutput::keep_rejected_as(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::rename(temporary_, path, error);
-  if (error) throw IoError("cannot write " + path.string() + ": " + error.message());
-  temporary_.clear();
+void GatedOutput::copy_rejected_to(const std::filesystem::path& path) const {
+  AtomicFile copy(path);
+  copy.write(FileBytes(file_->staged()).bytes());
+  copy.commit();
 }
 
 }  // namespace meshbound::tools

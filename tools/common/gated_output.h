@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <filesystem>
+#include <optional>
 
+#include "mesh/atomic_file.h"
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
 #include "meshbound/mesh_summary.h"
@@ -9,15 +12,13 @@
 namespace meshbound::tools {
 
 /// A mesh file that appears under its name only after what stands in it has been measured: `write` puts it under a
-/// temporary name in the same folder, `measure` reads that back, `publish` renames it if it was found to be within the
-/// tolerance. The destructor removes what was not published.
+/// temporary name, `measure` reads that back, `publish` renames it if it was found to be within the tolerance (or sends
+/// it to the device or FIFO that the name stands for). The destructor removes what was not published.
 class GatedOutput {
  public:
-  /// Throws `InvalidInput` when the extension of `path` is none of ours.
-  explicit GatedOutput(std::filesystem::path path);
-  GatedOutput(GatedOutput&& other) noexcept;
-  GatedOutput& operator=(GatedOutput&&) = delete;
-  ~GatedOutput();
+  /// Throws `InvalidInput` when the extension of `path` is none of ours, `IoError` when it cannot be written to.
+  /// Reading and writing throw `Interrupted` once `cancel` is set; it must outlive this.
+  GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -45,13 +46,15 @@ class GatedOutput {
   /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
   void publish();
 
-  /// What was written and found too far, for whoever looks for the reason: under this name instead of the output's.
-  void keep_rejected_as(const std::filesystem::path& path);
+  /// A copy of what was written and found too far, for whoever looks for the reason.
+  void copy_rejected_to(const std::filesystem::path& path) const;
 
  private:
-  std::filesystem::path path_;       ///< as named by the user
-  std::filesystem::path target_;     ///< links resolved
-  std::filesystem::path temporary_;  ///< empty when there is none
+  void restart();
+
+  std::filesystem::path path_;  ///< as named by the user
+  const std::atomic<bool>& cancel_;
+  std::unique_ptr<AtomicFile> file_;
   Verdict verdict_ = Verdict::Undecided;
   SymmetricDistance distance_;
   MeshSummary summary_;

@@ -4,8 +4,11 @@
 
 namespace meshbound::tools {
 
-/// Writes `text` to stdout when `path` is "-", else to a temporary name beside `path` that is renamed at the end: a
-/// failure leaves what was there before. Throws `IoError`.
+/// Throws `IoError` when `write_text` could not write to `path`: known now, not after an hour of work.
+void check_writable(const std::string& path);
+
+/// Writes `text` to stdout when `path` is "-", else as `AtomicFile` does: a failure leaves what was there before.
+/// Throws `IoError`.
 void write_text(const std::string& path, const std::string& text);
 
 }  // namespace meshbound::tools

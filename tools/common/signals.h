@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <atomic>
+#include <string>
 
 namespace meshbound::tools {
 
-/// From here on the first SIGINT or SIGTERM sets the flag that is returned, so that a tool can end with what it has
-/// proven; a second one ends the process as usual.
-const std::atomic<bool>& watch_interrupts();
+/// From here on SIGINT, SIGTERM and SIGHUP (unless it is ignored, as under nohup) set the flag of `interrupted`, so
+/// that the tool can say what it has proven and end. If it has not ended by itself `grace` seconds later, whatever it
+/// is doing, its unfinished files are removed, one line that begins with `tool` goes to stderr, and the process exits
+/// with `ExitBadInput`. Further signals change nothing.
+void watch_interrupts(const std::string& tool);
+inline constexpr double grace = 0.3;
 
-/// Writing past a limit on the size of files becomes an error like a full disk, instead of the end of the process.
-void ignore_file_size_signal();
+/// Set by the first signal after `watch_interrupts`.
+[[nodiscard]] const std::atomic<bool>& interrupted();
+
+/// While one lives, a signal does not end the process from outside: for files that appear together. What blocks in here
+/// has to look at the flag whenever a system call fails with EINTR, which then happens again and again.
+class UninterruptedScope {
+ public:
+  UninterruptedScope();
+  ~UninterruptedScope();
+  UninterruptedScope(const UninterruptedScope&) = delete;
+  UninterruptedScope& operator=(const UninterruptedScope&) = delete;
+};
+
+/// Writing past a limit on the size of files, or to a pipe that nobody reads, becomes an error like a full disk,
+/// instead of the end of the process.
+void ignore_write_signals();
 
 }  // namespace meshbound::tools

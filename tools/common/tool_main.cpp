@@ -8,7 +8,7 @@
 #include <exception>
 #include <new>
 
-#include "common/brief_waits.h"
+#include "common/omp_spin.h"
 #include "common/signals.h"
 #include "common/threads.h"
 
@@ -66,8 +66,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 }
 
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  wait_briefly(argv);
-  ignore_file_size_signal();
+  limit_omp_spin();
+  ignore_write_signals();
+  watch_interrupts(app.get_name());
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

@@ -5,11 +5,10 @@
 #include <functional>
 #include <string>
 
+#include "common/exit_code.h"
 #include "meshbound/bounds.h"
 
 namespace meshbound::tools {
-
-enum ExitCode : int { ExitDone = 0, ExitExceeds = 1, ExitBadInput = 2, ExitUndecided = 3 };
 
 [[nodiscard]] ExitCode exit_code(Verdict verdict);
 

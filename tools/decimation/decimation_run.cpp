@@ -24,10 +24,10 @@ constexpr double relative_error_bound = 1e-6;
 
 }  // namespace
 
-DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(watch_interrupts()), shared_(options) {}
+DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(interrupted()), shared_(options) {}
 
 void DecimationRun::read_original(MeshReport& report) {
-  MeshFile file = read_mesh(shared_.input);
+  MeshFile file = read_mesh(shared_.input, {&interrupted_});
   original_ = std::move(file.mesh);
   validate(original_);
   report = {shared_.input,       summarise(original_),  file.triangulated_polygons,

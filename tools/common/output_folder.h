@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "mesh/temporary_files.h"
+
+namespace meshbound::tools {
+
+/// A folder for outputs. One that was made for them goes again when nothing came to stand in it.
+class OutputFolder {
+ public:
+  /// Makes the folder, and those it is in, unless it is there. Throws `IoError`.
+  explicit OutputFolder(std::filesystem::path path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::filesystem::path path_;
+  std::optional<TemporaryName> made_;
+};
+
+}  // namespace meshbound::tools
