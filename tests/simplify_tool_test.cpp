@@ -16,6 +16,7 @@
 #include "common/gated_output.h"
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
+#include "json_claims.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -26,8 +27,10 @@ namespace meshbound {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using testing_tools::checked_document;
 using testing_tools::content_of;
+using testing_tools::expect_nearest;
+using testing_tools::Json;
 
 struct Result {
   int exit_code = -1;
@@ -85,7 +88,7 @@ TEST_F(SimplifyTool, WritesAMeshWithinTheToleranceInEveryFormat) {
 
 TEST_F(SimplifyTool, TakesTolerancesInPercentOfTheDiagonal) {
   ASSERT_EQ(run("sphere.off out.off --tolerance 1% --json -").exit_code, 0);
-  const Json json = Json::parse(content_of(in("stdout.txt")));
+  const Json json = checked_document(content_of(in("stdout.txt")));
   EXPECT_NEAR(json["tolerance"]["absolute"].get<double>(), 0.01 * json["original"]["bbox_diagonal"].get<double>(),
               1e-15);
   EXPECT_NEAR(json["tolerance"]["percent_of_diagonal"].get<double>(), 1, 1e-12);
@@ -95,7 +98,7 @@ TEST_F(SimplifyTool, ReportsEveryKeyOfTheSchema) {
   const Result result =
       run("sphere.off out.ply --tolerance 0.02 --levels 0.005,0.01 --output-dir levels --json r.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Json json = Json::parse(content_of(in("r.json")));
+  const Json json = checked_document(content_of(in("r.json")));
   EXPECT_EQ(json["schema"], "meshbound/simplify/1");
   EXPECT_LE(json["collapses"]["estimated"].get<int>(), json["collapses"]["performed"].get<int>());
   EXPECT_EQ(json["collapses"]["restarts"], 0);
@@ -109,6 +112,13 @@ TEST_F(SimplifyTool, ReportsEveryKeyOfTheSchema) {
     EXPECT_EQ(json["distance"][side]["witness"]["from"].size(), 3u);
     EXPECT_EQ(json["distance"][side]["witness"]["to"].size(), 3u);
   }
+  const std::string worse = json["worst"]["direction"];
+  EXPECT_EQ(json["worst"]["distance"],
+            Json({{"lower", json["distance"]["lower"]}, {"upper", json["distance"]["upper"]}}));
+  EXPECT_EQ(json["worst"]["point"], json["distance"][worse]["witness"]["from"]);
+  EXPECT_EQ(json["worst"]["triangle"], json["distance"][worse]["witness"]["from_triangle"]);
+  expect_nearest(json["distance"]["original_to_simplified"], read_mesh(in("out.ply")).mesh);
+  expect_nearest(json["distance"]["simplified_to_original"], read_mesh(in("sphere.off")).mesh);
   EXPECT_LE(json["distance"]["upper"].get<double>(), 0.02);
   for (const char* key : {"performed", "refused"}) EXPECT_TRUE(json["collapses"][key].is_number());
   for (const char* key : {"read", "simplify", "certify", "write", "total"})
@@ -120,6 +130,20 @@ TEST_F(SimplifyTool, ReportsEveryKeyOfTheSchema) {
     EXPECT_LE(level["distance"]["upper"].get<double>(), tolerance);
     EXPECT_EQ(check(in("sphere.off"), in(level["path"]), tolerance), Verdict::Within);
     EXPECT_EQ(level["faces"], read_mesh(in(level["path"])).mesh.triangles.size());
+  }
+}
+
+/// Directions that the lower bound of the other one cuts short have a witness that is a closest pair, too.
+TEST_F(SimplifyTool, PrintsClosestPairsOfRealMeshes) {
+  for (const char* name : {"cad/c3d_fandisk.obj", "game/gltf_Duck.obj"}) {
+    SCOPED_TRACE(name);
+    const auto path = test::dataset(name);
+    if (!path) GTEST_SKIP() << name << " is not on this machine (MESHBOUND_DATASETS)";
+    const Result result = run("'" + path->string() + "' out.ply --tolerance 0.5% --effort fast --threads 1 --json -");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json distance = checked_document(result.out)["distance"];
+    expect_nearest(distance["original_to_simplified"], read_mesh(in("out.ply")).mesh);
+    expect_nearest(distance["simplified_to_original"], read_mesh(*path).mesh);
   }
 }
 
@@ -137,12 +161,12 @@ TEST_F(SimplifyTool, SaysWhetherTheTargetOrTheToleranceCameFirst) {
   const Result target = run("sphere.off out.off --tolerance 0.05 --target-faces 900 --json r.json");
   EXPECT_EQ(target.exit_code, 0);
   EXPECT_NE(target.out.find("target was reached first"), std::string::npos);
-  EXPECT_EQ(Json::parse(content_of(in("r.json")))["stopped_by"], "target");
+  EXPECT_EQ(checked_document(content_of(in("r.json")))["stopped_by"], "target");
   EXPECT_NEAR(static_cast<double>(read_mesh(in("out.off")).mesh.triangles.size()), 900, 2);
   const Result tolerance = run("sphere.off out.off --tolerance 0.001 --target-ratio 0.01 --json r.json");
   EXPECT_EQ(tolerance.exit_code, 0);
   EXPECT_NE(tolerance.out.find("it came before the target"), std::string::npos);
-  EXPECT_EQ(Json::parse(content_of(in("r.json")))["stopped_by"], "tolerance");
+  EXPECT_EQ(checked_document(content_of(in("r.json")))["stopped_by"], "tolerance");
 }
 
 TEST_F(SimplifyTool, KeepsSharpEdgesWhenAsked) {
@@ -163,7 +187,7 @@ TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
 
 TEST_F(SimplifyTool, ChangesNothingAtToleranceZero) {
   ASSERT_EQ(run("sphere.off out.off --tolerance 0 --json -").exit_code, 0);
-  const Json json = Json::parse(content_of(in("stdout.txt")));
+  const Json json = checked_document(content_of(in("stdout.txt")));
   EXPECT_EQ(json["distance"]["upper"], 0.0);
   EXPECT_EQ(json["stopped_by"], "rounding");
 }
@@ -207,7 +231,7 @@ TEST_F(SimplifyTool, WritesWhatIsProvenWhenItIsOutOfTime) {
     const Result result = run(std::string("terrain.off out.off --tolerance 0.01 --json r.json --time-limit ") + limit);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(check(in("terrain.off"), in("out.off"), 0.01), Verdict::Within);
-    EXPECT_EQ(Json::parse(content_of(in("r.json")))["simplified"]["faces"],
+    EXPECT_EQ(checked_document(content_of(in("r.json")))["simplified"]["faces"],
               read_mesh(in("out.off")).mesh.triangles.size());
     EXPECT_TRUE(is_clean());
   }
@@ -220,7 +244,7 @@ TEST_F(SimplifyTool, WritesTheOriginalInEveryFormatAndLevelWhenThereIsNoTimeAtAl
                               " --tolerance 0.02 --levels 0.005,0.01 --certificate proof --json r.json --time-limit 0");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.out.find("time limit came"), std::string::npos) << result.out;
-    const Json json = Json::parse(content_of(in("r.json")));
+    const Json json = checked_document(content_of(in("r.json")));
     EXPECT_EQ(json["stopped_by"], "time_limit");
     EXPECT_EQ(json["verdict"], "within");
     EXPECT_EQ(json["collapses"]["performed"], 0);
@@ -315,10 +339,10 @@ TEST_F(SimplifyTool, DropsComponentsAndCountsThemWhenAsked) {
   const TriangleMesh speck = reference::moved(datasets::icosphere(0.004, 1), {0, 0, 1});
   write_mesh(in("two.off"), reference::both(datasets::icosphere(1, 3), speck));
   const Result kept = run("two.off out.off --tolerance 0.02 --json -");
-  EXPECT_EQ(Json::parse(kept.out).at("pruned"), Json({{"components", 0}, {"faces", 0}}));
+  EXPECT_EQ(checked_document(kept.out).at("pruned"), Json({{"components", 0}, {"faces", 0}}));
   const Result pruned = run("two.off out.off --tolerance 0.02 --prune --json -");
   ASSERT_EQ(pruned.exit_code, 0) << pruned.err;
-  EXPECT_EQ(Json::parse(pruned.out).at("pruned"), Json({{"components", 1}, {"faces", 80}}));
+  EXPECT_EQ(checked_document(pruned.out).at("pruned"), Json({{"components", 1}, {"faces", 80}}));
   EXPECT_EQ(check(in("two.off"), in("out.off"), 0.02), Verdict::Within);
   EXPECT_NE(run("two.off out.off --tolerance 0.02 --prune").out.find("pruned     1 components of 80"),
             std::string::npos);
@@ -330,7 +354,7 @@ TEST_F(SimplifyTool, FindsFewerFacesWithMoreEffort) {
   for (const std::string effort : {"fast", "normal", "high"}) {
     const Result result = run("torus.off out.off --tolerance 0.01 --threads 1 --json - --effort " + effort);
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const Json json = Json::parse(result.out);
+    const Json json = checked_document(result.out);
     EXPECT_EQ(json.at("effort"), effort);
     faces.push_back(json.at("simplified").at("faces"));
   }
@@ -348,7 +372,7 @@ TEST_F(SimplifyTool, SaysWhatItDrops) {
   EXPECT_EQ(painted.exit_code, 0) << painted.err;
   EXPECT_EQ(painted.err, "");
   EXPECT_NE(painted.out.find("\ndropped: 2 texture coordinates, 1 material\n"), std::string::npos) << painted.out;
-  const Json original = Json::parse(content_of(in("r.json")))["original"];
+  const Json original = checked_document(content_of(in("r.json")))["original"];
   EXPECT_EQ(original["dropped"]["texture_coordinates"], 2);
   EXPECT_EQ(original["dropped"]["materials"], 1);
   EXPECT_EQ(original["dropped"]["normals"], 0);
