@@ -167,6 +167,28 @@ TEST(Certificate, OfALargeFlatFaceIsSmall) {
   EXPECT_LT(certificate->simplified_to_original.bytes, 20000U);
 }
 
+/// Each large triangle of a stack could be proven by one byte that costs a reader half of the fine sheet.
+TEST(Certificate, OfAStackOverAFineSheetAsksForLittleWorkAByte) {
+  const TriangleMesh sheet = reference::unit_square(40);
+  TriangleMesh stack;
+  for (std::uint32_t layer = 0; layer < 100; ++layer) {
+    const TriangleMesh square = reference::moved(reference::unit_square(1), {0, 0, 1e-5 * layer});
+    for (const Triangle& t : square.triangles)
+      stack.triangles.push_back({4 * layer + t[0], 4 * layer + t[1], 4 * layer + t[2]});
+    stack.vertices.insert(stack.vertices.end(), square.vertices.begin(), square.vertices.end());
+  }
+  const auto certificate = build_certificate(stack, sheet, 0.01);
+  ASSERT_TRUE(certificate);
+  const verify::Proof::Direction proof =
+      verify::check_certificate(stack, sheet, certificate->bytes).original_to_simplified;
+  EXPECT_LT(proof.degree_work, 512 * proof.bytes);
+  const auto single = build_certificate(reference::unit_square(1), sheet, 0.01);
+  ASSERT_TRUE(single);
+  const verify::Proof::Direction whole =
+      verify::check_certificate(reference::unit_square(1), sheet, single->bytes).original_to_simplified;
+  EXPECT_GT(whole.degree_work, 512 * whole.bytes) << "what is rare may still be proven by few bytes";
+}
+
 TEST(Certificate, EndsWhenItIsTold) {
   const TriangleMesh fine = datasets::icosphere(1, 4), coarse = datasets::icosphere(1, 1);
   const std::atomic<bool> cancel = true;

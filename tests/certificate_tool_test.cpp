@@ -2,6 +2,8 @@
 // Certificates through the command line: what the tools write, verify_certificate confirms for these files and for no
 // others.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 
 #include <filesystem>
 #include <fstream>
@@ -117,6 +119,17 @@ TEST_F(CertificateTools, VerifierTellsBadUsageFromRejection) {
   expect_one_line(run_tool(VERIFY_CERTIFICATE, {in("torus.off")}), 2, "SIMPLIFIED");
   EXPECT_EQ(run_tool(VERIFY_CERTIFICATE, {"--version"}).exit_code, 0);
   EXPECT_EQ(run_tool(VERIFY_CERTIFICATE, {"--help"}).exit_code, 0);
+}
+
+TEST_F(CertificateTools, VerifierReadsOnlyWhatEnds) {
+  std::ofstream(in("large"), std::ios::binary) << "MESHCERX";
+  std::filesystem::resize_file(in("large"), std::uintmax_t{1} << 40);  // a hole of a terabyte
+  expect_one_line(verify("torus.off", "coarse.off", "large"), 1, "not a meshbound certificate");
+  ASSERT_EQ(::mkfifo(in("fifo").c_str(), 0600), 0);
+  expect_one_line(verify("torus.off", "coarse.off", "fifo"), 2, "not a regular file");
+  if (::mknod(in("zero").c_str(), S_IFCHR | 0666, makedev(1, 5)) == 0) {  // a node of the device without end
+    expect_one_line(verify("torus.off", "coarse.off", "zero"), 2, "zero");
+  }
 }
 
 TEST_F(CertificateTools, EveryLevelHasItsOwn) {

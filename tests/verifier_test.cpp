@@ -246,6 +246,25 @@ TEST(DegreeProof, HoldsAtAnySize) {
   }
 }
 
+/// What a few bytes can ask for is bounded.
+TEST(DegreeProof, EndsWhereItCostsTooMuch) {
+  const TriangleMesh sheet = reference::unit_square(7);
+  const std::uint32_t seed = below_middle(sheet);
+  PieceCorners corners;
+  corners.start(face);
+  const auto cost = [&](std::uint64_t most_work, int times) {
+    DegreeProof proof(sheet, 0.021, most_work);
+    for (int i = 0; i < times; ++i)
+      if (!proof.proves(face, corners, {0, 1, 2}, seed)) return std::uint64_t{0};
+    return proof.work();
+  };
+  const std::uint64_t once = cost(1'000'000, 1);
+  EXPECT_GT(once, 10u);
+  EXPECT_EQ(cost(1'000'000, 3), 3 * once);
+  EXPECT_EQ(cost(3 * once, 3), 3 * once);
+  EXPECT_EQ(cost(3 * once - 1, 3), 0u);
+}
+
 /// A certificate put together byte by byte: one triangle against one triangle.
 struct Forgery {
   TriangleMesh a = reference::single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});

@@ -2,13 +2,10 @@
 // verify_certificate ORIGINAL SIMPLIFIED CERTIFICATE: exit 0 when the certificate proves that the two meshes are within
 // its tolerance of each other, 1 when it does not, 2 for bad usage and files that cannot be read.
 #include <Eigen/Geometry>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -17,9 +14,12 @@
 #include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/output.h"
+#include "common/signals.h"
 #include "common/tool_main.h"
+#include "mesh/file_bytes.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "verify/certificate_reader.h"
 #include "verify/verifier.h"
 
 namespace meshbound::tools {
@@ -40,11 +40,13 @@ struct Inputs {
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::vector<std::uint8_t> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) throw IoError("cannot read " + path + ": " + std::strerror(errno));
-  return bytes;
+/// The magic first: of a file that is no certificate nothing more is read, however long it is.
+std::vector<std::uint8_t> certificate_of(const std::string& path) {
+  const FileBytes head(path, &interrupted(), verify::magic.size());
+  const bool is_certificate = head.bytes() == verify::magic;
+  const std::size_t limit = is_certificate ? std::numeric_limits<std::size_t>::max() : verify::magic.size();
+  const FileBytes file(path, &interrupted(), limit);
+  return {file.bytes().begin(), file.bytes().end()};
 }
 
 /// The bounding-box diagonal of the vertices in use, for tolerances in percent.
@@ -117,8 +119,10 @@ int run(const Options& options) {
   if (!options.json.empty()) check_writable(options.json);
   Outcome outcome;
   Clock::time_point start = Clock::now();
-  const Inputs inputs{read_mesh(options.original).mesh, read_mesh(options.simplified).mesh,
-                      bytes_of(options.certificate)};
+  Inputs inputs;
+  inputs.certificate = certificate_of(options.certificate);
+  inputs.original = read_mesh(options.original, {&interrupted()}).mesh;
+  inputs.simplified = read_mesh(options.simplified, {&interrupted()}).mesh;
   outcome.read_seconds = seconds_since(start);
   start = Clock::now();
   try {

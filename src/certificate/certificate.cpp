@@ -21,6 +21,11 @@ namespace {
 
 constexpr std::size_t triangles_per_chunk = 256;  ///< hints are handed on inside a chunk
 
+/// Where the proofs by degree together would cost a reader more than this for each triangle of both meshes, as in
+/// stacks of large triangles over fine ones, they are made small. It may refuse what costs 1024 times as many.
+constexpr std::uint64_t degree_work_per_triangle = 16;
+constexpr std::size_t largest_small_patch = 256;
+
 double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 using Clock = std::chrono::steady_clock;
@@ -57,6 +62,8 @@ class DirectionProof {
   std::optional<EncodedSection> run(double progress_from);
 
  private:
+  /// Fills the chunks. What the proofs by degree cost a reader; nothing when it was cancelled or ran out of time.
+  [[nodiscard]] std::optional<std::uint64_t> prove(std::size_t largest_patch, double progress_from);
   void load_vertices();
   [[nodiscard]] Failure prove_chunk(std::size_t chunk, CutSearch& search);
   [[nodiscard]] bool is_in_target(const Triangle& triangle, std::uint32_t slot) const;
@@ -125,17 +132,26 @@ Failure DirectionProof::prove_chunk(std::size_t chunk, CutSearch& search) {
 }
 
 std::optional<EncodedSection> DirectionProof::run(double progress_from) {
+  const std::uint64_t enough = degree_work_per_triangle * (source_.triangle_count() + target_.triangle_count());
+  std::optional<std::uint64_t> work = prove(DegreeSearch::largest_patch, progress_from);
+  if (work && *work > enough + DegreeSearch::largest_patch) work = prove(largest_small_patch, progress_from);
+  if (!work) return std::nullopt;
+  return encode(source_, chunks_);
+}
+
+std::optional<std::uint64_t> DirectionProof::prove(std::size_t largest_patch, double progress_from) {
   const std::size_t count = (source_.triangle_count() + triangles_per_chunk - 1) / triangles_per_chunk;
-  chunks_.resize(count);
+  chunks_.assign(count, {});
   const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
   std::vector<Failure> failures(count);
   std::size_t done = 0;
+  std::uint64_t degree_work = 0;
   std::atomic<bool> stop = false;
   FirstError error;
 #pragma omp parallel num_threads(threads)
   {
     std::optional<CutSearch> search;
-    error.guard([&] { search.emplace(tree_.data(), neighbours_, goal_, magnitude_); });
+    error.guard([&] { search.emplace(tree_.data(), neighbours_, goal_, magnitude_, largest_patch); });
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t chunk = 0; chunk < count; ++chunk) {
       if (stop || !search || goal_.out_of_time()) continue;
@@ -146,12 +162,15 @@ std::optional<EncodedSection> DirectionProof::run(double progress_from) {
       if (options_.progress && omp_get_thread_num() == 0)
         options_.progress(progress_from + 0.5 * static_cast<double>(done) / static_cast<double>(count));
     }
+    const std::uint64_t own_work = search ? search->degree_work() : 0;
+#pragma omp atomic
+    degree_work += own_work;
   }
   error.rethrow();
   for (const Failure& failure : failures)
     if (failure.outcome != CutSearch::Outcome::Proven) fail(failure);
   if (done < count) return std::nullopt;
-  return encode(source_, chunks_);
+  return degree_work;
 }
 
 void DirectionProof::fail(const Failure& failure) const {

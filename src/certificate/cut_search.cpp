@@ -39,8 +39,9 @@ bool first_is_inside(const Piece& piece, const PlaneSides& sides, const Chord& c
 
 }  // namespace
 
-CutSearch::CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude)
-    : b_(target), tolerance_(goal.tolerance), degree_(target, neighbours, goal, magnitude) {
+CutSearch::CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
+                     std::size_t largest_patch)
+    : b_(target), tolerance_(goal.tolerance), degree_(target, neighbours, goal, magnitude, largest_patch) {
   for (std::uint32_t depth = 0; depth <= deepest_cut; ++depth) {
     const double accepted = goal.tolerance - goal.slack - depth * goal.cut_slack;
     // A length is rounded four times on its way from the offset, relative to itself.

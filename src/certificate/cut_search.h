@@ -20,7 +20,8 @@ class CutSearch {
   /// `goal` gives the tolerance and the slacks, in B's working frame, `magnitude` bounds all coordinates there.
   /// `target` and
   /// `neighbours` must outlive this.
-  CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude);
+  CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
+            std::size_t largest_patch);
 
   enum class Outcome {
     Proven,
@@ -32,6 +33,9 @@ class CutSearch {
   /// the triangle of B at `hint`, and leaves there the one that served last.
   [[nodiscard]] Outcome prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
                               std::uint64_t most_steps);
+
+  /// See `DegreeSearch::work`; of all triangles so far.
+  [[nodiscard]] std::uint64_t degree_work() const { return degree_.work(); }
 
   /// The triangle of B nearest to the middle of the triangle that `prove` was called for last.
   [[nodiscard]] std::uint32_t nearest_to_middle() const { return nearest_to_middle_; }

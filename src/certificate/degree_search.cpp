@@ -62,13 +62,14 @@ PatchNeighbours::PatchNeighbours(const Bvh::Data& target) {
 }
 
 DegreeSearch::DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal,
-                           double magnitude)
+                           double magnitude, std::size_t patch_limit)
     : b_(target),
       neighbours_(neighbours),
       tolerance_(goal.tolerance),
       slack_(goal.largest_slack()),
       magnitude_(magnitude),
-      visited_(target.triangle_count(), 0) {}
+      visited_(target.triangle_count(), 0),
+      patch_limit_(patch_limit) {}
 
 DegreeSearch::Seen DegreeSearch::see(const Vec3& p) const {
   const Vec3 q = p - origin_;
@@ -190,12 +191,13 @@ bool DegreeSearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piec
       const Passage way = passage(p, q);
       if (way == Passage::Clear) continue;
       const std::uint32_t next = neighbours_.across[slot][k];
-      if (way == Passage::Unclear || next == PatchNeighbours::boundary || patch_.size() == largest_patch) return false;
+      if (way == Passage::Unclear || next == PatchNeighbours::boundary || patch_.size() == patch_limit_) return false;
       if (visited_[next] == round_) continue;
       visited_[next] = round_;
       patch_.push_back(next);
     }
   }
+  if (odd) work_ += patch_.size();
   return odd;
 }
 

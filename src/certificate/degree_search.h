@@ -29,18 +29,22 @@ class DegreeSearch {
  public:
   /// `goal` gives the tolerance and the slack, in B's working frame; `magnitude` bounds all coordinates there. `target`
   /// and `neighbours` must outlive this. O(n).
-  DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude);
+  DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
+               std::size_t patch_limit);
 
   /// For a piece of `triangle`, with the triangle of B at `seed`, all in B's working frame. O(size of the patch).
   [[nodiscard]] bool proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed);
 
   /// Whether `proves` gave up last because the patch grew too large: parts of the piece may do.
-  [[nodiscard]] bool patch_was_too_large() const { return patch_.size() == largest_patch; }
+  [[nodiscard]] bool patch_was_too_large() const { return patch_.size() == patch_limit_; }
 
- private:
+  /// Triangles of all patches that proved a piece: what they cost a reader.
+  [[nodiscard]] std::uint64_t work() const { return work_; }
+
   /// Half of what a reader must accept.
   static constexpr std::size_t largest_patch = 32768;
 
+ private:
   /// A vertex as seen along the normal of the source triangle: x and y in its plane, h above it.
   struct Seen {
     double x = 0, y = 0, h = 0;
@@ -73,6 +77,8 @@ class DegreeSearch {
 
   std::vector<std::uint32_t> patch_, visited_;
   std::uint32_t round_ = 0;
+  std::size_t patch_limit_;
+  std::uint64_t work_ = 0;
 };
 
 }  // namespace meshbound

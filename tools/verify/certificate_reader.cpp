@@ -5,14 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <string>
-#include <string_view>
 
 #include "verify/checksum.h"
 
 namespace meshbound::verify {
 namespace {
 
-constexpr std::string_view magic = "MESHCERT";
 constexpr std::uint32_t version = 1;
 constexpr std::size_t header_size = 104, trailer_size = 8;
 

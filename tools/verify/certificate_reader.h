@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 
 namespace meshbound::verify {
 
@@ -31,6 +32,9 @@ struct Certificate {
   MeshIdentity original, simplified;
   Section original_to_simplified, simplified_to_original;
 };
+
+/// What every certificate begins with.
+inline constexpr std::string_view magic = "MESHCERT";
 
 /// Checks magic, version, sizes, tolerance and checksum. The sections point into `bytes`. Throws `Rejected`. O(size).
 [[nodiscard]] Certificate parse_certificate(std::span<const std::uint8_t> bytes);

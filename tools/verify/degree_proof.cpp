@@ -50,8 +50,8 @@ double scale_of(const Corners& triangle) {
 
 }  // namespace
 
-DegreeProof::DegreeProof(const TriangleMesh& mesh, double tolerance)
-    : mesh_(mesh), tolerance_(tolerance), visited_(mesh.triangles.size(), 0) {
+DegreeProof::DegreeProof(const TriangleMesh& mesh, double tolerance, std::uint64_t most_work)
+    : mesh_(mesh), tolerance_(tolerance), most_work_(most_work), visited_(mesh.triangles.size(), 0) {
   find_edges();
 }
 
@@ -123,6 +123,7 @@ bool DegreeProof::drawn_in_enough(const CornerAt& corner_at) const {
 }
 
 const DegreeProof::View<Exact>& DegreeProof::exact_view() {
+  work_ += exact_cost;
   if (!exact_)
     exact_ = make_view<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
   return *exact_;
@@ -227,6 +228,7 @@ bool DegreeProof::grow(std::uint32_t seed) {
   bool odd = false;
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const std::uint32_t triangle = patch_[i];
+    if (++work_ > most_work_) return false;
     if (edges_of_[triangle][0] == no_edge) return false;
     if (!heights_hold(rough_, triangle) && !heights_hold(exact_view(), triangle)) return false;
     for (const std::uint32_t index : edges_of_[triangle]) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,11 +26,16 @@ namespace meshbound::verify {
 /// that are not clear of Q; any P is as good, as all three conditions are checked for what has grown.
 class DegreeProof {
  public:
-  /// `mesh` must outlive this.
-  DegreeProof(const TriangleMesh& mesh, double tolerance);
+  /// `mesh` must outlive this. What comes after `most_work` is no proof.
+  DegreeProof(const TriangleMesh& mesh, double tolerance,
+              std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max());
 
   /// Whether P, grown from `seed`, proves that the piece of `triangle` is within the tolerance.
   [[nodiscard]] bool proves(const Corners& triangle, PieceCorners& corners, const Piece& piece, std::uint32_t seed);
+
+  /// What all proofs so far have cost: triangles of P, those that took rational numbers counted `exact_cost` times.
+  [[nodiscard]] std::uint64_t work() const { return work_; }
+  static constexpr std::uint64_t exact_cost = 64;
 
  private:
   static constexpr std::uint32_t no_edge = 0xffffffff;
@@ -50,6 +56,7 @@ class DegreeProof {
   };
 
   void find_edges();
+  /// For a decision that intervals cannot make.
   [[nodiscard]] const View<Exact>& exact_view();
   template <class Number, class CornerAt>
   [[nodiscard]] View<Number> make_view(const CornerAt& corner_at) const;
@@ -68,6 +75,7 @@ class DegreeProof {
 
   const TriangleMesh& mesh_;
   double tolerance_;
+  std::uint64_t most_work_;
   std::vector<std::array<std::uint32_t, 3>> edges_of_;  ///< by triangle; `no_edge` where two of its corners coincide
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> users_;
@@ -82,6 +90,7 @@ class DegreeProof {
   std::optional<View<Exact>> exact_;
   std::vector<std::uint32_t> patch_, visited_;
   std::uint32_t round_ = 0;
+  std::uint64_t work_ = 0;
 };
 
 }  // namespace meshbound::verify

@@ -18,6 +18,10 @@ namespace {
 /// Cuts on the way to a piece: enough to halve the sides of a triangle forty times each.
 constexpr int deepest_cut = 128;
 
+/// What proofs by degree may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
+/// again and again. Real proofs need less than one for each byte and triangle.
+constexpr std::uint64_t degree_work_at_least = 65536, degree_work_per_unit = 1024;
+
 Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
   const Triangle& t = mesh.triangles[triangle];
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -68,13 +72,22 @@ class DirectionCheck {
     last_ = target_of(token);
     if (token.kind == Token::Kind::Degree) {
       ++result_.by_degree;
-      if (!degree_) degree_ = std::make_unique<DegreeProof>(target_, tolerance_);
-      if (!degree_->proves(shape_, corners_, piece, last_)) fail("has a piece whose proof by degree does not hold");
+      if (!degree_) degree_ = std::make_unique<DegreeProof>(target_, tolerance_, most_degree_work());
+      const bool holds = degree_->proves(shape_, corners_, piece, last_);
+      result_.degree_work = degree_->work();
+      if (!holds)
+        fail(result_.degree_work > most_degree_work() ? "is proven by degree at too great a cost"
+                                                      : "has a piece whose proof by degree does not hold");
       return;
     }
     const Corners near = corners_of(target_, last_);
     for (const std::uint32_t corner : piece)
       if (!corner_is_near(corner, near)) fail("has a piece that is not within the tolerance of its triangle");
+  }
+
+  [[nodiscard]] std::uint64_t most_degree_work() const {
+    return degree_work_at_least +
+           degree_work_per_unit * (section_.tokens.size() + source_.triangles.size() + target_.triangles.size());
   }
 
   std::uint32_t target_of(const Token& token) const {

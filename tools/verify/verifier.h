@@ -16,6 +16,7 @@ struct Proof {
   double tolerance = 0;  ///< model units
   struct Direction {
     std::uint64_t pieces = 0, by_degree = 0, cuts = 0, bytes = 0;
+    std::uint64_t degree_work = 0;      ///< see `DegreeProof::work`
     std::uint64_t exact_decisions = 0;  ///< distances that intervals of doubles could not decide
   };
   Direction original_to_simplified, simplified_to_original;
@@ -25,7 +26,8 @@ struct Proof {
 [[nodiscard]] MeshIdentity identity_of(const TriangleMesh& mesh);
 
 /// Returns what the certificate proves of these two meshes; throws `Rejected`, with one line that says why, when it
-/// proves nothing. O(certificate) but for proofs by degree, which cost the triangles they use. Deterministic.
+/// proves nothing. O(certificate + meshes): proofs by degree cost the triangles
+/// they use, and too many of them are refused. Deterministic.
 [[nodiscard]] Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
                                       std::span<const std::uint8_t> certificate);
 
