@@ -261,7 +261,7 @@ class CellWalker : public ProvenBounds {
   void query_and_walk(const Piece& piece, const Farthest& farthest) {
     const Vec3 probe = probe_point(piece, farthest.corner);
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
-    find_nearest(b_, probe, near_enough(), nearest, counters_.queries);
+    find_nearest(b_, probe, accepted_squared_, nearest, counters_.queries);
     offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
     if (done_with(farthest.squared, piece.slot) || done_with(lipschitz * lipschitz, nearest.slot)) return;
@@ -306,11 +306,12 @@ class CellWalker : public ProvenBounds {
     if (!done_with(bound)) halve_in_cell(piece, bound);
   }
 
-  /// Asks which triangle is near a point of the piece, and lowers `bound` by it. True when the piece has been bounded
+  /// Asks for a triangle near a point of the piece, the first one within the target, and lowers `bound` by it: where
+  /// many are equally near, to look for the nearest means to look at all. True when the piece has been bounded
   /// by that triangle, or split between it and the candidate.
   bool split_by_query(const Piece& piece, const Vec3& p, double& bound) {
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), p).squared_distance, piece.slot};
-    find_nearest(b_, p, near_enough(), nearest, counters_.queries);
+    find_nearest(b_, p, accepted_squared_, nearest, counters_.queries);
     offer(p, nearest, piece.depth + 1);
     if (nearest.slot == piece.slot) return false;
     const double squared = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
@@ -318,10 +319,6 @@ class CellWalker : public ProvenBounds {
     return done_with(squared, nearest.slot) || split_at_triple(piece, p, nearest.slot) ||
            split_between(piece, nearest.slot);
   }
-
-  /// A squared distance within which a candidate is good enough: half the target. Where many triangles are equally near
-  /// a point, to look for the nearest of them means to look at all.
-  [[nodiscard]] double near_enough() const { return 0.25 * accepted_squared_; }
 
   /// Splits a piece by a chord between the points of its boundary where its candidate t stops to serve: where t is
   /// neither within the target nor as near as `other`. On the near side every corner is then bounded by t, on the far

@@ -26,6 +26,10 @@ constexpr std::uint32_t probes = 64;
 constexpr std::uint32_t probes_per_chunk = 16;  ///< as vertices
 constexpr std::chrono::milliseconds between_progress{100};
 
+/// Queries, or triangles of a sweep, between two looks at the clock: each may take a tenth of a millisecond where
+/// thousands of triangles are equally near.
+constexpr std::uint32_t steps_between_looks = 16;
+
 double scaled(double length, int exponent) { return next_up(std::ldexp(length, exponent)); }
 
 Goal make_goal(const OneSidedTask& task, const Mapping& map) {
@@ -215,6 +219,7 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t slot = culled_ ? left_[i] : i;
     if (!is_alive(slot)) continue;
+    if (i % steps_between_looks == 0 && goal_.out_of_time()) worth_testing = 0;
     if (worth_testing <= 0) {
       found.open.push_back({0, slot, no_slot});
       continue;
@@ -285,14 +290,16 @@ void OneSidedSearch::list_wanted_vertices() {
 
 void OneSidedSearch::query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
   std::uint32_t hint = 0;
+  bool hurried = exhausted_;
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t v = culled_ ? wanted_[i] : i;
+    if (i % steps_between_looks == 0) hurried = hurried || goal_.out_of_time();
     if (const std::uint32_t before = hint_before(task_.memory, v); before != no_slot) hint = before;
-    const double enough = exhausted_ ? std::numeric_limits<double>::infinity() : searcher.accepted_squared();
+    const double enough = hurried ? std::numeric_limits<double>::infinity() : searcher.accepted_squared();
     const Nearest nearest = searcher.nearest(vertex(v), hint, enough);
     nearest_[v] = {nearest.squared, nearest.slot};
     hint = nearest.slot;
-    if (!exhausted_ && nearest.squared > found.farthest_squared) {
+    if (!hurried && nearest.squared > found.farthest_squared) {
       found.farthest_squared = nearest.squared;
       found.farthest_vertex = v;
     }
@@ -351,7 +358,7 @@ void OneSidedSearch::bound_triangles() {
 void OneSidedSearch::refine_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const Open& open = open_[i];
-    if (open.bound_squared <= searcher.accepted_squared() || exhausted_) {
+    if (open.bound_squared <= searcher.accepted_squared() || exhausted_ || goal_.out_of_time()) {
       searcher.accept(open.bound_squared);
       continue;
     }
