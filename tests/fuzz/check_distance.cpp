@@ -166,6 +166,11 @@ void check_bounds(const Bounds& bounds, const Enclosure& exact) {
   require(exact.most.compare(bounds.lower) >= 0, "no point is as far away as lower");
 }
 
+/// Two intervals that hold the same number.
+void check_meet(const Bounds& one, const Bounds& other) {
+  require(one.lower <= other.upper && other.lower <= one.upper, "the two methods prove different distances");
+}
+
 void check_verdict(const ToleranceCheck& check, const Enclosure& forward, const Enclosure& backward) {
   const double tolerance = check.tolerance;
   if (check.verdict == Verdict::Within)
@@ -236,6 +241,13 @@ void check_distance(Bytes content) {
     if (!std::isfinite(tolerance)) continue;
     check_verdict(check_symmetric(*tree_a, *tree_b, tolerance, options), forward, backward);
   }
+  DistanceOptions other_options = options;
+  other_options.method = options.method == Method::CellWalking ? Method::CrossCulling : Method::CellWalking;
+  const SymmetricDistance other = symmetric_distance(*tree_a, *tree_b, other_options);
+  check_bounds(other.a_to_b.bounds, forward);
+  check_bounds(other.b_to_a.bounds, backward);
+  check_meet(distance.a_to_b.bounds, other.a_to_b.bounds);
+  check_meet(distance.b_to_a.bounds, other.b_to_a.bounds);
   check_closest_point(*tree_b, b, a.vertices[a.triangles[0][0]]);
   // Bits that choose nothing else. Seldom: it takes as long as a thousand of the others; cross-culling, which compares
   // all of these triangles with each other, most.
