@@ -191,7 +191,9 @@ TEST_F(HausdorffTool, MeasuresByThePapersMethodToo) {
   EXPECT_LE(walked["lower"], paper["upper"]);
   EXPECT_LE(paper["lower"], walked["upper"]);
   EXPECT_NE(walked["a_to_b"]["upper"], paper["a_to_b"]["upper"]) << "the method made no difference at all";
-  expect_one_line_and_exit_2(run({cube_, soup_, "--method", "guessing"}));
+  const ToolRun unknown = run({cube_, soup_, "--method", "guessing"});
+  expect_one_line_and_exit_2(unknown);
+  EXPECT_NE(unknown.err.find("guessing not in {cell-walking,cross-culling}"), std::string::npos) << unknown.err;
 }
 
 std::string last_line(const std::string& text) {

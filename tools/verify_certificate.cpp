@@ -102,7 +102,7 @@ void print(const Options& options, const Inputs& inputs, const Outcome& outcome)
                                  &backward = outcome.proof->simplified_to_original;
   std::printf("proven     %s and %s are within %s of each other\n", options.original.c_str(),
               options.simplified.c_str(), exact_number(outcome.proof->tolerance).c_str());
-  std::printf("pieces     %llu of the original, %llu of the simplified mesh, %llu of them by degree\n",
+  std::printf("pieces     %llu of the original, %llu of the simplified mesh; %llu of them proven by parity\n",
               static_cast<unsigned long long>(forward.pieces), static_cast<unsigned long long>(backward.pieces),
               static_cast<unsigned long long>(forward.by_degree + backward.by_degree));
   std::printf("bytes      %zu, %s for each original triangle\n", inputs.certificate.size(),

@@ -2,7 +2,6 @@
 #include "hausdorff/question.h"
 
 #include <algorithm>
-#include <map>
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
@@ -37,11 +36,13 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate");
-  const std::map<std::string, Method> methods{{"cell-walking", Method::CellWalking},
-                                              {"cross-culling", Method::CrossCulling}};
-  app.add_option("--method", arguments.method,
-                 "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
-      ->transform(CLI::CheckedTransformer(methods));
+  app.add_option_function<std::string>(
+         "--method",
+         [&arguments](const std::string& name) {
+           arguments.method = name == "cross-culling" ? Method::CrossCulling : Method::CellWalking;
+         },
+         "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
+      ->check(CLI::IsMember({"cell-walking", "cross-culling"}));
   add_common_options(app, arguments.common);
 }
 
