@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // hausdorff_distance by its command line: exit codes, JSON against the library and the schema, bad input.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <charconv>
 #include <filesystem>
@@ -304,6 +305,23 @@ TEST_F(HausdorffTool, SaysThatTheTimeLimitEndedIt) {
     arguments.insert(arguments.end(), {"--quiet"});
     EXPECT_EQ(run(arguments).err, last_line(text.out) + "\n");
   }
+}
+
+/// The matrix comes late, through a FIFO: no trees are built for an answer that nobody waits for any more.
+TEST_F(HausdorffTool, SearchesNothingWhenTheTimeIsLongOver) {
+  const std::string late = folder_ / "late.txt";
+  ASSERT_EQ(mkfifo(late.c_str(), 0600), 0);
+  const std::string writer = "(sleep 0.5; echo " + shell_quoted(shifted) + " > " + shell_quoted(late) + ") & ";
+  const ToolRun result =
+      run_shell(writer + command_line(HAUSDORFF_DISTANCE, {cube_, large_, "--time-limit", "0.1", "--transform-b", late,
+                                                           "--json", folder_ / "late.json"}));
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_EQ(last_line(result.out), "UNDECIDED no upper bound yet: the time limit came first");
+  const json document = checked_document(content_of(folder_ / "late.json"));
+  EXPECT_EQ(document["outcome"], "budget");
+  EXPECT_EQ(document["distance"]["a_to_b"]["searched"], false);
+  EXPECT_EQ(document["seconds"]["build"], 0.0);
+  EXPECT_FALSE(document.contains("worst"));
 }
 
 /// The decision stands; what came after it is said to be incomplete.

@@ -57,6 +57,13 @@ DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watc
   return options;
 }
 
+/// Whether the time limit is so long over, in seconds, that not even the trees are to be built. Shortly after it the
+/// answer that a search gives at once is worth more than the time.
+bool is_late(const Arguments& arguments, const Stopwatch& watch) {
+  constexpr double patience = 0.2;
+  return arguments.common.has_time_limit && watch.seconds() > arguments.common.time_limit + patience;
+}
+
 /// Before any work: nothing that is written may replace what is read, and everything can be written.
 void check_paths(const Arguments& arguments) {
   require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--transform-b", arguments.transform_b}},
@@ -131,6 +138,7 @@ int run(const Arguments& arguments) {
   report.seconds.read = watch.lap();
 
   std::optional<Answer> found = answer_without_trees(question, a, b, arguments.method);
+  if (!found && is_late(arguments, watch)) found = unsearched_answer(question);
   if (!found) {
     const auto [tree_a, tree_b] = build_trees(a, b, {arguments.common.threads});
     report.seconds.build = watch.lap();

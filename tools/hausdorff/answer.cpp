@@ -127,6 +127,12 @@ std::optional<Answer> answer_without_trees(const Question& question, const Trian
   return answer_of(distance->bounds, distance->a_to_b, distance->b_to_a, question);
 }
 
+Answer unsearched_answer(const Question& question) {
+  OneSidedDistance nothing;
+  nothing.outcome = Outcome::BudgetExhausted;
+  return answer_of(nothing.bounds, nothing, nothing, question);
+}
+
 Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b, const DistanceOptions& options) {
   if (question.decide_first) return decide_then_measure(a, b, question, options);
   return question.error_bound ? measure(a, b, question, options) : decide(a, b, question, options);

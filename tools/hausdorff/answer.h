@@ -24,6 +24,9 @@ struct Answer {
 [[nodiscard]] std::optional<Answer> answer_without_trees(const Question& question, const TriangleMesh& a,
                                                          const TriangleMesh& b, Method method);
 
+/// The answer where the time is over before anything was searched.
+[[nodiscard]] Answer unsearched_answer(const Question& question);
+
 /// Decides, measures, or both. `options` give the method, the threads, the budget of all of it and what watches it.
 [[nodiscard]] Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b,
                                      const DistanceOptions& options);
