@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "meshbound/bounds.h"
 #include "meshbound/mesh_view.h"
@@ -14,7 +16,8 @@ struct BvhOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The tree is the same for every value.
 };
 
-/// A bounding volume hierarchy over a triangle soup, with the adjacency and cells that the Hausdorff engine walks.
+/// A bounding volume hierarchy over a triangle soup, with the adjacency and cells that the Hausdorff engine walks:
+/// triangles are neighbours across an edge whose ends are the same vertices, or vertices at the same positions.
 /// It keeps its own copy of the geometry; the view may go away after construction. Any number of threads may query it,
 /// but not during `refit`. Build: O(n log n).
 class Bvh {
@@ -65,8 +68,21 @@ struct ClosestPoint {
   Bounds distance;
 };
 
-/// Expected O(log n). `query` must be finite and within `largest_coordinate`; throws `InvalidInput` otherwise.
+/// Expected O(log n). `query` must be finite and within `largest_coordinate`; throws `InvalidInput` otherwise. A thread
+/// begins its search at the triangle that it found last in the same tree, so queries near one another are fast; answers
+/// do not depend on it. Of triangles equally near, the same one is named each time. Any number of threads may call it.
 [[nodiscard]] ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query);
+
+struct QueryOptions {
+  int threads = 0;  ///< 0: as many as OpenMP has. The answers are the same for every value.
+};
+
+/// `closest_point` for each of many queries, with the same answers to the last bit: faster by a warm start, as each
+/// search begins at the triangle that the query before it found, so in an order where neighbours follow one another
+/// (along a curve, a grid, a surface) rather than at random. Throws `InvalidInput` as above when one of the queries is
+/// to be refused. Expected O(log n) for each.
+[[nodiscard]] std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::Vector3d> queries,
+                                                       const QueryOptions& options = {});
 
 /// A tree under a rigid motion; the tree itself stays as it was built. `bvh` must outlive this.
 struct PlacedModel {

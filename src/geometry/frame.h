@@ -29,21 +29,36 @@ struct Frame {
   [[nodiscard]] double working_length_down(double model) const;
 };
 
-/// `Frame::to_working` for many points: a product with a power of two that is a normal number gives what `ldexp` gives.
+/// The maps of a frame for many points: a product with a power of two that is a normal number gives what `ldexp` gives.
 class FrameMap {
  public:
   explicit FrameMap(const Frame& frame)
       : frame_(frame),
-        scale_(frame.exponent > -1023 && frame.exponent < 1023
-                   ? std::bit_cast<double>(static_cast<std::uint64_t>(1023 - frame.exponent) << 52)
-                   : 0) {}
+        scale_(frame.exponent > -1023 && frame.exponent < 1023 ? power_of_two(-frame.exponent) : 0),
+        unit_(scale_ != 0 ? power_of_two(frame.exponent) : 0) {}
   [[nodiscard]] Vec3 operator()(const Vec3& p) const {
     return scale_ != 0 ? scale_ * (p - frame_.center) : frame_.to_working(p);
   }
+  [[nodiscard]] Vec3 to_model(const Vec3& w) const {
+    return scale_ != 0 ? unit_ * w + frame_.center : frame_.to_model(w);
+  }
+  [[nodiscard]] double length_up(double working) const {
+    const double model = unit_ * working;
+    return scale_ != 0 && scale_ * model == working ? model : frame_.length_up(working);
+  }
+  [[nodiscard]] double length_down(double working) const {
+    const double model = unit_ * working;
+    return scale_ != 0 && scale_ * model == working ? model : frame_.length_down(working);
+  }
 
  private:
+  static double power_of_two(int exponent) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+  }
+
   Frame frame_;
-  double scale_;  ///< 2^-exponent, or 0 where that is not a normal number
+  double scale_;  ///< 2^-exponent, or 0 where that or its inverse is not a normal number
+  double unit_;   ///< 2^exponent, or 0 likewise
 };
 
 /// The frame for a model within the box [lo, hi] (model units, finite).

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "distance/point_query.h"
+
+#include "distance/point_query_impl.h"
+
+namespace meshbound {
+
+MeasurePoint avx2_point_kernel();
+
+MeasurePoint portable_point_kernel() { return measure_point; }
+
+MeasurePoint point_kernel() {
+#if defined(MESHBOUND_HAS_AVX2)
+  if (__builtin_cpu_supports("avx2")) return avx2_point_kernel();
+#endif
+  return portable_point_kernel();
+}
+
+}  // namespace meshbound

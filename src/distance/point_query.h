@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+
+#include "bvh/bvh_data.h"
+#include "bvh/nearest.h"
+
+namespace meshbound {
+
+/// What a search finds out about a point, in the working frame of the tree.
+struct PointDistance {
+  Nearest nearest;       ///< the least squared distance of all triangles, and the first slot that has it
+  Vec3 offset;           ///< from the closest point of that triangle to the query
+  double separated = 0;  ///< proven lower bound of the distance to the mesh, but for `dual_error`
+};
+
+/// How exact the computed distances are, in working units; both depend on the magnitude of the coordinates.
+struct PointRoundings {
+  double primal = 0;   ///< computed distances may be less than this below the true ones (numeric/rounding.h)
+  double allowed = 0;  ///< what the lower bound may lose against the nearest distance before the slow way is taken
+};
+
+/// The nearest triangle to p, and a lower bound at most `allowed` below its distance wherever doubles can tell. `hint`
+/// is any slot, or `no_slot` for none: a near one saves time, and the answer is the same to the last bit for all of
+/// them. Expected O(log n), without allocation.
+using MeasurePoint = PointDistance (*)(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,
+                                       std::uint32_t hint);
+
+/// The fastest that this machine runs, and the one that any machine runs: the same results to the last bit.
+MeasurePoint point_kernel();
+MeasurePoint portable_point_kernel();
+
+}  // namespace meshbound
