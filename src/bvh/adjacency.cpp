@@ -10,6 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <vector>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 #include "bvh/build.h"
 #include "numeric/tasks.h"
@@ -19,11 +24,25 @@ namespace {
 
 /// Half-edges in a bucket from which they are sorted instead of compared with each other, which is done by the bits of
 /// a word: ten times what a vertex of a scan has.
-constexpr std::uint32_t most_compared = 64;
+constexpr std::uint32_t max_compared = 64;
 
-/// They are compared eight at a time, so what lies behind a bucket is read too; not beyond the buckets of a task, which
-/// another thread may be sorting.
+/// They are compared eight at a time, so what lies behind a bucket is read too.
 constexpr std::uint32_t compared_at_once = 8;
+
+/// Bit i: whether far[i] is equal to `wanted`, of `compared_at_once`.
+std::uint64_t equal_bits(const std::uint32_t* far, std::uint32_t wanted) {
+#if defined(__SSE2__)
+  const __m128i all = _mm_set1_epi32(static_cast<int>(wanted));
+  const auto* const from = reinterpret_cast<const __m128i*>(far);
+  const __m128i low = _mm_cmpeq_epi32(_mm_loadu_si128(from), all),
+                high = _mm_cmpeq_epi32(_mm_loadu_si128(from + 1), all);
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(low)) | _mm_movemask_ps(_mm_castsi128_ps(high)) << 4);
+#else
+  std::uint64_t bits = 0;
+  for (std::uint32_t i = 0; i < compared_at_once; ++i) bits |= std::uint64_t{far[i] == wanted} << i;
+  return bits;
+#endif
+}
 
 /// A closed surface has twice as many triangles as vertices.
 constexpr std::size_t vertices_per_task = triangles_per_task / 2;
@@ -64,20 +83,21 @@ class HalfEdgeMatching {
         first_vertex_(first_vertex),
         runs_(static_cast<std::uint32_t>(first_vertex.size()) - 1),
         bucket_end_(array_in<std::uint32_t>(scratch)),
-        edges_(array_in<HalfEdge>(scratch)),
+        far_(array_in<std::uint32_t>(scratch)),
+        id_(array_in<std::uint32_t>(scratch)),
         seams_(runs_),
         size_(runs_, 0) {
     bucket_end_.resize(data.vertices.size());
-    edges_.resize(3 * data.corners.size());
+    far_.resize(3 * data.corners.size() + compared_at_once);
+    std::fill_n(far_.end() - compared_at_once, compared_at_once, 0);
+    id_.resize(3 * data.corners.size());
   }
 
   void run() {
     for_each_run([&](std::uint32_t r) { count(r); });
     for_each_run([&](std::uint32_t r) { size_[r] = add_seams_and_sum(r); });
-    for_each_run([&](std::uint32_t r) {
-      fill(r);
-      match(r);
-    });
+    for_each_run([&](std::uint32_t r) { fill(r); });
+    for_each_run([&](std::uint32_t r) { match(r); });
   }
 
  private:
@@ -134,17 +154,22 @@ class HalfEdgeMatching {
     return sum;
   }
 
-  [[nodiscard]] HalfEdge* edges_of(std::uint32_t run) {
-    HalfEdge* edges = edges_.data();
-    for (std::uint32_t r = 0; r < run; ++r) edges += size_[r];
-    return edges;
+  /// Where the half-edges of a run begin.
+  [[nodiscard]] std::size_t edges_before(std::uint32_t run) const {
+    std::size_t count = 0;
+    for (std::uint32_t r = 0; r < run; ++r) count += size_[r];
+    return count;
   }
 
   /// By ascending ids, so that each bucket is in their order: later runs have larger ones.
   void fill(std::uint32_t run) {
-    HalfEdge* const edges = edges_of(run);
+    std::uint32_t *const far = far_.data() + edges_before(run), *const id = id_.data() + edges_before(run);
     std::uint32_t* const at = bucket_end_.data();
-    const auto add = [=](std::uint32_t near, const HalfEdge& edge) { edges[at[near]++] = edge; };
+    const auto add = [=](std::uint32_t near, const HalfEdge& edge) {
+      const std::uint32_t to = at[near]++;
+      far[to] = edge.far;
+      id[to] = edge.id;
+    };
     const std::uint32_t first = first_vertex_[run];
     for_each_half_edge(run, [=](std::uint32_t near, const HalfEdge& edge) {
       if (near >= first) add(near, edge);
@@ -155,58 +180,53 @@ class HalfEdgeMatching {
   /// Half-edges of one edge form a ring in the order of their ids: a pair on a manifold edge, more where more triangles
   /// meet, nothing on a border.
   void match(std::uint32_t run) {
-    HalfEdge* const edges = edges_of(run);
+    const std::size_t before = edges_before(run);
     const std::uint32_t first = first_vertex_[run], count = first_vertex_[run + 1] - first;
     for_each_range(count, vertices_per_task, [&](std::size_t begin, std::size_t end) {
-      match_buckets(edges, first, first + static_cast<std::uint32_t>(begin), first + static_cast<std::uint32_t>(end));
+      for (std::size_t v = first + begin; v < first + end; ++v) {
+        const std::size_t from = before + (v == first ? 0 : bucket_end_[v - 1]);
+        const auto size = static_cast<std::uint32_t>(before + bucket_end_[v] - from);
+        if (size > max_compared)
+          match_by_sorting(from, size);
+        else
+          match_by_comparing(from, size, static_cast<std::uint32_t>(v));
+      }
     });
   }
 
-  /// Those of the vertices from `from` to below `to`, in a run that begins with vertex `first`.
-  void match_buckets(HalfEdge* edges, std::uint32_t first, std::uint32_t from, std::uint32_t to) {
-    std::uint32_t begin = from == first ? 0 : bucket_end_[from - 1];
-    const std::uint32_t end_of_all = bucket_end_[to - 1];
-    for (std::uint32_t v = from; v < to; ++v) {
-      const std::uint32_t end = bucket_end_[v];
-      if (end - begin > most_compared)
-        match_by_sorting(edges + begin, edges + end);
-      else if (end_of_all - end >= compared_at_once)
-        match_by_comparing(edges + begin, end - begin);
-      else
-        match_copy(edges + begin, end - begin);
-      begin = end;
-    }
-  }
-
-  void match_copy(const HalfEdge* edges, std::uint32_t count) {
-    std::array<HalfEdge, most_compared> copy{};
-    std::copy_n(edges, count, copy.begin());
-    match_by_comparing(copy.data(), count);
-  }
-
   /// Each with all others, without branches that depend on where its like is.
-  void match_by_comparing(const HalfEdge* edges, std::uint32_t count) {
-    const std::uint64_t all = ~std::uint64_t{0} >> (most_compared - count) % most_compared;
+  void match_by_comparing(std::size_t from, std::uint32_t count, std::uint32_t near) {
+    const std::uint32_t *const far = far_.data() + from, *const id = id_.data() + from;
+    std::uint64_t upward = 0;
+    for (std::uint32_t i = 0; i < count; ++i)
+      upward |= std::uint64_t{ends_(data_.corners[id[i] / 4][id[i] % 4]) == near} << i;
+    const std::uint64_t all = ~std::uint64_t{0} >> (max_compared - count) % max_compared;
     for (std::uint32_t i = 0; i < count; ++i) {
       std::uint64_t like = 0;
       for (std::uint32_t begin = 0; begin < count; begin += compared_at_once)
-        for (std::uint32_t j = begin; j < begin + compared_at_once; ++j)
-          like |= std::uint64_t{edges[j].far == edges[i].far} << j;
+        like |= equal_bits(far + begin, far[i]) << begin;
       like &= all & ~(std::uint64_t{1} << i);
-      if (like == 0) continue;
       const std::uint64_t later = like >> i << i;
-      link(edges[i].id, edges[std::countr_zero(later != 0 ? later : like)].id);
+      const int other = std::countr_zero(later != 0 ? later : like) % static_cast<int>(max_compared);
+      const bool same_way = ((upward >> i ^ upward >> other) & 1U) == 0;
+      Neighbour& across = data_.neighbours[id[i] / 4][id[i] % 4];
+      across = {like != 0 ? id[other] / 4 & no_slot : no_slot, like != 0 && same_way ? 1U : 0U};
     }
   }
 
-  void match_by_sorting(HalfEdge* begin, HalfEdge* end) {
-    std::sort(begin, end,
+  void match_by_sorting(std::size_t from, std::uint32_t count) {
+    std::vector<HalfEdge> edges(count);
+    for (std::uint32_t i = 0; i < count; ++i) edges[i] = {far_[from + i], id_[from + i]};
+    std::sort(edges.begin(), edges.end(),
               [](const HalfEdge& a, const HalfEdge& b) { return a.far != b.far ? a.far < b.far : a.id < b.id; });
-    for (HalfEdge* i = begin; i != end;) {
-      HalfEdge* j = i + 1;
-      for (; j != end && j->far == i->far; ++j) link(j[-1].id, j->id);
-      if (j != i + 1) link(j[-1].id, i->id);
-      i = j;
+    for (auto i = edges.begin(); i != edges.end();) {
+      auto last = i;
+      for (auto next = i + 1; next != edges.end() && next->far == i->far; last = next++) link(last->id, next->id);
+      if (last == i)
+        data_.neighbours[i->id / 4][i->id % 4] = {};
+      else
+        link(last->id, i->id);
+      i = last + 1;
     }
   }
 
@@ -224,7 +244,8 @@ class HalfEdgeMatching {
   const std::vector<std::uint32_t>& first_vertex_;  ///< by run
   std::uint32_t runs_;
   Array<std::uint32_t> bucket_end_;           ///< by vertex, from the first half-edge of its run
-  Array<HalfEdge> edges_;                     ///< by vertex
+  Array<std::uint32_t> far_;                  ///< by vertex: of its half-edges, `HalfEdge::far`
+  Array<std::uint32_t> id_;                   ///< likewise
   std::vector<std::vector<SeamEdge>> seams_;  ///< by run, in the order of their ids
   std::vector<std::uint32_t> size_;           ///< half-edges by run
 };
@@ -239,12 +260,12 @@ void match_half_edges(Bvh::Data& data, const std::vector<std::uint32_t>& first_v
 
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch) {
   data.neighbours.resize(data.corners.size());
-  for_each_range(data.corners.size(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
-    std::fill(data.neighbours.begin() + static_cast<std::ptrdiff_t>(begin),
-              data.neighbours.begin() + static_cast<std::ptrdiff_t>(end), std::array<Neighbour, 3>{});
-  });
-  const bool shares_vertices = data.vertices.size() < 3 * data.corners.size();
-  if (shares_vertices) match_half_edges(data, first_vertex, scratch, ByIndex{});
+  if (data.vertices.size() < 3 * data.corners.size())
+    match_half_edges(data, first_vertex, scratch, ByIndex{});
+  else  // no vertex is shared
+    for_each_range(data.corners.size(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t slot = begin; slot < end; ++slot) data.neighbours[slot].fill({});
+    });
   const Array<std::uint32_t> position = seam_positions(data);
   if (!position.empty()) match_half_edges(data, first_vertex, scratch, ByPosition{position.data()});
 }

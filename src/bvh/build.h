@@ -26,7 +26,11 @@ std::size_t useful_threads(int wanted, std::size_t triangles);
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 
 /// Where the longest edge of a triangle begins: corner 0, 1 or 2, the first of them when edges are equally long.
-std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c);
+inline std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ab = squared_length(b - a), bc = squared_length(c - b), ca = squared_length(a - c);
+  const auto not_ab = static_cast<std::uint32_t>((ab < bc) | (ab < ca));
+  return not_ab * (2 - static_cast<std::uint32_t>(bc >= ca));
+}
 
 /// `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so that the order is unique.
 void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);

@@ -118,7 +118,7 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::s
   const Box box = data.working_box;
   const Vec3 size = box.hi - box.lo;
   const double largest = std::max({size.x, size.y, size.z, 1e-300});
-  const double cells = std::ldexp(1.0, bits) - 1, scale = cells / (3 * largest);
+  const double cells = std::ldexp(1.0, bits) - 1, scale = cells / largest;
   const FrameMap to_working(data.frame);
   Array<Keyed> items = array_in<Keyed>(scratch), other = array_in<Keyed>(scratch);
   items.resize(n);
@@ -126,12 +126,10 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::s
   const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells)); };
   for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Vec3 sum;
-      for (const std::uint32_t v : mesh.triangle(i)) {
-        const Eigen::Vector3d p = mesh.vertex(v);
-        sum = sum + (to_working({p.x(), p.y(), p.z()}) - box.lo);
-      }
-      items[i] = hilbert_index(cell(sum.x), cell(sum.y), cell(sum.z), bits) << index_bits | i;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const std::uint32_t v : mesh.triangle(i)) sum += mesh.vertex(v);
+      const Vec3 centroid = to_working((1.0 / 3) * Vec3{sum.x(), sum.y(), sum.z()}) - box.lo;
+      items[i] = hilbert_index(cell(centroid.x), cell(centroid.y), cell(centroid.z), bits) << index_bits | i;
     }
   });
   sort_by_key(items, other, index_bits, index_bits + 3 * bits, runs);

@@ -30,7 +30,7 @@ bool same_position(const Vec3& p, const Vec3& q) { return p.x == q.x && p.y == q
 class PositionTable {
  public:
   PositionTable(const Bvh::Data& data, std::size_t positions)
-      : vertices_(data.vertices), shift_(64 - std::bit_width(positions + positions / 3 + 1)) {
+      : vertices_(data.vertices), shift_(64 - static_cast<int>(std::bit_width(positions + positions / 3 + 1))) {
     first_at_.assign(std::size_t{1} << (64 - shift_), no_position);
   }
 

@@ -17,18 +17,20 @@ constexpr std::uint32_t of_earlier_run = 0xffffffff;
 /// More would not pay: every run has a table of all vertices.
 constexpr std::size_t most_runs = 16;
 
-/// Triangles that are gathered at a time: what they need fits into the first-level cache.
+/// Triangles of a batch: what they need fits into the first-level cache.
 constexpr std::uint32_t batch = 64;
 
 struct Run {
   explicit Run(Arena& scratch)
       : local(array_in<std::uint32_t>(scratch)),
         used(array_in<std::uint32_t>(scratch)),
-        rank(array_in<std::uint32_t>(scratch)) {}
+        rank(array_in<std::uint32_t>(scratch)),
+        positions(array_in<Vec3>(scratch)) {}
 
   Array<std::uint32_t> local;       ///< by the mesh's vertex: its number among those that the run uses
   Array<std::uint32_t> used;        ///< by local number: the mesh's vertex, in the end its final number
   Array<std::uint32_t> rank;        ///< by local number: number among those that no earlier run uses, or that mark
+  Array<Vec3> positions;            ///< by local number, in the working frame; of the first run they are the tree's
   std::vector<std::uint64_t> seen;  ///< a bit for each of the mesh's vertices; empty where there is one run only
   double rounding = 0;              ///< the largest that a vertex suffered
 };
@@ -44,11 +46,14 @@ class Renumbering {
 
   std::vector<std::uint32_t> run() {
     data_.corners.resize(mesh_.triangle_count());
+    data_.vertices.resize(std::min(mesh_.vertex_count(), 3 * mesh_.triangle_count()));
+    data_.source_vertex.resize(data_.vertices.size());
     // By one thread: each thread's own heap would have to grow first.
     for (std::uint32_t r = 0; r < runs_; ++r) {
       run_[r].local.resize(mesh_.vertex_count());
       run_[r].used.resize(std::min<std::size_t>(mesh_.vertex_count(), std::size_t{3} * (begin(r + 1) - begin(r))));
       run_[r].rank.resize(r > 0 ? run_[r].used.size() : 0);
+      run_[r].positions.resize(r > 0 ? run_[r].used.size() : 0);
       run_[r].seen.resize(runs_ > 1 ? mesh_.vertex_count() / 64 + 1 : 0);
     }
     std::vector<std::uint32_t> first_vertex(runs_ + 1, 0);
@@ -73,30 +78,25 @@ class Renumbering {
 
   [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
 
-  [[nodiscard]] Vec3 position(std::uint32_t v) const {
-    const Eigen::Vector3d p = mesh_.vertex(v);
-    return to_working_({p.x(), p.y(), p.z()});
-  }
-
-  /// By batches: first all that comes from random places of the mesh, so that the processor waits for many at a time.
+  /// By batches, in passes without a dependence on what was fetched just before: the processor waits for many at a
+  /// time.
   void number_vertices(std::uint32_t r) {
     Run& run = run_[r];
     std::fill(run.local.begin(), run.local.end(), unused);
+    Vec3* const positions = r == 0 ? data_.vertices.data() : run.positions.data();
     std::array<Triangle, batch> triangles;
-    std::array<std::array<Vec3, 3>, batch> corners;
     std::uint32_t count = 0;
     const std::uint32_t end = begin(r + 1);
     for (std::uint32_t slot = begin(r); slot < end; slot += batch) {
-      const std::uint32_t size = std::min(batch, end - slot);
+      const std::uint32_t size = std::min(batch, end - slot), known = count;
       for (std::uint32_t i = 0; i < size; ++i) triangles[i] = mesh_.triangle(data_.triangle_of_slot[slot + i]);
       for (std::uint32_t i = 0; i < size; ++i)
-        for (std::size_t k = 0; k < 3; ++k) corners[i][k] = position(triangles[i][k]);
-      for (std::uint32_t i = 0; i < size; ++i) {
-        const Triangle& t = triangles[i];
-        for (const std::uint32_t v : t) count = number_vertex(run, v, count);
-        const std::uint32_t first = longest_edge(corners[i][0], corners[i][1], corners[i][2]);
-        data_.corners[slot + i] = {run.local[t[first]], run.local[t[(first + 1) % 3]], run.local[t[(first + 2) % 3]]};
-      }
+        for (const std::uint32_t v : triangles[i]) __builtin_prefetch(&run.local[v]);
+      for (std::uint32_t i = 0; i < size; ++i)
+        for (const std::uint32_t v : triangles[i]) count = number_vertex(run, v, count);
+      place(run, positions, known, count);
+      for (std::uint32_t i = 0; i < size; ++i)
+        data_.corners[slot + i] = longest_edge_first(run, positions, triangles[i]);
     }
     run.used.resize(count);
   }
@@ -108,6 +108,25 @@ class Renumbering {
     run.used[count] = v;
     if (runs_ > 1) run.seen[v / 64] |= std::uint64_t{1} << v % 64;
     return count + 1;
+  }
+
+  /// Fetches the positions of the vertices with the local numbers from `from` to below `to`.
+  void place(Run& run, Vec3* positions, std::uint32_t from, std::uint32_t to) const {
+    double rounding = run.rounding;
+    for (std::uint32_t i = from; i < to; ++i) {
+      const Eigen::Vector3d p = mesh_.vertex(run.used[i]);
+      positions[i] = to_working_({p.x(), p.y(), p.z()});
+      rounding = std::max(rounding, data_.frame.rounding_of({p.x(), p.y(), p.z()}));
+    }
+    run.rounding = rounding;
+  }
+
+  /// The corners of a triangle by local numbers, without a branch, which would be guessed wrong two times in three.
+  [[nodiscard]] static Triangle longest_edge_first(const Run& run, const Vec3* positions, const Triangle& t) {
+    const std::array<std::uint32_t, 5> turned{run.local[t[0]], run.local[t[1]], run.local[t[2]], run.local[t[0]],
+                                              run.local[t[1]]};
+    const std::uint32_t first = longest_edge(positions[turned[0]], positions[turned[1]], positions[turned[2]]);
+    return {turned[first], turned[first + 1], turned[first + 2]};
   }
 
   /// The first run that uses a vertex, of those up to `r`, which does.
@@ -134,22 +153,22 @@ class Renumbering {
 
   void store_vertices(std::uint32_t r, const std::vector<std::uint32_t>& first_vertex) {
     Run& run = run_[r];
-    double rounding = 0;
+    if (r == 0) {
+      std::copy(run.used.begin(), run.used.end(), data_.source_vertex.begin());
+      return;
+    }
     for (std::uint32_t i = 0; i < run.used.size(); ++i) {
       const std::uint32_t v = run.used[i];
-      if (r > 0 && run.rank[i] == of_earlier_run) {
+      if (run.rank[i] == of_earlier_run) {
         const std::uint32_t earlier = owner(v, r);
         run.used[i] = first_vertex[earlier] + rank_in(earlier, v);
         continue;
       }
-      const std::uint32_t number = first_vertex[r] + (r == 0 ? i : run.rank[i]);
-      data_.vertices[number] = position(v);
+      const std::uint32_t number = first_vertex[r] + run.rank[i];
+      data_.vertices[number] = run.positions[i];
       data_.source_vertex[number] = v;
-      const Eigen::Vector3d p = mesh_.vertex(v);
-      rounding = std::max(rounding, data_.frame.rounding_of({p.x(), p.y(), p.z()}));
       run.used[i] = number;
     }
-    run.rounding = rounding;
   }
 
   void renumber_corners(std::uint32_t r) {
@@ -166,12 +185,6 @@ class Renumbering {
 };
 
 }  // namespace
-
-std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double ab = squared_length(b - a), bc = squared_length(c - b), ca = squared_length(a - c);
-  if (ab >= bc && ab >= ca) return 0;
-  return bc >= ca ? 1 : 2;
-}
 
 std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs) {
   const std::vector<std::uint32_t> first_vertex = Renumbering(data, mesh, scratch, runs).run();
