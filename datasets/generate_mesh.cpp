@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   app.add_option("KIND", kind, "one of " + names)->required();
   app.add_option("--size", faces, "about how many triangles, never more")->capture_default_str();
   app.add_option("-o,--output", path, "OFF, OBJ, PLY or STL file to write")->required();
+  app.footer("Exit codes: 0 written, 2 bad usage or a file that cannot be written.");
   return meshbound::tools::tool_main(app, argc, argv, [&] {
     const meshbound::TriangleMesh mesh = datasets::mesh_of_size(kind, faces);
     meshbound::write_mesh(path, mesh);

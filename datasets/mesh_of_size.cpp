@@ -50,7 +50,9 @@ TriangleMesh mesh_of_size(std::string_view kind, std::size_t faces) {
   if (kind == "spiked-plane") return spiked_plane(1, 0.05, half, 8);
   if (kind == "gear") return gear_of_size(faces);
   if (kind == "terrain") return terrain(1, half, 2009);
-  throw InvalidInput("unknown kind of mesh '" + std::string(kind) + "'");
+  std::string known;
+  for (const std::string_view name : kinds()) known += (known.empty() ? "" : ", ") + std::string(name);
+  throw InvalidInput("unknown kind of mesh '" + std::string(kind) + "'; known are " + known);
 }
 
 }  // namespace meshbound::datasets

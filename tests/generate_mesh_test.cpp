@@ -9,6 +9,7 @@
 #include <string>
 
 #include "datasets/analytic_meshes.h"
+#include "meshbound/error.h"
 #include "meshbound/io.h"
 
 namespace {
@@ -44,6 +45,13 @@ TEST_F(GenerateMesh, RefusesWhatItCannotMakeAndWritesNothing) {
   EXPECT_EQ(run("cube --size 3 -o " + (folder_ / "b.ply").string()), 2);
   EXPECT_EQ(run("cube -o " + (folder_ / "c.xyz").string()), 2);
   EXPECT_EQ(run("cube"), 2);
+  try {
+    (void)meshbound::datasets::mesh_of_size("sphere", 5000);
+    FAIL() << "made a mesh of an unknown kind";
+  } catch (const meshbound::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("known are "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("icosphere"), std::string::npos) << error.what();
+  }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

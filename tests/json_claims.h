@@ -41,7 +41,9 @@ inline void expect_schema(const Json& schema, const Json& part, const Json& valu
   }
 }
 
-inline Eigen::Vector3d point_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()}; }
+inline Eigen::Vector3d point_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 /// What the coordinates of a witness may be off: they are rounded, and found by arithmetic on centred coordinates that
 /// loses a few units in the last place.
