@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <bit>
 #include <csignal>
 #include <limits>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/readers.h"
 #include "mesh_files.h"
 
 namespace meshbound::test {
@@ -210,6 +212,18 @@ TEST(Cancelling, EndsReadingAndWritingAndLeavesTheOldFile) {
     EXPECT_EQ(content_of(folder / name), before) << name;
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 4) << "a temporary file was left";
+}
+
+/// Parsing looks at the flag too: the bytes are here, so it is not the file that ends it.
+TEST(Cancelling, EndsTheParsing) {
+  const TemporaryFolder folder;
+  const std::atomic<bool> cancel = true;
+  for (const char* name : {"m.off", "m.obj", "m.ply", "m.stl"}) {
+    write_mesh(folder / name, triangle);
+    const std::string bytes = content_of(folder / name);
+    EXPECT_EQ(parse_mesh(name, bytes).mesh.triangles.size(), 1u) << name;
+    EXPECT_THROW(parse_mesh(name, bytes, {&cancel}), Interrupted) << name;
+  }
 }
 
 TEST(Writing, ReportsAFullDevice) {

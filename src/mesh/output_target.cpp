@@ -81,7 +81,8 @@ OutputTarget output_target(const std::filesystem::path& path) {
   target.is_stream =
       target.descriptor >= 0 || S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode) || S_ISFIFO(status.st_mode);
   if (!target.is_stream && !S_ISREG(status.st_mode)) refuse(path, "it is neither a file nor a device");
-  if (target.descriptor < 0 && !grants_writing(target.path, status)) refuse(path, "it is write-protected");
+  if (target.descriptor < 0 && !grants_writing(target.path, status))
+    refuse(path, "it is write-protected; change its mode or name another file");
   if (target.is_stream) return target;
   target.replaced = {status.st_mode & 07777, status.st_uid, status.st_gid};
   require_folder(path, folder_of(target.path));

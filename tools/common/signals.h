@@ -10,7 +10,7 @@ namespace meshbound::tools {
 /// is doing, its unfinished files are removed, one line that begins with `tool` goes to stderr, and the process exits
 /// with `ExitBadInput`. Further signals change nothing.
 void watch_interrupts(const std::string& tool);
-inline constexpr double grace = 0.3;
+inline constexpr double grace = 0.25;
 
 /// Set by the first signal after `watch_interrupts`.
 [[nodiscard]] const std::atomic<bool>& interrupted();
