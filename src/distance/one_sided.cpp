@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "distance/one_sided.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "distance/one_sided_search.h"
@@ -40,6 +41,9 @@ Mapping mapping_of(const OneSidedTask& task) {
   return mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
 }
 
+/// How many times further a few vertices of B must be for its direction to come first: below it they tell too little.
+constexpr double clearly_further = 2;
+
 bool fits_frame(const Mapping& map) { return map.magnitude <= largest_magnitude; }
 
 }  // namespace
@@ -66,11 +70,13 @@ std::pair<OneSidedDistance, OneSidedDistance> search_both(const OneSidedTask& fo
   with_team(there.threads(), [&] {
     there.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
     here.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
-    if (here.proven_lower() > there.proven_lower()) {
+    const double seen_there = there.proven_lower(), seen_here = here.proven_lower();
+    if (seen_here > clearly_further * seen_there) {
       results.second = finish(here);
       there.raise_known_lower(results.second.bounds.lower);
       results.first = finish(there);
     } else {
+      there.raise_known_lower(seen_here);
       results.first = finish(there);
       here.raise_known_lower(results.first.bounds.lower);
       results.second = finish(here);

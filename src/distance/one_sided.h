@@ -33,9 +33,9 @@ struct OneSidedTask {
 
 OneSidedDistance search_one_sided(const OneSidedTask& task);
 
-/// Both directions, of which `back` is the reverse of `forward`: first the one where a few vertices show the larger
-/// distance, because its lower bound is known to the other (paper, section 6). Results as `search_one_sided` gives
-/// them.
+/// Both directions, of which `back` is the reverse of `forward`, the reverse first where a few vertices show that it is
+/// clearly further: the lower bound of the first is known to the other (paper, section 6). Results as
+/// `search_one_sided` gives them.
 std::pair<OneSidedDistance, OneSidedDistance> search_both(const OneSidedTask& forward, const OneSidedTask& back);
 
 }  // namespace meshbound

@@ -23,6 +23,7 @@ constexpr std::uint32_t swept_per_chunk = 512;      ///< each begins with a quer
 constexpr std::uint32_t walks_per_chunk = 8;        ///< walks differ much in cost
 constexpr std::ptrdiff_t worst_first = 256;  ///< walks in the order of their bounds; a few of them set the lower bound
 constexpr std::uint32_t probes = 64;
+constexpr std::uint32_t probed_centroids = 16;
 constexpr std::uint32_t probes_per_chunk = 16;  ///< as vertices
 constexpr std::chrono::milliseconds between_progress{100};
 
@@ -174,10 +175,9 @@ bool OneSidedSearch::sample_is_identical() {
   Searcher& searcher = *searchers_.front();
   std::uint32_t hint = 0;
   for (std::uint32_t i = 0; i < samples; ++i) {
-    const Triangle& t = a_.corners[std::uint64_t{i} * n / samples];
-    const Vec3 centroid = (1.0 / 3) * (vertex(t[0]) + vertex(t[1]) + vertex(t[2]));
-    hint = searcher.nearest(centroid, hint, 0).slot;
-    if (same_triangle(a_, t, b_, b_.corners[hint])) return true;
+    const auto slot = static_cast<std::uint32_t>(std::uint64_t{i} * n / samples);
+    hint = searcher.nearest(centroid(slot), hint, 0).slot;
+    if (same_triangle(a_, a_.corners[slot], b_, b_.corners[hint])) return true;
   }
   return false;
 }
@@ -207,6 +207,23 @@ void OneSidedSearch::probe() {
     if (nearest[i].squared > nearest[farthest].squared) farthest = i;
   }
   offer_vertex(probed(farthest), nearest[farthest]);
+  probe_centroids();
+}
+
+/// The vertices of a mesh that was simplified lie on the original, its triangles do not.
+void OneSidedSearch::probe_centroids() {
+  const std::uint32_t n = a_.triangle_count(), count = std::min(probed_centroids, n);
+  Searcher& searcher = *searchers_.front();
+  searcher.begin(lower_);
+  std::uint32_t hint = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto slot = static_cast<std::uint32_t>(std::uint64_t{i} * n / count);
+    const Vec3 p = centroid(slot);
+    const Nearest nearest = searcher.nearest(p, hint, 0);
+    hint = nearest.slot;
+    searcher.offer(p, nearest, slot);
+  }
+  if (searcher.lower().lower > lower_.lower) lower_ = own_lower_ = searcher.lower();
 }
 
 void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {

@@ -71,6 +71,11 @@ class OneSidedSearch {
   };
 
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
+  /// Of a triangle of A. Rounded by less than 7 u M, for which the slack of a lower bound has room (`probe_start`).
+  [[nodiscard]] Vec3 centroid(std::uint32_t slot) const {
+    const Triangle& t = a_.corners[slot];
+    return (1.0 / 3) * (vertex(t[0]) + vertex(t[1]) + vertex(t[2]));
+  }
   [[nodiscard]] bool decided() const { return goal_.decide_only && own_lower_.lower > goal_.tolerance; }
   /// That of the thread which asks.
   [[nodiscard]] Searcher& own_searcher() const;
@@ -81,6 +86,7 @@ class OneSidedSearch {
                   Work&& work);
   void merge(const Found& found);
   void offer_vertex(std::uint32_t v, const Nearest& nearest);
+  void probe_centroids();
   bool sample_is_identical();
   void sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
   void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);

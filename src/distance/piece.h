@@ -113,7 +113,7 @@ inline double largest_squared_distance(const Piece& piece, const CornerTriangle<
 
 /// A bound of the squared distances of all corners at half the cost of `farthest_corner`: the first of the points that
 /// `closest_on_triangle` tries lies on the triangle, whether it is the closest or not.
-inline double quick_bound(const Piece& piece, const CornerTriangle<double>& triangle) {
+[[gnu::always_inline]] inline double quick_bound(const Piece& piece, const CornerTriangle<double>& triangle) {
   const CornerTriangle<Double4> t = broadcast4(triangle);
   Double4 most{};
   for (std::uint32_t first = 0; first < piece.count; first += 4)
