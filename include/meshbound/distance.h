@@ -70,9 +70,9 @@ struct DistanceStats {
   std::uint64_t subdivisions = 0;      ///< cuts of a piece into two (cell walking) or four (cross-culling)
   std::uint32_t deepest_subdivision = 0;
   std::uint64_t pieces = 0;        ///< bounded on the walk, whole triangles included
-  std::uint64_t resolved = 0;      ///< pieces split between two closest triangles that are not neighbours
+  std::uint64_t resolved = 0;      ///< pieces inside a cell but nearer to another triangle at a corner
   std::uint64_t enclosed = 0;      ///< pieces that a translation takes through a closed B (paper, Lemma 4)
-  std::uint64_t given_up = 0;      ///< pieces left as they stood: too deep, or the budget ran out
+  std::uint64_t given_up = 0;      ///< pieces left as they stood: beyond the precision of doubles, or of the budget
   double culled_on_a_percent = 0;  ///< triangles of A never subdivided
   double culled_on_b_percent = 0;  ///< mean share of B's triangles that a query did not touch
   double seconds = 0;
@@ -86,6 +86,9 @@ struct OneSidedDistance {
   DistanceStats stats;
 };
 
+/// The direction that is searched second, from B unless a few points show that it is clearly further, is refined only
+/// as far as the lower bound of the first leaves the maximum open (paper, section 6): converged means of it that its
+/// upper bound is within the error bound of the larger of both lower bounds.
 struct SymmetricDistance {
   Bounds bounds;  ///< the maximum of both directions
   OneSidedDistance a_to_b;

@@ -7,7 +7,9 @@
 ///       if every corner is within the target of its candidate t: done
 ///       cut it by the cell of t, pushed outward by a slack; what is outside goes to the neighbour, without a query
 ///       every few steps query near the worst corner: raises the lower bound, finds a better candidate
-///       inside the cell and still too far: split by the bisector of two closest points
+///       inside the cell and still too far: split it by a chord, where another triangle begins to serve it better;
+///                                          where three are equally near, by a line through that point
+///     what so many cuts have not bounded is left to the method of the paper (subdivision.h)
 ///
 /// Sound for any soup: adjacency, cells and candidates choose the parts, the bound needs only that the parts cover the
 /// piece (`cut`) and the convexity. Paper, section 5.2, generalised.
@@ -45,7 +47,7 @@ class CellWalker : public ProvenBounds {
  public:
   using ProvenBounds::ProvenBounds;
 
-  /// Covers one triangle of A, starting at triangle `slot` of B, but for the pieces that it leaves `unfinished`.
+  /// Covers one triangle of A, starting at triangle `slot` of B, except for the pieces that it leaves `unfinished`.
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
              std::uint64_t max_cuts) {
     set_from(from_slot);
@@ -307,7 +309,7 @@ class CellWalker : public ProvenBounds {
   }
 
   /// Asks for a triangle near a point of the piece, the first one within the target, and lowers `bound` by it: where
-  /// many are equally near, to look for the nearest means to look at all. True when the piece has been bounded
+  /// many are equally near, looking for the nearest means looking at all of them. True when the piece has been bounded
   /// by that triangle, or split between it and the candidate.
   bool split_by_query(const Piece& piece, const Vec3& p, double& bound) {
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), p).squared_distance, piece.slot};

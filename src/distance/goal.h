@@ -55,7 +55,7 @@ struct WalkCounters {
   QueryCounters queries;
   std::uint64_t pieces = 0;
   std::uint64_t cuts = 0;
-  std::uint64_t resolved = 0;  ///< pieces inside a cell but nearer to another triangle, split by a bisector plane
+  std::uint64_t resolved = 0;  ///< pieces inside a cell but nearer to another triangle at a corner
   std::uint64_t enclosed = 0;  ///< parts ended by the rule for closed models
   std::uint64_t given_up = 0;  ///< pieces too deep or beyond the budget, bounded as they stood
   std::uint32_t deepest = 0;   ///< cuts behind any piece: their rounding enters the upper bound
