@@ -259,6 +259,19 @@ TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Bvh, ItsErrorIsTheLargestRoundingOfItsVertices) {
+  TriangleMesh mesh = scaled(icosphere(5), 1000);
+  mesh.vertices[700].x() = 3e-308;  // denormal in the working frame
+  for (const int threads : {1, 3}) {
+    const Bvh bvh(mesh, {.threads = threads});
+    const Bvh::Data& data = bvh.data();
+    double largest = 0;
+    for (const Vector3d& v : mesh.vertices) largest = std::max(largest, data.frame.rounding_of({v.x(), v.y(), v.z()}));
+    EXPECT_GT(largest, 0);
+    EXPECT_EQ(data.frame.error, largest);
+  }
+}
+
 TEST(Bvh, TwoBuiltAtOnceAreThoseBuiltOneByOne) {
   const TriangleMesh large = scrambled(icosphere(6)), like = fan(70000), small = icosphere(5), tiny = unit_square(1);
   const std::pair<const TriangleMesh*, const TriangleMesh*> pairs[] = {

@@ -50,7 +50,8 @@ constexpr std::size_t vertices_per_task = triangles_per_task / 2;
 /// An edge of a triangle, seen from the smaller of its vertices.
 struct HalfEdge {
   std::uint32_t far;
-  std::uint32_t id;  ///< 4 slot + edge
+  std::uint32_t id;     ///< 4 slot + edge
+  std::uint8_t upward;  ///< 1: runs from the smaller vertex to the larger one
 };
 
 /// One on a seam: its smaller vertex belongs to an earlier run.
@@ -85,12 +86,14 @@ class HalfEdgeMatching {
         bucket_end_(array_in<std::uint32_t>(scratch)),
         far_(array_in<std::uint32_t>(scratch)),
         id_(array_in<std::uint32_t>(scratch)),
+        upward_(array_in<std::uint8_t>(scratch)),
         seams_(runs_),
         size_(runs_, 0) {
     bucket_end_.resize(data.vertices.size());
     far_.resize(3 * data.corners.size() + compared_at_once);
     std::fill_n(far_.end() - compared_at_once, compared_at_once, 0);
     id_.resize(3 * data.corners.size());
+    upward_.resize(3 * data.corners.size());
   }
 
   void run() {
@@ -118,7 +121,7 @@ class HalfEdgeMatching {
         if (!Ends::takes(u, v)) continue;
         // Without a branch, which would be guessed wrong half the time.
         const std::uint32_t both = u ^ v, mask = 0U - static_cast<std::uint32_t>(u < v);
-        use(v ^ (both & mask), HalfEdge{u ^ (both & mask), 4 * slot + k});
+        use(v ^ (both & mask), HalfEdge{u ^ (both & mask), 4 * slot + k, static_cast<std::uint8_t>(mask & 1U)});
       }
     }
   }
@@ -164,11 +167,13 @@ class HalfEdgeMatching {
   /// By ascending ids, so that each bucket is in their order: later runs have larger ones.
   void fill(std::uint32_t run) {
     std::uint32_t *const far = far_.data() + edges_before(run), *const id = id_.data() + edges_before(run);
+    std::uint8_t* const upward = upward_.data() + edges_before(run);
     std::uint32_t* const at = bucket_end_.data();
     const auto add = [=](std::uint32_t near, const HalfEdge& edge) {
       const std::uint32_t to = at[near]++;
       far[to] = edge.far;
       id[to] = edge.id;
+      upward[to] = edge.upward;
     };
     const std::uint32_t first = first_vertex_[run];
     for_each_half_edge(run, [=](std::uint32_t near, const HalfEdge& edge) {
@@ -189,17 +194,15 @@ class HalfEdgeMatching {
         if (size > max_compared)
           match_by_sorting(from, size);
         else
-          match_by_comparing(from, size, static_cast<std::uint32_t>(v));
+          match_by_comparing(from, size);
       }
     });
   }
 
   /// Each with all others, without branches that depend on where its like is.
-  void match_by_comparing(std::size_t from, std::uint32_t count, std::uint32_t near) {
+  void match_by_comparing(std::size_t from, std::uint32_t count) {
     const std::uint32_t *const far = far_.data() + from, *const id = id_.data() + from;
-    std::uint64_t upward = 0;
-    for (std::uint32_t i = 0; i < count; ++i)
-      upward |= std::uint64_t{ends_(data_.corners[id[i] / 4][id[i] % 4]) == near} << i;
+    const std::uint8_t* const upward = upward_.data() + from;
     const std::uint64_t all = ~std::uint64_t{0} >> (max_compared - count) % max_compared;
     for (std::uint32_t i = 0; i < count; ++i) {
       std::uint64_t like = 0;
@@ -208,7 +211,7 @@ class HalfEdgeMatching {
       like &= all & ~(std::uint64_t{1} << i);
       const std::uint64_t later = like >> i << i;
       const int other = std::countr_zero(later != 0 ? later : like) % static_cast<int>(max_compared);
-      const bool same_way = ((upward >> i ^ upward >> other) & 1U) == 0;
+      const bool same_way = upward[i] == upward[other];
       Neighbour& across = data_.neighbours[id[i] / 4][id[i] % 4];
       across = {like != 0 ? id[other] / 4 & no_slot : no_slot, like != 0 && same_way ? 1U : 0U};
     }
@@ -216,27 +219,22 @@ class HalfEdgeMatching {
 
   void match_by_sorting(std::size_t from, std::uint32_t count) {
     std::vector<HalfEdge> edges(count);
-    for (std::uint32_t i = 0; i < count; ++i) edges[i] = {far_[from + i], id_[from + i]};
+    for (std::uint32_t i = 0; i < count; ++i) edges[i] = {far_[from + i], id_[from + i], upward_[from + i]};
     std::sort(edges.begin(), edges.end(),
               [](const HalfEdge& a, const HalfEdge& b) { return a.far != b.far ? a.far < b.far : a.id < b.id; });
     for (auto i = edges.begin(); i != edges.end();) {
       auto last = i;
-      for (auto next = i + 1; next != edges.end() && next->far == i->far; last = next++) link(last->id, next->id);
+      for (auto next = i + 1; next != edges.end() && next->far == i->far; last = next++) link(*last, *next);
       if (last == i)
         data_.neighbours[i->id / 4][i->id % 4] = {};
       else
-        link(last->id, i->id);
+        link(*last, *i);
       i = last + 1;
     }
   }
 
-  void link(std::uint32_t from, std::uint32_t to) {
-    data_.neighbours[from / 4][from % 4] = {to / 4 & no_slot, runs_upward(from) == runs_upward(to) ? 1U : 0U};
-  }
-
-  [[nodiscard]] bool runs_upward(std::uint32_t id) const {
-    const Triangle& t = data_.corners[id / 4];
-    return ends_(t[id % 4]) < ends_(t[(id % 4 + 1) % 3]);
+  void link(const HalfEdge& from, const HalfEdge& to) {
+    data_.neighbours[from.id / 4][from.id % 4] = {to.id / 4 & no_slot, from.upward == to.upward ? 1U : 0U};
   }
 
   Bvh::Data& data_;
@@ -246,6 +244,7 @@ class HalfEdgeMatching {
   Array<std::uint32_t> bucket_end_;           ///< by vertex, from the first half-edge of its run
   Array<std::uint32_t> far_;                  ///< by vertex: of its half-edges, `HalfEdge::far`
   Array<std::uint32_t> id_;                   ///< likewise
+  Array<std::uint8_t> upward_;                ///< likewise
   std::vector<std::vector<SeamEdge>> seams_;  ///< by run, in the order of their ids
   std::vector<std::uint32_t> size_;           ///< half-edges by run
 };

@@ -128,7 +128,7 @@ std::size_t tree_bytes(const MeshView& mesh) {
 
 /// The step that takes most: `build_adjacency`, with three half-edges of a triangle.
 std::size_t scratch_bytes(const MeshView& mesh) {
-  constexpr std::size_t half_edges = 3 * 2 * sizeof(std::uint32_t), rounding = 4096;
+  constexpr std::size_t half_edges = 3 * (2 * sizeof(std::uint32_t) + 1), rounding = 4096;
   return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * most_used_vertices(mesh) + rounding;
 }
 

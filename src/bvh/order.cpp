@@ -110,6 +110,18 @@ void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end,
   if (passes % 2 == 0) items.swap(scratch);
 }
 
+/// Triangles whose corners are fetched before any of them is worked on: the processor then waits for many at a time.
+constexpr std::size_t batch = 64;
+
+Vec3 corner_sum(const MeshView& mesh, std::size_t triangle) {
+  Vec3 sum;
+  for (const std::uint32_t v : mesh.triangle(triangle)) {
+    const Eigen::Vector3d p = mesh.vertex(v);
+    sum = sum + Vec3{p.x(), p.y(), p.z()};
+  }
+  return sum;
+}
+
 }  // namespace
 
 void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs) {
@@ -123,13 +135,17 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::s
   Array<Keyed> items = array_in<Keyed>(scratch), other = array_in<Keyed>(scratch);
   items.resize(n);
   other.resize(n);
-  const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells)); };
+  const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::min(std::max(x * scale, 0.0), cells)); };
   for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const std::uint32_t v : mesh.triangle(i)) sum += mesh.vertex(v);
-      const Vec3 centroid = to_working((1.0 / 3) * Vec3{sum.x(), sum.y(), sum.z()}) - box.lo;
-      items[i] = hilbert_index(cell(centroid.x), cell(centroid.y), cell(centroid.z), bits) << index_bits | i;
+    std::array<Vec3, batch> sums;
+    for (std::size_t first = begin; first < end; first += batch) {
+      const std::size_t taken = std::min(batch, end - first);
+      for (std::size_t i = 0; i < taken; ++i) sums[i] = corner_sum(mesh, first + i);
+      for (std::size_t i = 0; i < taken; ++i) {
+        const Vec3 centroid = to_working((1.0 / 3) * sums[i]) - box.lo;
+        const std::uint64_t place = hilbert_index(cell(centroid.x), cell(centroid.y), cell(centroid.z), bits);
+        items[first + i] = place << index_bits | (first + i);
+      }
     }
   });
   sort_by_key(items, other, index_bits, index_bits + 3 * bits, runs);

@@ -112,11 +112,14 @@ class Renumbering {
 
   /// Fetches the positions of the vertices with the local numbers from `from` to below `to`.
   void place(Run& run, Vec3* positions, std::uint32_t from, std::uint32_t to) const {
-    double rounding = run.rounding;
     for (std::uint32_t i = from; i < to; ++i) {
       const Eigen::Vector3d p = mesh_.vertex(run.used[i]);
-      positions[i] = to_working_({p.x(), p.y(), p.z()});
-      rounding = std::max(rounding, data_.frame.rounding_of({p.x(), p.y(), p.z()}));
+      positions[i] = {p.x(), p.y(), p.z()};
+    }
+    double rounding = run.rounding;
+    for (std::uint32_t i = from; i < to; ++i) {
+      rounding = std::max(rounding, data_.frame.rounding_of(positions[i]));
+      positions[i] = to_working_(positions[i]);
     }
     run.rounding = rounding;
   }
