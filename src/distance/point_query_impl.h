@@ -5,8 +5,9 @@
 ///     level by level: keep the children whose boxes are within the limit     no order, no branch: the limit is near
 ///     its test the nearest block, then the others within the new limit           final value already
 ///
-/// Where a level would hold too many nodes (far queries, bad hints), the walk of bvh/nearest.h takes its place, whose
-/// limit falls with each block.
+/// Where a level would hold too many nodes, the hint was a bad one: it begins again at the block that the nearest boxes
+/// lead to. Where that does not do either (far queries), the walk of bvh/nearest.h takes its place, whose limit falls
+/// with each block.
 ///
 /// The answer does not depend on the hint or the order. Limits are above the least computed distance d by `primal`, so
 /// a triangle whose computed distance is at most d, and whose box therefore is within d + `primal_error`, is met in any
@@ -82,7 +83,11 @@ class PointSearch {
     first_block_ = hint == no_slot ? block_by_boxes() : hint / block_width;
     test_block(first_block_);
     update_limit();
-    if (!walk_by_levels()) walk_near();
+    if (!walk_by_levels()) {
+      test_block(block_by_boxes());
+      update_limit();
+      if (!walk_by_levels()) walk_near();
+    }
     PointDistance found;
     const int lane = best_lane();
     found.nearest = {best_.squared_distance[lane], static_cast<std::uint32_t>(slots_[lane])};
