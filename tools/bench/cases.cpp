@@ -180,7 +180,7 @@ void add_tie_cases(const std::filesystem::path& cache, std::vector<Case>& cases)
   }
   const std::pair<double, const char*> bounds[] = {{1e-6, "0.04 s"}, {1e-8, "2.2 s"}, {1e-9, "23 s"}};
   for (const auto& [bound, old_figure] : bounds)
-    cases.push_back({"thingi_65004 pair, one-sided, " + format(bound), old_figure, 0.01, Unit::Seconds,
+    cases.push_back({"thingi_65004 pair one-sided to " + format(bound), old_figure, 0.01, Unit::Seconds,
                      [pair, bound = bound] { return distance_seconds(pair->a, pair->b, bound, Sides::One); }});
 }
 
@@ -189,8 +189,8 @@ void add_simplify_cases(std::vector<Case>& cases) {
     cases.push_back({std::string("simplify ") + name + " at 0.1%", old_figure, reach, Unit::Seconds,
                      [mesh] { return simplify_seconds(mesh()); }});
   };
-  add("a flat square of 72, unwelded", "18 s", 0.02, [] { return unwelded(flat_square(6)); });
-  add("a cube of 432, unwelded", "> 60 s", 0.02, [] { return unwelded(datasets::cube(1, 6)); });
+  add("an unwelded flat square of 72", "18 s", 0.02, [] { return unwelded(flat_square(6)); });
+  add("an unwelded cube of 432", "> 60 s", 0.02, [] { return unwelded(datasets::cube(1, 6)); });
   add("a fan of 10000", "> 45 s", 0.3, [] { return fan(10'000); });
   add("a cylinder with two caps of 360", "3 to 9 s", 0.05, [] { return capped_cylinder(360); });
   add("a star of 10000", "13 s", 0.3, [] { return star(10'000); });
@@ -205,7 +205,7 @@ void add_distance_cases(std::vector<Case>& cases) {
                        return distance_seconds(pair.a, pair.b, share * bounding_box_diagonal(pair.a));
                      }});
   };
-  add("seam pair, 1e-9", "20 min", 0.01, 1e-9, seam_pair);
+  add("seam pair to 1e-9", "20 min", 0.01, 1e-9, seam_pair);
   const auto one_triangle = [] {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -218,28 +218,28 @@ void add_distance_cases(std::vector<Case>& cases) {
   add("one triangle / 10000 large triangles", "21 s", 0.05, 1e-6, [=] {
     return MeshPair{one_triangle(), large_random_triangles(10'000)};
   });
-  add("cylinder of 10000 / its axis, 1e-9", "14.5 s", 1, 1e-9, [] {
+  add("cylinder of 10000 / its axis to 1e-9", "14.5 s", 1, 1e-9, [] {
     return MeshPair{open_cylinder(10'000), chain_on_axis(10'000)};
   });
-  add("overlapping coplanar layers of 10000, 1e-6", "15.7 s", 1, 1e-6, [] {
+  add("overlapping coplanar layers of 10000 to 1e-6", "15.7 s", 1, 1e-6, [] {
     return MeshPair{overlapping_layer(10'000, 0, 0), overlapping_layer(10'000, 0.01, 0.1)};
   });
-  add("cylinder of 20000 / 1000 stacked needles, 1e-6", "> 12 s", 0.5, 1e-6, [] {
+  add("cylinder of 20000 / 1000 stacked needles to 1e-6", "> 12 s", 0.5, 1e-6, [] {
     return MeshPair{open_cylinder(20'000), needle_stack(1000)};
   });
 }
 
 void add_small_cases(const std::filesystem::path& cache, std::vector<Case>& cases) {
-  cases.push_back({"closest_point near a mesh of 86k, Morton order", "0.27 M/s", 1.5, Unit::MillionsASecond,
+  cases.push_back({"closest_point near a mesh of 86k in Morton order", "0.27 M/s", 1.5, Unit::MillionsASecond,
                    [] { return closest_points_a_second(mesh_of_86k(), Queries::OneByOne); }});
-  cases.push_back({"closest_points near a mesh of 86k, Morton order", "1.1 M/s", 2.5, Unit::MillionsASecond,
+  cases.push_back({"closest_points near a mesh of 86k in Morton order", "1.1 M/s", 2.5, Unit::MillionsASecond,
                    [] { return closest_points_a_second(mesh_of_86k(), Queries::Batched); }});
   cases.push_back({"build of 70k triangles", "216 ns", 80, Unit::NanosecondsATriangle,
                    [] { return build_nanoseconds(datasets::mesh_of_size("torus", 70'000)); }});
   cases.push_back({"build of 2M triangles", "160 to 240 ns", 80, Unit::NanosecondsATriangle,
                    [] { return build_nanoseconds(datasets::mesh_of_size("torus", 2'000'000)); }});
-  cases.push_back(
-      {"whole process, two cubes", "3.1 ms", 1.5, Unit::Milliseconds, [cache] { return process_milliseconds(cache); }});
+  cases.push_back({"whole process on two cubes", "3.1 ms", 1.5, Unit::Milliseconds,
+                   [cache] { return process_milliseconds(cache); }});
 }
 
 struct Measured {

@@ -87,8 +87,8 @@ class Protocol {
     const TriangleMesh mesh = make(pair.a, options_.cache);
     if (options_.quick && mesh.triangles.size() > max_quick_triangles) return;
     const TriangleMesh reduced = make(pair.b, options_.cache);
-    direction(pair.name + ", to it", format(pair.b.ratio), mesh, reduced);
-    direction(pair.name + ", from it", format(pair.b.ratio), reduced, mesh);
+    direction(pair.name + " (to it)", format(pair.b.ratio), mesh, reduced);
+    direction(pair.name + " (from it)", format(pair.b.ratio), reduced, mesh);
   }
 
   [[nodiscard]] std::string summary() const {
