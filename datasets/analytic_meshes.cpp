@@ -232,6 +232,27 @@ TriangleMesh spiked_plane(double side, double height, std::size_t cells, std::si
   });
 }
 
+TriangleMesh cylinder(double radius, double height, std::size_t segments) {
+  require(is_length(radius) && is_length(height), "cylinder needs a positive radius and height");
+  require(segments >= 3, "cylinder needs 3 segments or more");
+  TriangleMesh mesh;
+  for (const double z : {0.0, height}) {
+    for (std::size_t j = 0; j < segments; ++j) {
+      const double angle = full_turn * static_cast<double>(j) / static_cast<double>(segments);
+      add_vertex(mesh, {radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+  }
+  const Grid grid{0, 2, segments};
+  add_grid_faces(mesh, grid, 1, segments);
+  const std::uint32_t bottom = add_vertex(mesh, {0, 0, 0});
+  const std::uint32_t top = add_vertex(mesh, {0, 0, height});
+  for (std::size_t j = 0; j < segments; ++j) {
+    mesh.triangles.push_back({bottom, grid.at(0, j + 1), grid.at(0, j)});
+    mesh.triangles.push_back({top, grid.at(1, j), grid.at(1, j + 1)});
+  }
+  return mesh;
+}
+
 TriangleMesh gear(double radius, double width, std::size_t teeth, std::size_t points_per_tooth, std::size_t layers) {
   require(is_length(radius) && is_length(width), "gear needs a positive radius and width");
   require(teeth >= 3 && points_per_tooth >= 4 && layers >= 1,

@@ -41,6 +41,10 @@ namespace meshbound::datasets {
 /// directions is raised to `height`. 2 * cells^2 faces, open. Its one-sided distance to the flat square is `height`.
 [[nodiscard]] TriangleMesh spiked_plane(double side, double height, std::size_t cells, std::size_t spacing);
 
+/// About the z axis, from z = 0 to `height`: a wall one cell high between two caps, each a fan of `segments` triangles
+/// around one vertex, as CAD programs write them. 4 * segments faces. Closed. `segments` at least 3.
+[[nodiscard]] TriangleMesh cylinder(double radius, double height, std::size_t segments);
+
 /// An involute-like spur gear about the z axis, from z = 0 to `width`: outer radius `radius`, tooth depth radius / 8.
 /// 2 * m * (layers + 1) faces with m = teeth * points_per_tooth. Closed. At least 3 teeth, 4 points and 1 layer.
 [[nodiscard]] TriangleMesh gear(double radius, double width, std::size_t teeth, std::size_t points_per_tooth,

@@ -10,8 +10,8 @@
 namespace meshbound::datasets {
 namespace {
 
-constexpr std::array<std::string_view, 8> known_kinds = {"icosphere",  "uv-sphere",    "torus", "cube",
-                                                         "thin-sheet", "spiked-plane", "gear",  "terrain"};
+constexpr std::array<std::string_view, 9> known_kinds = {"icosphere",    "uv-sphere", "torus", "cube",   "thin-sheet",
+                                                         "spiked-plane", "cylinder",  "gear",  "terrain"};
 
 /// The largest n with n * n <= value.
 std::size_t integer_root(std::size_t value) {
@@ -48,6 +48,7 @@ TriangleMesh mesh_of_size(std::string_view kind, std::size_t faces) {
   if (kind == "cube") return cube(1, static_cast<std::uint32_t>(integer_root(faces / 12)));
   if (kind == "thin-sheet") return thin_sheet(1, 0.001, static_cast<std::uint32_t>(quarter - 1));
   if (kind == "spiked-plane") return spiked_plane(1, 0.05, half, 8);
+  if (kind == "cylinder") return cylinder(1, 2, faces / 4);
   if (kind == "gear") return gear_of_size(faces);
   if (kind == "terrain") return terrain(1, half, 2009);
   std::string known;

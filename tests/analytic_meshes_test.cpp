@@ -111,6 +111,15 @@ TEST(AnalyticMeshes, SpikesStandOnTheInnerVerticesOnly) {
   EXPECT_FALSE(is_closed_and_oriented(mesh));
 }
 
+TEST(AnalyticMeshes, CylinderHasACapOfOneFanAtEachEnd) {
+  const TriangleMesh mesh = cylinder(2, 3, 360);
+  EXPECT_EQ(mesh.triangles.size(), 1440U);
+  EXPECT_EQ(mesh.vertices.size(), 722U);
+  EXPECT_TRUE(is_closed_and_oriented(mesh));
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  EXPECT_NEAR(signed_volume(mesh), 12 * std::numbers::pi, 0.01);
+}
+
 TEST(AnalyticMeshes, GearStaysBetweenRootAndTip) {
   const TriangleMesh mesh = gear(8, 2, 12, 8, 3);
   EXPECT_EQ(mesh.triangles.size(), 2U * 96U * 4U);

@@ -156,7 +156,8 @@ TEST_F(LodChainTool, SaysWhatItDrops) {
 TEST_F(LodChainTool, HasAProvenMeshForEveryLevelWhenItIsOutOfTime) {
   for (const std::string format : {"ply", "stl"}) {
     const ToolRun late = run({"--levels", "0.001,0.002", "--time-limit", "0", "--format", format});
-    ASSERT_EQ(late.exit_code, 0) << late.err;
+    ASSERT_EQ(late.exit_code, 3) << late.err;
+    EXPECT_EQ(testing_tools::line_count(late.err), 1) << late.err;
     const Json json = checked_document(content_of(in("chain/chain.json")));
     ASSERT_EQ(json["levels"].size(), 2u);
     for (const Json& level : json["levels"]) {

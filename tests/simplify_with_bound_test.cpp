@@ -516,6 +516,21 @@ TEST(DeviationMonitor, RefusesAMeshWithAnEdgeOfNoLength) {
   EXPECT_THROW(DeviationMonitor<SurfaceMesh>(mesh, 0.1), InvalidInput);
 }
 
+/// CGAL's own filters need no visitor, so a user may well leave out the monitor's.
+TEST(DeviationMonitor, RefusesAFilterWithoutItsVisitor) {
+  SurfaceMesh mesh = to_surface_mesh(datasets::icosphere(1, 2));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.1);
+  const auto without_visitor = [&] {
+    return SMS::edge_collapse(mesh, monitor.stop_predicate(), CGAL::parameters::filter(monitor.filter()));
+  };
+  EXPECT_THROW(without_visitor(), InvalidInput);
+  EXPECT_EQ(mesh.number_of_faces(), 320u);
+  EXPECT_GT(SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                               CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor())),
+            0);
+  EXPECT_THROW(without_visitor(), InvalidInput) << "the visitor of an earlier run does not count";
+}
+
 TEST(DeviationMonitor, RefusesAVisitorWithoutItsFilter) {
   SurfaceMesh mesh = to_surface_mesh(datasets::icosphere(1, 2));
   DeviationMonitor<SurfaceMesh> monitor(mesh, 0.1);

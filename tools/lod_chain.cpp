@@ -67,6 +67,8 @@ class Run : DecimationRun {
   std::optional<OutputFolder> folder_;
   std::vector<GatedOutput> outputs_;  ///< one for each tolerance
   LodReport report_;
+  std::optional<ProgressBar> bar_;
+  bool ended_by_time_ = false;  ///< for some level
 };
 
 int Run::operator()() {
@@ -82,13 +84,13 @@ int Run::operator()() {
     throw Error("interrupted before every level was proven; nothing was written");
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
-  if (report_.verdict != Verdict::Within) {
-    std::fprintf(stderr, "lod_chain: %s; nothing was written\n",
-                 report_.verdict == Verdict::Exceeds
-                     ? "a tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ"
-                     : "doubles cannot decide whether a level is within its tolerance; give a larger one");
-  }
-  return exit_code(report_.verdict);
+  if (report_.verdict != Verdict::Within)
+    std::fprintf(stderr,
+                 "lod_chain: a tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ; "
+                 "nothing was written\n");
+  else if (ended_by_time_)
+    std::fprintf(stderr, "lod_chain: the time limit came first: levels are the best meshes that were proven by then\n");
+  return report_.verdict == Verdict::Within && ended_by_time_ ? ExitUndecided : exit_code(report_.verdict);
 }
 
 void Run::check_usage() const {
@@ -142,11 +144,11 @@ void Run::open_outputs() {
 }
 
 void Run::make_levels() {
-  ProgressBar bar("simplifying and measuring", options_.common.quiet);
+  bar_.emplace("simplifying and measuring", options_.common.quiet);
   report_.verdict = Verdict::Within;
   tree_.emplace(original_, BvhOptions{options_.common.threads});
   report_.seconds.certify += watch_.lap();
-  cgal::build_lod_chain(original_, tolerances_, decimation(outputs_.back(), bar),
+  cgal::build_lod_chain(original_, tolerances_, decimation(outputs_.back(), *bar_),
                         [&](std::size_t index, cgal::LodLevel&& level) { return take(index, level); });
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
@@ -159,10 +161,12 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   GatedOutput& output = outputs_[index];
   output.write(level.mesh);
   report_.seconds.write += watch_.lap();
-  const DistanceOptions distance = measurement(level.tolerance);
-  output.measure(*tree_, distance);
-  const bool fell_back = must_fall_back(output);
-  if (fell_back) output.fall_back(index > 0 ? &outputs_[index - 1] : nullptr, original_, *tree_, distance);
+  const auto redo = [&](double tolerance) {
+    cgal::SimplifyOptions again = decimation(output, *bar_);
+    again.tolerance = tolerance;
+    return cgal::simplify_with_bound(original_, again).last().mesh;
+  };
+  const DecidedBy decided_by = prove(output, level.tolerance, *tree_, index > 0 ? &outputs_[index - 1] : nullptr, redo);
   report_.seconds.certify += watch_.lap();
   report_.verdict = output.verdict();
   if (report_.verdict == Verdict::Exceeds && level.ended_by != cgal::EndedBy::Rounding)
@@ -172,6 +176,7 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   if (report_.verdict != Verdict::Within) return false;
   LodReport::Level& entry = report_.levels.emplace_back();
   entry.tolerance = level.tolerance;
+  entry.decided_by = decided_by;
   if (report_.view)
     entry.view_distance = least_view_distance(report_.view->screen, report_.view->pixels, level.tolerance);
   entry.path = output.path().string();
@@ -179,7 +184,10 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
   entry.distance = output.distance();
-  entry.stopped_by = to_string(fell_back ? cgal::EndedBy::TimeLimit : level.ended_by);
+  const bool was_late = options_.common.has_time_limit && remaining(1) == 0 &&
+                        (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
+  entry.stopped_by = to_string(was_late ? cgal::EndedBy::TimeLimit : level.ended_by);
+  ended_by_time_ = ended_by_time_ || was_late || level.ended_by == cgal::EndedBy::TimeLimit;
   return true;
 }
 
@@ -198,6 +206,8 @@ void Run::print_summary() const {
                 level.distance.bounds.upper);
     if (level.view_distance) std::printf(", from view distance %s on", short_number(*level.view_distance).c_str());
     std::printf("\n");
+    if (const std::string how = explanation(level.decided_by); !how.empty())
+      std::printf("           decided: %s\n", how.c_str());
   }
   print_dropped(report_.original);
   std::printf("verdict    %s\n", to_string(report_.verdict).c_str());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <deque>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -73,6 +74,7 @@ class Run : DecimationRun {
   void choose_tolerances();
   void open_outputs();
   void simplify();
+  [[nodiscard]] cgal::SimplifyOptions decimation_options(ProgressBar& bar) const;
   void certify();
   void write_certificates();
   void end_if_interrupted() const;
@@ -89,8 +91,10 @@ class Run : DecimationRun {
   cgal::SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
-  bool certificate_was_late_ = false;
-  bool fell_back_ = false;  ///< the time ended before the result was proven: OUT is the best mesh that was
+  /// The time ended the run: OUT is the best mesh that was proven by then.
+  [[nodiscard]] bool ended_by_time() const;
+
+  std::vector<DecidedBy> decided_by_;  ///< of the outputs
 };
 
 int Run::operator()() {
@@ -102,12 +106,9 @@ int Run::operator()() {
   end_if_interrupted();
   certify();
   if (verdict_ == Verdict::Within) write_certificates();
-  if (verdict_ == Verdict::Within)
-    publish();
-  else
-    end_if_interrupted();
+  if (verdict_ == Verdict::Within) publish();
   report();
-  return exit_code(verdict_);
+  return verdict_ == Verdict::Within && ended_by_time() ? ExitUndecided : exit_code(verdict_);
 }
 
 void Run::read() {
@@ -175,16 +176,9 @@ void Run::open_outputs() {
 
 void Run::simplify() {
   ProgressBar bar("simplifying", options_.common.quiet);
-  cgal::SimplifyOptions simplify = decimation(outputs_.back(), bar);
+  cgal::SimplifyOptions simplify = decimation_options(bar);
   simplify.tolerance = tolerances_.back();
   simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
-  if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
-  simplify.target_ratio = options_.target_ratio;
-  simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
-  simplify.effort = options_.effort == "fast"   ? cgal::Effort::Fast
-                    : options_.effort == "high" ? cgal::Effort::High
-                                                : cgal::Effort::Normal;
-  simplify.prune = options_.prune;
   result_ = cgal::simplify_with_bound(original_, simplify);
   report_.effort = options_.effort;
   report_.pruned = {result_.pruned_components, result_.pruned_faces};
@@ -192,6 +186,19 @@ void Run::simplify() {
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused,
                        result_.estimated.performed, result_.estimated.restarts};
   report_.seconds.simplify = watch_.lap();
+}
+
+/// All but the tolerances.
+cgal::SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
+  cgal::SimplifyOptions simplify = decimation(outputs_.back(), bar);
+  if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
+  simplify.target_ratio = options_.target_ratio;
+  simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
+  simplify.effort = options_.effort == "fast"   ? cgal::Effort::Fast
+                    : options_.effort == "high" ? cgal::Effort::High
+                                                : cgal::Effort::Normal;
+  simplify.prune = options_.prune;
+  return simplify;
 }
 
 /// Writes each mesh under a temporary name, reads it back and measures that.
@@ -204,13 +211,13 @@ void Run::certify() {
     outputs_[i].write(result_.levels[level].mesh);
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
-    DistanceOptions distance = measurement(tolerances_[level]);
-    distance.progress = [&](double fraction) { bar.show(fraction); };
-    outputs_[i].measure(original, distance);
-    if (must_fall_back(outputs_[i])) {
-      outputs_[i].fall_back(i > 0 ? &outputs_[i - 1] : nullptr, original_, original, distance);
-      fell_back_ = true;
-    }
+    bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
+    const auto redo = [&](double tolerance) {
+      cgal::SimplifyOptions again = decimation_options(bar);
+      again.tolerance = tolerance;
+      return cgal::simplify_with_bound(original_, again).last().mesh;
+    };
+    decided_by_.push_back(prove(outputs_[i], tolerances_[level], original, i > 0 ? &outputs_[i - 1] : nullptr, redo));
     verdict_ = outputs_[i].verdict();
     report_.seconds.certify += watch_.lap();
     if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
@@ -254,7 +261,8 @@ std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double t
   return folder;
 }
 
-/// Of the files as they read. What cannot be proven in time leaves the verdict open.
+/// Of the files as they read. A result whose certificate is not complete in time gives way to the original, which is
+/// certified in one pass.
 void Run::write_certificates() {
   if (certificates_.empty()) return;
   watch_.lap();
@@ -262,17 +270,19 @@ void Run::write_certificates() {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     CertificateOptions options;
     options.threads = options_.common.threads;
-    // An original that is still as it was is proven in one pass.
-    const bool is_original = fell_back_ || result_.last().collapses_performed == 0;
+    const bool is_original = decided_by_[i] == DecidedBy::Original || result_.last().collapses_performed == 0;
     if (!is_original) options.seconds = remaining(1);
     options.cancel = &interrupted_;
     options.progress = [&](double fraction) { bar.show(fraction); };
     const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
-    const auto certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
+    auto certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
+    end_if_interrupted();
     if (!certificate) {
-      verdict_ = Verdict::Undecided;
-      certificate_was_late_ = true;
-      return;
+      decided_by_[i] =
+          fall_back(outputs_[i], nullptr, Bvh(original_, BvhOptions{options_.common.threads}), measurement(tolerance));
+      options.seconds = std::numeric_limits<double>::infinity();
+      certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
+      end_if_interrupted();
     }
     const std::vector<std::uint8_t>& bytes = certificate->bytes;
     certificates_[i].write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -292,23 +302,33 @@ void Run::publish() {
 void Run::report() {
   const GatedOutput& out = outputs_.back();
   report_.verdict = verdict_;
-  if (fell_back_) report_.stopped_by = to_string(cgal::EndedBy::TimeLimit);
+  report_.decided_by = decided_by_.empty() ? DecidedBy::Measurement : decided_by_.back();
+  if (ended_by_time()) report_.stopped_by = to_string(cgal::EndedBy::TimeLimit);
   report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
   report_.distance = out.distance();
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
-    report_.levels.push_back(
-        {tolerances_[i], outputs_[i].path().string(), outputs_[i].summary().faces, outputs_[i].distance()});
+    report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
+                              outputs_[i].distance()});
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
-  if (verdict_ == Verdict::Within) return;
-  const char* const why = verdict_ == Verdict::Exceeds
-                              ? "the tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ"
-                          : certificate_was_late_
-                              ? "the time limit ended before the certificate was complete"
-                              : "doubles cannot decide whether the result is within the tolerance; give a larger one";
-  std::fprintf(stderr, "simplify_with_bound: %s; nothing was written\n", why);
+  if (verdict_ == Verdict::Within && ended_by_time())
+    std::fprintf(stderr,
+                 "simplify_with_bound: the time limit came first: %s is the best mesh that was proven by then\n",
+                 options_.output.c_str());
+  if (verdict_ != Verdict::Within)
+    std::fprintf(stderr,
+                 "simplify_with_bound: the tolerance is smaller than the rounding of the output format; use PLY, OFF "
+                 "or OBJ; nothing was written\n");
+}
+
+bool Run::ended_by_time() const {
+  if (!options_.common.has_time_limit) return false;
+  const bool was_late = std::any_of(decided_by_.begin(), decided_by_.end(), [](DecidedBy how) {
+    return how == DecidedBy::SmallerLevel || how == DecidedBy::Original;
+  });
+  return result_.last().ended_by == cgal::EndedBy::TimeLimit || (was_late && remaining(1) == 0);
 }
 
 std::string Run::end_reason() const {
@@ -316,7 +336,8 @@ std::string Run::end_reason() const {
   const bool had_target = options_.target_faces || options_.target_ratio;
   if (result_.tolerance_below_rounding)
     return "the tolerance is below the rounding of the coordinates: nothing collapsed";
-  if (fell_back_) return "the time limit came before a smaller mesh was proven";
+  if (ended_by_time() && ended != cgal::EndedBy::TimeLimit)
+    return "the time limit came before a smaller mesh was proven";
   if (ended == cgal::EndedBy::Target) return "the target was reached first, within the tolerance";
   if (ended == cgal::EndedBy::TimeLimit) return "the time limit came first";
   const std::string tolerance = ended == cgal::EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
@@ -342,6 +363,10 @@ void Run::print_summary() const {
               to_string(verdict_).c_str());
   print_direction("original to simplified", out.distance().a_to_b);
   print_direction("simplified to original", out.distance().b_to_a);
+  for (std::size_t i = 0; i < decided_by_.size(); ++i) {
+    if (const std::string how = explanation(decided_by_[i]); !how.empty())
+      std::printf("decided    %s: %s\n", outputs_[i].path().c_str(), how.c_str());
+  }
   if (options_.prune)
     std::printf("pruned     %zu components of %zu faces\n", result_.pruned_components, result_.pruned_faces);
   if (result_.split) std::printf("input      not an oriented 2-manifold: cut into one for decimation\n");

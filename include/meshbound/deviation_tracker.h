@@ -12,6 +12,7 @@
 
 #include "meshbound/bvh.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 
@@ -132,8 +133,9 @@ class DeviationTracker {
   /// Makes `faces` the current mesh, in place of whatever it was: one that approximates the original, made by anything,
   /// whose bound is proven here from nothing. Original triangles that the mesh leaves out can be given as faces too.
   /// Returns what could not be proven; unless that is empty, the tracker stays as it was. The same for any number of
-  /// threads; 0: as many as OpenMP has. Throws `InvalidInput` when an id comes twice. Expected O(n log n).
-  [[nodiscard]] Unproven start_from(std::span<const TrackedFace> faces, int threads = 0);
+  /// threads; 0: as many as OpenMP has. Throws `InvalidInput` when an id comes twice, and `Stopped` when `stop` ended
+  /// the proof: the tracker is as it was then. Expected O(n log n).
+  [[nodiscard]] Unproven start_from(std::span<const TrackedFace> faces, int threads = 0, const StopToken& stop = {});
   /// The proofs as they stand, to be taken over by another tracker. O(original triangles + faces).
   [[nodiscard]] TrackedProof proof() const;
   /// Takes over the proofs of a tracker of a part of this original, in place of `start`: triangle k there is

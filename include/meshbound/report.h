@@ -66,9 +66,19 @@ struct DistanceReport {
   int threads = 1;
 };
 
+/// How the distance of a result was decided.
+enum class DecidedBy {
+  Measurement,       ///< the first
+  SecondMethod,      ///< another method of measuring the same mesh
+  SmallerTolerance,  ///< of a mesh made for a slightly smaller tolerance
+  SmallerLevel,      ///< of the next smaller tolerance: nothing else was decided
+  Original           ///< which stands in the place of a result: nothing else was decided
+};
+
 /// One level of detail that was written.
 struct LevelReport {
   double tolerance = 0;
+  DecidedBy decided_by = DecidedBy::Measurement;
   std::string path;
   std::size_t faces = 0;
   SymmetricDistance distance;  ///< a: the original, b: the level as written
@@ -83,6 +93,7 @@ struct CertificateReport {
 /// What `simplify_with_bound` says: schema "meshbound/simplify/1".
 struct SimplifyReport {
   Verdict verdict = Verdict::Undecided;
+  DecidedBy decided_by = DecidedBy::Measurement;
   double tolerance = 0;
   MeshReport original;
   MeshReport simplified;       ///< as written
@@ -128,6 +139,9 @@ struct LodReport {
 
 /// "within", "exceeds" or "undecided".
 [[nodiscard]] std::string to_string(Verdict verdict);
+
+/// "measurement", "second_method", "smaller_tolerance", "smaller_level" or "original".
+[[nodiscard]] std::string to_string(DecidedBy how);
 
 /// "converged", "exceeds", "budget" or "precision".
 [[nodiscard]] std::string to_string(Outcome outcome);

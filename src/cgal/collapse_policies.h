@@ -13,6 +13,7 @@
 #include "cgal/part_seam.h"
 #include "cgal/quadrics.h"
 #include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound::cgal {
 
@@ -65,6 +66,9 @@ class CollapsePolicies {
     else
       quadrics_->emplace(mesh, [this](auto u, auto v) { return seam_ != nullptr && seam_->has_edge(u, v); });
   }
+  /// Calls for a cost throw `Stopped` from then on. CGAL asks for all edges before the first collapse, and for those
+  /// around a collapse when that is complete.
+  void stop_by(const StopToken& stop) { stop_ = stop; }
   /// In place of the quadrics of the mesh of the first run: by vertex.
   void start_from(std::vector<Quadric> quadrics, const SurfaceMesh& mesh) {
     if (cost_ == CollapseCost::GarlandHeckbert) quadrics_->emplace(std::move(quadrics), mesh);
@@ -83,6 +87,7 @@ class CollapsePolicies {
   /// Cost of a placement.
   template <class Profile>
   boost::optional<double> operator()(const Profile& profile, const boost::optional<Kernel::Point_3>& placement) const {
+    if (++asked_ % costs_between_looks == 0) stop_.check();
     if (!placement) return boost::none;
     if (cost_ == CollapseCost::LindstromTurk) return lindstrom_turk_cost_(profile, placement);
     const Quadrics::Collapse& best = of_edge(profile);
@@ -108,7 +113,11 @@ class CollapsePolicies {
     return (*quadrics_)->of_edge(edge, profile.v0(), profile.v1(), profile.p0(), profile.p1());
   }
 
+  static constexpr std::uint32_t costs_between_looks = 64;
+
   CollapseCost cost_;
+  StopToken stop_;
+  mutable std::uint32_t asked_ = 0;  ///< costs
   KeptParts constraint_;
   const PartSeam* seam_;
   std::shared_ptr<std::optional<Quadrics>> quadrics_;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cgal/collapse_run.h"
 
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-
 #include <algorithm>
 #include <boost/property_map/function_property_map.hpp>
 #include <cmath>
 #include <utility>
 
 #include "cgal/estimate_fault.h"
+#include "cgal/hub_collapse.h"
 
 namespace meshbound::cgal {
 namespace {
@@ -27,8 +26,9 @@ constexpr std::uint64_t least_refinement = 300, most_of_least_refinement = 6'000
 /// keep the bound (2 to 4% fewer faces).
 constexpr int fallback_placements = CollapseRun::Monitor::most_fallback_placements;
 
-/// Clock and callbacks are looked at once in this many collapses.
-constexpr std::uint64_t checks_between_looks = 64;
+/// The clock is looked at once in this many edges, each of which may take milliseconds, the callback called once in
+/// so many.
+constexpr std::uint64_t checks_between_looks = 4, checks_between_progress = 64;
 
 /// Estimated collapses end where the estimate reaches this share of the tolerance. The estimate errs by a third or so:
 /// true distances of 0.7 to 0.85 tolerances came out on real meshes, with 0.8 some beyond the tolerance.
@@ -38,6 +38,9 @@ constexpr double share_of_estimate = 0.7;
 constexpr double most_left_out = 0.03;
 /// At the seams of parts that were estimated alone most collapses are overdue, and the end comes soon.
 constexpr double most_left_out_at_seams = 0.001;
+
+/// What a run that was cancelled may take for its last proof.
+constexpr double seconds_of_last_proof = 0.3;
 
 /// While proven collapses halve the number of faces, each original triangle is tested about this often: a collapse
 /// takes 2 faces away and tests what some 10 stand for. The work that estimated ones save counts as if it were done.
@@ -55,8 +58,10 @@ class CollapseRun::Filter {
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
     const OptionalPoint admitted = filter_(profile, placement);
     if (!admitted && owner_->options_.on_exceed == OnExceed::Stop && owner_->monitor_->last_refusal_by_bound() &&
-        owner_->truly_exceeds())
+        owner_->truly_exceeds()) {
       owner_->ended_by_ = EndedBy::Tolerance;
+      if (owner_->goal_.stop.stopped()) owner_->note_stop();
+    }
     return admitted;
   }
 
@@ -119,9 +124,20 @@ bool CollapseRun::is_locked(SurfaceMesh::Vertex_index v) const {
 /// what could not be proven, and then with proofs from the beginning.
 void CollapseRun::estimate() {
   const SurfaceMesh start = copy_.mesh;
+  try {
+    if (try_estimates(start)) return;
+  } catch (const Stopped&) {
+    if (!part_) throw;
+    note_stop();
+    copy_.mesh = start;
+  }
+  start_exactly();
+}
+
+bool CollapseRun::try_estimates(const SurfaceMesh& start) {
   std::vector<bool> frozen;
   for (int attempt = 0; attempt < 2; ++attempt) {
-    if (estimate_without(frozen)) return;
+    if (estimate_without(frozen)) return true;
     ++estimated_.restarts;
     frozen = around_unproven(start);
     monitor_.reset();
@@ -129,15 +145,17 @@ void CollapseRun::estimate() {
     phase_.emplace(copy_.mesh, NormalGuard(), locked_, frozen, [](std::size_t) { return true; });
     policies_.emplace(options_.cost, kept_parts(), seam_ ? &*seam_ : nullptr);
     if (ended_by_ == EndedBy::Target) ended_by_.reset();
+    if (ended_by_) goal_.stop.check();
     if (ended_by_) break;
   }
-  start_exactly();
+  return false;
 }
 
 /// False when what came out could not be proven.
 bool CollapseRun::estimate_without(const std::vector<bool>& frozen) {
   run_phase(frozen, kept_parts());
   if (phase_->collapses() > 0) return prove_phase();
+  if (ended_by_) goal_.stop.check();
   start_exactly();
   return true;
 }
@@ -152,13 +170,25 @@ void CollapseRun::run_phase(std::vector<bool> frozen, const KeptParts& kept) {
   phase_.emplace(copy_.mesh, NormalGuard(), locked_, std::move(frozen),
                  [this](std::size_t left) { return must_stop(left); });
   if (!heights_.empty()) phase_->start_from(std::move(heights_));
-  phase_->run(*policies_, kept, share_of_estimate * internal::estimate_fault * tolerance,
-              options_.on_exceed == OnExceed::Stop ? 1 : 1 + static_cast<std::uint64_t>(left_out));
+  policies_->stop_by(goal_.stop);
+  try {
+    phase_->run(*policies_, kept, share_of_estimate * internal::estimate_fault * tolerance,
+                options_.on_exceed == OnExceed::Stop ? 1 : 1 + static_cast<std::uint64_t>(left_out));
+  } catch (const Stopped&) {
+    note_stop();
+  }
+}
+
+/// A cancelled run of the whole mesh proves what it has where that takes no time to speak of.
+StopToken CollapseRun::stop_of_proof() const {
+  if (!goal_.stop.cancelled() || part_) return goal_.stop_proof;
+  return StopToken().until(StopToken::Clock::now(), seconds_of_last_proof);
 }
 
 bool CollapseRun::prove_phase() {
   monitor_.emplace(copy_.mesh, original_, Bvh(MeshView(original_), BvhOptions{options_.threads}),
-                   goal_.tolerance - goal_.room, get(CGAL::vertex_point, copy_.mesh), options_.threads);
+                   goal_.tolerance - goal_.room, get(CGAL::vertex_point, copy_.mesh), options_.threads,
+                   stop_of_proof());
   if (!monitor_->unproven().empty()) return false;
   estimated_.performed += phase_->collapses();
   const auto faces = static_cast<double>(original_.triangles.size());
@@ -266,13 +296,16 @@ void CollapseRun::refine(std::uint64_t work_of_passes) {
 }
 
 void CollapseRun::pass() {
-  SMS::edge_collapse(copy_.mesh, monitor_->stop_predicate(),
-                     CGAL::parameters::get_cost(*policies_)
-                         .get_placement(monitor_->placement(*policies_))
-                         .filter(Filter(*this))
-                         .visitor(monitor_->visitor())
-                         .edge_is_constrained_map(kept_parts()));
+  policies_->stop_by(goal_.stop);
+  try {
+    collapse_edges(copy_.mesh, monitor_->stop_predicate(), *policies_, monitor_->placement(*policies_), Filter(*this),
+                   monitor_->visitor(), kept_parts());
+  } catch (const Stopped&) {  // between two collapses
+    note_stop();
+  }
 }
+
+void CollapseRun::note_stop() { ended_by_ = goal_.stop.cancelled() ? EndedBy::Cancelled : EndedBy::TimeLimit; }
 
 bool CollapseRun::must_stop(std::size_t faces) {
   if (ended_by_) return true;
@@ -280,12 +313,8 @@ bool CollapseRun::must_stop(std::size_t faces) {
     ended_by_ = EndedBy::Target;
     return true;
   }
-  if (stop_checks_++ % checks_between_looks != 0) return false;
-  if (options_.cancel != nullptr && options_.cancel->load())
-    ended_by_ = EndedBy::Cancelled;
-  else if (std::chrono::duration<double>(CollapseGoal::Clock::now() - goal_.began).count() >= goal_.seconds)
-    ended_by_ = EndedBy::TimeLimit;
-  show_progress(faces);
+  if (stop_checks_ % checks_between_looks == 0 && goal_.stop.stopped()) note_stop();
+  if (stop_checks_++ % checks_between_progress == 0) show_progress(faces);
   return ended_by_.has_value();
 }
 
@@ -301,7 +330,8 @@ bool CollapseRun::truly_exceeds() {
   const Bvh changed(after_refused_collapse());
   DistanceOptions options;
   options.threads = options_.threads;
-  options.cancel = options_.cancel;
+  options.cancel = goal_.stop.cancel;
+  options.budget.seconds = goal_.stop.seconds_left();
   return check_symmetric(monitor_->original_bvh(), changed, goal_.tolerance, options).verdict != Verdict::Within;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
-#include <chrono>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,18 +11,17 @@
 #include "cgal/refinement.h"
 #include "meshbound/cgal/deviation_monitor.h"
 #include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound::cgal {
 
 /// When a `CollapseRun` ends, beside where nothing fits. Lengths as in its mesh.
 struct CollapseGoal {
-  using Clock = std::chrono::steady_clock;
-
   double tolerance = 0;
   double room = 0;  ///< taken off the tolerance before anything is proven
   std::size_t target_faces = 0;
-  Clock::time_point began;
-  double seconds = 0;  ///< from `began`
+  StopToken stop;        ///< of collapses
+  StopToken stop_proof;  ///< of the proof of those made by an estimate: later
 };
 
 /// What the run of a part left, to be joined with the others.
@@ -111,9 +109,12 @@ class CollapseRun {
   CollapseRun& operator=(const CollapseRun&) = delete;
 
   /// Collapses edges until nothing fits or the goal is reached. The tolerance, less the room, must be above 0 and not
-  /// smaller than in the call before.
+  /// smaller than in the call before. Throws `Stopped` where the time ends before anything was proven, but not for a
+  /// part, which stays as it was then.
   EndedBy run(const CollapseGoal& goal);
 
+  /// True until the first run has a proof of what it collapsed by an estimate.
+  [[nodiscard]] bool is_unproven() const { return !monitor_; }
   [[nodiscard]] const ManifoldCopy& copy() const { return copy_; }
   /// By triangle of the original, before the first run: see `DeviationTracker::limit_triangles`.
   void limit_triangles(std::span<const double> tolerances) { monitor_->limit_triangles(tolerances); }
@@ -133,12 +134,15 @@ class CollapseRun {
   class Filter;
 
   [[nodiscard]] bool must_stop(std::size_t faces);
+  void note_stop();
   [[nodiscard]] bool truly_exceeds();
   [[nodiscard]] TriangleMesh after_refused_collapse() const;
   [[nodiscard]] bool may_estimate() const;
   void estimate();
+  [[nodiscard]] bool try_estimates(const SurfaceMesh& start);
   [[nodiscard]] bool estimate_without(const std::vector<bool>& frozen);
   void run_phase(std::vector<bool> frozen, const KeptParts& kept);
+  [[nodiscard]] StopToken stop_of_proof() const;
   [[nodiscard]] bool prove_phase();
   [[nodiscard]] std::vector<std::uint32_t> take_mesh(FinishedPart& result) const;
   [[nodiscard]] std::vector<bool> around_unproven(const SurfaceMesh& start) const;

@@ -26,6 +26,15 @@ bool fits_parts(const SimplifyOptions& options, std::size_t triangles) {
          !options.target_faces && !options.target_ratio && !options.prune && options.face_tolerances.empty();
 }
 
+/// What was collapsed by an estimate before the time ended may still be proven in this share of that time.
+constexpr double proof_share_of_time = 0.25;
+
+StopToken later_by_share(const StopToken& stop, double share) {
+  if (stop.deadline == StopToken::Clock::time_point::max()) return stop;
+  const std::chrono::duration<double> left = stop.deadline - StopToken::Clock::now();
+  return stop.until(stop.deadline, share * left.count());
+}
+
 /// Of parts where anything else than that nothing fits has ended one.
 EndedBy end_of(const std::vector<FinishedPart>& parts) {
   EndedBy ended_by = EndedBy::NothingFits;
@@ -49,17 +58,20 @@ bool is_feature(const SurfaceMesh& mesh, SurfaceMesh::Edge_index edge, double an
 
 }  // namespace
 
-Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options)
+Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop)
     : input_vertices_(original.vertices.size()),
       order_(spatial_order(original, options.threads)),
       original_(order_.mesh),
       options_(options),
       frame_(used_bounding_box(original_)),
       framed_original_(mapped(original_, frame_)) {
+  stop.check();
   sort_start_points();
+  stop.check();
   polygons_ = manifold_polygons(framed_original_);
   dropped_triangles_ = polygons_->dropped_triangles;
   split_ = polygons_->split;
+  stop.check();
   locked_ = locked_copies();
   limits_ = limits_in_frame();
   if (!fits_parts(options, polygons_->polygons.size())) start_whole();
@@ -176,18 +188,19 @@ std::vector<double> Decimation::limits_in_frame() const {
 /// For the ways into and out of the frame, of the original and of the result, and for the output format.
 double Decimation::room() const { return 4 * frame_.rounding() + frame_.length_to_frame(options_.output_rounding); }
 
-EndedBy Decimation::run(double tolerance, std::size_t target_faces, double seconds) {
+EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopToken& stop) {
   CollapseGoal goal;
   goal.tolerance = frame_.length_to_frame(tolerance);
   goal.room = room();
   goal.target_faces = target_faces;
-  goal.began = CollapseGoal::Clock::now();
-  goal.seconds = seconds;
+  goal.stop = stop;
+  goal.stop_proof = later_by_share(stop, proof_share_of_time);
   below_rounding_ = !(goal.tolerance > 2 * goal.room);
   if (below_rounding_) {
     if (!run_) start_whole();
     return EndedBy::Rounding;
   }
+  if (!run_ || run_->is_unproven()) stop.check();
   if (!run_) {
     const EndedBy ended_by = run_parts(goal);
     if (ended_by != EndedBy::NothingFits) return ended_by;

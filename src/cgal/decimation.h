@@ -14,12 +14,13 @@ namespace meshbound::cgal {
 /// One decimation under growing tolerances: the working copy in its frame, and the way there and back.
 class Decimation {
  public:
-  /// `options` must outlive this.
-  Decimation(const TriangleMesh& original, const SimplifyOptions& options);
+  /// `options` must outlive this. Throws `Stopped`.
+  Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop);
 
-  /// Collapses edges until nothing fits, `target_faces` are left or `seconds` have passed. `tolerance` in model units,
-  /// not smaller than in the call before.
-  EndedBy run(double tolerance, std::size_t target_faces, double seconds);
+  /// Collapses edges until nothing fits, `target_faces` are left or `stop` says so. `tolerance` in model units, not
+  /// smaller than in the call before. Throws `Stopped` where nothing was proven by then; nothing else may be called
+  /// after that.
+  EndedBy run(double tolerance, std::size_t target_faces, const StopToken& stop);
 
   /// The mesh as it is now, in model coordinates, the triangles that are kept as they are included. What is left of the
   /// original comes in its order.

@@ -2,11 +2,11 @@
 #include "cgal/estimated_phase.h"
 
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "cgal/hub_collapse.h"
 #include "meshbound/error.h"
 
 namespace meshbound::cgal {
@@ -79,12 +79,7 @@ void EstimatedPhase::run(const CollapsePolicies& policies, const KeptParts& kept
                          std::uint64_t most_exceeded) {
   limit_ = limit;
   most_exceeded_ = most_exceeded;
-  SMS::edge_collapse(mesh_, Stop(*this),
-                     CGAL::parameters::get_cost(policies)
-                         .get_placement(policies)
-                         .filter(Filter(*this))
-                         .visitor(Visitor(*this))
-                         .edge_is_constrained_map(kept));
+  collapse_edges(mesh_, Stop(*this), policies, policies, Filter(*this), Visitor(*this), kept);
 }
 
 /// The faces around the edge as they are and as they would be. False where one would be folded or lose its area.

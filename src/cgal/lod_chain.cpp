@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshbound/cgal/lod_chain.h"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
-#include "cgal/decimation.h"
+#include "cgal/level_run.h"
 #include "cgal/measured_level.h"
 #include "meshbound/error.h"
 
 namespace meshbound::cgal {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 const LodOptions& checked(const LodOptions& options) {
   if (!std::isnan(options.tolerance) || !options.levels.empty())
@@ -35,19 +32,17 @@ const TriangleMesh& validated(const TriangleMesh& mesh) {
 struct LodChain::Impl {
   TriangleMesh original;
   LodOptions options;
-  Decimation decimation;
+  LevelRun run;
   std::optional<Bvh> tree;  ///< of the original in model coordinates; built for the first measurement
   double tolerance = 0;
-  SimplifyResult::Seconds seconds;
+  double measure_seconds = 0;
 
   Impl(TriangleMesh mesh, const LodOptions& wanted)
-      : original(std::move(mesh)), options(checked(wanted)), decimation(validated(original), options) {}
+      : original(std::move(mesh)), options(checked(wanted)), run(validated(original), options) {}
 };
 
 LodChain::LodChain(TriangleMesh original, const LodOptions& options) {
-  const auto start = Clock::now();
   impl_ = std::make_unique<Impl>(std::move(original), options);
-  impl_->seconds.prepare = seconds_since(start);
 }
 LodChain::LodChain(LodChain&&) noexcept = default;
 LodChain& LodChain::operator=(LodChain&&) noexcept = default;
@@ -57,17 +52,12 @@ LodLevel LodChain::next(double tolerance) {
   if (!std::isfinite(tolerance) || !(tolerance >= impl_->tolerance))
     throw InvalidInput("the tolerances of a chain must be lengths, and grow from level to level");
   impl_->tolerance = tolerance;
-  auto start = Clock::now();
-  LodLevel level;
-  level.tolerance = tolerance;
-  level.ended_by = impl_->decimation.run(tolerance, 0, impl_->options.time_limit - impl_->seconds.simplify);
-  take_state(impl_->decimation, level);
-  impl_->seconds.simplify += seconds_since(start);
+  LodLevel level = impl_->run.next(tolerance, 0);
   if (impl_->options.measure) {
-    start = Clock::now();
+    const auto start = LevelRun::Clock::now();
     if (!impl_->tree) impl_->tree.emplace(impl_->original, BvhOptions{impl_->options.threads});
     measure_level(impl_->original, *impl_->tree, level, impl_->options);
-    impl_->seconds.measure += seconds_since(start);
+    impl_->measure_seconds += seconds_since(start);
   }
   return level;
 }
@@ -76,8 +66,8 @@ const TriangleMesh& LodChain::original() const { return impl_->original; }
 
 SimplifyResult LodChain::describe() const {
   SimplifyResult result;
-  impl_->decimation.describe(result);
-  result.seconds = impl_->seconds;
+  impl_->run.describe(result);
+  result.seconds.measure = impl_->measure_seconds;
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
 
 #include "cgal/spatial_order.h"
 
@@ -55,28 +56,51 @@ class Fans {
   void for_each(const std::vector<Wedge>& wedges, const Visit& visit) {
     leader_.resize(wedges.size());
     std::iota(leader_.begin(), leader_.end(), std::size_t{0});
+    sides_.clear();
     for (std::size_t i = 0; i < wedges.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (wedges[i].part != wedges[j].part || !share_edge(wedges[i], wedges[j])) continue;
-        const std::size_t a = find(i), b = find(j);
-        leader_[std::max(a, b)] = std::min(a, b);
-      }
+      for (std::size_t k = 0; k < 2; ++k) sides_.push_back({wedges[i].beside[k], wedges[i].part, i, k});
+    }
+    std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+      return std::tie(a.other_end, a.part, a.wedge, a.corner) < std::tie(b.other_end, b.part, b.wedge, b.corner);
+    });
+    for (std::size_t i = 1; i < sides_.size(); ++i) {
+      const Side &before = sides_[i - 1], &side = sides_[i];
+      if (before.other_end == side.other_end && before.part == side.part) join(before.wedge, side.wedge);
     }
     for (std::size_t i = 0; i < wedges.size(); ++i) visit(i, find(i));
   }
 
- private:
-  static bool share_edge(const Wedge& a, const Wedge& b) {
-    for (const std::size_t v : a.beside) {
-      if (v == b.beside[0] || v == b.beside[1]) return true;
+  /// Calls `visit(other end)` for each edge of the vertex between two parts, of those asked about last.
+  template <class Visit>
+  void for_each_edge_between_parts(const Visit& visit) const {
+    for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
+      while (end < sides_.size() && sides_[end].other_end == sides_[begin].other_end) ++end;
+      bool is_between = false;
+      for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t j = i + 1; j < end; ++j)
+          is_between |= sides_[i].part != sides_[j].part && sides_[i].corner != sides_[j].corner;
+      }
+      if (is_between) visit(sides_[begin].other_end);
     }
-    return false;
   }
-  std::size_t find(std::size_t i) const {
-    while (leader_[i] != i) i = leader_[i];
+
+ private:
+  /// An edge of the vertex, as a wedge has it: of the two it has, the one that ends at its corner `corner`.
+  struct Side {
+    std::size_t other_end;
+    std::uint32_t part;
+    std::size_t wedge, corner;
+  };
+  void join(std::size_t i, std::size_t j) {
+    const std::size_t a = find(i), b = find(j);
+    leader_[std::max(a, b)] = std::min(a, b);
+  }
+  std::size_t find(std::size_t i) {
+    while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
     return i;
   }
   std::vector<std::size_t> leader_;
+  std::vector<Side> sides_;
 };
 
 }  // namespace
@@ -160,14 +184,8 @@ void Cutting::split_fans() {
       }
       polygons_[around[i].polygon][around[i].corner] = copy[leader];
     });
-    for (const Fans::Wedge& a : around) {
-      for (const Fans::Wedge& b : around) {
-        if (a.part < b.part && a.beside[0] == b.beside[1])
-          seams_.edges.push_back(std::minmax(v, static_cast<std::uint32_t>(a.beside[0])));
-        if (a.part < b.part && a.beside[1] == b.beside[0])
-          seams_.edges.push_back(std::minmax(v, static_cast<std::uint32_t>(a.beside[1])));
-      }
-    }
+    fans.for_each_edge_between_parts(
+        [&](std::size_t other) { seams_.edges.push_back(std::minmax(v, static_cast<std::uint32_t>(other))); });
   }
   std::sort(seams_.edges.begin(), seams_.edges.end());
   seams_.edges.erase(std::unique(seams_.edges.begin(), seams_.edges.end()), seams_.edges.end());

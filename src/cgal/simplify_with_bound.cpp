@@ -2,10 +2,10 @@
 #include "meshbound/cgal/simplify_with_bound.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "cgal/level_run.h"
 #include "cgal/measured_level.h"
 #include "meshbound/error.h"
 #include "meshbound/face_tolerances.h"
@@ -14,8 +14,6 @@
 
 namespace meshbound::cgal {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Ascending, each once, ending with the tolerance.
 std::vector<double> tolerances(const SimplifyOptions& options) {
@@ -34,6 +32,11 @@ std::size_t target(const TriangleMesh& original, const SimplifyOptions& options)
     faces = std::max(faces, static_cast<std::size_t>(std::floor(share)));
   }
   return faces;
+}
+
+Verdict verdict_of(const Bounds& bounds, double tolerance) {
+  if (bounds.upper <= tolerance) return Verdict::Within;
+  return bounds.lower > tolerance ? Verdict::Exceeds : Verdict::Undecided;
 }
 
 }  // namespace
@@ -72,23 +75,20 @@ void check_options(const SimplifyOptions& options) {
   if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
 }
 
-void take_state(const Decimation& decimation, SimplifiedLevel& level) {
-  level.mesh = decimation.current_mesh();
-  level.collapses_performed = decimation.counts().performed;
-  level.collapses_refused = decimation.counts().refused;
-}
-
 void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,
                    const SimplifyOptions& options) {
   DistanceOptions distance;
   distance.tolerance = level.tolerance;
   distance.threads = options.threads;
   distance.cancel = options.cancel;
-  level.distance = symmetric_distance(tree, Bvh(level.mesh, BvhOptions{options.threads}), distance);
-  const Bounds& bounds = level.distance->bounds;
-  level.verdict = bounds.upper <= level.tolerance  ? Verdict::Within
-                  : bounds.lower > level.tolerance ? Verdict::Exceeds
-                                                   : Verdict::Undecided;
+  const Bvh mesh(level.mesh, BvhOptions{options.threads});
+  const bool is_stopped = options.cancel != nullptr && options.cancel->load();
+  for (const Method method : {Method::CellWalking, Method::CrossCulling}) {
+    if (level.distance && (level.verdict != Verdict::Undecided || is_stopped)) break;
+    distance.method = method;
+    level.distance = symmetric_distance(tree, mesh, distance);
+    level.verdict = verdict_of(level.distance->bounds, level.tolerance);
+  }
   if (!options.face_tolerances.empty() && level.verdict == Verdict::Within)
     level.verdict = check_face_tolerances(original, options.face_tolerances, level.tolerance, level.mesh).verdict;
   if (!options.certificate || level.verdict != Verdict::Within) return;
@@ -99,28 +99,20 @@ void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLeve
 }
 
 SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options) {
-  const auto start = Clock::now();
   check_options(options);
   validate(original);
   SimplifyResult result;
-  Decimation decimation(original, options);
-  result.seconds.prepare = seconds_since(start);
-
+  LevelRun run(original, options);
   const std::vector<double> levels = tolerances(options);
   for (const double tolerance : levels) {
     const bool is_last = tolerance == levels.back();
-    SimplifiedLevel& level = result.levels.emplace_back();
-    level.tolerance = tolerance;
-    level.ended_by =
-        decimation.run(tolerance, is_last ? target(original, options) : 0, options.time_limit - seconds_since(start));
-    take_state(decimation, level);
+    result.levels.push_back(run.next(tolerance, is_last ? target(original, options) : 0));
     if (options.progress)
       options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
   }
-  decimation.describe(result);
-  result.seconds.simplify = seconds_since(start) - result.seconds.prepare;
+  run.describe(result);
   if (!options.measure) return result;
-  const auto measuring = Clock::now();
+  const auto measuring = LevelRun::Clock::now();
   const Bvh tree(original, BvhOptions{options.threads});
   for (SimplifiedLevel& level : result.levels) measure_level(original, tree, level, options);
   result.seconds.measure = seconds_since(measuring);

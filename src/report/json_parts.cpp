@@ -155,6 +155,22 @@ std::string to_string(Verdict verdict) {
   return "undecided";
 }
 
+std::string to_string(DecidedBy how) {
+  switch (how) {
+    case DecidedBy::Measurement:
+      return "measurement";
+    case DecidedBy::SecondMethod:
+      return "second_method";
+    case DecidedBy::SmallerTolerance:
+      return "smaller_tolerance";
+    case DecidedBy::SmallerLevel:
+      return "smaller_level";
+    case DecidedBy::Original:
+      break;
+  }
+  return "original";
+}
+
 std::string to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::Converged:

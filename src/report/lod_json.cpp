@@ -17,6 +17,7 @@ report::Json level_json(std::size_t index, const LodReport::Level& level, double
   json["file"] = level.file;
   json["vertices"] = level.vertices;
   json["faces"] = level.faces;
+  json["decided_by"] = to_string(level.decided_by);
   json["stopped_by"] = level.stopped_by;
   json["distance"] = symmetric(level.distance);
   return json;

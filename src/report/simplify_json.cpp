@@ -10,6 +10,7 @@ std::string to_json(const SimplifyReport& from) {
   json["original"] = mesh(from.original);
   json["simplified"] = mesh(from.simplified);
   json["distance"] = symmetric(from.distance);
+  json["decided_by"] = to_string(from.decided_by);
   const SymmetricDistance& distance = from.distance;
   if (const auto spot = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a))
     json["worst"] = worst(*spot, "original_to_simplified", "simplified_to_original");
@@ -21,6 +22,7 @@ std::string to_json(const SimplifyReport& from) {
     json["levels"].push_back({{"tolerance", number(level.tolerance)},
                               {"path", level.path},
                               {"faces", level.faces},
+                              {"decided_by", to_string(level.decided_by)},
                               {"distance", symmetric(level.distance)}});
   }
   if (!from.certificates.empty()) {

@@ -218,10 +218,12 @@ class ApproximationProof::BackwardWorker {
   std::uint64_t by_degree_ = 0;
 };
 
-ApproximationProof::ApproximationProof(const ProofOriginal& original, std::span<const TrackedFace> faces, int threads)
+ApproximationProof::ApproximationProof(const ProofOriginal& original, std::span<const TrackedFace> faces, int threads,
+                                       const StopToken& stop)
     : original_(original),
       faces_(faces),
       threads_(threads > 0 ? threads : omp_get_max_threads()),
+      stop_(stop),
       boxes_(boxes_of(original, faces)),
       covers_((original.triangles.size() + triangles_of_run - 1) / triangles_of_run),
       nearest_(faces.size(), unknown),
@@ -237,7 +239,11 @@ void ApproximationProof::in_parallel(std::size_t items) {
     error.guard([&] { worker.emplace(*this); });
 #pragma omp for schedule(dynamic, 8)
     for (std::size_t item = 0; item < items; ++item) {
-      if (worker) error.guard([&] { (*worker)(item); });
+      if (worker)
+        error.guard([&] {
+          stop_.check();
+          (*worker)(item);
+        });
     }
 #pragma omp critical
     if (worker) worker->finish();

@@ -8,6 +8,7 @@
 
 #include "meshbound/bvh.h"
 #include "meshbound/deviation_tracker.h"
+#include "meshbound/stop_token.h"
 #include "simplify/box_tree.h"
 #include "simplify/degree_cover.h"
 
@@ -32,9 +33,10 @@ struct ProofOriginal {
 class ApproximationProof {
  public:
   /// `original` and `faces` must outlive this. O(faces log faces).
-  ApproximationProof(const ProofOriginal& original, std::span<const TrackedFace> faces, int threads);
+  ApproximationProof(const ProofOriginal& original, std::span<const TrackedFace> faces, int threads,
+                     const StopToken& stop);
 
-  /// Expected O((originals + faces) log faces).
+  /// Throws `Stopped` when the token ended it. Expected O((originals + faces) log faces).
   void run();
   /// Empty when all is proven.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
@@ -67,6 +69,7 @@ class ApproximationProof {
   const ProofOriginal& original_;
   std::span<const TrackedFace> faces_;
   int threads_;
+  StopToken stop_;
   BoxTree boxes_;
   std::vector<Covers> covers_;  ///< by run
   std::vector<std::uint32_t> nearest_;

@@ -29,7 +29,7 @@ void DeviationTracker::start(std::uint32_t id, std::uint32_t triangle) {
   impl_->cover.assign(triangle, itself);
 }
 
-Unproven DeviationTracker::start_from(std::span<const TrackedFace> faces, int threads) {
+Unproven DeviationTracker::start_from(std::span<const TrackedFace> faces, int threads, const StopToken& stop) {
   std::vector<std::uint32_t> ids;
   for (const TrackedFace& face : faces) ids.push_back(face.id);
   std::sort(ids.begin(), ids.end());
@@ -42,7 +42,7 @@ Unproven DeviationTracker::start_from(std::span<const TrackedFace> faces, int th
                                impl_->magnitude,
                                impl_->tolerance,
                                [this](const Eigen::AlignedBox3d& box) { return impl_->limit_around(box); }};
-  ApproximationProof proof(original, faces, threads);
+  ApproximationProof proof(original, faces, threads, stop);
   proof.run();
   if (!proof.unproven().empty()) return proof.unproven();
   for (std::size_t i = 0; i < faces.size(); ++i) impl_->put_face(faces[i].id, corners_of(faces[i]), proof.nearest()[i]);

@@ -12,11 +12,12 @@ struct DecimationOptions {
   std::string input, cost = "garland-heckbert";
   bool preserve_boundary = false;
   std::optional<double> feature_angle;  ///< degrees
+  std::string error_bound;              ///< of the measurements, a length as typed; empty: the default
   CommonOptions common;
 };
 
-/// Adds --cost, --preserve-boundary, --feature-angle and what `add_common_options` adds, and says in the description
-/// what outputs do not carry.
+/// Adds --cost, --preserve-boundary, --feature-angle, --error-bound and what `add_common_options` adds, and says in the
+/// description what outputs do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
 
 }  // namespace meshbound::tools

@@ -11,6 +11,8 @@
 #include "common/length.h"
 #include "common/signals.h"
 #include "decimation/dropped_attributes.h"
+#include "decimation/measurement_fault.h"
+#include "meshbound/error.h"
 #include "meshbound/io.h"
 
 namespace meshbound::tools {
@@ -19,10 +21,18 @@ namespace {
 /// Share of the time limit that decimation may use; the rest is for the proof of what came out.
 constexpr double simplify_share = 0.7;
 
-/// Width of the measured interval, as a share of the original's diagonal.
-constexpr double relative_error_bound = 1e-6;
+/// Width of the measured interval, as a share of the tolerance; not below a share of the original's diagonal, where
+/// rounding comes near.
+constexpr double default_error_bound = 0.01;
+constexpr double min_error_bound = 1e-9;
+
+/// Share of a tolerance for which a result is made again where the distance of the first is too near to the tolerance
+/// for any measurement.
+constexpr double smaller_tolerance = 0.99;
 
 }  // namespace
+
+int internal::undecided_measurements = 0;
 
 DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(interrupted()), shared_(options) {}
 
@@ -64,7 +74,9 @@ cgal::SimplifyOptions DecimationRun::decimation(const GatedOutput& output, Progr
 
 DistanceOptions DecimationRun::measurement(double tolerance) const {
   DistanceOptions options;
-  options.error_bound = relative_error_bound * diagonal_;
+  options.error_bound = shared_.error_bound.empty()
+                            ? std::max(default_error_bound * tolerance, min_error_bound * diagonal_)
+                            : parse_length("--error-bound", shared_.error_bound).in_model_units(diagonal_);
   options.tolerance = tolerance;
   options.budget.seconds = remaining(1);
   options.threads = shared_.common.threads;
@@ -77,8 +89,36 @@ double DecimationRun::remaining(double share) const {
                                        : std::numeric_limits<double>::infinity();
 }
 
-bool DecimationRun::must_fall_back(const GatedOutput& output) const {
-  return output.verdict() == Verdict::Undecided && shared_.common.has_time_limit && !interrupted_;
+bool DecimationRun::decides(GatedOutput& output, const Bvh& tree, const DistanceOptions& options) const {
+  output.measure(tree, options);
+  if (internal::undecided_measurements > 0) {
+    --internal::undecided_measurements;
+    return false;
+  }
+  return output.verdict() != Verdict::Undecided;
+}
+
+DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const Bvh& tree, const GatedOutput* smaller,
+                               const Redo& redo) const {
+  DistanceOptions options = measurement(tolerance);
+  if (decides(output, tree, options)) return DecidedBy::Measurement;
+  options.method = Method::CrossCulling;
+  options.budget.seconds = remaining(1);
+  if (!is_out_of_time() && decides(output, tree, options)) return DecidedBy::SecondMethod;
+  if (!is_out_of_time()) {
+    output.write(redo(smaller_tolerance * tolerance));
+    options.method = Method::CellWalking;
+    options.budget.seconds = remaining(1);
+    if (decides(output, tree, options)) return DecidedBy::SmallerTolerance;
+  }
+  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
+  return fall_back(output, smaller, tree, options);
+}
+
+DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const Bvh& tree,
+                                   const DistanceOptions& options) const {
+  output.fall_back(smaller, original_, tree, options);
+  return smaller != nullptr ? DecidedBy::SmallerLevel : DecidedBy::Original;
 }
 
 int DecimationRun::threads() const {
@@ -88,6 +128,22 @@ int DecimationRun::threads() const {
 void print_dropped(const MeshReport& original) {
   if (original.dropped && *original.dropped != DroppedAttributes{})
     std::printf("dropped: %s\n", listed(*original.dropped).c_str());
+}
+
+std::string explanation(DecidedBy how) {
+  switch (how) {
+    case DecidedBy::Measurement:
+      return "";
+    case DecidedBy::SecondMethod:
+      return "the measurement was undecided; a second method decided it";
+    case DecidedBy::SmallerTolerance:
+      return "the distance of the first result could not be decided: made again for 99% of the tolerance";
+    case DecidedBy::SmallerLevel:
+      return "no result for this tolerance could be decided: it is that of the next smaller one";
+    case DecidedBy::Original:
+      break;
+  }
+  return "no result for this tolerance could be decided: it is the original";
 }
 
 void print_seconds(const SimplifyReport::Seconds& seconds) {

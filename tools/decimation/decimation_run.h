@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,22 @@ class DecimationRun {
   [[nodiscard]] cgal::SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
+  /// Measures; true when the verdict is known.
+  [[nodiscard]] bool decides(GatedOutput& output, const Bvh& tree, const DistanceOptions& options) const;
+  [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
   /// Seconds of this share of the time limit that are left.
   [[nodiscard]] double remaining(double share) const;
-  /// True when a mesh is to be given up for one that is proven already, since the time ended before its own proof.
-  [[nodiscard]] bool must_fall_back(const GatedOutput& output) const;
+  /// Makes the mesh again for a tolerance, model units.
+  using Redo = std::function<TriangleMesh(double tolerance)>;
+  /// Reads back what was written to `output` and measures it against the original, of which `tree` is. Where that
+  /// remains undecided it tries harder: another method, a mesh for a slightly smaller tolerance, then the result of
+  /// the smaller tolerance before (may be null), then the original itself. A time limit leaves out what takes long.
+  /// Says how the mesh that stands in `output` then was decided. Throws `Error` when it was interrupted.
+  [[nodiscard]] DecidedBy prove(GatedOutput& output, double tolerance, const Bvh& tree, const GatedOutput* smaller,
+                                const Redo& redo) const;
+  /// For a result whose proof was not finished in time: the one of `smaller`, or the original.
+  [[nodiscard]] DecidedBy fall_back(GatedOutput& output, const GatedOutput* smaller, const Bvh& tree,
+                                    const DistanceOptions& options) const;
   [[nodiscard]] int threads() const;
 
   const std::atomic<bool>& interrupted_;
@@ -49,6 +62,9 @@ class DecimationRun {
 
 /// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries.
 void print_dropped(const MeshReport& original);
+
+/// What to tell the user about a result that was not decided at once: a sentence, empty where there is nothing to say.
+[[nodiscard]] std::string explanation(DecidedBy how);
 
 /// "seconds    read 0.01, simplify ...", a line on stdout.
 void print_seconds(const SimplifyReport::Seconds& seconds);

@@ -14,9 +14,10 @@
 ///       filter(profile, placement)          -> none: next edge         proves the collapse both ways, or refuses it
 ///       visitor.OnCollapsing, collapse,     visitor.OnCollapsed        commits the proof, notes where the mesh changed
 ///
-/// Filter and visitor must be used together; either may be wrapped (as `Bounded_normal_change_filter` does with a
-/// filter), and both are copyable handles on the monitor, which must outlive them. `monitor.placement(base)` wraps a
-/// placement so that others are tried where the one of `base` breaks the bound; it gives fewer faces. CGAL 5 and 6.
+/// Filter and visitor must be used together: either throws where the other is missing. Either may be wrapped (as
+/// `Bounded_normal_change_filter` does with a filter; a visitor's wrapper passes every call on), and both are copyable
+/// handles on the monitor, which must outlive them. `monitor.placement(base)` wraps a placement so that others are
+/// tried where the one of `base` breaks the bound; it gives fewer faces. CGAL 5 and 6.
 #pragma once
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
@@ -82,9 +83,9 @@ class DeviationMonitor {
   /// `mesh` need have nothing in common with the original but its place: it is an approximation, made by anything, that
   /// is proven here from nothing. `unproven` says where that failed; unless it is empty, a call that would prove an
   /// edit throws `Error`. `tree` must be built from `original`. The same for any number of threads; 0: as many as
-  /// OpenMP has. Throws `InvalidInput` as above. Expected O(n log n).
+  /// OpenMP has. Throws `InvalidInput` as above, and `Stopped` when `stop` ended the proof. Expected O(n log n).
   DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree, double tolerance, VertexPointMap points,
-                   int threads = 0);
+                   int threads = 0, const StopToken& stop = {});
   /// Triangles of the original and faces, by their place in the range of faces.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
 
@@ -202,7 +203,8 @@ class DeviationMonitor {
   };
   /// Removes components, the smallest first, as long as `least_faces` are left: those whose part of the original is
   /// proven to lie within the tolerance of what remains. Ones with locked vertices, and with `preserve_boundary` ones
-  /// with a border, stay. Between two runs of `edge_collapse`. O(n log n + size of the original).
+  /// with a border, stay; so does what is left where `should_stop` says so. Between two runs of `edge_collapse`.
+  /// O(n log n + size of the original).
   Dropped drop_components(std::size_t least_faces = 0);
 
   [[nodiscard]] std::size_t faces() const { return faces_; }
@@ -237,7 +239,7 @@ class DeviationMonitor {
   [[nodiscard]] static Point to_point(const Eigen::Vector3d& p) { return Point(p.x(), p.y(), p.z()); }
   [[nodiscard]] Eigen::Vector3d at(Vertex v) const { return to_eigen(get(points_, v)); }
   DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree, VertexPointMap points, double tolerance);
-  void start_from_approximation(int threads);
+  void start_from_approximation(int threads, const StopToken& stop);
   void refuse_unproven() const;
   void number_faces(const std::vector<std::uint32_t>& triangle_of_face);
   void refuse_zero_length_edges() const;
@@ -286,6 +288,8 @@ class DeviationMonitor {
   [[nodiscard]] bool is_promising(const Eigen::Vector3d& placement);
   [[nodiscard]] std::optional<Point> searched_placement(const Point& p0, const Point& p1);
   void append_ring(Vertex v0, Vertex v1, std::vector<std::uint32_t>& ring);
+  template <class Visit>
+  void for_each_halfedge_near(Halfedge h, const Visit& visit) const;
   [[nodiscard]] bool nothing_changed_since(const EdgeMemory& memory, Vertex v0, Vertex v1) const;
   void collapsed_into(Vertex v);
   [[nodiscard]] bool locks_allow(Vertex v0, Vertex v1, const Point& placement) const {
@@ -324,6 +328,7 @@ class DeviationMonitor {
   bool must_sample_ = false;                                        ///< another edge than the last time
   std::optional<std::pair<Eigen::Vector3d, double>> best_sampled_;  ///< placement of this edge, and its sum
   std::optional<std::pair<Halfedge, Point>> admitted_;
+  bool visited_ = false;  ///< an `edge_collapse` runs that has the visitor
   bool collapsing_ = false;
   bool collapsing_locked_ = false;  ///< one of the ends is locked
 };

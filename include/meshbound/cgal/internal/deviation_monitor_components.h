@@ -59,7 +59,7 @@ auto DeviationMonitor<Mesh, VertexPointMap>::drop_components(std::size_t least_f
   if (all.size() < 2) return dropped;
   tracker_.begin_removals();
   for (const std::vector<Face>& component : all) {
-    if (component.size() + least_faces > faces_) break;
+    if (component.size() + least_faces > faces_ || (should_stop && should_stop(faces_))) break;
     const bool is_kept = std::any_of(component.begin(), component.end(), [&](Face f) {
       const std::array<Vertex, 3> v = corners(f);
       return std::any_of(v.begin(), v.end(),

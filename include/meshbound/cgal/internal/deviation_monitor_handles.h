@@ -7,7 +7,9 @@
 
 namespace meshbound::cgal {
 
-/// Takes a profile and an optional placement of CGAL (boost:: or std::optional), returns it, or none to refuse.
+/// Takes a profile and an optional placement of CGAL (boost:: or std::optional), returns it, or none to refuse. Throws
+/// `InvalidInput` in an `edge_collapse` that was not given the visitor: without it, collapses that were admitted are
+/// never committed, and the next proof starts from a mesh that is no longer there.
 template <class Mesh, class VertexPointMap>
 class DeviationMonitor<Mesh, VertexPointMap>::Filter {
  public:
@@ -15,6 +17,8 @@ class DeviationMonitor<Mesh, VertexPointMap>::Filter {
 
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
+    if (!monitor_->visited_)
+      throw InvalidInput("edge_collapse was given the filter of the deviation monitor only: pass its visitor too");
     if (!placement || !monitor_->admits(profile, *placement)) return OptionalPoint();
     return placement;
   }
@@ -67,9 +71,13 @@ class DeviationMonitor<Mesh, VertexPointMap>::Visitor {
   explicit Visitor(DeviationMonitor& monitor) : monitor_(&monitor) {}
 
   template <class AnyMesh>
-  void OnStarted(AnyMesh&) const {}
+  void OnStarted(AnyMesh&) const {
+    monitor_->visited_ = true;
+  }
   template <class AnyMesh>
-  void OnFinished(AnyMesh&) const {}
+  void OnFinished(AnyMesh&) const {
+    monitor_->visited_ = false;
+  }
   template <class Profile>
   void OnStopConditionReached(const Profile&) const {}
   template <class Profile, class OptionalCost>

@@ -32,13 +32,14 @@ DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const Trian
 
 template <class Mesh, class VertexPointMap>
 DeviationMonitor<Mesh, VertexPointMap>::DeviationMonitor(Mesh& mesh, const TriangleMesh& original, Bvh tree,
-                                                         double tolerance, VertexPointMap points, int threads)
+                                                         double tolerance, VertexPointMap points, int threads,
+                                                         const StopToken& stop)
     : DeviationMonitor(mesh, original, std::move(tree), points, tolerance) {
-  start_from_approximation(threads);
+  start_from_approximation(threads, stop);
 }
 
 template <class Mesh, class VertexPointMap>
-void DeviationMonitor<Mesh, VertexPointMap>::start_from_approximation(int threads) {
+void DeviationMonitor<Mesh, VertexPointMap>::start_from_approximation(int threads, const StopToken& stop) {
   std::vector<TrackedFace> faces;
   for (const Face f : CGAL::faces(mesh_)) {
     const auto id = static_cast<std::uint32_t>(faces_++);
@@ -46,7 +47,7 @@ void DeviationMonitor<Mesh, VertexPointMap>::start_from_approximation(int thread
     const std::array<Vertex, 3> v = corners(f);
     faces.push_back({id, {at(v[0]), at(v[1]), at(v[2])}});
   }
-  unproven_ = tracker_.start_from(faces, threads);
+  unproven_ = tracker_.start_from(faces, threads, stop);
 }
 
 template <class Mesh, class VertexPointMap>
@@ -121,14 +122,41 @@ void DeviationMonitor<Mesh, VertexPointMap>::append_ring(Vertex v0, Vertex v1, s
     return std::exchange(in_ring_[id], ring_round_) != ring_round_;
   };
   for (const std::uint32_t id : removed_) is_new(id);
+  const auto append = [&](Halfedge h) {
+    const Face f = face(h, mesh_);
+    if (f == Graph::null_face()) return;
+    const std::uint32_t id = get(face_ids_, f);
+    if (is_new(id)) ring.push_back(id);
+  };
   for (const Face star : removed_faces_) {
-    for (const Vertex v : corners(star)) {
-      if (v == v0 || v == v1) continue;
-      for_each_face_around(v, [&](Face f) {
-        const std::uint32_t id = get(face_ids_, f);
-        if (is_new(id)) ring.push_back(id);
-      });
+    for (const Halfedge h : CGAL::halfedges_around_face(halfedge(star, mesh_), mesh_)) {
+      const Vertex v = target(h, mesh_);
+      if (v != v0 && v != v1) for_each_halfedge_near(h, append);
     }
+  }
+}
+
+/// Calls `visit` for the halfedges with the target of `h`: for all where they are few, else for those next to `h`.
+template <class Mesh, class VertexPointMap>
+template <class Visit>
+void DeviationMonitor<Mesh, VertexPointMap>::for_each_halfedge_near(Halfedge h, const Visit& visit) const {
+  constexpr int many = 64, beside = 8;
+  const Halfedge first = halfedge(target(h, mesh_), mesh_);
+  int count = 0;
+  for (Halfedge g = first; count < many;) {
+    ++count;
+    g = opposite(next(g, mesh_), mesh_);
+    if (g == first) break;
+  }
+  if (count < many) {
+    for (const Halfedge g : CGAL::halfedges_around_target(first, mesh_)) visit(g);
+    return;
+  }
+  Halfedge forth = h, back = h;
+  visit(h);
+  for (int k = 0; k < beside; ++k) {
+    visit(forth = opposite(next(forth, mesh_), mesh_));
+    visit(back = prev(opposite(back, mesh_), mesh_));
   }
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <chrono>
+#include <optional>
+
+#include "cgal/decimation.h"
+
+namespace meshbound::cgal {
+
+/// The levels of one original, one after the other: a decimation, and what stands in its place where the time ended
+/// before it had proven anything. Not thread-safe.
+class LevelRun {
+ public:
+  using Clock = StopToken::Clock;
+
+  /// Prepares the decimation; `original` and `options` must outlive this. Throws as `simplify_with_bound`, `options`
+  /// being checked already.
+  LevelRun(const TriangleMesh& original, const SimplifyOptions& options);
+
+  /// Goes on to this tolerance, not smaller than the one before, and to at least `target_faces`. Not measured.
+  [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
+  /// Everything of the result but for its levels and times of measurements.
+  void describe(SimplifyResult& result) const;
+
+ private:
+  template <class Work>
+  void until_stopped(const Work& work);
+  [[nodiscard]] StopToken stop() const;
+
+  const TriangleMesh& original_;
+  const SimplifyOptions& options_;
+  double prepare_seconds_ = 0, simplify_seconds_ = 0;
+  std::optional<Decimation> decimation_;
+  std::optional<EndedBy> stopped_;  ///< before anything was proven: the original itself stands for every level
+};
+
+/// Which of the two ended the work of a token.
+[[nodiscard]] inline EndedBy ended_by(const StopToken& stop) {
+  return stop.cancelled() ? EndedBy::Cancelled : EndedBy::TimeLimit;
+}
+
+[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace meshbound::cgal
