@@ -93,7 +93,8 @@ class PointSearch {
     found.nearest = {best_.squared_distance[lane], static_cast<std::uint32_t>(slots_[lane])};
     found.offset = {best_.offset.x[lane], best_.offset.y[lane], best_.offset.z[lane]};
     const double wanted = std::max(0.0, std::sqrt(found.nearest.squared) - roundings_.allowed);
-    const bool separated = lane_bits(separated_squared_ >= broadcast4(wanted * wanted)) == all_lanes;
+    const Mask4 is_separated = separated_squared_ >= broadcast4(wanted * wanted);
+    const bool separated = lane_bits(is_separated) == all_lanes;
     found.separated = wanted > 0 && !separated ? separated_within_limit(wanted) : wanted;
     return found;
   }
@@ -221,8 +222,8 @@ class PointSearch {
     visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
       const CornerTriangle<Double4> t = triangles_of_block(data_, block);
       const Double4 squared = separation_squared(t, closest_on_triangle(t, lanes_));
-      for (unsigned fails = ~lane_bits(squared >= broadcast4(wanted * wanted)) & all_lanes; fails != 0;
-           fails &= fails - 1) {
+      const Mask4 passes = squared >= broadcast4(wanted * wanted);
+      for (unsigned fails = ~lane_bits(passes) & all_lanes; fails != 0; fails &= fails - 1) {
         const std::int64_t slot = std::int64_t{block} * block_width + std::countr_zero(fails);
         const auto triangle = triangle_at(data_, static_cast<std::uint32_t>(std::min(slot, last_slot_)));
         least = std::min(least, best_separation(triangle, p_, wanted));
