@@ -111,24 +111,37 @@ TEST(CellWalking, TiesBetweenCurvedSheetsCostTheSameForEveryErrorBound) {
   }
 }
 
-TEST(CellWalking, SegmentsOfAnAxisBoundACylinderAtEveryErrorBound) {
-  TriangleMesh cylinder, axis;
-  constexpr std::uint32_t around = 24, along = 6, segments = 50;
+/// The side of a cylinder of radius 1 along z from 0 to 4, in `along` rings of `around` squares.
+TriangleMesh cylinder(std::uint32_t around, std::uint32_t along) {
+  TriangleMesh mesh;
   for (std::uint32_t i = 0; i <= along; ++i)
     for (std::uint32_t j = 0; j < around; ++j) {
       const double angle = 2 * std::numbers::pi * j / around;
-      cylinder.vertices.emplace_back(std::cos(angle), std::sin(angle), 4.0 * i / along);
+      mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 4.0 * i / along);
     }
   for (std::uint32_t i = 0; i < along; ++i)
     for (std::uint32_t j = 0; j < around; ++j) {
       const std::uint32_t p = i * around + j, q = i * around + (j + 1) % around;
-      cylinder.triangles.push_back({p, q, q + around});
-      cylinder.triangles.push_back({p, q + around, p + around});
+      mesh.triangles.push_back({p, q, q + around});
+      mesh.triangles.push_back({p, q + around, p + around});
     }
+  return mesh;
+}
+
+TEST(CellWalking, SegmentsOfAnAxisBoundACylinderAtEveryErrorBound) {
+  TriangleMesh axis;
+  constexpr std::uint32_t segments = 50;
   for (std::uint32_t i = 0; i <= segments; ++i) axis.vertices.emplace_back(0, 0, 4.0 * i / segments);
   for (std::uint32_t i = 0; i < segments; ++i) axis.triangles.push_back({i, i + 1, i + 1});
   // Each of the 288 triangles crosses nine slabs at most, and each cut takes two queries or three.
-  EXPECT_LT(measured(cylinder, axis, 1e-8).closest_point_queries, 288u * 9 * 3);
+  EXPECT_LT(measured(cylinder(24, 6), axis, 1e-8).closest_point_queries, 288u * 9 * 3);
+}
+
+/// Around the axis all cells of a ring meet, and walking from cell to cell leads around it.
+TEST(CellWalking, ANeedleAcrossTheAxisOfACylinderIsSplitBetweenFarCells) {
+  const TriangleMesh needle =
+      single_triangle({0.00028, -0.00033, 0.00027}, {-0.00037, 0.0002, 4.00099}, {0.00063, 0.0002, 4.00099});
+  EXPECT_LT(measured(needle, cylinder(141, 70), 4.9e-6).closest_point_queries, 5000u);
 }
 
 /// Every interior point lies under hundreds of triangles that are equally far.

@@ -31,12 +31,14 @@ inline constexpr std::uint32_t steps_between_queries = 8;
 inline constexpr std::uint32_t steps_of_sweep = 32;
 /// Corners more than so many targets off the first point that is tried on a triangle are rarely near another one of it.
 inline constexpr double hopeless_targets = 3;
-/// Cuts after which a piece is only halved, and queries after which it is halved once: it walks in circles.
-inline constexpr std::uint32_t halve_from_depth = 60;
+/// Queries after which a piece is halved: it walks in circles. And those from which it is split between its candidate
+/// and what a query finds: around an axis of B the cells cut off a sliver at each step.
 inline constexpr std::uint32_t halve_from_rounds = 24;
-/// Splits between two triangles after which a piece walks no more: around a vertex of B the cells by edges may lead it
-/// back to where it came from. And those after which it is halved, which makes bisectors straighter.
+inline constexpr std::uint32_t split_from_rounds = 4;
+/// Splits between two triangles, and cuts, after which a piece walks no more: around a vertex of B the cells by edges
+/// may lead it back to where it came from. And splits after which it is halved, which makes bisectors straighter.
 inline constexpr std::uint32_t splits_before_resolving = 3;
+inline constexpr std::uint32_t cuts_before_resolving = 60;
 inline constexpr std::uint32_t splits_before_halving = 8;
 /// Cuts after which the walk leaves a piece to subdivision, which may cut it until `deepest_cut`.
 inline constexpr std::uint32_t deepest_walk = 90;
@@ -90,7 +92,7 @@ class CellWalker : public ProvenBounds {
       if (done_with(quick, piece.slot)) continue;
       const bool hopeful = quick <= hopeless_targets * hopeless_targets * accepted_squared_;
       if (hopeful && done_with(largest_squared_distance(piece, t), piece.slot)) continue;
-      const bool lost = pieces >= max_pieces || piece.age >= steps_of_sweep || must_halve(piece);
+      const bool lost = pieces >= max_pieces || piece.age >= steps_of_sweep || piece.depth >= cuts_before_resolving;
       if (lost || cuts_left_ == 0) return 0;
       if (piece.count > Piece::crowded)
         push_halves_by_diagonal(piece);
@@ -110,17 +112,16 @@ class CellWalker : public ProvenBounds {
     const Farthest farthest = farthest_corner(piece, t);
     if (done_with(farthest.squared, piece.slot)) return;
     if (cuts_left_ == 0 || decided()) return give_up(farthest.squared);
+    if (piece.depth >= deepest_walk) return unfinished_.push_back({piece, farthest.squared});
     if (piece.count > Piece::crowded) return push_halves_by_diagonal(piece);
-    const bool walks = !piece.in_cell && piece.splits < splits_before_resolving;
+    const bool walks = !piece.in_cell && piece.splits < splits_before_resolving && piece.depth < cuts_before_resolving;
     if (must_halve(piece) || (walks && piece.age >= steps_between_queries))
       query_and_walk(piece, farthest);
     else if (!walks || !walk(piece))
       resolve(piece, farthest);
   }
 
-  static bool must_halve(const Piece& piece) {
-    return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds;
-  }
+  static bool must_halve(const Piece& piece) { return piece.rounds >= halve_from_rounds; }
 
   /// So that three cuts by a cell fit again.
   void push_halves_by_diagonal(const Piece& piece) {
@@ -264,7 +265,7 @@ class CellWalker : public ProvenBounds {
     const Vec3 probe = probe_point(piece, farthest.corner);
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
     find_nearest(b_, probe, accepted_squared_, nearest, counters_.queries);
-    offer(probe, nearest, piece.depth + 1);
+    if (!accepts(nearest.squared)) offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
     if (done_with(farthest.squared, piece.slot) || done_with(lipschitz * lipschitz, nearest.slot)) return;
     Piece next = piece;
@@ -279,8 +280,12 @@ class CellWalker : public ProvenBounds {
       bound = std::min(bound, worst.squared);
       next.slot = nearest.slot;
     }
-    if (piece.depth >= deepest_walk) return unfinished_.push_back({piece, bound});
     if (must_halve(piece)) return halve(next, piece.slot, next.slot, bound);
+    if (next.rounds >= split_from_rounds && next.slot != piece.slot) {
+      Piece undecided = next;
+      undecided.slot = piece.slot;
+      if (split_between(undecided, next.slot)) return;
+    }
     if (!walk(next)) resolve_at_corners(next, worst.corner, bound);
   }
 
@@ -314,7 +319,7 @@ class CellWalker : public ProvenBounds {
   bool split_by_query(const Piece& piece, const Vec3& p, double& bound) {
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), p).squared_distance, piece.slot};
     find_nearest(b_, p, accepted_squared_, nearest, counters_.queries);
-    offer(p, nearest, piece.depth + 1);
+    if (!accepts(nearest.squared)) offer(p, nearest, piece.depth + 1);
     if (nearest.slot == piece.slot) return false;
     const double squared = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
     bound = std::min(bound, squared);
@@ -339,7 +344,7 @@ class CellWalker : public ProvenBounds {
       (excess[j] > 0 ? leaves : returns) = i;
     }
     if (changes == 0 && excess[0] > 0) {  // `other` is nearer all over
-      push(piece, other, steps_between_queries);
+      push(piece, other, 1);
       return true;
     }
     if (changes != 2) return false;
@@ -393,15 +398,14 @@ class CellWalker : public ProvenBounds {
 
   void halve(const Piece& piece, std::uint32_t near_slot, std::uint32_t far_slot, double bound) {
     Piece near, far;
-    if (!halves_of(piece, near, far)) return give_up(bound);
+    if (!halves_of(piece, near, far)) return unfinished_.push_back({piece, bound});
     push(near, near_slot, steps_between_queries);
     push(far, far_slot, steps_between_queries);
   }
 
   void halve_in_cell(const Piece& piece, double bound) {
-    if (piece.depth >= deepest_walk) return unfinished_.push_back({piece, bound});
     Piece near, far;
-    if (!halves_of(piece, near, far)) return give_up(bound);
+    if (!halves_of(piece, near, far)) return unfinished_.push_back({piece, bound});
     push_in_cell(near, piece.slot);
     push_in_cell(far, piece.slot);
   }
