@@ -345,6 +345,7 @@ class CellWalker : public ProvenBounds {
     }
     if (changes == 0 && excess[0] > 0) {  // `other` is nearer all over
       push(piece, other, 1);
+      ++stack_.back().splits;
       return true;
     }
     if (changes != 2) return false;
