@@ -21,6 +21,7 @@
 #include "simplify/cover_assignment.h"
 #include "simplify/degree_cover.h"
 #include "simplify/sampled_slope.h"
+#include "simplify/unchanged_faces.h"
 
 namespace meshbound {
 namespace {
@@ -455,6 +456,45 @@ TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {
     }
     EXPECT_GT(covered, 100);
   }
+}
+
+TEST(UnchangedFaces, AreThoseWithTheCornersOfAnOriginalInAnyOrder) {
+  const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0.5}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {1, 3, 2}, {1, 3, 2}, {0, 1, 3}};
+  using Corners = std::array<Eigen::Vector3d, 3>;
+  const std::vector<TrackedFace> faces{{7, Corners{{{1, 1, 0.5}, {1, 0, 0}, {0, 1, 0}}}},
+                                       {3, Corners{{{0, 1, 0}, {-0.0, 0, -0.0}, {1, 0, 0}}}},
+                                       {5, Corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5000000000000001}}}}};
+  const UnchangedFaces unchanged(vertices, triangles, faces);
+  EXPECT_EQ(unchanged.face_of(0), 1u);
+  EXPECT_EQ(unchanged.face_of(1), 0u);
+  EXPECT_EQ(unchanged.face_of(2), 0u) << "a duplicate triangle has the same face";
+  EXPECT_EQ(unchanged.face_of(3), UnchangedFaces::none);
+  EXPECT_EQ(unchanged.triangle_of(0), 1u);
+  EXPECT_EQ(unchanged.triangle_of(1), 0u);
+  EXPECT_EQ(unchanged.triangle_of(2), UnchangedFaces::none);
+}
+
+/// Ten thousand triangles around one point: the boxes of all faces meet, and yet nothing needs a search.
+TEST(UnchangedFaces, SpareAProofOfWhatIsTheOriginalStill) {
+  TriangleMesh star;
+  star.vertices.emplace_back(0, 0, 0);
+  std::vector<TrackedFace> faces;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const double a = 0.7 * i, z = std::cos(0.37 * i);
+    star.vertices.emplace_back(std::cos(a), std::sin(a), z);
+    star.vertices.emplace_back(std::cos(a + 0.1), std::sin(a + 0.1), z);
+    star.triangles.push_back({0, 2 * i + 1, 2 * i + 2});
+    faces.push_back({i, {star.vertices[0], star.vertices[2 * i + 2], star.vertices[2 * i + 1]}});
+  }
+  const Bvh tree(star);
+  DeviationTracker tracker(star, tree, 1e-3);
+  const Unproven unproven = tracker.start_from(faces);
+  EXPECT_TRUE(unproven.originals.empty());
+  EXPECT_TRUE(unproven.faces.empty());
+  EXPECT_EQ(tracker.stats().cuts, 0u);
+  EXPECT_EQ(tracker.stats().originals_split, 0u);
+  EXPECT_EQ(tracker.stats().faces_by_degree, 0u);
 }
 
 }  // namespace

@@ -87,7 +87,9 @@ class ProvenBounds {
   void set_lower(const LowerBound& lower) {
     lower_ = lower;
     const double accepted = goal_.accepted(lower.lower);
-    accepted_squared_ = accepted * accepted * (1 - 8 * 0x1p-53);
+    // Room for the roundings, of 16 u at most, that turn a distance into an upper bound again: chords end at the
+    // target.
+    accepted_squared_ = accepted * accepted * (1 - 64 * 0x1p-53);
     offered_squared_ = (lower.lower + goal_.slack) * (lower.lower + goal_.slack);
   }
 };

@@ -75,7 +75,8 @@ class ApproximationProof::ForwardWorker {
     covers_->triangles.assign(curve.begin() + begin, curve.begin() + end);
     const std::span<const std::uint32_t> triangles = covers_->triangles;
     near_run_.clear();
-    proof_.boxes_.find(grown(box_of(original_, triangles), original_.tolerance), near_run_);
+    if (!all_unchanged(triangles))
+      proof_.boxes_.find(grown(box_of(original_, triangles), original_.tolerance), near_run_);
     for (std::size_t first = 0; first < triangles.size(); first += triangles_of_cluster)
       cover_cluster(triangles.subspan(first, std::min(triangles_of_cluster, triangles.size() - first)));
   }
@@ -85,7 +86,25 @@ class ApproximationProof::ForwardWorker {
   }
 
  private:
+  [[nodiscard]] bool all_unchanged(std::span<const std::uint32_t> triangles) const {
+    return std::all_of(triangles.begin(), triangles.end(),
+                       [&](std::uint32_t t) { return proof_.unchanged_.face_of(t) != UnchangedFaces::none; });
+  }
+
+  /// Whether a triangle is a face still, which covers it then.
+  bool cover_unchanged(std::uint32_t triangle) {
+    const std::uint32_t face = proof_.unchanged_.face_of(triangle);
+    if (face == UnchangedFaces::none) return false;
+    covers_->ids.push_back(proof_.faces_[face].id);
+    covers_->ends.push_back(covers_->ids.size());
+    return true;
+  }
+
   void cover_cluster(std::span<const std::uint32_t> cluster) {
+    if (all_unchanged(cluster)) {
+      for (const std::uint32_t t : cluster) cover_unchanged(t);
+      return;
+    }
     const Eigen::AlignedBox3d box = box_of(original_, cluster), reach = grown(box, original_.tolerance);
     candidates_.clear();
     for (const std::uint32_t i : near_run_)
@@ -98,6 +117,7 @@ class ApproximationProof::ForwardWorker {
     const double limit = original_.limit(box);
     bool entered = false;
     for (const std::uint32_t t : cluster) {
+      if (cover_unchanged(t)) continue;
       if (!entered && candidates_.size() <= CandidateFaces::capacity) enter(candidates_, limit), entered = true;
       FaceMask used = entered ? cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())) : 0;
       if (used == 0) {
@@ -195,6 +215,12 @@ class ApproximationProof::BackwardWorker {
 
   void operator()(std::size_t i) {
     const TrackedFace& face = proof_.faces_[i];
+    if (const std::uint32_t t = proof_.unchanged_.triangle_of(static_cast<std::uint32_t>(i));
+        t != UnchangedFaces::none) {
+      proof_.nearest_[i] = t;
+      proof_.is_near_[i] = 1;
+      return;
+    }
     const Eigen::AlignedBox3d& box = proof_.boxes_.box(static_cast<std::uint32_t>(i));
     if (box.isEmpty()) return;
     const double limit = original_.limit(box);
@@ -225,6 +251,7 @@ ApproximationProof::ApproximationProof(const ProofOriginal& original, std::span<
       threads_(threads > 0 ? threads : omp_get_max_threads()),
       stop_(stop),
       boxes_(boxes_of(original, faces)),
+      unchanged_(original.vertices, original.triangles, faces),
       covers_((original.triangles.size() + triangles_of_run - 1) / triangles_of_run),
       nearest_(faces.size(), unknown),
       is_near_(faces.size(), 0) {}

@@ -11,6 +11,7 @@
 #include "meshbound/stop_token.h"
 #include "simplify/box_tree.h"
 #include "simplify/degree_cover.h"
+#include "simplify/unchanged_faces.h"
 
 namespace meshbound {
 
@@ -27,9 +28,10 @@ struct ProofOriginal {
 
 /// Proves from nothing that faces are within the tolerance of an original, both ways.
 ///
-/// Forward, runs of triangles along the curve of the tree share their candidates, the faces whose boxes come near them.
-/// Backward, each face is compared with the original, beginning at a triangle that it was found to hold. Runs and faces
-/// are independent of each other, so the result is the same for any number of threads.
+/// Triangles that are faces still need no proof. Forward, runs of triangles along the curve of the tree share their
+/// candidates, the faces whose boxes come near them. Backward, each face is compared with the original, beginning at a
+/// triangle that it was found to hold. Runs and faces are independent of each other, so the result is the same for any
+/// number of threads.
 class ApproximationProof {
  public:
   /// `original` and `faces` must outlive this. O(faces log faces).
@@ -71,6 +73,7 @@ class ApproximationProof {
   int threads_;
   StopToken stop_;
   BoxTree boxes_;
+  UnchangedFaces unchanged_;
   std::vector<Covers> covers_;  ///< by run
   std::vector<std::uint32_t> nearest_;
   std::vector<char> is_near_;  ///< by place in `faces_`; several threads write to it
