@@ -71,7 +71,8 @@ class OneSidedSearch {
   };
 
   [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return map_(a_.vertices[v]); }
-  /// Of a triangle of A. Rounded by less than 7 u M, for which the slack of a lower bound has room (`probe_start`).
+  /// The centroid of a triangle of A. Rounded by less than 7 u M, for which the slack of a lower bound has room
+  /// (`probe_start`).
   [[nodiscard]] Vec3 centroid(std::uint32_t slot) const {
     const Triangle& t = a_.corners[slot];
     return (1.0 / 3) * (vertex(t[0]) + vertex(t[1]) + vertex(t[2]));

@@ -21,7 +21,7 @@ std::uint64_t hash_of(const Vec3& p) {
   return hash * 0xbf58476d1ce4e5b9;
 }
 
-/// The same for any order of the corners.
+/// One hash for all orders of the corners.
 std::uint64_t hash_of(const FaceCorners& corners) {
   return hash_of(corners[0]) + hash_of(corners[1]) + hash_of(corners[2]);
 }
