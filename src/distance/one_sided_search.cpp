@@ -212,7 +212,8 @@ void OneSidedSearch::probe() {
 
 /// The vertices of a mesh that was simplified lie on the original, its triangles do not.
 void OneSidedSearch::probe_centroids() {
-  const std::uint32_t n = a_.triangle_count(), count = std::min(probed_centroids, n);
+  const std::uint32_t n = a_.triangle_count(), count = probed_centroids;
+  if (n < count) return;  // a search of them all costs no more
   Searcher& searcher = *searchers_.front();
   searcher.begin(lower_);
   std::uint32_t hint = 0;
