@@ -39,8 +39,9 @@ class SearcherImpl final : public Searcher {
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
              std::uint64_t max_cuts) override {
     walker_.cover(a, b, c, from_slot, slot, max_cuts);
+    std::uint64_t cuts_left = walker_.cuts_left();
     for (const auto& [piece, upper_squared] : walker_.unfinished())
-      subdivision().refine(piece, upper_squared, walker_.cuts_left());
+      cuts_left = subdivision().refine(piece, upper_squared, cuts_left);
   }
 
   Swept sweep(const TriangleCorners& triangle, std::uint32_t& hint, std::uint64_t max_cuts) override {

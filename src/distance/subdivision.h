@@ -44,14 +44,15 @@ class Subdivision {
   }
 
   /// Covers a piece of a triangle of A that is known to be within the root of `upper_squared` of B, fanned out into
-  /// triangles: its diagonals are exact.
-  void refine(const Piece& piece, double upper_squared, std::uint64_t max_subdivisions) {
+  /// triangles: its diagonals are exact. Returns the subdivisions that are left.
+  std::uint64_t refine(const Piece& piece, double upper_squared, std::uint64_t max_subdivisions) {
     subdivisions_left_ = max_subdivisions;
     for (std::uint32_t i = 2; i < piece.count; ++i) {
       begin({{piece.corner(0), piece.corner(i - 1), piece.corner(i)}, upper_squared, 0, 0, piece.depth});
       offer_corners(parts_.back());
       run();
     }
+    return subdivisions_left_;
   }
 
  private:
