@@ -65,7 +65,7 @@ inline void expect_witness(const Json& direction, const std::string& where) {
   EXPECT_LE(length, direction["upper"].get<double>() + slack) << where;
 }
 
-/// Of every direction at any depth. One that says that it was searched has a witness, no other has one.
+/// Checks every direction of a document, at any depth: it has a witness if and only if it says that it was searched.
 inline void expect_witnesses(const Json& part, const std::string& where = "document") {
   if (!part.is_structured()) return;
   if (part.is_object() && part.contains("searched")) {

@@ -33,7 +33,7 @@ inline constexpr unsigned hard_shapes = 6;
 /// About `triangles` of them, at least one and never more than `triangles` + 2.
 [[nodiscard]] TriangleMesh hard_mesh(HardShape shape, Choices& choices, unsigned triangles);
 
-/// The same triangles, each with vertices of its own.
+/// A copy of a mesh in which each triangle has vertices of its own.
 [[nodiscard]] TriangleMesh unwelded(const TriangleMesh& mesh);
 
 /// The same triangles, of which some corners have a vertex of their own. A coordinate of 0 is -0 there.
