@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "meshbound/mesh_view.h"
+
+namespace meshbound {
+
+inline constexpr std::uint32_t no_twin = 0xffffffff;
+
+/// A triangle soup as an oriented 2-manifold with borders: a corner table. Corner k of face f has the number 3 f + k,
+/// and so has the edge that leaves it for corner k + 1.
+///
+/// Twins are mutual, run between the same two vertices in opposite directions, and are exactly the pairs of edges that
+/// do so: no two edges run from one vertex to another, as in a half-edge structure. The faces around a vertex form one
+/// fan or one ring, and every vertex has a face.
+struct ManifoldSoup {
+  std::vector<std::array<std::uint32_t, 3>> faces;  ///< corners as indices below `vertex_of.size()`
+  std::vector<std::array<std::uint32_t, 3>> twin;   ///< by face and corner: the opposite edge, `no_twin` at a border
+  std::vector<std::uint32_t> vertex_of;    ///< by vertex: the first vertex of the soup with its coordinates (-0 is 0)
+  std::vector<std::uint32_t> triangle_of;  ///< by face: the triangle of the soup, ascending
+  std::size_t dropped_triangles = 0;       ///< those with two corners of equal coordinates, and repetitions
+  bool split = false;                      ///< vertices were duplicated or triangles turned over
+};
+
+/// Joins the triangles of a soup where they form a surface. Vertices with equal coordinates are one. An edge of exactly
+/// two triangles joins them, whatever their directions; an edge of more is cut, but for triangles that hang together
+/// around both of its ends. Triangles are then turned over until neighbours agree: each component keeps the orientation
+/// of most of its triangles, or that of the first one where there are as many of both, and is cut where none is
+/// possible (Moebius). Last, a vertex is duplicated for each further fan or ring of faces around it. Vertices are
+/// numbered as the corners of the faces come, and a face that is turned over keeps its first corner.
+///
+/// `soup` is valid (see `validate`). Throws `InvalidInput` where no triangle has three different corners, and for more
+/// than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.
+[[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup);
+
+}  // namespace meshbound

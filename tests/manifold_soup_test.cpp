@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/manifold_soup.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "manifold_soup_cases.h"
+#include "meshbound/error.h"
+#include "reference/small_meshes.h"
+
+namespace {
+
+using meshbound::InvalidInput;
+using meshbound::manifold_soup;
+using meshbound::ManifoldSoup;
+using meshbound::no_twin;
+using meshbound::Triangle;
+using meshbound::TriangleMesh;
+
+using Coordinates = std::array<double, 3>;
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+Coordinates coordinates(const TriangleMesh& soup, std::uint32_t v) {
+  const Eigen::Vector3d& p = soup.vertices[v];
+  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};  // -0 becomes 0
+}
+
+/// The coordinates of the corners in ascending order, so whatever the order of the corners.
+std::array<Coordinates, 3> shape(const TriangleMesh& soup, const Triangle& corners) {
+  std::array<Coordinates, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = coordinates(soup, corners[k]);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+bool is_degenerate(const std::array<Coordinates, 3>& corners) {
+  return corners[0] == corners[1] || corners[1] == corners[2];
+}
+
+Edge edge(const ManifoldSoup& soup, std::uint32_t corner) {
+  const Triangle& face = soup.faces[corner / 3];
+  return {face[corner % 3], face[(corner + 1) % 3]};
+}
+
+std::uint32_t twin(const ManifoldSoup& soup, std::uint32_t corner) { return soup.twin[corner / 3][corner % 3]; }
+
+std::size_t borders(const ManifoldSoup& soup) {
+  std::size_t count = 0;
+  for (std::uint32_t c = 0; c < 3 * soup.faces.size(); ++c) count += twin(soup, c) == no_twin;
+  return count;
+}
+
+/// Twins are mutual, and exactly the pairs of opposite edges; no directed edge comes twice.
+std::string edge_defect(const ManifoldSoup& soup) {
+  std::map<Edge, std::uint32_t> corner_of;
+  for (std::uint32_t c = 0; c < 3 * soup.faces.size(); ++c)
+    if (!corner_of.emplace(edge(soup, c), c).second) return "directed edge twice at corner " + std::to_string(c);
+  for (const auto& [ends, corner] : corner_of) {
+    const auto opposite = corner_of.find({ends.second, ends.first});
+    if (twin(soup, corner) != (opposite == corner_of.end() ? no_twin : opposite->second))
+      return "the twin of corner " + std::to_string(corner);
+  }
+  return {};
+}
+
+/// Every vertex has one fan or ring of faces: from any of its corners all are reached across twins.
+std::string vertex_defect(const ManifoldSoup& soup) {
+  std::vector<std::set<std::uint32_t>> corners_at(soup.vertex_of.size());
+  for (std::uint32_t c = 0; c < 3 * soup.faces.size(); ++c) {
+    const std::uint32_t v = edge(soup, c).first;
+    if (v >= corners_at.size()) return "a corner without a vertex";
+    corners_at[v].insert(c);
+  }
+  for (std::size_t v = 0; v < corners_at.size(); ++v) {
+    if (corners_at[v].empty()) return "vertex without a face: " + std::to_string(v);
+    std::vector<std::uint32_t> open = {*corners_at[v].begin()};
+    corners_at[v].erase(open[0]);
+    while (!open.empty()) {
+      const std::uint32_t c = open.back(), face = c - c % 3;
+      open.pop_back();
+      const std::uint32_t leaving = twin(soup, c), entering = twin(soup, face + (c + 2) % 3);
+      std::vector<std::uint32_t> beside;
+      if (leaving != no_twin) beside.push_back(leaving - leaving % 3 + (leaving + 1) % 3);
+      if (entering != no_twin) beside.push_back(entering);
+      for (const std::uint32_t next : beside)
+        if (corners_at[v].erase(next) != 0) open.push_back(next);
+    }
+    if (!corners_at[v].empty()) return "two fans at vertex " + std::to_string(v);
+  }
+  return {};
+}
+
+/// Faces are the triangles of the soup, each set of corners once, but for those with two equal corners.
+std::string surface_defect(const ManifoldSoup& manifold, const TriangleMesh& soup) {
+  if (manifold.triangle_of.size() != manifold.faces.size() || manifold.twin.size() != manifold.faces.size())
+    return "sizes";
+  if (std::adjacent_find(manifold.triangle_of.begin(), manifold.triangle_of.end(), std::greater_equal<>()) !=
+      manifold.triangle_of.end())
+    return "triangles are not in ascending order";
+  if (manifold.dropped_triangles != soup.triangles.size() - manifold.faces.size()) return "number dropped";
+  std::map<std::array<Coordinates, 3>, std::uint32_t> expected;  // the first triangle of each shape
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+    if (const auto corners = shape(soup, soup.triangles[t]); !is_degenerate(corners)) expected.emplace(corners, t);
+  for (std::size_t f = 0; f < manifold.faces.size(); ++f) {
+    Triangle corners = manifold.faces[f];
+    for (std::uint32_t& v : corners) v = manifold.vertex_of[v];
+    const auto found = expected.find(shape(soup, corners));
+    if (found == expected.end() || found->second != manifold.triangle_of[f]) return "face " + std::to_string(f);
+    expected.erase(found);
+  }
+  return expected.empty() ? "" : "a triangle without a face: " + std::to_string(expected.begin()->second);
+}
+
+std::string defect(const ManifoldSoup& manifold, const TriangleMesh& soup) {
+  for (std::string found : {surface_defect(manifold, soup), edge_defect(manifold), vertex_defect(manifold)})
+    if (!found.empty()) return found;
+  return {};
+}
+
+/// Triangles over vertices at distinct places.
+TriangleMesh mesh_of(std::vector<Triangle> triangles) {
+  TriangleMesh mesh;
+  mesh.triangles = std::move(triangles);
+  std::uint32_t vertices = 0;
+  for (const Triangle& corners : mesh.triangles) vertices = std::max(vertices, 1 + *std::ranges::max_element(corners));
+  for (std::uint32_t v = 0; v < vertices; ++v) mesh.vertices.emplace_back(v, v * v % 11, v % 3);
+  return mesh;
+}
+
+std::vector<Triangle> tetrahedron(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  return {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
+}
+
+TriangleMesh joined(std::vector<Triangle> a, const std::vector<Triangle>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return mesh_of(std::move(a));
+}
+
+ManifoldSoup checked(const TriangleMesh& soup) {
+  ManifoldSoup result = manifold_soup(soup);
+  EXPECT_EQ(defect(result, soup), "");
+  return result;
+}
+
+TEST(ManifoldSoup, LeavesAnOrientedManifoldAsItIs) {
+  const TriangleMesh sphere = meshbound::reference::icosphere(2);
+  const ManifoldSoup result = checked(sphere);
+  EXPECT_FALSE(result.split);
+  EXPECT_EQ(result.dropped_triangles, 0U);
+  EXPECT_EQ(borders(result), 0U);
+  ASSERT_EQ(result.faces.size(), sphere.triangles.size());
+  for (std::size_t f = 0; f < result.faces.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(result.vertex_of[result.faces[f][k]], sphere.triangles[f][k]) << "face " << f;
+}
+
+TEST(ManifoldSoup, WeldsVerticesOfEqualCoordinates) {
+  const TriangleMesh cube = meshbound::reference::cube(1);
+  TriangleMesh soup;
+  for (const Triangle& corners : cube.triangles) {
+    for (const std::uint32_t v : corners) soup.vertices.push_back(cube.vertices[v]);
+    const auto end = static_cast<std::uint32_t>(soup.vertices.size());
+    soup.triangles.push_back({end - 3, end - 2, end - 1});
+  }
+  const ManifoldSoup result = checked(soup);
+  EXPECT_EQ(result.vertex_of.size(), 8U);
+  EXPECT_EQ(borders(result), 0U);
+  EXPECT_FALSE(result.split) << "several vertices that become one are not a split";
+}
+
+TEST(ManifoldSoup, TakesMinusZeroForZero) {
+  TriangleMesh soup = mesh_of({{0, 1, 2}, {4, 3, 5}});
+  soup.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, -0.0, 0}, {1, -0.0, -0.0}, {0, -1, 0}};
+  EXPECT_EQ(checked(soup).vertex_of, (std::vector<std::uint32_t>{0, 1, 2, 5}));
+}
+
+TEST(ManifoldSoup, DropsRepeatedAndDegenerateTriangles) {
+  const ManifoldSoup result = checked(mesh_of({{0, 0, 1}, {0, 1, 2}, {2, 1, 0}, {2, 1, 3}, {1, 2, 0}, {3, 2, 3}}));
+  EXPECT_EQ(result.triangle_of, (std::vector<std::uint32_t>{1, 3}));
+  EXPECT_EQ(result.dropped_triangles, 4U);
+  EXPECT_EQ(borders(result), 4U);
+  EXPECT_FALSE(result.split);
+}
+
+TEST(ManifoldSoup, TurnsOverTheFewerTrianglesOfAComponent) {
+  TriangleMesh sphere = meshbound::reference::icosphere(1);
+  for (std::size_t t = 0; t < sphere.triangles.size(); ++t)
+    if (t % 3 == 0) std::swap(sphere.triangles[t][0], sphere.triangles[t][1]);
+  const ManifoldSoup result = checked(sphere);
+  EXPECT_EQ(borders(result), 0U);
+  EXPECT_TRUE(result.split);
+  EXPECT_EQ(result.vertex_of.size(), sphere.vertices.size());
+  for (std::size_t f = 0; f < result.faces.size(); ++f) {
+    const Triangle& before = sphere.triangles[f];
+    const Triangle expected = f % 3 == 0 ? Triangle{before[0], before[2], before[1]} : before;
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(result.vertex_of[result.faces[f][k]], expected[k]) << "face " << f;
+  }
+}
+
+TEST(ManifoldSoup, KeepsTheOrientationOfTheFirstOfTwo) {
+  const ManifoldSoup result = checked(mesh_of({{0, 1, 2}, {1, 2, 3}}));
+  EXPECT_EQ(result.faces[0], (Triangle{0, 1, 2}));
+  EXPECT_EQ(result.faces[1], (Triangle{1, 3, 2}));
+  EXPECT_EQ(result.twin[0][1], 5U);
+}
+
+TEST(ManifoldSoup, OrientsEachComponentByItself) {
+  const ManifoldSoup result = checked(mesh_of({{0, 1, 2}, {1, 2, 3}, {1, 0, 4}, {5, 6, 7}, {7, 6, 8}}));
+  EXPECT_EQ(result.faces[3], (Triangle{5, 6, 7}));
+  EXPECT_EQ(borders(result), 9U);
+}
+
+TEST(ManifoldSoup, CutsAMoebiusStripAcross) {
+  std::vector<Triangle> strip;
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * i + 1, c = i == 6 ? 1 : 2 * i + 2, d = i == 6 ? 0 : 2 * i + 3;
+    strip.push_back({a, c, b});
+    strip.push_back({b, c, d});
+  }
+  const ManifoldSoup result = checked(mesh_of(strip));
+  EXPECT_TRUE(result.split);
+  EXPECT_EQ(result.vertex_of.size(), 16U) << "the two vertices of one edge are duplicated";
+  EXPECT_EQ(borders(result), 16U);
+}
+
+TEST(ManifoldSoup, CutsAnEdgeOfThreeTriangles) {
+  const ManifoldSoup result = checked(mesh_of({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  EXPECT_EQ(borders(result), 9U);
+  EXPECT_EQ(result.vertex_of.size(), 9U);
+  EXPECT_TRUE(result.split);
+}
+
+TEST(ManifoldSoup, TakesTwoSolidsThatShareAnEdgeApart) {
+  const ManifoldSoup result = checked(joined(tetrahedron(0, 1, 2, 3), tetrahedron(0, 1, 4, 5)));
+  EXPECT_EQ(borders(result), 0U);
+  EXPECT_EQ(result.vertex_of.size(), 8U);
+}
+
+TEST(ManifoldSoup, DuplicatesAVertexWhereTwoConesMeet) {
+  const ManifoldSoup result = checked(joined(tetrahedron(0, 1, 2, 3), tetrahedron(0, 4, 5, 6)));
+  EXPECT_EQ(borders(result), 0U);
+  EXPECT_EQ(result.vertex_of.size(), 8U);
+  EXPECT_EQ(std::count(result.vertex_of.begin(), result.vertex_of.end(), 0U), 2);
+  EXPECT_TRUE(result.split);
+}
+
+TEST(ManifoldSoup, RefusesASoupWithoutASurfaceOrWithTooManyTriangles) {
+  EXPECT_THROW(static_cast<void>(manifold_soup(mesh_of({{0, 0, 1}, {1, 2, 2}}))), InvalidInput);
+  const double position[3] = {0, 0, 0};
+  const std::uint32_t indices[3] = {0, 0, 0};
+  const meshbound::MeshView huge(position, 1, sizeof(position), indices, 0x55555556);
+  EXPECT_THROW(static_cast<void>(manifold_soup(huge)), InvalidInput);
+}
+
+TEST(ManifoldSoup, IsAManifoldForAnyTriangles) {
+  int split = 0, whole = 0;
+  for (std::uint32_t seed = 0; seed < 3000; ++seed) {
+    const TriangleMesh soup = meshbound::test::tangled_soup(seed);
+    if (soup.triangles.size() == 1) continue;
+    const ManifoldSoup result = manifold_soup(soup);
+    ASSERT_EQ(defect(result, soup), "") << "seed " << seed;
+    ++(result.split ? split : whole);
+  }
+  EXPECT_GT(split, 500);
+  EXPECT_GT(whole, 20);
+}
+
+TEST(ManifoldSoup, IsAManifoldForTheSharedMeshes) {
+  const auto meshes = meshbound::test::readable_meshes({"broken", "../cases"});
+  if (meshes.empty()) GTEST_SKIP() << "no datasets folder with broken/ (set MESHBOUND_DATASETS)";
+  for (const auto& [path, soup] : meshes) {
+    const bool has_surface = std::ranges::any_of(
+        soup.triangles, [&, &mesh = soup](const Triangle& t) { return !is_degenerate(shape(mesh, t)); });
+    if (has_surface)
+      EXPECT_EQ(defect(manifold_soup(soup), soup), "") << path;
+    else
+      EXPECT_THROW(static_cast<void>(manifold_soup(soup)), InvalidInput) << path;
+  }
+}
+
+}  // namespace
