@@ -6,8 +6,8 @@
 #include "cgal/collapse_run.h"
 #include "cgal/joined_parts.h"
 #include "cgal/spatial_order.h"
-#include "cgal/working_frame.h"
 #include "meshbound/cgal/simplify_with_bound.h"
+#include "simplify/working_frame.h"
 
 namespace meshbound::cgal {
 

@@ -1,11 +1,11 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-namespace meshbound::cgal {
+namespace meshbound {
 
 /// Coordinates of size 1 around the origin for the decimation, whatever the model's: quadrics and cross products of
 /// coordinates of 1e-160 or 1e155, or of a small model far from the origin, would underflow, overflow or cancel.
@@ -36,4 +36,4 @@ class WorkingFrame {
   double largest_ = 0;
 };
 
-}  // namespace meshbound::cgal
+}  // namespace meshbound
