@@ -5,8 +5,8 @@
 
 #include "cgal/collapse_run.h"
 #include "cgal/joined_parts.h"
-#include "cgal/spatial_order.h"
 #include "meshbound/cgal/simplify_with_bound.h"
+#include "simplify/spatial_order.h"
 #include "simplify/working_frame.h"
 
 namespace meshbound::cgal {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "cgal/spatial_order.h"
+#include "simplify/spatial_order.h"
 
 namespace meshbound::cgal {
 namespace {

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "cgal/spatial_order.h"
+// SPDX-License-Identifier: MIT
+#include "simplify/spatial_order.h"
 
 #include "bvh/bvh_data.h"
 #include "meshbound/bvh.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 
 SpatialOrder spatial_order(const TriangleMesh& mesh, int threads) {
   const Bvh tree(mesh, BvhOptions{threads});
@@ -28,4 +28,4 @@ SpatialOrder spatial_order(const TriangleMesh& mesh, int threads) {
   return order;
 }
 
-}  // namespace meshbound::cgal
+}  // namespace meshbound

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -6,16 +6,18 @@
 
 #include "meshbound/triangle_mesh.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 
 /// A mesh whose triangles and vertices follow a space-filling curve, so that what a collapse touches lies close
 /// together in memory (an eighth of the time of a decimation). Vertices that no triangle uses are left out.
 struct SpatialOrder {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> triangle, vertex;  ///< where those of `mesh` were before
+  std::vector<std::uint32_t> triangle;  ///< by triangle of `mesh`: its index before
+  std::vector<std::uint32_t> vertex;    ///< by vertex of `mesh`: its index before
 };
 
-/// The order of the leaves of a `Bvh`. Throws `InvalidInput` for a mesh that a tree cannot be built of. O(n).
+/// Triangles in the order of the leaves of a `Bvh`, vertices as the corners of these come; the same for any number of
+/// threads. Throws `InvalidInput` for a mesh that a tree cannot be built of. O(n).
 [[nodiscard]] SpatialOrder spatial_order(const TriangleMesh& mesh, int threads);
 
 /// Points by their coordinates, x first. -0 and 0 are equal.
@@ -23,4 +25,4 @@ struct SpatialOrder {
   return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
 }
 
-}  // namespace meshbound::cgal
+}  // namespace meshbound
