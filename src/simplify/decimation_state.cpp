@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/decimation_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshbound/deviation_tracker.h"
+#include "numeric/rounding.h"
+#include "simplify/forward_cover.h"
+
+namespace meshbound {
+
+namespace {
+
+/// Points between the ends of one edge: more cost more time than they save.
+constexpr double max_between = 7;
+
+}  // namespace
+
+Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                 const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face, double spacing)
+    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), none) {
+  for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::uint32_t v : triangles[triangle_of_face[f]]) {
+      if (samples_[v].face != none) continue;
+      triangle_near_[v] = triangle_of_face[f];
+      give_to(v, f);
+    }
+  }
+  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
+    if (mesh.edge(c) != c) continue;
+    const Vec3 p = mesh.position(mesh.start(c)), q = mesh.position(mesh.end(c));
+    const double count = std::min(std::floor(length(q - p) / spacing), max_between);
+    for (int k = 1; k <= count; ++k) {
+      samples_.push_back({p + (k / (count + 1)) * (q - p), none, none});
+      triangle_near_.push_back(triangle_of_face[c / 3]);
+      give_to(static_cast<std::uint32_t>(samples_.size() - 1), c / 3);
+    }
+  }
+}
+
+/// What must be proven in doubles so that `value` holds in real arithmetic.
+double DecimationState::provable(double value) const {
+  // New vertices lie within the tolerance of old ones. The slack of a distance, and of the cuts above a piece:
+  const double size = magnitude + tolerance;
+  const double slack = CandidateFaces::rounding_slack(size) + ForwardCover::deepest_cut * cut_error * size;
+  return value * DeviationTracker::tracking_share * (1 - 2 * CandidateFaces::plane_slack) - slack;
+}
+
+double DecimationState::limit_around(const std::array<Vec3, 3>& corners) const {
+  if (!local) return limit;
+  Eigen::AlignedBox3d box;
+  for (const Vec3 p : corners) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+  return provable(local->sufficient_around(box, tolerance));
+}
+
+}  // namespace meshbound

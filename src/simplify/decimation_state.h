@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "meshbound/bvh.h"
+#include "simplify/array_mesh.h"
+#include "simplify/cover_assignment.h"
+#include "simplify/local_tolerance.h"
+#include "simplify/quadric.h"
+
+namespace meshbound {
+
+/// Points of the original, each with the face of the mesh that it was found nearest to: its vertices, and points
+/// between them where they lie far apart. A guide, not a bound.
+///
+/// A face that grows large would have more than it needs: half of them then go with another one near, which stands for
+/// both. They keep to its face from then on.
+class Samples {
+ public:
+  static constexpr std::uint32_t none = ArrayMesh::none;
+
+  Samples() = default;
+  /// Vertices of the original, and points on edges longer than `spacing`, between them.
+  Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+          const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face, double spacing);
+
+  [[nodiscard]] std::size_t size() const { return samples_.size(); }
+  [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
+  [[nodiscard]] std::uint32_t triangle_near(std::uint32_t sample) const { return triangle_near_[sample]; }
+  /// None where no face is known.
+  [[nodiscard]] std::uint32_t face_of(std::uint32_t sample) const {
+    while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != none)
+      sample = samples_[sample].face;
+    return samples_[sample].face;
+  }
+  /// Those of a face form a list, without the ones that go with others.
+  [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
+  [[nodiscard]] std::uint32_t following(std::uint32_t sample) const { return samples_[sample].following; }
+
+  /// The samples of the face are to be given to others.
+  void clear(std::uint32_t face) { first_[face] = none; }
+  void give_to(std::uint32_t sample, std::uint32_t face) {
+    samples_[sample].face = face;
+    samples_[sample].following = first_[face];
+    first_[face] = sample;
+  }
+  /// In place of `give_to`, for good.
+  void go_with(std::uint32_t sample, std::uint32_t other) {
+    samples_[sample].face = other;
+    samples_[sample].following = goes_with;
+  }
+
+ private:
+  static constexpr std::uint32_t goes_with = 0x80000000;
+  struct alignas(32) Sample {
+    Vec3 at;
+    std::uint32_t face = none, following = none;
+  };
+  std::vector<Sample> samples_;
+  std::vector<std::uint32_t> triangle_near_, first_;
+};
+
+/// One change of the mesh that has not been proven yet, and what was before.
+struct Edit {
+  enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
+  bool was_locked = false;
+  Corner edge = ArrayMesh::none;  ///< collapsed or flipped; for a move a corner of the vertex
+  Vec3 position;                  ///< of the start of the edge
+  std::uint32_t first_stamp = 0;  ///< its faces in `EditLog::stamps`
+};
+
+/// Changes since the last proof in their order. The number of a change is its place in `edits`, counted from 1.
+struct EditLog {
+  struct Stamp {
+    std::uint32_t face, before;  ///< the number of the change before that touched the face; 0: none
+  };
+  std::vector<Edit> edits;
+  std::vector<Stamp> stamps;
+};
+
+/// A mesh under decimation and all that is known of it.
+///
+/// `mesh` is proven to be within `proven_tolerance` of the original, both ways, but for the faces with a stamp: these
+/// were changed since, and `log` can take the changes back. All coordinates are those of the working frame.
+struct DecimationState {
+  const std::vector<Vec3>& vertices;                           ///< of the original
+  const std::vector<std::array<std::uint32_t, 3>>& triangles;  ///< of the original
+  const Bvh& tree;                                             ///< of the original
+
+  ArrayMesh mesh;
+  std::size_t faces = 0;                                      ///< that are left
+  std::vector<std::uint32_t> source_vertex, source_triangle;  ///< by vertex and face: of the original
+  std::vector<std::uint8_t> locked;                           ///< by vertex
+  std::vector<Quadric> quadrics;                              ///< by vertex
+  std::vector<float> share;                                   ///< by vertex: of the tolerance that samples may reach
+  Samples samples;
+
+  double magnitude = 0;  ///< largest coordinate of the original
+  double tolerance = 0;
+  double limit = 0;  ///< what must be found in doubles so that `tolerance` holds
+  std::optional<LocalTolerance> local;
+
+  std::vector<std::uint32_t> stamp;  ///< by face: the number of the last change since the last proof, or 0
+  EditLog log;
+  std::uint32_t clock = 0;                         ///< changes since the beginning
+  std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
+  std::vector<std::uint32_t> place_in_queue;       ///< by edge
+
+  /// What must be found in doubles so that `value` holds in real arithmetic.
+  [[nodiscard]] double provable(double value) const;
+  /// What must be found in doubles around a triangle so that the tolerances hold there.
+  [[nodiscard]] double limit_around(const std::array<Vec3, 3>& corners) const;
+  [[nodiscard]] double limit_in(const Eigen::AlignedBox3d& box) const {
+    return local ? provable(local->sufficient_around(box, tolerance)) : limit;
+  }
+  CoverAssignment cover;               ///< which faces each original triangle is proven to be near
+  std::vector<std::uint32_t> nearest;  ///< by face: an original triangle near it
+};
+
+}  // namespace meshbound

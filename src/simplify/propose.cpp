@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/propose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/point_triangle.h"
+#include "simplify/minimax_step.h"
+
+namespace meshbound {
+namespace {
+
+/// Placements are moved to where the largest sampled distance is least at most this often.
+constexpr int max_minimax_steps = 3;
+
+/// One sample in this many tells for most edges that there is nothing to gain.
+constexpr std::size_t coarseness = 6;
+
+/// Samples that faces beside the star may take: there are few, at its rim.
+constexpr std::size_t max_outside = 8;
+
+/// A star with more is thinned out.
+constexpr std::size_t max_samples = 384;
+/// So many samples that follow are looked at for one near by.
+constexpr std::size_t window = 8;
+
+constexpr std::size_t lanes = 8;
+
+/// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
+bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
+                    const std::vector<std::uint32_t>& around_gone) {
+  const Corner other = mesh.twin(edge);
+  const auto is_loose = [&](Corner c) {
+    return mesh.twin(next_corner(c)) == ArrayMesh::none && mesh.twin(previous_corner(c)) == ArrayMesh::none;
+  };
+  if (is_loose(edge) || (other != ArrayMesh::none && is_loose(other))) return false;
+  std::size_t common = 0;
+  for (const std::uint32_t v : around_gone)
+    common += static_cast<std::size_t>(std::count(around_kept.begin(), around_kept.end(), v));
+  if (common != (other == ArrayMesh::none ? 1 : 2)) return false;
+  if (other == ArrayMesh::none) return true;
+  if (mesh.apex(edge) == mesh.apex(other)) return false;
+  return !(mesh.is_border(mesh.start(edge)) && mesh.is_border(mesh.end(edge)));
+}
+
+}  // namespace
+
+bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
+  edge = of;
+  kept = mesh.start(edge), gone = mesh.end(edge);
+  const std::uint32_t face = edge / 3, across = mesh.twin(edge) == ArrayMesh::none ? face : mesh.twin(edge) / 3;
+  moved.clear();
+  removed.clear();
+  removed.push_back(face);
+  if (across != face) removed.push_back(across);
+  for (auto* ring : {&around_kept_, &around_gone_}) ring->clear();
+  const auto visit = [&](std::uint32_t v, std::vector<std::uint32_t>& ring) {
+    return mesh.for_each_corner(v, [&](Corner c) {
+      ring.push_back(mesh.end(c));
+      if (mesh.twin(previous_corner(c)) == ArrayMesh::none) ring.push_back(mesh.apex(c));
+      if (c / 3 != face && c / 3 != across) moved.push_back(c);
+      return moved.size() <= max_faces;
+    });
+  };
+  if (!visit(kept, around_kept_) || !visit(gone, around_gone_) || moved.empty()) return false;
+  return keeps_manifold(mesh, edge, around_kept_, around_gone_);
+}
+
+Proposer::Proposer(DecimationState& state) : state_(state), proximity_(state.tree) {}
+
+void Proposer::gather_samples() {
+  const Samples& samples = state_.samples;
+  gathered_ = true;
+  points_.clear();
+  ids_.clear();
+  const auto take = [&](std::uint32_t face) {
+    for (std::uint32_t s = samples.first(face); s != Samples::none; s = samples.following(s)) {
+      ids_.push_back(s);
+      points_.add(samples.at(s) - origin_);
+    }
+  };
+  for (const std::uint32_t face : star_.removed) take(face);
+  for (const Corner c : star_.moved) take(c / 3);
+}
+
+/// The faces that stay, with the point as their first corner. False where one is folded.
+bool Proposer::set_faces(Vec3 point) {
+  faces_.clear();
+  for (std::size_t i = 0; i < star_.moved.size(); ++i) {
+    const Corner c = star_.moved[i];
+    const Vec3 q = state_.mesh.position(state_.mesh.end(c)), r = state_.mesh.position(state_.mesh.apex(c));
+    if (!before_[i].allows({point, q, r})) return false;
+    faces_.emplace_back(point - origin_, q - origin_, r - origin_);
+  }
+  return true;
+}
+
+/// Whether each sample is near a face of the star, or one beside it.
+bool Proposer::holds_all(double limit) {
+  kernel_.offsets(points_, faces_, offsets_);
+  outside_.clear();
+  const auto squared_limit = static_cast<float>(limit * limit);
+  for (std::size_t b = 0; b < offsets_.size(); ++b) {
+    float largest = 0;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float squared = points_.blocks[b].weight[k] * offsets_[b].squared[k];
+      largest = squared > largest ? squared : largest;
+    }
+    if (largest <= squared_limit) continue;
+    for (std::size_t k = 0; k < lanes && lanes * b + k < ids_.size(); ++k) {
+      if (offsets_[b].squared[k] <= squared_limit) continue;
+      if (outside_.size() == max_outside) return false;
+      const std::uint32_t beside = face_beside(ids_[lanes * b + k], squared_limit);
+      if (beside == ArrayMesh::none) return false;
+      outside_.emplace_back(lanes * b + k, beside);
+    }
+  }
+  return true;
+}
+
+/// A face across the rim of the star that is near the sample, or none.
+std::uint32_t Proposer::face_beside(std::uint32_t sample, float squared_limit) {
+  const Vec3 p = state_.samples.at(sample);
+  for (const Corner c : star_.moved) {
+    const Corner across = state_.mesh.twin(next_corner(c));
+    if (across == ArrayMesh::none) continue;
+    const auto [a, b, d] = state_.mesh.triangle(across / 3);
+    if (closest_on_triangle(CornerTriangle<double>{a, b - a, d - a}, p).squared_distance <= squared_limit)
+      return across / 3;
+  }
+  return ArrayMesh::none;
+}
+
+/// Of the vertex itself, against the original.
+bool Proposer::is_near(Vec3 point, double limit) {
+  if (ids_.empty()) return true;
+  std::uint32_t best = ids_[0];
+  double least = HUGE_VAL;
+  const std::size_t stride = ids_.size() / 32 + 1;
+  for (std::size_t i = 0; i < ids_.size(); i += stride) {
+    const double squared = squared_length(state_.samples.at(ids_[i]) - point);
+    if (squared < least) least = squared, best = ids_[i];
+  }
+  std::uint32_t hint = state_.samples.triangle_near(best);
+  return proximity_.upper_distance({point.x, point.y, point.z}, hint, limit) <= limit;
+}
+
+bool Proposer::fits(Vec3 point, double limit) {
+  if (!set_faces(point)) {
+    ++counts.folded;
+    return false;
+  }
+  if (!gathered_) gather_samples();
+  if (!holds_all(limit)) return false;
+  if (is_near(point, limit)) return true;
+  ++counts.stray;
+  return false;
+}
+
+std::optional<Vec3> Proposer::placement(Corner edge, double share) {
+  ++counts.tried;
+  const ArrayMesh& mesh = state_.mesh;
+  if (!star_.gather(mesh, edge)) {
+    ++counts.by_topology;
+    return std::nullopt;
+  }
+  const std::uint32_t kept = star_.kept, gone = star_.gone;
+  if (is_locked(kept) && is_locked(gone)) return std::nullopt;
+  const Vec3 p = mesh.position(kept), q = mesh.position(gone);
+  origin_ = p;
+  before_.clear();
+  for (const Corner c : star_.moved)
+    before_.emplace_back(
+        GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
+  lowered_ = false;
+  const double limit = limit_ =
+      state_.limit * std::min({share, double{state_.share[kept]}, double{state_.share[gone]}});
+  gathered_ = false;
+  if (is_locked(kept) || is_locked(gone)) {
+    const Vec3 fixed = is_locked(kept) ? p : q;
+    return fits(fixed, limit) ? std::optional(fixed) : std::nullopt;
+  }
+  const Vec3 wanted = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q).point;
+  if (fits(wanted, limit)) {
+    ++counts.by_cost;
+    return wanted;
+  }
+  if (const auto lower = minimax(wanted, limit)) return lower;
+  for (const Vec3 end : {p, q}) {
+    if (!hopeless_ && fits(end, limit)) return end;
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec3> Proposer::lower_placement(Vec3 than) {
+  if (lowered_ || is_locked(star_.kept) || is_locked(star_.gone)) return std::nullopt;
+  // Beyond what keeps from moving any further.
+  return minimax(than, 0.8 * limit_);
+}
+
+/// From a placement to where the largest distance is least.
+std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
+  hopeless_ = false;
+  lowered_ = true;
+  if (!set_faces(point)) {
+    point = 0.5 * (state_.mesh.position(star_.kept) + state_.mesh.position(star_.gone));
+    if (!set_faces(point)) return std::nullopt;
+  }
+  if (!gathered_) gather_samples();
+  if (points_.blocks.empty()) return std::nullopt;
+  const auto by_limit = static_cast<float>(1 / limit);
+  if (points_.blocks.size() > 2 * coarseness) {
+    few_.blocks.clear();
+    for (std::size_t b = 0; b < points_.blocks.size(); b += coarseness) few_.blocks.push_back(points_.blocks[b]);
+    height_kernel_.linearise(few_, faces_, by_limit, heights_);
+    if (minimax_step(heights_, height_kernel_).there > hopeless_height) {
+      hopeless_ = true;
+      ++counts.hopeless;
+      return std::nullopt;
+    }
+  }
+  for (int k = 0; k < max_minimax_steps; ++k) {
+    height_kernel_.linearise(points_, faces_, by_limit, heights_);
+    const MinimaxStep step = minimax_step(heights_, height_kernel_);
+    if (step.there > hopeless_height) {
+      hopeless_ = true;
+      ++counts.hopeless;
+      return std::nullopt;
+    }
+    point = point + limit * Vec3{step.move[0], step.move[1], step.move[2]};
+    if (fits(point, limit_)) {
+      ++counts.by_minimax;
+      return point;
+    }
+    if (faces_.size() != star_.moved.size()) return std::nullopt;
+  }
+  ++counts.near_misses;
+  return std::nullopt;
+}
+
+void Proposer::collapse(Vec3 point) {
+  DecimationState& s = state_;
+  const auto number = static_cast<std::uint32_t>(s.log.edits.size() + 1);
+  const std::uint32_t kept = star_.kept, gone = star_.gone;
+  s.log.edits.push_back({Edit::Kind::Collapse, s.locked[kept] != 0, star_.edge, s.mesh.position(kept),
+                         static_cast<std::uint32_t>(s.log.stamps.size())});
+  const auto stamp = [&](std::uint32_t face) {
+    s.log.stamps.push_back({face, s.stamp[face]});
+    s.stamp[face] = number;
+  };
+  for (const std::uint32_t face : star_.removed) stamp(face);
+  for (const Corner c : star_.moved) stamp(c / 3);
+  s.mesh.collapse(star_.edge);
+  s.mesh.move(kept, point);
+  s.quadrics[kept] += s.quadrics[gone];
+  s.locked[kept] |= s.locked[gone];
+  s.faces -= star_.removed.size();
+}
+
+std::uint32_t Proposer::nearest_face(std::size_t i) const {
+  return star_.moved[static_cast<std::size_t>(offsets_[i / lanes].face[i % lanes])] / 3;
+}
+
+/// Of two samples that lie near each other the one that is farther from the mesh stands for both.
+void Proposer::thin_out() {
+  const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
+  is_settled_.assign(ids_.size(), 0);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (is_settled_[i] != 0) continue;
+    std::size_t other = i;
+    double least = HUGE_VAL;
+    const Vec3 p = state_.samples.at(ids_[i]);
+    for (std::size_t k = i + 1; k < std::min(i + 1 + window, ids_.size()); ++k) {
+      const double squared_way = squared_length(state_.samples.at(ids_[k]) - p);
+      if (is_settled_[k] == 0 && squared_way < least) least = squared_way, other = k;
+    }
+    const std::size_t farther = squared(other) > squared(i) ? other : i;
+    state_.samples.give_to(ids_[farther], nearest_face(farther));
+    if (other != i) state_.samples.go_with(ids_[i + other - farther], ids_[farther]);
+    is_settled_[other] = 1;
+  }
+}
+
+/// Each sample to the face that was found nearest to it.
+void Proposer::settle() {
+  DecimationState& s = state_;
+  const std::uint32_t kept = star_.kept, gone = star_.gone;
+  for (const std::uint32_t face : star_.removed) s.samples.clear(face);
+  for (const Corner c : star_.moved) s.samples.clear(c / 3);
+  if (ids_.size() > max_samples && outside_.empty()) {
+    thin_out();
+  } else {
+    auto beside = outside_.begin();
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const bool is_beside = beside != outside_.end() && beside->first == i;
+      s.samples.give_to(ids_[i], is_beside ? (beside++)->second : nearest_face(i));
+    }
+  }
+  s.share[kept] = std::min(s.share[kept], s.share[gone]);
+  ++s.clock;
+  s.touched[kept] = s.clock;
+  s.mesh.for_each_corner(kept, [&](Corner c) {
+    s.touched[s.mesh.end(c)] = s.touched[s.mesh.apex(c)] = s.clock;
+    return true;
+  });
+}
+
+float edge_cost(const DecimationState& state, Corner edge) {
+  const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
+  return static_cast<float>(
+      best_placement(state.quadrics[a], state.quadrics[b], state.mesh.position(a), state.mesh.position(b)).cost);
+}
+
+void propose(DecimationState& state, Proposer& proposer, double share, ChangeProver* prover,
+             const std::function<bool()>& stop) {
+  EdgeQueue queue(state.place_in_queue);
+  const ArrayMesh& mesh = state.mesh;
+  const auto is_open = [&](Corner e) {
+    return std::max(state.touched[mesh.start(e)], state.touched[mesh.end(e)]) >= state.refused_at[e];
+  };
+  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
+    if (!mesh.is_removed(c / 3) && mesh.edge(c) == c && is_open(c)) queue.put(c, edge_cost(state, c));
+  }
+  std::vector<Corner> around;
+  const auto refuse = [&](Corner edge) { state.refused_at[edge] = state.clock + 1; };
+  while (!queue.empty() && !stop()) {
+    const Corner edge = queue.pop();
+    const std::optional<Vec3> point = proposer.placement(edge, share);
+    if (!point) {
+      refuse(edge);
+      continue;
+    }
+    const std::uint32_t kept = proposer.star().kept;
+    around.clear();
+    for (const std::uint32_t v : {kept, proposer.star().gone}) {
+      mesh.for_each_corner(v, [&](Corner c) {
+        around.push_back(mesh.edge(c));
+        around.push_back(mesh.edge(previous_corner(c)));
+        return true;
+      });
+    }
+    proposer.collapse(*point);
+    if (prover != nullptr && !prover->prove_or_undo()) {
+      const std::optional<Vec3> lower = proposer.lower_placement(*point);
+      if (lower) proposer.collapse(*lower);
+      if (!lower || !prover->prove_or_undo()) {
+        refuse(edge);
+        continue;
+      }
+    }
+    proposer.settle();
+    for (const Corner e : around) queue.erase(e);
+    mesh.for_each_corner(kept, [&](Corner c) {
+      for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) {
+        state.refused_at[e] = 0;
+        queue.put(e, edge_cost(state, e));
+      }
+      return true;
+    });
+  }
+  queue.clear();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+/// Proposals: collapses, moves and flips that samples of the original find near enough. They prove nothing.
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "meshbound/proximity.h"
+#include "simplify/decimation_state.h"
+#include "simplify/edge_queue.h"
+#include "simplify/linear_heights.h"
+#include "simplify/normal_guard.h"
+#include "simplify/prove.h"
+#include "simplify/sampled_slope.h"
+
+namespace meshbound {
+
+/// The faces around an edge, or around a vertex.
+struct EdgeStar {
+  static constexpr std::size_t max_faces = 48;
+
+  std::uint32_t kept = 0, gone = 0;
+  Corner edge = 0;
+  std::vector<Corner> moved;           ///< of faces that stay: the corner that moves
+  std::vector<std::uint32_t> removed;  ///< faces that go
+
+  /// False where the collapse would not leave a manifold, or where there are too many faces.
+  [[nodiscard]] bool gather(const ArrayMesh& mesh, Corner edge);
+
+ private:
+  std::vector<std::uint32_t> around_kept_, around_gone_;  ///< vertices
+};
+
+/// Tries changes against the samples around them, and makes them. One for each thread.
+class Proposer {
+ public:
+  explicit Proposer(DecimationState& state);
+
+  /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance:
+  /// where its cost is least, or where the largest distance is. None where no such place is found.
+  [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share);
+  /// Another place for the edge that was asked for last, where the largest distance is smaller: for one that could not
+  /// be proven.
+  [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
+  /// Makes the collapse that was found last, and then, where it is to stay, gives the samples to the faces that are
+  /// left.
+  void collapse(Vec3 point);
+  void settle();
+  [[nodiscard]] const EdgeStar& star() const { return star_; }
+
+  struct Counts {
+    std::uint64_t tried = 0, by_topology = 0, by_cost = 0, by_minimax = 0, hopeless = 0, near_misses = 0, folded = 0,
+                  stray = 0;
+  } counts;
+
+ private:
+  void gather_samples();
+  [[nodiscard]] std::uint32_t nearest_face(std::size_t i) const;
+  void thin_out();
+  [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
+  [[nodiscard]] bool set_faces(Vec3 point);
+  [[nodiscard]] bool holds_all(double limit);
+  [[nodiscard]] bool is_near(Vec3 point, double limit);
+  [[nodiscard]] bool fits(Vec3 point, double limit);
+  [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, float squared_limit);
+  [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double limit);
+
+  DecimationState& state_;
+  Proximity proximity_;
+  SlopeKernel kernel_ = fastest_slope_kernel();
+  HeightKernel height_kernel_ = fastest_height_kernel();
+  EdgeStar star_;
+  std::vector<GuardedFace> before_;  ///< the faces that move
+  double limit_ = 0;
+  bool lowered_ = false;   ///< the last place is one where the largest distance is least
+  bool gathered_ = false;  ///< the samples
+  bool hopeless_ = false;  ///< no place comes near
+  Vec3 origin_;
+  std::vector<std::uint32_t> ids_;  ///< of the samples of the star
+  SamplePoints points_, few_;
+  std::vector<SampleFace> faces_;
+  std::vector<SampleOffsets> offsets_;
+  std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< samples that a face beside the star is nearer to
+  std::vector<std::uint8_t> is_settled_;
+  LinearHeights heights_;
+};
+
+/// Collapses edges by cost until `stop` says so or nothing fits `share` of the tolerance. Each is proven at once where
+/// there is a prover.
+void propose(DecimationState& state, Proposer& proposer, double share, ChangeProver* prover,
+             const std::function<bool()>& stop);
+
+}  // namespace meshbound

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/prove.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "meshbound/proximity.h"
+#include "numeric/first_error.h"
+#include "simplify/box_tree.h"
+#include "simplify/degree_cover.h"
+#include "simplify/forward_cover.h"
+#include "simplify/marked_ids.h"
+#include "simplify/repair.h"
+
+namespace meshbound {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+/// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most
+/// so many parts, each with candidates of its own. The cuts of parts and of covers count together.
+constexpr int max_halvings = 16;
+constexpr std::size_t max_parts = 4096;
+
+/// Faces that are looked at around an original triangle.
+constexpr std::size_t max_found = 4096;
+
+/// Items that one thread takes at a time.
+constexpr std::size_t items_of_run = 64;
+
+Eigen::Vector3d to_eigen(Vec3 p) { return {p.x, p.y, p.z}; }
+Eigen::AlignedBox3d box_of(const Corners& corners) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3 p : corners) box.extend(to_eigen(p));
+  return box;
+}
+Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
+  return {box.min().array() - by, box.max().array() + by};
+}
+Vec3 middle_of(const Corners& c) { return (1.0 / 3) * (c[0] + c[1] + c[2]); }
+
+}  // namespace
+
+class ProofWorkers::Worker {
+ public:
+  explicit Worker(const DecimationState& state)
+      : state_(state),
+        cover_(state.vertices, state.triangles),
+        degree_(state.vertices, state.triangles),
+        proximity_(state.tree) {
+    found_marks_.reserve(state.mesh.face_count());
+    affected_marks_.reserve(state.triangles.size());
+  }
+
+  /// The face that covers an original triangle alone, or else those that do so together. Neither where none were found.
+  void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
+    only = ArrayMesh::none;
+    faces.clear();
+    const auto& v = state_.triangles[t];
+    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return;
+    std::array<std::uint32_t, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = state_.samples.face_of(v[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (at[k] == ArrayMesh::none || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
+      if (!holds(at[k], corners, limit)) continue;
+      only = at[k];
+      return;
+    }
+    find_around(at, grown(box_of(corners), state_.tolerance));
+    if (found_.size() <= CandidateFaces::capacity) {
+      enter(found_, limit);
+      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), faces);
+    }
+    if (faces.empty()) cover_in_parts(corners, limit, faces);
+  }
+
+  /// The same where the samples do not know which faces are near: `boxes` are those of `faces_of_boxes`.
+  void cover_anywhere(std::uint32_t t, const BoxTree& boxes, std::span<const std::uint32_t> faces_of_boxes,
+                      std::vector<std::uint32_t>& faces) {
+    const auto& v = state_.triangles[t];
+    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return;
+    found_.clear();
+    boxes.find(grown(box_of(corners), state_.tolerance), found_);
+    for (std::uint32_t& f : found_) f = faces_of_boxes[f];
+    cover_in_parts(corners, limit, faces);
+  }
+
+  /// Whether a face is near the original.
+  bool is_near(std::uint32_t face, std::uint32_t& near) {
+    const Corners corners = state_.mesh.triangle(face);
+    for (const Vec3 p : corners)
+      if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= state_.magnitude + state_.tolerance))
+        return false;
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return false;
+    near = triangle_near(face, middle_of(corners), near);
+    if (degree_.covers(corners, limit, state_.magnitude, near)) return true;
+    return proximity_.triangle_within({to_eigen(corners[0]), to_eigen(corners[1]), to_eigen(corners[2])}, limit,
+                                      near) == Verdict::Within;
+  }
+
+  /// Covers of the originals that relied on these faces, which have just been changed, by place in `affected`. False
+  /// where one was not found.
+  bool cover_change(std::span<const EditLog::Stamp> changed) {
+    affected_.clear();
+    affected_marks_.clear();
+    for (const EditLog::Stamp& stamp : changed) {
+      for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
+        if (affected_marks_.insert(t)) affected_.push_back(t);
+    }
+    if (affected_.empty()) return true;
+    Eigen::AlignedBox3d box;
+    if (state_.local) {
+      for (const std::uint32_t t : affected_)
+        for (const std::uint32_t v : state_.triangles[t]) box.extend(to_eigen(state_.vertices[v]));
+      for (const EditLog::Stamp& stamp : changed)
+        if (!state_.mesh.is_removed(stamp.face)) box.extend(box_of(state_.mesh.triangle(stamp.face)));
+    }
+    cover_.begin(state_.local ? state_.limit_in(box) : state_.limit);
+    found_marks_.clear();
+    found_.clear();
+    for (const EditLog::Stamp& stamp : changed) {
+      found_marks_.insert(stamp.face);
+      if (!state_.mesh.is_removed(stamp.face)) enter_face(stamp.face);
+    }
+    const FaceMask added = ForwardCover::first(cover_.size());
+    const std::size_t added_count = found_.size();
+    bool ring_known = false;
+    used_.assign(affected_.size(), 0);
+    for (std::size_t i = 0; i < affected_.size(); ++i) {
+      used_[i] = cover_.cover_whole(affected_[i], added, 0);
+      if (used_[i] != 0) continue;
+      if (!ring_known) {
+        ring_known = true;
+        for (std::size_t k = 0; k < added_count; ++k) {
+          for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
+            state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
+              if (found_marks_.insert(d / 3)) enter_face(d / 3);
+              return found_.size() < CandidateFaces::capacity;
+            });
+          }
+        }
+      }
+      used_[i] = cover_.cover(affected_[i], ForwardCover::first(cover_.size()), added);
+      if (used_[i] == 0) return false;
+    }
+    return true;
+  }
+  void assign_covers(CoverAssignment& cover) {
+    for (std::size_t i = 0; i < affected_.size(); ++i) {
+      ids_.clear();
+      take(used_[i], ids_);
+      cover.assign(affected_[i], ids_);
+    }
+  }
+
+ private:
+  void enter_face(std::uint32_t face) {
+    found_.push_back(face);
+    cover_.add(state_.mesh.triangle(face), face);
+  }
+  struct Part {
+    Corners corners;
+    int halvings = 0;
+  };
+
+  /// Like `CandidateFaces::holds`, for faces that are asked for once.
+  bool holds(std::uint32_t face, const Corners& points, double limit) {
+    Prepared& prepared = prepared_[face % prepared_.size()];
+    const Corners c = state_.mesh.triangle(face);
+    const auto same = [](Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+    if (prepared.face != face || !std::equal(c.begin(), c.end(), prepared.corners.begin(), same)) {
+      prepared.face = face, prepared.corners = c;
+      prepared.triangle = PreparedTriangle({c[0], c[1] - c[0], c[2] - c[0]});
+    }
+    return std::all_of(points.begin(), points.end(),
+                       [&](Vec3 p) { return prepared.triangle.is_within(p, limit * limit); });
+  }
+
+  /// Faces that hang together with those at the corners and whose boxes meet `reach`.
+  void find_around(const std::array<std::uint32_t, 3>& at, const Eigen::AlignedBox3d& reach) {
+    found_.clear();
+    found_marks_.clear();
+    for (const std::uint32_t f : at)
+      if (f != ArrayMesh::none && found_marks_.insert(f)) found_.push_back(f);
+    for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
+      for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
+        state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
+          const std::uint32_t f = d / 3;
+          if (found_marks_.contains(f) || !box_of(state_.mesh.triangle(f)).intersects(reach)) return true;
+          found_marks_.insert(f);
+          found_.push_back(f);
+          return true;
+        });
+      }
+    }
+  }
+
+  void enter(const std::vector<std::uint32_t>& faces, double limit) {
+    cover_.begin(limit);
+    for (const std::uint32_t f : faces) cover_.add(state_.mesh.triangle(f), f);
+  }
+  void take(FaceMask used, std::vector<std::uint32_t>& faces) const {
+    for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
+  }
+
+  void cover_in_parts(const Corners& corners, double limit, std::vector<std::uint32_t>& faces) {
+    parts_.assign(1, {corners, 0});
+    for (std::size_t count = 1; !parts_.empty();) {
+      const Part part = parts_.back();
+      parts_.pop_back();
+      choose_candidates(part.corners);
+      enter(chosen_, limit);
+      const std::optional<FaceMask> used = cover_.cover_part(part.corners, ForwardCover::deepest_cut - part.halvings);
+      if (!used || (*used == 0 && (part.halvings == max_halvings || ++count > max_parts))) {
+        faces.clear();
+        return;
+      }
+      if (*used == 0) halve(part);
+      take(*used, faces);
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  }
+
+  void halve(const Part& part) {
+    std::size_t from = 0;
+    double longest = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double edge = squared_length(part.corners[(i + 1) % 3] - part.corners[i]);
+      if (edge > longest) longest = edge, from = i;
+    }
+    const std::size_t to = (from + 1) % 3;
+    const Vec3 middle = 0.5 * (part.corners[from] + part.corners[to]);
+    for (const std::size_t end : {from, to}) {
+      Part& half = parts_.emplace_back(part);
+      half.corners[end] = middle;
+      ++half.halvings;
+    }
+  }
+
+  /// Of the faces around, those that hold most of the corners, then those nearest to the middle.
+  void choose_candidates(const Corners& corners) {
+    const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
+    chosen_.clear();
+    for (const std::uint32_t f : found_)
+      if (box_of(state_.mesh.triangle(f)).intersects(reach)) chosen_.push_back(f);
+    if (chosen_.size() <= CandidateFaces::capacity) return;
+    const double squared_tolerance = state_.tolerance * state_.tolerance;
+    std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
+    for (const std::uint32_t f : chosen_) {
+      const Corners c = state_.mesh.triangle(f);
+      const CornerTriangle<double> triangle{c[0], c[1] - c[0], c[2] - c[0]};
+      const auto squared_distance = [&](Vec3 p) { return closest_on_triangle(triangle, p).squared_distance; };
+      const auto lost = std::count_if(corners.begin(), corners.end(),
+                                      [&](Vec3 p) { return squared_distance(p) > squared_tolerance; });
+      ranked.emplace_back(lost, squared_distance(middle_of(corners)), f);
+    }
+    std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
+    std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
+    chosen_.clear();
+    for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) chosen_.push_back(std::get<2>(ranked[k]));
+  }
+
+  /// An original triangle at the sample nearest to the middle of a face: one that lies above it, if any does.
+  [[nodiscard]] std::uint32_t triangle_near(std::uint32_t face, Vec3 middle, std::uint32_t best) {
+    double least = HUGE_VAL;
+    for (std::uint32_t s = state_.samples.first(face); s != Samples::none; s = state_.samples.following(s)) {
+      const double squared = squared_length(state_.samples.at(s) - middle);
+      if (squared < least) least = squared, best = state_.samples.triangle_near(s);
+    }
+    (void)proximity_.upper_distance(to_eigen(middle), best);
+    return best;
+  }
+
+  struct Prepared {
+    std::uint32_t face = ArrayMesh::none;
+    Corners corners;
+    PreparedTriangle triangle;
+  };
+  const DecimationState& state_;
+  ForwardCover cover_;
+  DegreeCover degree_;
+  Proximity proximity_;
+  std::array<Prepared, 64> prepared_;
+  MarkedIds found_marks_, affected_marks_;
+  std::vector<std::uint32_t> found_, chosen_, affected_, ids_;
+  std::vector<FaceMask> used_;
+  std::vector<Part> parts_;
+};
+
+ProofWorkers::ProofWorkers(const DecimationState& state, int threads) {
+  for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<Worker>(state));
+}
+ProofWorkers::~ProofWorkers() = default;
+
+ChangeProver::ChangeProver(DecimationState& state)
+    : state_(state), workers_(std::make_unique<ProofWorkers>(state, 1)) {}
+ChangeProver::~ChangeProver() = default;
+
+bool ChangeProver::prove_or_undo() {
+  ProofWorkers::Worker& worker = *workers_->workers_.front();
+  bool holds = worker.cover_change(state_.log.stamps);
+  uncovered += holds ? 0 : 1;
+  for (const EditLog::Stamp& stamp : state_.log.stamps) {
+    if (!holds) break;
+    if (state_.mesh.is_removed(stamp.face)) continue;
+    holds = worker.is_near(stamp.face, state_.nearest[stamp.face]);
+    too_far += holds ? 0 : 1;
+  }
+  if (!holds) {
+    undo_last(state_);
+    return false;
+  }
+  ++proven;
+  worker.assign_covers(state_.cover);
+  for (const EditLog::Stamp& stamp : state_.log.stamps) state_.stamp[stamp.face] = 0;
+  state_.log.edits.clear();
+  state_.log.stamps.clear();
+  return true;
+}
+
+Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), workers_(workers) {
+  for (std::uint32_t t = 0; t < state.triangles.size(); ++t)
+    if (is_stale(t)) originals_.push_back(t);
+  for (std::uint32_t f = 0; f < state.stamp.size(); ++f)
+    if (state.stamp[f] != 0 && !state.mesh.is_removed(f)) open_faces_.push_back(f);
+  only_face_.assign(originals_.size(), ArrayMesh::none);
+  faces_.resize(originals_.size());
+  open_originals_.resize(originals_.size());
+  std::iota(open_originals_.begin(), open_originals_.end(), 0u);
+}
+
+std::span<const std::uint32_t> Proof::draft(std::uint32_t place) const {
+  if (!faces_[place].empty()) return faces_[place];
+  if (only_face_[place] == ArrayMesh::none) return {};
+  return {&only_face_[place], 1};
+}
+
+bool Proof::is_stale(std::uint32_t original) const {
+  const auto faces = state_.cover.faces_of(original);
+  return faces.empty() ||
+         std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return state_.stamp[f] != 0; });
+}
+
+void Proof::run(const StopToken& stop) {
+  FirstError error;
+  const auto threads = static_cast<int>(workers_.workers_.size());
+  const std::size_t count = open_originals_.size() + open_faces_.size();
+  std::vector<std::uint8_t> is_near(open_faces_.size(), 0);
+#pragma omp parallel for schedule(dynamic, items_of_run) num_threads(threads)
+  for (std::size_t i = 0; i < count; ++i) {
+    error.guard([&] {
+      if (i % items_of_run == 0) stop.check();
+      ProofWorkers::Worker& worker = *workers_.workers_[static_cast<std::size_t>(omp_get_thread_num())];
+      if (i < open_originals_.size()) {
+        const std::uint32_t at = open_originals_[i];
+        worker.cover(originals_[at], only_face_[at], faces_[at]);
+      } else {
+        const std::uint32_t face = open_faces_[i - open_originals_.size()];
+        is_near[i - open_originals_.size()] = worker.is_near(face, state_.nearest[face]);
+      }
+    });
+  }
+  error.rethrow();
+  cover_anywhere();
+  originals_tested += open_originals_.size();
+  faces_tested += open_faces_.size();
+  unproven_ = {};
+  for (const std::uint32_t at : open_originals_)
+    if (draft(at).empty()) unproven_.originals.push_back(originals_[at]);
+  for (std::size_t i = 0; i < open_faces_.size(); ++i)
+    if (is_near[i] == 0) unproven_.faces.push_back(open_faces_[i]);
+}
+
+/// Originals that samples have not led to a cover.
+void Proof::cover_anywhere() {
+  std::vector<std::uint32_t> lost;
+  for (const std::uint32_t at : open_originals_)
+    if (draft(at).empty()) lost.push_back(at);
+  if (lost.empty()) return;
+  std::vector<std::uint32_t> faces;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::uint32_t f = 0; f < state_.mesh.face_count(); ++f) {
+    if (state_.mesh.is_removed(f)) continue;
+    faces.push_back(f);
+    boxes.push_back(box_of(state_.mesh.triangle(f)));
+  }
+  const BoxTree tree(std::move(boxes));
+  for (const std::uint32_t at : lost)
+    workers_.workers_.front()->cover_anywhere(originals_[at], tree, faces, faces_[at]);
+}
+
+void Proof::reopen(const std::vector<std::uint32_t>& changed) {
+  open_originals_.clear();
+  open_faces_.clear();
+  const auto is_changed = [&](std::uint32_t f) { return std::binary_search(changed.begin(), changed.end(), f); };
+  for (std::uint32_t i = 0; i < originals_.size(); ++i) {
+    if (originals_[i] == ArrayMesh::none) continue;
+    const auto faces = draft(i);
+    if (!faces.empty() && std::none_of(faces.begin(), faces.end(), is_changed)) continue;
+    only_face_[i] = ArrayMesh::none;
+    faces_[i].clear();
+    if (is_stale(originals_[i]))
+      open_originals_.push_back(i);
+    else
+      originals_[i] = ArrayMesh::none;  // its old cover holds again
+  }
+  for (const std::uint32_t f : changed)
+    if (state_.stamp[f] != 0 && !state_.mesh.is_removed(f)) open_faces_.push_back(f);
+}
+
+void Proof::commit() {
+  for (std::uint32_t i = 0; i < originals_.size(); ++i)
+    if (originals_[i] != ArrayMesh::none) state_.cover.assign(originals_[i], draft(i));
+  for (const EditLog::Stamp& stamp : state_.log.stamps) state_.stamp[stamp.face] = 0;
+  state_.log.edits.clear();
+  state_.log.stamps.clear();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+/// The proof that a mesh under decimation is within its tolerance of the original, both ways, for what was changed
+/// since the last one.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "meshbound/deviation_tracker.h"
+#include "meshbound/stop_token.h"
+#include "simplify/decimation_state.h"
+
+namespace meshbound {
+
+/// Scratch memory of the threads that prove, kept from proof to proof.
+class ProofWorkers {
+ public:
+  /// `state` must outlive this.
+  ProofWorkers(const DecimationState& state, int threads);
+  ~ProofWorkers();
+
+ private:
+  friend class Proof;
+  friend class ChangeProver;
+  class Worker;
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+/// Proves changes one by one, right after they were made to a state that is proven but for them. One for each thread.
+class ChangeProver {
+ public:
+  explicit ChangeProver(DecimationState& state);
+  ~ChangeProver();
+  /// Makes the last change part of what is proven, or takes it back where that fails.
+  bool prove_or_undo();
+
+  std::uint64_t proven = 0, uncovered = 0, too_far = 0;
+
+ private:
+  DecimationState& state_;
+  std::unique_ptr<ProofWorkers> workers_;
+};
+
+/// A proof under way.
+///
+/// Forward, each original triangle whose cover has lost a face, or never had one, is compared with the faces that its
+/// corners were found nearest to, then with those around; pieces of it, where no single face holds it. Backward, each
+/// face that was changed is compared with the original. All are independent of each other, so the result is the same
+/// for any number of threads.
+class Proof {
+ public:
+  Proof(DecimationState& state, ProofWorkers& workers);
+
+  /// Proves what is still open. Throws `Stopped`; the state is as it was then.
+  void run(const StopToken& stop);
+  /// What was found not to hold. Empty: all is proven.
+  [[nodiscard]] const Unproven& unproven() const { return unproven_; }
+  /// These faces, in order, have been changed again, most of them back to what they were: what was proven with them is
+  /// open.
+  void reopen(const std::vector<std::uint32_t>& changed);
+  /// Makes the proof that of the state, which has nothing unproven from then on.
+  void commit();
+
+  std::uint64_t originals_tested = 0, faces_tested = 0;
+
+ private:
+  void cover_anywhere();
+  [[nodiscard]] bool is_stale(std::uint32_t original) const;
+  /// The faces that cover the original at a place in `originals_`; none: open.
+  [[nodiscard]] std::span<const std::uint32_t> draft(std::uint32_t place) const;
+
+  DecimationState& state_;
+  ProofWorkers& workers_;
+  std::vector<std::uint32_t> originals_;           ///< to be covered anew; none: not any more
+  std::vector<std::uint32_t> only_face_;           ///< by place there: that covers it alone, or none
+  std::vector<std::vector<std::uint32_t>> faces_;  ///< by place there: that cover it together
+  std::vector<std::uint32_t> open_originals_;      ///< places there
+  std::vector<std::uint32_t> open_faces_;
+  Unproven unproven_;
+};
+
+}  // namespace meshbound

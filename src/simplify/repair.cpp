@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <span>
+
+#include "geometry/point_triangle.h"
+
+namespace meshbound {
+namespace {
+
+/// Samples may reach this share of what they could before where a proof has failed.
+constexpr float smaller_share = 0.85F;
+
+/// The mesh and what belongs to its vertices, but for samples and stamps.
+void take_back(DecimationState& s, const Edit& edit) {
+  switch (edit.kind) {
+    case Edit::Kind::Collapse: {
+      s.mesh.undo_collapse(edit.edge);
+      const std::uint32_t kept = s.mesh.start(edit.edge), gone = s.mesh.end(edit.edge);
+      s.quadrics[kept] -= s.quadrics[gone];
+      s.locked[kept] = edit.was_locked ? 1 : 0;
+      s.faces += s.mesh.twin(edit.edge) == ArrayMesh::none ? 1 : 2;
+      break;
+    }
+    case Edit::Kind::Move:
+      break;
+    case Edit::Kind::Flip:
+      s.mesh.undo_flip(edit.edge);
+      break;
+  }
+  s.mesh.move(s.mesh.start(edit.edge), edit.position);
+}
+
+/// Takes changes back, the last one first, with everything that was built on them.
+class Undoing {
+ public:
+  explicit Undoing(DecimationState& state) : state_(state) {}
+
+  /// A change that is at fault.
+  void blame(std::uint32_t number) {
+    if (number == 0) return;
+    wanted_.push(number);
+    at_fault_.push_back(number);
+  }
+  void want(std::uint32_t number) {
+    if (number != 0) wanted_.push(number);
+  }
+  std::vector<std::uint32_t> run() {
+    std::sort(at_fault_.begin(), at_fault_.end());
+    while (!wanted_.empty()) {
+      const std::uint32_t number = wanted_.top();
+      if (state_.log.edits[number - 1].edge == ArrayMesh::none) {
+        wanted_.pop();  // it is undone already
+      } else if (is_on_top(number)) {
+        undo(number);
+      }
+    }
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    return std::move(changed_);
+  }
+
+ private:
+  [[nodiscard]] std::span<const EditLog::Stamp> stamps_of(std::uint32_t number) const {
+    const std::size_t begin = state_.log.edits[number - 1].first_stamp;
+    const std::size_t end =
+        number < state_.log.edits.size() ? state_.log.edits[number].first_stamp : state_.log.stamps.size();
+    return std::span(state_.log.stamps).subspan(begin, end - begin);
+  }
+
+  /// Whether no later change has touched its faces; asks for those that have.
+  bool is_on_top(std::uint32_t number) {
+    bool on_top = true;
+    for (const EditLog::Stamp& stamp : stamps_of(number)) {
+      if (state_.stamp[stamp.face] == number) continue;
+      wanted_.push(state_.stamp[stamp.face]);
+      on_top = false;
+    }
+    return on_top;
+  }
+
+  void undo(std::uint32_t number) {
+    DecimationState& s = state_;
+    Edit& edit = s.log.edits[number - 1];
+    gather_samples(number);
+    take_back(s, edit);
+    for (const EditLog::Stamp& stamp : stamps_of(number)) {
+      s.stamp[stamp.face] = stamp.before;
+      changed_.push_back(stamp.face);
+    }
+    give_samples(number);
+    if (std::binary_search(at_fault_.begin(), at_fault_.end(), number)) lower_share(edit.edge);
+    edit.edge = ArrayMesh::none;
+  }
+  void lower_share(Corner edge) {
+    float &at_start = state_.share[state_.mesh.start(edge)], &at_end = state_.share[state_.mesh.end(edge)];
+    at_start = at_end = smaller_share * std::min(at_start, at_end);
+  }
+
+  void gather_samples(std::uint32_t number) {
+    samples_.clear();
+    for (const EditLog::Stamp& stamp : stamps_of(number)) {
+      for (std::uint32_t s = state_.samples.first(stamp.face); s != Samples::none; s = state_.samples.following(s))
+        samples_.push_back(s);
+      state_.samples.clear(stamp.face);
+    }
+  }
+  void give_samples(std::uint32_t number) {
+    for (const std::uint32_t s : samples_) {
+      const Vec3 p = state_.samples.at(s);
+      double least = HUGE_VAL;
+      std::uint32_t best = ArrayMesh::none;
+      for (const EditLog::Stamp& stamp : stamps_of(number)) {
+        if (state_.mesh.is_removed(stamp.face)) continue;
+        const auto [a, b, c] = state_.mesh.triangle(stamp.face);
+        const double squared = closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, p).squared_distance;
+        if (squared < least) least = squared, best = stamp.face;
+      }
+      state_.samples.give_to(s, best);
+    }
+  }
+
+  DecimationState& state_;
+  std::priority_queue<std::uint32_t> wanted_;
+  std::vector<std::uint32_t> at_fault_, changed_, samples_;
+};
+
+}  // namespace
+
+void undo_last(DecimationState& state) {
+  const Edit& edit = state.log.edits.back();
+  take_back(state, edit);
+  for (std::size_t i = edit.first_stamp; i < state.log.stamps.size(); ++i)
+    state.stamp[state.log.stamps[i].face] = state.log.stamps[i].before;
+  state.log.stamps.resize(edit.first_stamp);
+  state.log.edits.pop_back();
+}
+
+std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unproven) {
+  Undoing undoing(state);
+  for (const std::uint32_t f : unproven.faces) undoing.blame(state.stamp[f]);
+  for (const std::uint32_t t : unproven.originals) {
+    bool found = false;
+    for (const std::uint32_t v : state.triangles[t]) {
+      const std::uint32_t f = state.samples.face_of(v);
+      if (f == Samples::none || state.stamp[f] == 0) continue;
+      undoing.blame(state.stamp[f]);
+      found = true;
+    }
+    if (found) continue;
+    for (const std::uint32_t f : state.cover.faces_of(t)) undoing.blame(state.stamp[f]);
+  }
+  const std::vector<std::uint32_t> changed = undoing.run();
+  ++state.clock;
+  for (const std::uint32_t f : changed)
+    for (const std::uint32_t v : state.mesh.corners(f)) state.touched[v] = state.clock;
+  return changed;
+}
+
+void undo_all(DecimationState& state) {
+  Undoing undoing(state);
+  for (const EditLog::Stamp& stamp : state.log.stamps) undoing.want(state.stamp[stamp.face]);
+  (void)undoing.run();
+  state.log.edits.clear();
+  state.log.stamps.clear();
+}
+
+}  // namespace meshbound

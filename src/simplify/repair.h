@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "meshbound/deviation_tracker.h"
+#include "simplify/decimation_state.h"
+
+namespace meshbound {
+
+/// Takes back the changes that made what could not be proven, and those made on top of them. Samples around may reach a
+/// smaller share of the tolerance from then on. Returns the faces that changed by that, ascending.
+[[nodiscard]] std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unproven);
+
+/// Takes back the last change, whose samples have not been given to other faces yet.
+void undo_last(DecimationState& state);
+
+/// Takes back all changes since the last proof.
+void undo_all(DecimationState& state);
+
+}  // namespace meshbound
