@@ -8,7 +8,8 @@
 
 namespace meshbound::bench {
 
-int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run) {
+int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run,
+               const std::function<void(CLI::App&)>& add_options) {
   CLI::App app{description};
   Options options;
   app.add_flag("--quick", options.quick, "fewer pairs, sizes and steps, and a limit of 20 s");
@@ -16,6 +17,7 @@ int bench_main(int argc, char** argv, const char* description, const std::functi
   app.add_option("--cache", options.cache, "folder of the meshes that are made once")->capture_default_str();
   auto* limit = app.add_option("--limit", options.limit, "CPU seconds after which a run is ended");
   app.add_option("--only", options.only, "measure only what has this in its name");
+  if (add_options) add_options(app);
   CLI11_PARSE(app, argc, argv);
   if (options.quick && limit->empty()) options.limit = 20;
   try {

@@ -5,6 +5,10 @@
 #include <string>
 #include <string_view>
 
+namespace CLI {
+class App;
+}
+
 namespace meshbound::bench {
 
 /// The command line that the benchmark programs share.
@@ -33,6 +37,8 @@ inline constexpr int nothing_measured = 4;
 
 /// Parses, creates the folders and calls `run`, whose result is the exit code; an exception becomes one line on stderr
 /// and exit code 2, and so does an `--only` that no name contains, with exit code `nothing_measured`.
-int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run);
+/// `add_options` may add options of the program's own.
+int bench_main(int argc, char** argv, const char* description, const std::function<int(const Options&)>& run,
+               const std::function<void(CLI::App&)>& add_options = {});
 
 }  // namespace meshbound::bench

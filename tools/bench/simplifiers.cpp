@@ -32,32 +32,48 @@ Bounds measured(const TriangleMesh& a, const TriangleMesh& b, double tolerance, 
   return symmetric_distance(tree_a, tree_b, options).bounds;
 }
 
+/// `Count_stop_predicate` counts edges, of which a mesh with borders has more than three for two faces.
+struct FaceCountStop {
+  std::size_t faces;
+  template <class Cost, class Profile>
+  bool operator()(const Cost&, const Profile& profile, std::size_t, std::size_t) const {
+    return profile.surface_mesh().number_of_faces() <= faces;
+  }
+};
+
 }  // namespace
 
-Simplified bounded(const TriangleMesh& mesh, double tolerance, cgal::Effort effort, int threads) {
+Simplified bounded(const TriangleMesh& mesh, cgal::SimplifyOptions options, std::optional<std::size_t> level) {
+  options.measure = false;
+  Simplified result;
+  const Stopwatch watch;
+  cgal::SimplifyResult run = cgal::simplify_with_bound(mesh, options);
+  finish(result, watch);
+  result.mesh = std::move(run.levels[level.value_or(run.levels.size() - 1)].mesh);
+  return result;
+}
+
+cgal::SimplifyOptions within(double tolerance, cgal::Effort effort, int threads) {
   cgal::SimplifyOptions options;
   options.tolerance = tolerance;
   options.effort = effort;
   options.threads = threads;
-  options.measure = false;
-  Simplified result;
-  const Stopwatch watch;
-  result.mesh = cgal::simplify_with_bound(mesh, options).last().mesh;
-  const double before = watch.elapsed().cpu;
-  (void)measured(mesh, result.mesh, tolerance, threads);
-  finish(result, watch);
-  result.certify_cpu = result.cpu - before;
-  return result;
+  return options;
 }
 
-Simplified unbounded(const TriangleMesh& mesh, std::size_t faces) {
+double seconds_of_measuring(const TriangleMesh& mesh, const TriangleMesh& simplified, double tolerance, int threads) {
+  const Stopwatch watch;
+  (void)measured(mesh, simplified, tolerance, threads);
+  return watch.elapsed().cpu;
+}
+
+Simplified unbounded(const cgal::SurfaceMesh& mesh, std::size_t faces) {
   using Policies = SMS::GarlandHeckbert_plane_policies<cgal::SurfaceMesh, cgal::Kernel>;
   Simplified result;
+  cgal::SurfaceMesh copy = mesh;
   const Stopwatch watch;
-  cgal::SurfaceMesh copy = cgal::manifold_copy(mesh).mesh;
   const Policies policies(copy);
-  const std::size_t edges = 3 * faces / 2;  // three for two faces of a closed surface
-  SMS::edge_collapse(copy, SMS::Count_stop_predicate<cgal::SurfaceMesh>(edges),
+  SMS::edge_collapse(copy, FaceCountStop{faces},
                      CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
   finish(result, watch);
   copy.collect_garbage();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The ways to simplify that the `simplify` benchmark compares, each as a user would write it.
+/// The ways to simplify that the benchmarks `simplify` and `simplify_all` compare, each as a user would write it.
 #pragma once
 #include "meshbound/cgal/simplify_with_bound.h"
 #include "meshbound/triangle_mesh.h"
@@ -8,15 +8,26 @@ namespace meshbound::bench {
 
 struct Simplified {
   TriangleMesh mesh;
-  double cpu = 0, wall = 0;  ///< seconds, the measurement that certifies included where there is one
-  double certify_cpu = 0;    ///< seconds of that measurement
+  double cpu = 0, wall = 0;  ///< seconds
 };
 
-/// `simplify_with_bound`, the final measurement included.
-[[nodiscard]] Simplified bounded(const TriangleMesh& mesh, double tolerance, cgal::Effort effort, int threads);
+/// `simplify_with_bound` with its proof, without the fresh measurement of what comes out (`seconds_of_measuring`).
+/// `mesh` in the result is that of the level of `tolerance`, or of `options.levels[level]` where these ascend.
+[[nodiscard]] Simplified bounded(const TriangleMesh& mesh, cgal::SimplifyOptions options,
+                                 std::optional<std::size_t> level = std::nullopt);
 
-/// CGAL's Garland-Heckbert run without any bound, from the soup to `faces`: what the bound's time is compared with.
-[[nodiscard]] Simplified unbounded(const TriangleMesh& mesh, std::size_t faces);
+/// Options for one tolerance.
+[[nodiscard]] cgal::SimplifyOptions within(double tolerance, cgal::Effort effort = cgal::Effort::Normal,
+                                           int threads = 1);
+
+/// Processor seconds of the fresh measurement that decides whether `simplified` is within the tolerance of `mesh`,
+/// trees included.
+[[nodiscard]] double seconds_of_measuring(const TriangleMesh& mesh, const TriangleMesh& simplified, double tolerance,
+                                          int threads = 1);
+
+/// CGAL's Garland-Heckbert `edge_collapse` without any bound, until at most `faces` are left. Only its policies and the
+/// decimation are timed: neither the copy of `mesh` that it works on, nor the conversion of the result.
+[[nodiscard]] Simplified unbounded(const cgal::SurfaceMesh& mesh, std::size_t faces);
 
 /// CGAL's `Polyhedral_envelope_filter` over the same decimation: bounds the new faces only, not the original.
 [[nodiscard]] Simplified in_envelope(const TriangleMesh& mesh, double tolerance);

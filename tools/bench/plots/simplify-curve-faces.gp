@@ -11,7 +11,7 @@ set key top right
 set multiplot layout 1,2
 do for [mesh in "fandisk bunny"] {
   set title mesh
-  plot for [method in "'normal' 'bisecting the count'"] 'simplify_curve.csv' \
+  plot for [method in "'normal' 'bisecting the count'"] 'simplify-curve.csv' \
     using ((strcol(1) eq mesh && strcol(2) eq method) ? column(3) : NaN):4 with linespoints title method
 }
 unset multiplot
