@@ -29,25 +29,22 @@ void CoverAssignment::assign(std::uint32_t original, std::span<const std::uint32
     reserve_face(face);
     originals_of_[face].push_back(original);
   }
-  store(faces_of_[original], faces);
-}
-
-void CoverAssignment::store(Faces& at, std::span<const std::uint32_t> faces) {
-  const bool was_many = at.size > Faces::room, is_many = faces.size() > Faces::room;
-  if (was_many && !is_many) unused_.push_back(at.ids[0]);
-  if (is_many && !was_many) {
-    if (unused_.empty()) {
-      unused_.push_back(static_cast<std::uint32_t>(many_.size()));
-      many_.emplace_back();
-    }
-    at.ids[0] = unused_.back();
-    unused_.pop_back();
+  Faces& at = faces_of_[original];
+  if (at.size == faces.size() && at.size > 1) {
+    std::copy(faces.begin(), faces.end(), at.many);
+    return;
   }
+  std::uint32_t* many = nullptr;
+  if (faces.size() > 1) {
+    many = new std::uint32_t[faces.size()];
+    std::copy(faces.begin(), faces.end(), many);
+  }
+  if (at.size > 1) delete[] at.many;
   at.size = static_cast<std::uint32_t>(faces.size());
-  if (is_many)
-    many_[at.ids[0]].assign(faces.begin(), faces.end());
-  else
-    std::copy(faces.begin(), faces.end(), at.ids.begin());
+  if (many != nullptr)
+    at.many = many;
+  else if (!faces.empty())
+    at.only = faces[0];
 }
 
 }  // namespace meshbound

@@ -2,12 +2,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace meshbound {
 
-/// Which current faces the cover of each original triangle uses, and the same relation seen from the faces.
+/// Which current faces the cover of each original triangle uses, and the same relation seen from the faces. Covers that
+/// have no face in common, neither before nor after, may be assigned by several threads.
 class CoverAssignment {
  public:
   using Ids = std::vector<std::uint32_t>;
@@ -19,8 +21,7 @@ class CoverAssignment {
   }
   [[nodiscard]] std::span<const std::uint32_t> faces_of(std::uint32_t original) const {
     const Faces& faces = faces_of_[original];
-    if (faces.size <= Faces::room) return {faces.ids.data(), faces.size};
-    return many_[faces.ids[0]];
+    return {faces.size <= 1 ? &faces.only : faces.many, faces.size};
   }
   /// The cover of `original` is going to be asked for.
   void prefetch(std::uint32_t original) const { __builtin_prefetch(&faces_of_[original]); }
@@ -29,21 +30,26 @@ class CoverAssignment {
     return originals_of_[face];
   }
 
-  /// Replaces the cover of `original`.
+  /// Replaces the cover of `original`. The faces must have been reserved where other threads assign as well.
   void assign(std::uint32_t original, std::span<const std::uint32_t> faces);
 
  private:
-  /// Nearly all covers have three faces at most: these lie side by side, the others in `many_[ids[0]]`.
+  /// Most covers have one face.
   struct Faces {
-    static constexpr std::uint32_t room = 3;
     std::uint32_t size = 0;
-    std::array<std::uint32_t, room> ids{};
+    union {
+      std::uint32_t only;
+      std::uint32_t* many;
+    };
+    Faces() : only(0) {}
+    Faces(Faces&& other) noexcept : size(other.size), many(other.many) { other.size = 0; }
+    Faces& operator=(Faces&&) = delete;
+    ~Faces() {
+      if (size > 1) delete[] many;
+    }
   };
-  void store(Faces& at, std::span<const std::uint32_t> faces);
 
   std::vector<Faces> faces_of_;
-  std::vector<Ids> many_;
-  std::vector<std::uint32_t> unused_;  ///< of `many_`
   std::vector<Ids> originals_of_;
 };
 

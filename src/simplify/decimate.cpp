@@ -15,7 +15,7 @@ double now() { return double(clock()) / CLOCKS_PER_SEC; }
 void decimate(DecimationState& state, const DecimationGoal& goal, int threads) {
   state.tolerance = goal.tolerance;
   state.limit = state.provable(goal.tolerance);
-  const auto stop = [&] { return state.faces <= goal.target_faces; };
+  const auto stop = [&](std::size_t removed) { return state.faces - removed <= goal.target_faces; };
   double t = now();
   const auto lap = [&](const char* what) {
     const double u = now();
@@ -35,7 +35,11 @@ void decimate(DecimationState& state, const DecimationGoal& goal, int threads) {
   for (const double share : shares) {
     for (int pass = 0; pass < 8; ++pass) {
       const std::size_t before = state.faces;
-      propose(state, proposer, share, nullptr, stop);
+      {
+        Split s = whole(state);
+        propose(state, s, s.regions[0], proposer, share, nullptr, stop);
+        merge(state, std::move(s));
+      }
       lap("propose");
       if (before - state.faces < before / 100) break;
     }
@@ -60,7 +64,11 @@ void decimate(DecimationState& state, const DecimationGoal& goal, int threads) {
   ChangeProver prover(state);
   for (int pass = 0; pass < 8; ++pass) {
     const std::size_t before = state.faces;
-    propose(state, proposer, last, &prover, stop);
+    {
+      Split s = whole(state);
+      propose(state, s, s.regions[0], proposer, last, &prover, stop);
+      merge(state, std::move(s));
+    }
     lap("checked");
     std::fprintf(stderr, "    proven %llu uncovered %llu too far %llu tried %llu hopeless %llu\n",
                  (unsigned long long)prover.proven, (unsigned long long)prover.uncovered,

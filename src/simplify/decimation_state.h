@@ -72,19 +72,36 @@ struct Edit {
   std::uint32_t first_stamp = 0;  ///< its faces in `EditLog::stamps`
 };
 
-/// Changes since the last proof in their order. The number of a change is its place in `edits`, counted from 1.
+/// Changes in their order. The number of the first one is `before + 1`.
 struct EditLog {
   struct Stamp {
     std::uint32_t face, before;  ///< the number of the change before that touched the face; 0: none
   };
+  std::uint32_t before = 0;
   std::vector<Edit> edits;
   std::vector<Stamp> stamps;
+
+  [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
+  /// What change `number` has touched.
+  [[nodiscard]] std::span<const Stamp> stamps_of(std::uint32_t number) const {
+    const std::size_t k = number - before - 1, begin = edits[k].first_stamp;
+    const std::size_t end = k + 1 < edits.size() ? edits[k + 1].first_stamp : stamps.size();
+    return std::span(stamps).subspan(begin, end - begin);
+  }
+};
+
+/// A part of the mesh that one thread changes, see `Split`.
+struct Region {
+  std::uint32_t id = 0;
+  EditLog log;  ///< of what has not been proven
+  std::size_t removed_faces = 0;
+  std::uint32_t clock = 0;
 };
 
 /// A mesh under decimation and all that is known of it.
 ///
-/// `mesh` is proven to be within `proven_tolerance` of the original, both ways, but for the faces with a stamp: these
-/// were changed since, and `log` can take the changes back. All coordinates are those of the working frame.
+/// `mesh` is proven to be within the tolerance of the original, both ways, but for the faces with a stamp: these were
+/// changed since, and `logs` can take the changes back. All coordinates are those of the working frame.
 struct DecimationState {
   const std::vector<Vec3>& vertices;                           ///< of the original
   const std::vector<std::array<std::uint32_t, 3>>& triangles;  ///< of the original
@@ -104,7 +121,8 @@ struct DecimationState {
   std::optional<LocalTolerance> local;
 
   std::vector<std::uint32_t> stamp;  ///< by face: the number of the last change since the last proof, or 0
-  EditLog log;
+  std::vector<EditLog> logs;         ///< since the last proof, their numbers ascending
+  [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the beginning
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
   std::vector<std::uint32_t> place_in_queue;       ///< by edge

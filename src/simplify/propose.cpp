@@ -118,12 +118,17 @@ bool Proposer::holds_all(double limit) {
   return true;
 }
 
+bool Proposer::owns(std::uint32_t face) const {
+  const auto corners = state_.mesh.corners(face);
+  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split_->owns(region_, v); });
+}
+
 /// A face across the rim of the star that is near the sample, or none.
 std::uint32_t Proposer::face_beside(std::uint32_t sample, float squared_limit) {
   const Vec3 p = state_.samples.at(sample);
   for (const Corner c : star_.moved) {
     const Corner across = state_.mesh.twin(next_corner(c));
-    if (across == ArrayMesh::none) continue;
+    if (across == ArrayMesh::none || !owns(across / 3)) continue;
     const auto [a, b, d] = state_.mesh.triangle(across / 3);
     if (closest_on_triangle(CornerTriangle<double>{a, b - a, d - a}, p).squared_distance <= squared_limit)
       return across / 3;
@@ -157,7 +162,8 @@ bool Proposer::fits(Vec3 point, double limit) {
   return false;
 }
 
-std::optional<Vec3> Proposer::placement(Corner edge, double share) {
+std::optional<Vec3> Proposer::placement(const Split& split, const Region& region, Corner edge, double share) {
+  split_ = &split, region_ = region.id;
   ++counts.tried;
   const ArrayMesh& mesh = state_.mesh;
   if (!star_.gather(mesh, edge)) {
@@ -238,14 +244,15 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
   return std::nullopt;
 }
 
-void Proposer::collapse(Vec3 point) {
+void Proposer::collapse(Region& region, Vec3 point) {
   DecimationState& s = state_;
-  const auto number = static_cast<std::uint32_t>(s.log.edits.size() + 1);
+  EditLog& log = region.log;
+  const std::uint32_t number = log.last_number() + 1;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
-  s.log.edits.push_back({Edit::Kind::Collapse, s.locked[kept] != 0, star_.edge, s.mesh.position(kept),
-                         static_cast<std::uint32_t>(s.log.stamps.size())});
+  log.edits.push_back({Edit::Kind::Collapse, s.locked[kept] != 0, star_.edge, s.mesh.position(kept),
+                       static_cast<std::uint32_t>(log.stamps.size())});
   const auto stamp = [&](std::uint32_t face) {
-    s.log.stamps.push_back({face, s.stamp[face]});
+    log.stamps.push_back({face, s.stamp[face]});
     s.stamp[face] = number;
   };
   for (const std::uint32_t face : star_.removed) stamp(face);
@@ -254,7 +261,7 @@ void Proposer::collapse(Vec3 point) {
   s.mesh.move(kept, point);
   s.quadrics[kept] += s.quadrics[gone];
   s.locked[kept] |= s.locked[gone];
-  s.faces -= star_.removed.size();
+  region.removed_faces += star_.removed.size();
 }
 
 std::uint32_t Proposer::nearest_face(std::size_t i) const {
@@ -282,7 +289,7 @@ void Proposer::thin_out() {
 }
 
 /// Each sample to the face that was found nearest to it.
-void Proposer::settle() {
+void Proposer::settle(Region& region) {
   DecimationState& s = state_;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   for (const std::uint32_t face : star_.removed) s.samples.clear(face);
@@ -297,12 +304,23 @@ void Proposer::settle() {
     }
   }
   s.share[kept] = std::min(s.share[kept], s.share[gone]);
-  ++s.clock;
-  s.touched[kept] = s.clock;
+  ++region.clock;
+  s.touched[kept] = region.clock;
   s.mesh.for_each_corner(kept, [&](Corner c) {
-    s.touched[s.mesh.end(c)] = s.touched[s.mesh.apex(c)] = s.clock;
+    s.touched[s.mesh.end(c)] = s.touched[s.mesh.apex(c)] = region.clock;
     return true;
   });
+}
+
+/// Whether all vertices around an edge belong to the region.
+bool Proposer::is_inside(const Split& split, const Region& region, Corner edge) const {
+  if (split.region_of.empty()) return true;
+  const auto owned_around = [&](std::uint32_t v) {
+    return state_.mesh.for_each_corner(v, [&](Corner c) {
+      return split.owns(region.id, state_.mesh.end(c)) && split.owns(region.id, state_.mesh.apex(c));
+    });
+  };
+  return owned_around(state_.mesh.start(edge)) && owned_around(state_.mesh.end(edge));
 }
 
 float edge_cost(const DecimationState& state, Corner edge) {
@@ -311,49 +329,56 @@ float edge_cost(const DecimationState& state, Corner edge) {
       best_placement(state.quadrics[a], state.quadrics[b], state.mesh.position(a), state.mesh.position(b)).cost);
 }
 
-void propose(DecimationState& state, Proposer& proposer, double share, ChangeProver* prover,
-             const std::function<bool()>& stop) {
+/// Collapses an edge where that is near enough, and proven where there is a prover. `around` are then the edges there
+/// were at its ends.
+bool collapse(DecimationState& state, const Split& split, Region& region, Proposer& proposer, double share,
+              ChangeProver* prover, Corner edge, std::vector<Corner>& around) {
+  const std::optional<Vec3> point = proposer.placement(split, region, edge, share);
+  if (!point) return false;
+  around.clear();
+  for (const std::uint32_t v : {proposer.star().kept, proposer.star().gone}) {
+    state.mesh.for_each_corner(v, [&](Corner c) {
+      around.push_back(state.mesh.edge(c));
+      around.push_back(state.mesh.edge(previous_corner(c)));
+      return true;
+    });
+  }
+  proposer.collapse(region, *point);
+  if (prover != nullptr && !prover->prove_or_undo(split, region)) {
+    const std::optional<Vec3> lower = proposer.lower_placement(*point);
+    if (lower) proposer.collapse(region, *lower);
+    if (!lower || !prover->prove_or_undo(split, region)) return false;
+  }
+  proposer.settle(region);
+  return true;
+}
+
+void propose(DecimationState& state, const Split& split, Region& region, Proposer& proposer, double share,
+             ChangeProver* prover, const std::function<bool(std::size_t removed)>& stop) {
   EdgeQueue queue(state.place_in_queue);
   const ArrayMesh& mesh = state.mesh;
   const auto is_open = [&](Corner e) {
-    return std::max(state.touched[mesh.start(e)], state.touched[mesh.end(e)]) >= state.refused_at[e];
+    const std::uint32_t a = mesh.start(e), b = mesh.end(e);
+    return split.owns(region.id, a) && split.owns(region.id, b) &&
+           std::max(state.touched[a], state.touched[b]) >= state.refused_at[e];
   };
   for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
     if (!mesh.is_removed(c / 3) && mesh.edge(c) == c && is_open(c)) queue.put(c, edge_cost(state, c));
   }
   std::vector<Corner> around;
-  const auto refuse = [&](Corner edge) { state.refused_at[edge] = state.clock + 1; };
-  while (!queue.empty() && !stop()) {
+  while (!queue.empty() && !stop(region.removed_faces)) {
     const Corner edge = queue.pop();
-    const std::optional<Vec3> point = proposer.placement(edge, share);
-    if (!point) {
-      refuse(edge);
+    if (!proposer.is_inside(split, region, edge)) continue;
+    if (!collapse(state, split, region, proposer, share, prover, edge, around)) {
+      state.refused_at[edge] = region.clock + 1;
       continue;
     }
-    const std::uint32_t kept = proposer.star().kept;
-    around.clear();
-    for (const std::uint32_t v : {kept, proposer.star().gone}) {
-      mesh.for_each_corner(v, [&](Corner c) {
-        around.push_back(mesh.edge(c));
-        around.push_back(mesh.edge(previous_corner(c)));
-        return true;
-      });
-    }
-    proposer.collapse(*point);
-    if (prover != nullptr && !prover->prove_or_undo()) {
-      const std::optional<Vec3> lower = proposer.lower_placement(*point);
-      if (lower) proposer.collapse(*lower);
-      if (!lower || !prover->prove_or_undo()) {
-        refuse(edge);
-        continue;
-      }
-    }
-    proposer.settle();
     for (const Corner e : around) queue.erase(e);
-    mesh.for_each_corner(kept, [&](Corner c) {
+    mesh.for_each_corner(proposer.star().kept, [&](Corner c) {
       for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) {
         state.refused_at[e] = 0;
-        queue.put(e, edge_cost(state, e));
+        if (split.owns(region.id, mesh.start(e)) && split.owns(region.id, mesh.end(e)))
+          queue.put(e, edge_cost(state, e));
       }
       return true;
     });

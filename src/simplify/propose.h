@@ -38,14 +38,16 @@ class Proposer {
 
   /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance:
   /// where its cost is least, or where the largest distance is. None where no such place is found.
-  [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share);
+  [[nodiscard]] std::optional<Vec3> placement(const Split& split, const Region& region, Corner edge, double share);
+  /// Whether all vertices around an edge belong to the region.
+  [[nodiscard]] bool is_inside(const Split& split, const Region& region, Corner edge) const;
   /// Another place for the edge that was asked for last, where the largest distance is smaller: for one that could not
   /// be proven.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
   /// Makes the collapse that was found last, and then, where it is to stay, gives the samples to the faces that are
   /// left.
-  void collapse(Vec3 point);
-  void settle();
+  void collapse(Region& region, Vec3 point);
+  void settle(Region& region);
   [[nodiscard]] const EdgeStar& star() const { return star_; }
 
   struct Counts {
@@ -58,6 +60,7 @@ class Proposer {
   [[nodiscard]] std::uint32_t nearest_face(std::size_t i) const;
   void thin_out();
   [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
+  [[nodiscard]] bool owns(std::uint32_t face) const;
   [[nodiscard]] bool set_faces(Vec3 point);
   [[nodiscard]] bool holds_all(double limit);
   [[nodiscard]] bool is_near(Vec3 point, double limit);
@@ -66,6 +69,8 @@ class Proposer {
   [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double limit);
 
   DecimationState& state_;
+  const Split* split_ = nullptr;  ///< of the last edge
+  std::uint32_t region_ = 0;
   Proximity proximity_;
   SlopeKernel kernel_ = fastest_slope_kernel();
   HeightKernel height_kernel_ = fastest_height_kernel();
@@ -85,9 +90,9 @@ class Proposer {
   LinearHeights heights_;
 };
 
-/// Collapses edges by cost until `stop` says so or nothing fits `share` of the tolerance. Each is proven at once where
-/// there is a prover.
-void propose(DecimationState& state, Proposer& proposer, double share, ChangeProver* prover,
-             const std::function<bool()>& stop);
+/// Collapses edges of a region by cost until `stop`, told how many faces have gone, says so, or nothing fits `share` of
+/// the tolerance. Each is proven at once where there is a prover.
+void propose(DecimationState& state, const Split& split, Region& region, Proposer& proposer, double share,
+             ChangeProver* prover, const std::function<bool(std::size_t removed)>& stop);
 
 }  // namespace meshbound

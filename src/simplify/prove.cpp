@@ -111,12 +111,22 @@ class ProofWorkers::Worker {
 
   /// Covers of the originals that relied on these faces, which have just been changed, by place in `affected`. False
   /// where one was not found.
-  bool cover_change(std::span<const EditLog::Stamp> changed) {
+  bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
     affected_.clear();
     affected_marks_.clear();
     for (const EditLog::Stamp& stamp : changed) {
       for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
         if (affected_marks_.insert(t)) affected_.push_back(t);
+    }
+    const auto owned = [&](std::uint32_t face) {
+      const auto corners = state_.mesh.corners(face);
+      return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split.owns(region, v); });
+    };
+    if (!split.region_of.empty()) {
+      for (const std::uint32_t t : affected_) {
+        const auto faces = state_.cover.faces_of(t);
+        if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
+      }
     }
     if (affected_.empty()) return true;
     Eigen::AlignedBox3d box;
@@ -145,7 +155,7 @@ class ProofWorkers::Worker {
         for (std::size_t k = 0; k < added_count; ++k) {
           for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
             state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
-              if (found_marks_.insert(d / 3)) enter_face(d / 3);
+              if (found_marks_.insert(d / 3) && owned(d / 3)) enter_face(d / 3);
               return found_.size() < CandidateFaces::capacity;
             });
           }
@@ -308,25 +318,26 @@ ChangeProver::ChangeProver(DecimationState& state)
     : state_(state), workers_(std::make_unique<ProofWorkers>(state, 1)) {}
 ChangeProver::~ChangeProver() = default;
 
-bool ChangeProver::prove_or_undo() {
+bool ChangeProver::prove_or_undo(const Split& split, Region& region) {
   ProofWorkers::Worker& worker = *workers_->workers_.front();
-  bool holds = worker.cover_change(state_.log.stamps);
+  const auto stamps = region.log.stamps_of(region.log.last_number());
+  bool holds = worker.cover_change(stamps, split, region.id);
   uncovered += holds ? 0 : 1;
-  for (const EditLog::Stamp& stamp : state_.log.stamps) {
+  for (const EditLog::Stamp& stamp : stamps) {
     if (!holds) break;
     if (state_.mesh.is_removed(stamp.face)) continue;
     holds = worker.is_near(stamp.face, state_.nearest[stamp.face]);
     too_far += holds ? 0 : 1;
   }
   if (!holds) {
-    undo_last(state_);
+    undo_last(state_, region);
     return false;
   }
   ++proven;
   worker.assign_covers(state_.cover);
-  for (const EditLog::Stamp& stamp : state_.log.stamps) state_.stamp[stamp.face] = 0;
-  state_.log.edits.clear();
-  state_.log.stamps.clear();
+  for (const EditLog::Stamp& stamp : stamps) state_.stamp[stamp.face] = 0;
+  region.log.edits.clear();
+  region.log.stamps.clear();
   return true;
 }
 
@@ -423,9 +434,9 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
 void Proof::commit() {
   for (std::uint32_t i = 0; i < originals_.size(); ++i)
     if (originals_[i] != ArrayMesh::none) state_.cover.assign(originals_[i], draft(i));
-  for (const EditLog::Stamp& stamp : state_.log.stamps) state_.stamp[stamp.face] = 0;
-  state_.log.edits.clear();
-  state_.log.stamps.clear();
+  for (const EditLog& log : state_.logs)
+    for (const EditLog::Stamp& stamp : log.stamps) state_.stamp[stamp.face] = 0;
+  state_.logs.clear();
 }
 
 }  // namespace meshbound

@@ -8,7 +8,7 @@
 
 #include "meshbound/deviation_tracker.h"
 #include "meshbound/stop_token.h"
-#include "simplify/decimation_state.h"
+#include "simplify/regions.h"
 
 namespace meshbound {
 
@@ -32,7 +32,7 @@ class ChangeProver {
   explicit ChangeProver(DecimationState& state);
   ~ChangeProver();
   /// Makes the last change part of what is proven, or takes it back where that fails.
-  bool prove_or_undo();
+  bool prove_or_undo(const Split& split, Region& region);
 
   std::uint64_t proven = 0, uncovered = 0, too_far = 0;
 

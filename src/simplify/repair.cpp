@@ -14,15 +14,16 @@ namespace {
 /// Samples may reach this share of what they could before where a proof has failed.
 constexpr float smaller_share = 0.85F;
 
-/// The mesh and what belongs to its vertices, but for samples and stamps.
-void take_back(DecimationState& s, const Edit& edit) {
+/// The mesh and what belongs to its vertices, but for samples and stamps. Returns how many faces came back.
+std::size_t take_back(DecimationState& s, const Edit& edit) {
+  std::size_t faces = 0;
   switch (edit.kind) {
     case Edit::Kind::Collapse: {
       s.mesh.undo_collapse(edit.edge);
       const std::uint32_t kept = s.mesh.start(edit.edge), gone = s.mesh.end(edit.edge);
       s.quadrics[kept] -= s.quadrics[gone];
       s.locked[kept] = edit.was_locked ? 1 : 0;
-      s.faces += s.mesh.twin(edit.edge) == ArrayMesh::none ? 1 : 2;
+      faces = s.mesh.twin(edit.edge) == ArrayMesh::none ? 1 : 2;
       break;
     }
     case Edit::Kind::Move:
@@ -32,6 +33,7 @@ void take_back(DecimationState& s, const Edit& edit) {
       break;
   }
   s.mesh.move(s.mesh.start(edit.edge), edit.position);
+  return faces;
 }
 
 /// Takes changes back, the last one first, with everything that was built on them.
@@ -52,7 +54,7 @@ class Undoing {
     std::sort(at_fault_.begin(), at_fault_.end());
     while (!wanted_.empty()) {
       const std::uint32_t number = wanted_.top();
-      if (state_.log.edits[number - 1].edge == ArrayMesh::none) {
+      if (edit_of(number).edge == ArrayMesh::none) {
         wanted_.pop();  // it is undone already
       } else if (is_on_top(number)) {
         undo(number);
@@ -64,11 +66,17 @@ class Undoing {
   }
 
  private:
+  [[nodiscard]] EditLog& log_of(std::uint32_t number) const {
+    const auto after = std::upper_bound(state_.logs.begin(), state_.logs.end(), number,
+                                        [](std::uint32_t n, const EditLog& log) { return n <= log.before; });
+    return *(after - 1);
+  }
+  [[nodiscard]] Edit& edit_of(std::uint32_t number) const {
+    EditLog& log = log_of(number);
+    return log.edits[number - log.before - 1];
+  }
   [[nodiscard]] std::span<const EditLog::Stamp> stamps_of(std::uint32_t number) const {
-    const std::size_t begin = state_.log.edits[number - 1].first_stamp;
-    const std::size_t end =
-        number < state_.log.edits.size() ? state_.log.edits[number].first_stamp : state_.log.stamps.size();
-    return std::span(state_.log.stamps).subspan(begin, end - begin);
+    return log_of(number).stamps_of(number);
   }
 
   /// Whether no later change has touched its faces; asks for those that have.
@@ -84,9 +92,9 @@ class Undoing {
 
   void undo(std::uint32_t number) {
     DecimationState& s = state_;
-    Edit& edit = s.log.edits[number - 1];
+    Edit& edit = edit_of(number);
     gather_samples(number);
-    take_back(s, edit);
+    s.faces += take_back(s, edit);
     for (const EditLog::Stamp& stamp : stamps_of(number)) {
       s.stamp[stamp.face] = stamp.before;
       changed_.push_back(stamp.face);
@@ -130,13 +138,14 @@ class Undoing {
 
 }  // namespace
 
-void undo_last(DecimationState& state) {
-  const Edit& edit = state.log.edits.back();
-  take_back(state, edit);
-  for (std::size_t i = edit.first_stamp; i < state.log.stamps.size(); ++i)
-    state.stamp[state.log.stamps[i].face] = state.log.stamps[i].before;
-  state.log.stamps.resize(edit.first_stamp);
-  state.log.edits.pop_back();
+void undo_last(DecimationState& state, Region& region) {
+  EditLog& log = region.log;
+  const Edit edit = log.edits.back();
+  region.removed_faces -= take_back(state, edit);
+  for (std::size_t i = edit.first_stamp; i < log.stamps.size(); ++i)
+    state.stamp[log.stamps[i].face] = log.stamps[i].before;
+  log.stamps.resize(edit.first_stamp);
+  log.edits.pop_back();
 }
 
 std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unproven) {
@@ -162,10 +171,10 @@ std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unprov
 
 void undo_all(DecimationState& state) {
   Undoing undoing(state);
-  for (const EditLog::Stamp& stamp : state.log.stamps) undoing.want(state.stamp[stamp.face]);
+  for (const EditLog& log : state.logs)
+    for (const EditLog::Stamp& stamp : log.stamps) undoing.want(state.stamp[stamp.face]);
   (void)undoing.run();
-  state.log.edits.clear();
-  state.log.stamps.clear();
+  state.logs.clear();
 }
 
 }  // namespace meshbound

@@ -11,8 +11,8 @@ namespace meshbound {
 /// smaller share of the tolerance from then on. Returns the faces that changed by that, ascending.
 [[nodiscard]] std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unproven);
 
-/// Takes back the last change, whose samples have not been given to other faces yet.
-void undo_last(DecimationState& state);
+/// Takes back the last change of a region, whose samples have not been given to other faces yet.
+void undo_last(DecimationState& state, Region& region);
 
 /// Takes back all changes since the last proof.
 void undo_all(DecimationState& state);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "simplify/decimation_state.h"
+
+namespace meshbound {
+
+/// Which vertices belong together while several threads decimate one mesh, each a region of its own.
+///
+/// A change belongs to a region when all vertices of the faces around it do. So a face whose vertices belong to several
+/// regions stays as it is, a face of one region is read and changed by its thread alone, and regions need no locks.
+struct Split {
+  std::vector<std::uint32_t> region_of;  ///< by vertex; empty: all belong to one region
+  std::vector<Region> regions;
+
+  [[nodiscard]] bool owns(std::uint32_t region, std::uint32_t vertex) const {
+    return region_of.empty() || region_of[vertex] == region;
+  }
+};
+
+/// Cuts a mesh into regions of about equal numbers of vertices, each between planes. The number depends on the mesh
+/// alone. Cuts of another `shift`, 0 or 1, run through the middle of regions. O(n log n).
+[[nodiscard]] Split split(const DecimationState& state, int shift);
+/// One region of all.
+[[nodiscard]] Split whole(const DecimationState& state);
+/// Takes over what was changed in the regions, in their order.
+void merge(DecimationState& state, Split split);
+
+}  // namespace meshbound
