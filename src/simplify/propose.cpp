@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/point_triangle.h"
 #include "simplify/minimax_step.h"
 
 namespace meshbound {
@@ -15,16 +14,6 @@ constexpr int max_minimax_steps = 3;
 
 /// One sample in this many tells for most edges that there is nothing to gain.
 constexpr std::size_t coarseness = 6;
-
-/// Samples that faces beside the star may take: there are few, at its rim.
-constexpr std::size_t max_outside = 8;
-
-/// A star with more is thinned out.
-constexpr std::size_t max_samples = 384;
-/// So many samples that follow are looked at for one near by.
-constexpr std::size_t window = 8;
-
-constexpr std::size_t lanes = 8;
 
 /// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
 bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
@@ -66,21 +55,20 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
   return keeps_manifold(mesh, edge, around_kept_, around_gone_);
 }
 
-Proposer::Proposer(DecimationState& state) : state_(state), proximity_(state.tree) {}
+Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {}
 
 void Proposer::gather_samples() {
-  const Samples& samples = state_.samples;
   gathered_ = true;
-  points_.clear();
-  ids_.clear();
-  const auto take = [&](std::uint32_t face) {
-    for (std::uint32_t s = samples.first(face); s != Samples::none; s = samples.following(s)) {
-      ids_.push_back(s);
-      points_.add(samples.at(s) - origin_);
-    }
-  };
-  for (const std::uint32_t face : star_.removed) take(face);
-  for (const Corner c : star_.moved) take(c / 3);
+  samples_.begin(origin_);
+  for (const std::uint32_t face : star_.removed) samples_.add_face(face);
+  numbers_.clear();
+  beside_.clear();
+  for (const Corner c : star_.moved) {
+    samples_.add_face(c / 3);
+    numbers_.push_back(c / 3);
+    const Corner across = state_.mesh.twin(next_corner(c));
+    if (across != ArrayMesh::none && owns(across / 3)) beside_.push_back(across / 3);
+  }
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -95,59 +83,10 @@ bool Proposer::set_faces(Vec3 point) {
   return true;
 }
 
-/// Whether each sample is near a face of the star, or one beside it.
-bool Proposer::holds_all(double limit) {
-  kernel_.offsets(points_, faces_, offsets_);
-  outside_.clear();
-  const auto squared_limit = static_cast<float>(limit * limit);
-  for (std::size_t b = 0; b < offsets_.size(); ++b) {
-    float largest = 0;
-    for (std::size_t k = 0; k < lanes; ++k) {
-      const float squared = points_.blocks[b].weight[k] * offsets_[b].squared[k];
-      largest = squared > largest ? squared : largest;
-    }
-    if (largest <= squared_limit) continue;
-    for (std::size_t k = 0; k < lanes && lanes * b + k < ids_.size(); ++k) {
-      if (offsets_[b].squared[k] <= squared_limit) continue;
-      if (outside_.size() == max_outside) return false;
-      const std::uint32_t beside = face_beside(ids_[lanes * b + k], squared_limit);
-      if (beside == ArrayMesh::none) return false;
-      outside_.emplace_back(lanes * b + k, beside);
-    }
-  }
-  return true;
-}
-
 bool Proposer::owns(std::uint32_t face) const {
+  if (split_->region_of.empty()) return true;
   const auto corners = state_.mesh.corners(face);
   return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split_->owns(region_, v); });
-}
-
-/// A face across the rim of the star that is near the sample, or none.
-std::uint32_t Proposer::face_beside(std::uint32_t sample, float squared_limit) {
-  const Vec3 p = state_.samples.at(sample);
-  for (const Corner c : star_.moved) {
-    const Corner across = state_.mesh.twin(next_corner(c));
-    if (across == ArrayMesh::none || !owns(across / 3)) continue;
-    const auto [a, b, d] = state_.mesh.triangle(across / 3);
-    if (closest_on_triangle(CornerTriangle<double>{a, b - a, d - a}, p).squared_distance <= squared_limit)
-      return across / 3;
-  }
-  return ArrayMesh::none;
-}
-
-/// Of the vertex itself, against the original.
-bool Proposer::is_near(Vec3 point, double limit) {
-  if (ids_.empty()) return true;
-  std::uint32_t best = ids_[0];
-  double least = HUGE_VAL;
-  const std::size_t stride = ids_.size() / 32 + 1;
-  for (std::size_t i = 0; i < ids_.size(); i += stride) {
-    const double squared = squared_length(state_.samples.at(ids_[i]) - point);
-    if (squared < least) least = squared, best = ids_[i];
-  }
-  std::uint32_t hint = state_.samples.triangle_near(best);
-  return proximity_.upper_distance({point.x, point.y, point.z}, hint, limit) <= limit;
 }
 
 bool Proposer::fits(Vec3 point, double limit) {
@@ -156,8 +95,8 @@ bool Proposer::fits(Vec3 point, double limit) {
     return false;
   }
   if (!gathered_) gather_samples();
-  if (!holds_all(limit)) return false;
-  if (is_near(point, limit)) return true;
+  if (!samples_.hold(faces_, beside_, limit)) return false;
+  if (samples_.is_near_original(point, limit)) return true;
   ++counts.stray;
   return false;
 }
@@ -213,11 +152,12 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
     if (!set_faces(point)) return std::nullopt;
   }
   if (!gathered_) gather_samples();
-  if (points_.blocks.empty()) return std::nullopt;
+  const SamplePoints& points = samples_.points();
+  if (points.blocks.empty()) return std::nullopt;
   const auto by_limit = static_cast<float>(1 / limit);
-  if (points_.blocks.size() > 2 * coarseness) {
+  if (points.blocks.size() > 2 * coarseness) {
     few_.blocks.clear();
-    for (std::size_t b = 0; b < points_.blocks.size(); b += coarseness) few_.blocks.push_back(points_.blocks[b]);
+    for (std::size_t b = 0; b < points.blocks.size(); b += coarseness) few_.blocks.push_back(points.blocks[b]);
     height_kernel_.linearise(few_, faces_, by_limit, heights_);
     if (minimax_step(heights_, height_kernel_).there > hopeless_height) {
       hopeless_ = true;
@@ -226,7 +166,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
     }
   }
   for (int k = 0; k < max_minimax_steps; ++k) {
-    height_kernel_.linearise(points_, faces_, by_limit, heights_);
+    height_kernel_.linearise(points, faces_, by_limit, heights_);
     const MinimaxStep step = minimax_step(heights_, height_kernel_);
     if (step.there > hopeless_height) {
       hopeless_ = true;
@@ -264,45 +204,13 @@ void Proposer::collapse(Region& region, Vec3 point) {
   region.removed_faces += star_.removed.size();
 }
 
-std::uint32_t Proposer::nearest_face(std::size_t i) const {
-  return star_.moved[static_cast<std::size_t>(offsets_[i / lanes].face[i % lanes])] / 3;
-}
-
-/// Of two samples that lie near each other the one that is farther from the mesh stands for both.
-void Proposer::thin_out() {
-  const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
-  is_settled_.assign(ids_.size(), 0);
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    if (is_settled_[i] != 0) continue;
-    std::size_t other = i;
-    double least = HUGE_VAL;
-    const Vec3 p = state_.samples.at(ids_[i]);
-    for (std::size_t k = i + 1; k < std::min(i + 1 + window, ids_.size()); ++k) {
-      const double squared_way = squared_length(state_.samples.at(ids_[k]) - p);
-      if (is_settled_[k] == 0 && squared_way < least) least = squared_way, other = k;
-    }
-    const std::size_t farther = squared(other) > squared(i) ? other : i;
-    state_.samples.give_to(ids_[farther], nearest_face(farther));
-    if (other != i) state_.samples.go_with(ids_[i + other - farther], ids_[farther]);
-    is_settled_[other] = 1;
-  }
-}
-
 /// Each sample to the face that was found nearest to it.
 void Proposer::settle(Region& region) {
   DecimationState& s = state_;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   for (const std::uint32_t face : star_.removed) s.samples.clear(face);
   for (const Corner c : star_.moved) s.samples.clear(c / 3);
-  if (ids_.size() > max_samples && outside_.empty()) {
-    thin_out();
-  } else {
-    auto beside = outside_.begin();
-    for (std::size_t i = 0; i < ids_.size(); ++i) {
-      const bool is_beside = beside != outside_.end() && beside->first == i;
-      s.samples.give_to(ids_[i], is_beside ? (beside++)->second : nearest_face(i));
-    }
-  }
+  samples_.give(numbers_);
   s.share[kept] = std::min(s.share[kept], s.share[gone]);
   ++region.clock;
   s.touched[kept] = region.clock;

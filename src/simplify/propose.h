@@ -5,13 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "meshbound/proximity.h"
 #include "simplify/decimation_state.h"
 #include "simplify/edge_queue.h"
 #include "simplify/linear_heights.h"
 #include "simplify/normal_guard.h"
 #include "simplify/prove.h"
-#include "simplify/sampled_slope.h"
+#include "simplify/star_samples.h"
 
 namespace meshbound {
 
@@ -57,22 +56,16 @@ class Proposer {
 
  private:
   void gather_samples();
-  [[nodiscard]] std::uint32_t nearest_face(std::size_t i) const;
-  void thin_out();
   [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
   [[nodiscard]] bool owns(std::uint32_t face) const;
   [[nodiscard]] bool set_faces(Vec3 point);
-  [[nodiscard]] bool holds_all(double limit);
-  [[nodiscard]] bool is_near(Vec3 point, double limit);
   [[nodiscard]] bool fits(Vec3 point, double limit);
-  [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, float squared_limit);
   [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double limit);
 
   DecimationState& state_;
   const Split* split_ = nullptr;  ///< of the last edge
   std::uint32_t region_ = 0;
-  Proximity proximity_;
-  SlopeKernel kernel_ = fastest_slope_kernel();
+  StarSamples samples_;
   HeightKernel height_kernel_ = fastest_height_kernel();
   EdgeStar star_;
   std::vector<GuardedFace> before_;  ///< the faces that move
@@ -81,12 +74,10 @@ class Proposer {
   bool gathered_ = false;  ///< the samples
   bool hopeless_ = false;  ///< no place comes near
   Vec3 origin_;
-  std::vector<std::uint32_t> ids_;  ///< of the samples of the star
-  SamplePoints points_, few_;
-  std::vector<SampleFace> faces_;
-  std::vector<SampleOffsets> offsets_;
-  std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< samples that a face beside the star is nearer to
-  std::vector<std::uint8_t> is_settled_;
+  SamplePoints few_;
+  std::vector<SampleFace> faces_;       ///< that stay, as they would be
+  std::vector<std::uint32_t> numbers_;  ///< of these in the mesh
+  std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
   LinearHeights heights_;
 };
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/star_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/point_triangle.h"
+
+namespace meshbound {
+namespace {
+
+/// Samples that faces beside the star may take: there are few, at its rim.
+constexpr std::size_t max_outside = 8;
+
+/// A star with more is thinned out.
+constexpr std::size_t max_samples = 384;
+/// So many samples that follow are looked at for one near by.
+constexpr std::size_t window = 8;
+
+constexpr std::size_t lanes = 8;
+
+}  // namespace
+
+void StarSamples::begin(Vec3 origin) {
+  origin_ = origin;
+  points_.clear();
+  ids_.clear();
+}
+
+void StarSamples::add_face(std::uint32_t face) {
+  const Samples& samples = state_.samples;
+  for (std::uint32_t s = samples.first(face); s != Samples::none; s = samples.following(s)) {
+    ids_.push_back(s);
+    points_.add(samples.at(s) - origin_);
+  }
+}
+
+bool StarSamples::hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit) {
+  kernel_.offsets(points_, faces, offsets_);
+  outside_.clear();
+  const auto squared_limit = static_cast<float>(limit * limit);
+  for (std::size_t b = 0; b < offsets_.size(); ++b) {
+    float largest = 0;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float squared = points_.blocks[b].weight[k] * offsets_[b].squared[k];
+      largest = squared > largest ? squared : largest;
+    }
+    if (largest <= squared_limit) continue;
+    for (std::size_t k = 0; k < lanes && lanes * b + k < ids_.size(); ++k) {
+      if (offsets_[b].squared[k] <= squared_limit) continue;
+      if (outside_.size() == max_outside) return false;
+      const std::uint32_t face = face_beside(ids_[lanes * b + k], beside, squared_limit);
+      if (face == ArrayMesh::none) return false;
+      outside_.emplace_back(lanes * b + k, face);
+    }
+  }
+  return true;
+}
+
+/// A face of those beside the star that is near the sample, or none.
+std::uint32_t StarSamples::face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
+                                       float squared_limit) const {
+  const Vec3 p = state_.samples.at(sample);
+  for (const std::uint32_t face : beside) {
+    const auto [a, b, d] = state_.mesh.triangle(face);
+    if (closest_on_triangle(CornerTriangle<double>{a, b - a, d - a}, p).squared_distance <= squared_limit) return face;
+  }
+  return ArrayMesh::none;
+}
+
+bool StarSamples::is_near_original(Vec3 point, double limit) {
+  if (ids_.empty()) return true;
+  std::uint32_t best = ids_[0];
+  double least = HUGE_VAL;
+  const std::size_t stride = ids_.size() / 32 + 1;
+  for (std::size_t i = 0; i < ids_.size(); i += stride) {
+    const double squared = squared_length(state_.samples.at(ids_[i]) - point);
+    if (squared < least) least = squared, best = ids_[i];
+  }
+  std::uint32_t hint = state_.samples.triangle_near(best);
+  return proximity_.upper_distance({point.x, point.y, point.z}, hint, limit) <= limit;
+}
+
+/// Which of the changed faces is nearest to a point.
+std::size_t StarSamples::nearest(std::size_t i) const {
+  return static_cast<std::size_t>(offsets_[i / lanes].face[i % lanes]);
+}
+
+void StarSamples::give(std::span<const std::uint32_t> numbers) {
+  if (ids_.size() > max_samples && outside_.empty()) {
+    thin_out(numbers);
+    return;
+  }
+  auto outside = outside_.begin();
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const bool is_outside = outside != outside_.end() && outside->first == i;
+    state_.samples.give_to(ids_[i], is_outside ? (outside++)->second : numbers[nearest(i)]);
+  }
+}
+
+/// Of two samples that lie near each other the one that is farther from the mesh stands for both.
+void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
+  const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
+  is_given_.assign(ids_.size(), 0);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (is_given_[i] != 0) continue;
+    std::size_t other = i;
+    double least = HUGE_VAL;
+    const Vec3 p = state_.samples.at(ids_[i]);
+    for (std::size_t k = i + 1; k < std::min(i + 1 + window, ids_.size()); ++k) {
+      const double squared_way = squared_length(state_.samples.at(ids_[k]) - p);
+      if (is_given_[k] == 0 && squared_way < least) least = squared_way, other = k;
+    }
+    const std::size_t farther = squared(other) > squared(i) ? other : i;
+    state_.samples.give_to(ids_[farther], numbers[nearest(farther)]);
+    if (other != i) state_.samples.go_with(ids_[i + other - farther], ids_[farther]);
+    is_given_[other] = 1;
+  }
+}
+
+}  // namespace meshbound

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "meshbound/proximity.h"
+#include "simplify/decimation_state.h"
+#include "simplify/sampled_slope.h"
+
+namespace meshbound {
+
+/// The samples of a few faces, measured against the faces that a change would put in their place. One for each thread.
+class StarSamples {
+ public:
+  explicit StarSamples(DecimationState& state) : state_(state), proximity_(state.tree) {}
+
+  /// Starts anew, without samples. `points` are relative to `origin`, a point near by.
+  void begin(Vec3 origin);
+  void add_face(std::uint32_t face);
+  [[nodiscard]] bool empty() const { return ids_.empty(); }
+  [[nodiscard]] const SamplePoints& points() const { return points_; }
+
+  /// Whether each sample is within `limit` of one of the changed faces, whose coordinates are relative to the origin,
+  /// or of a face beside them.
+  [[nodiscard]] bool hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit);
+  /// Whether a vertex of the changed faces is within `limit` of the original.
+  [[nodiscard]] bool is_near_original(Vec3 point, double limit);
+  /// Gives each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the faces
+  /// whose samples were added must have been cleared.
+  void give(std::span<const std::uint32_t> numbers);
+
+ private:
+  [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
+                                          float squared_limit) const;
+  [[nodiscard]] std::size_t nearest(std::size_t i) const;
+  void thin_out(std::span<const std::uint32_t> numbers);
+
+  DecimationState& state_;
+  Proximity proximity_;
+  SlopeKernel kernel_ = fastest_slope_kernel();
+  Vec3 origin_;
+  std::vector<std::uint32_t> ids_;  ///< by point
+  SamplePoints points_;
+  std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces
+  std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< points that only a face beside is near
+  std::vector<std::uint8_t> is_given_;
+};
+
+}  // namespace meshbound
