@@ -122,4 +122,18 @@ void ArrayMesh::turn(Corner edge, bool back) {
 void ArrayMesh::flip(Corner edge) { turn(edge, false); }
 void ArrayMesh::undo_flip(Corner edge) { turn(edge, true); }
 
+void ArrayMesh::remove_component(std::span<const std::uint32_t> faces) {
+  for (const std::uint32_t f : faces) {
+    removed_[f] = 1;
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) corner_of_[vertices_[c]] = none;
+  }
+}
+
+void ArrayMesh::restore_component(std::span<const std::uint32_t> faces) {
+  for (const std::uint32_t f : faces) {
+    removed_[f] = 0;
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) corner_of_[vertices_[c]] = c;
+  }
+}
+
 }  // namespace meshbound

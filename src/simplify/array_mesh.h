@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/vec3.h"
@@ -76,6 +77,9 @@ class ArrayMesh {
   /// Turns the edge between two faces to their apexes; `edge` is the turned edge afterwards. `undo_flip` takes it back.
   void flip(Corner edge);
   void undo_flip(Corner edge);
+  /// Removes all faces of a component with their vertices, and puts them back.
+  void remove_component(std::span<const std::uint32_t> faces);
+  void restore_component(std::span<const std::uint32_t> faces);
 
  private:
   void remove_face(Corner edge, std::uint32_t kept);

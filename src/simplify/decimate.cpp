@@ -1,87 +1,268 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/decimate.h"
 
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
+#include <omp.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "meshbound/distance.h"
+#include "numeric/first_error.h"
 #include "simplify/repair.h"
 
 namespace meshbound {
 namespace {
-double now() { return double(clock()) / CLOCKS_PER_SEC; }
-}  // namespace
 
-void decimate(DecimationState& state, const DecimationGoal& goal, int threads) {
-  state.tolerance = goal.tolerance;
-  state.limit = state.provable(goal.tolerance);
-  const auto stop = [&](std::size_t removed) { return state.faces - removed <= goal.target_faces; };
-  double t = now();
-  const auto lap = [&](const char* what) {
-    const double u = now();
-    std::fprintf(stderr, "  %-10s %.3f s  faces %zu\n", what, u - t, state.faces);
-    t = u;
-  };
-  Proposer proposer(state);
-  ProofWorkers workers(state, threads);
-  lap("set up");
-  std::vector<double> shares;
-  const char* spec = std::getenv("SHARES");
-  for (const char* p = spec ? spec : "0.9,0.98"; *p;) {
-    char* e;
-    shares.push_back(std::strtod(p, &e));
-    p = *e ? e + 1 : e;
-  }
-  for (const double share : shares) {
-    for (int pass = 0; pass < 8; ++pass) {
-      const std::size_t before = state.faces;
-      {
-        Split s = whole(state);
-        propose(state, s, s.regions[0], proposer, share, nullptr, stop);
-        merge(state, std::move(s));
-      }
-      lap("propose");
-      if (before - state.faces < before / 100) break;
+/// Samples may reach this share of the tolerance where collapses are proven together: beyond, so many proofs fail that
+/// it is cheaper to prove one by one.
+constexpr double share_together = 0.7;
+
+/// Passes over the edges that something has changed around end where one removes a smaller share of the faces.
+constexpr double min_gain_of_pass = 0.01;
+
+/// The time is looked at once in this many edges, and progress is told.
+constexpr std::uint32_t edges_between_looks = 32;
+
+/// What was collapsed before the time ended may still be proven in this share of it, or in these seconds where the run
+/// was cancelled.
+constexpr double proof_share_of_time = 0.25;
+constexpr double seconds_of_last_proof = 0.3;
+
+StopToken later(const StopToken& stop) {
+  if (stop.deadline == StopToken::Clock::time_point::max()) return stop;
+  return stop.until(stop.deadline, proof_share_of_time * stop.seconds_left());
+}
+
+/// One run of `decimate`.
+class Run {
+ public:
+  Run(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads)
+      : state_(state), goal_(goal), threads_(threads), stop_of_proof_(later(goal.stop)) {}
+
+  EndedBy operator()() {
+    grow_tolerance();
+    keep_what_has_no_face();
+    const double e = std::getenv("EARLY") ? std::atof(std::getenv("EARLY")) : 0;
+    if (e > 0) {
+      const auto cheap = static_cast<float>(e * e * goal_.tolerance * goal_.tolerance);
+      propose(0, cheap);
+      propose(1, cheap);
     }
-    Proof proof(state, workers);
-    for (int k = 0; k < 1000; ++k) {
-      proof.run(goal.stop);
-      if (k < 3) {
-        std::fprintf(stderr, "    unproven %zu originals %zu faces of %llu %llu\n", proof.unproven().originals.size(),
-                     proof.unproven().faces.size(), (unsigned long long)proof.originals_tested,
-                     (unsigned long long)proof.faces_tested);
-      }
-      if (proof.unproven().empty()) break;
-      proof.reopen(repair(state, proof.unproven()));
+    const float any_cost = std::numeric_limits<float>::infinity();
+    propose(0, any_cost);
+    propose(1, any_cost);
+    prove_and_repair();
+    prove_one_by_one();
+    return ended_by_;
+  }
+
+ private:
+  using Work = std::function<void(const Split&, Region&, Proposer&, ChangeProver&)>;
+
+  void grow_tolerance();
+  void try_all_again();
+  void keep_what_has_no_face();
+  void propose(int shift, float max_cost);
+  void prove_and_repair();
+  void prove_one_by_one();
+  void in_regions(Split split, const Work& work);
+  [[nodiscard]] bool is_global() const { return goal_.target_faces > 0 || goal_.on_exceed == OnExceed::Stop; }
+  [[nodiscard]] bool has_ended() const { return ended_by_ != EndedBy::NothingFits; }
+  [[nodiscard]] std::function<bool(std::size_t)> must_stop();
+  [[nodiscard]] StopToken stop_of_proof() const;
+  void note_stop() { ended_by_ = goal_.stop.cancelled() ? EndedBy::Cancelled : EndedBy::TimeLimit; }
+  [[nodiscard]] bool truly_exceeds(Region& region, Proposer& proposer);
+
+  DecimationState& state_;
+  const DecimationGoal& goal_;
+  DecimationThreads& threads_;
+  StopToken stop_of_proof_;
+  std::atomic<EndedBy> ended_by_{EndedBy::NothingFits};
+};
+
+void Run::grow_tolerance() {
+  if (goal_.tolerance == state_.tolerance) return;
+  state_.tolerance = goal_.tolerance;
+  state_.limit = state_.provable(goal_.tolerance);
+  try_all_again();
+}
+
+/// Triangles of the original that the mesh was not made from need a face that covers them; those that have none stay.
+void Run::keep_what_has_no_face() {
+  Proof proof(state_, threads_.workers);
+  proof.run(goal_.stop);
+  for (const std::uint32_t t : proof.unproven().originals) {
+    state_.is_kept.resize(state_.triangles.size(), 0);
+    state_.is_kept[t] = 1;
+    state_.kept.push_back(t);
+  }
+  proof.commit();
+}
+
+/// Runs of the regions of a split side by side.
+void Run::in_regions(Split split, const Work& work) {
+  FirstError error;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_.count())
+  for (std::size_t r = 0; r < split.regions.size(); ++r) {
+    error.guard([&] {
+      const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+      threads_.proposers[thread]->enter(split, split.regions[r]);
+      work(split, split.regions[r], *threads_.proposers[thread], *threads_.provers[thread]);
+    });
+  }
+  merge(state_, std::move(split));
+  error.rethrow();
+}
+
+/// For one region: asked before each collapse.
+std::function<bool(std::size_t)> Run::must_stop() {
+  const bool tells = omp_get_thread_num() == 0 && goal_.progress;
+  return [this, tells, edges = std::uint32_t{0}](std::size_t removed) mutable {
+    if (has_ended()) return true;
+    if (goal_.target_faces > 0 && state_.faces - removed <= goal_.target_faces) {
+      ended_by_ = EndedBy::Target;
+      return true;
+    }
+    if (edges++ % edges_between_looks != 0) return false;
+    if (goal_.stop.stopped()) note_stop();
+    if (tells) goal_.progress(state_.faces - removed);
+    return has_ended();
+  };
+}
+
+/// Collapses that samples find well within the tolerance. Nothing of them is proven.
+void Run::propose(int shift, float max_cost) {
+  if (has_ended()) return;
+  if (is_global() && shift > 0) return;
+  in_regions(is_global() ? whole(state_) : split(state_, shift),
+             [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
+               RegionCollapses::Limits limits{share_together, max_cost, must_stop(), nullptr};
+               if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };
+               RegionCollapses(state_, split, region, proposer, nullptr, std::move(limits)).collapse_all();
+             });
+}
+
+StopToken Run::stop_of_proof() const {
+  if (!goal_.stop.cancelled()) return stop_of_proof_;
+  return StopToken().until(StopToken::Clock::now(), seconds_of_last_proof);
+}
+
+/// Proves what the proposals left, and takes back what cannot be proven until all is. Where the time ends before, all of
+/// them are taken back.
+void Run::prove_and_repair() {
+  if (state_.logs.empty()) return;
+  std::uint64_t proposed = 0;
+  for (const EditLog& log : state_.logs) proposed += log.edits.size();
+  const std::size_t faces = state_.faces;
+  Proof proof(state_, threads_.workers);
+  try {
+    for (proof.run(stop_of_proof()); !proof.unproven().empty(); proof.run(stop_of_proof())) {
+      const Repair repaired = repair(state_, proof.unproven());
+      threads_.together.taken_back += repaired.changes;
+      proof.reopen(repaired.faces);
     }
     proof.commit();
-    lap("prove");
+  } catch (const Stopped&) {
+    undo_all(state_);
+    note_stop();
+    proposed = 0;
   }
-  const double last = std::getenv("LAST") ? std::atof(std::getenv("LAST")) : 1.0;
-  std::fill(state.share.begin(), state.share.end(), 1.0F);
-  std::fill(state.refused_at.begin(), state.refused_at.end(), 0);
-  const auto before_counts = proposer.counts;
-  ChangeProver prover(state);
-  for (int pass = 0; pass < 8; ++pass) {
-    const std::size_t before = state.faces;
-    {
-      Split s = whole(state);
-      propose(state, s, s.regions[0], proposer, last, &prover, stop);
-      merge(state, std::move(s));
+  threads_.together.proven_together += proposed;
+  threads_.together.originals_tested += proof.originals_tested;
+  threads_.together.faces_tested += proof.faces_tested;
+  if (ended_by_ == EndedBy::Target && state_.faces > goal_.target_faces && state_.faces > faces)
+    ended_by_ = EndedBy::NothingFits;  // what was taken back is to be removed elsewhere
+}
+
+/// What was refused for a smaller tolerance, or a smaller share of it, may fit now.
+void Run::try_all_again() {
+  std::fill(state_.refused_at.begin(), state_.refused_at.end(), 0);
+  std::fill(state_.share.begin(), state_.share.end(), 1.0F);
+}
+
+/// What is near the tolerance.
+void Run::prove_one_by_one() {
+  try_all_again();
+  while (!has_ended()) {
+    const std::size_t before = state_.faces;
+    for (int shift = 0; shift < 3 && !has_ended(); ++shift) {
+      if (is_global() && shift < 2) continue;
+      in_regions(shift == 2 ? whole(state_) : split(state_, shift),
+                 [&](const Split& split, Region& region, Proposer& proposer, ChangeProver& prover) {
+                   if (shift < 2 && split.regions.size() == 1) return;
+                   RegionCollapses::Limits limits{1, std::numeric_limits<float>::infinity(), must_stop(), nullptr};
+                   if (goal_.on_exceed == OnExceed::Stop) {
+                     limits.ends_at_refusal = [&] {
+                       if (!truly_exceeds(region, proposer)) return false;
+                       ended_by_ = EndedBy::Tolerance;
+                       if (goal_.stop.stopped()) note_stop();
+                       return true;
+                     };
+                   }
+                   RegionCollapses collapses(state_, split, region, proposer, &prover, std::move(limits));
+                   if (goal_.driver != nullptr)
+                     goal_.driver->collapse(collapses);
+                   else
+                     collapses.collapse_all();
+                 });
     }
-    lap("checked");
-    std::fprintf(stderr, "    proven %llu uncovered %llu too far %llu tried %llu hopeless %llu\n",
-                 (unsigned long long)prover.proven, (unsigned long long)prover.uncovered,
-                 (unsigned long long)prover.too_far, (unsigned long long)(proposer.counts.tried - before_counts.tried),
-                 (unsigned long long)(proposer.counts.hopeless - before_counts.hopeless));
-    if (before - state.faces < before / 100) break;
+    const auto gain = static_cast<double>(before - state_.faces);
+    if (gain < min_gain_of_pass * static_cast<double>(before)) return;
   }
-  const auto& c = proposer.counts;
-  std::fprintf(stderr,
-               "  tried %llu topology %llu cost %llu minimax %llu hopeless %llu near %llu folded %llu stray %llu\n",
-               (unsigned long long)c.tried, (unsigned long long)c.by_topology, (unsigned long long)c.by_cost,
-               (unsigned long long)c.by_minimax, (unsigned long long)c.hopeless, (unsigned long long)c.near_misses,
-               (unsigned long long)c.folded, (unsigned long long)c.stray);
+}
+
+/// Whether the whole mesh leaves the tolerance by the collapse that was refused last: the local proof may fail where the
+/// bound still holds, with the help of faces that are far along the surface.
+bool Run::truly_exceeds(Region& region, Proposer& proposer) {
+  proposer.collapse(region, proposer.refused_placement());
+  TriangleMesh soup;
+  const auto add = [&](const std::array<Vec3, 3>& corners) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const Vec3 p : corners) soup.vertices.emplace_back(p.x, p.y, p.z);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  };
+  for (std::uint32_t f = 0; f < state_.mesh.face_count(); ++f)
+    if (!state_.mesh.is_removed(f)) add(state_.mesh.triangle(f));
+  for (const std::uint32_t t : state_.kept) {
+    const auto& v = state_.triangles[t];
+    add({state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]});
+  }
+  undo_last(state_, region);
+  DistanceOptions options;
+  options.threads = threads_.count();
+  options.cancel = goal_.stop.cancel;
+  options.budget.seconds = goal_.stop.seconds_left();
+  return check_symmetric(state_.tree, Bvh(soup), goal_.tolerance, options).verdict != Verdict::Within;
+}
+
+}  // namespace
+
+DecimationThreads::DecimationThreads(DecimationState& state, int threads) : workers(state, threads) {
+  for (int i = 0; i < threads; ++i) {
+    proposers.push_back(std::make_unique<Proposer>(state));
+    provers.push_back(std::make_unique<ChangeProver>(state, workers, static_cast<std::size_t>(i)));
+  }
+}
+
+CollapseCounts DecimationThreads::counts() const {
+  CollapseCounts counts = together;
+  for (const auto& proposer : proposers) {
+    counts.tried += proposer->counts.tried;
+    counts.refused += proposer->counts.refused;
+  }
+  for (const auto& prover : provers) {
+    counts.proven_alone += prover->proven;
+    counts.unproven += prover->unproven;
+    counts.originals_tested += prover->originals_tested;
+    counts.faces_tested += prover->faces_tested;
+  }
+  return counts;
+}
+
+EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads) {
+  return Run(state, goal, threads)();
 }
 
 }  // namespace meshbound

@@ -1,17 +1,44 @@
 // SPDX-License-Identifier: MIT
+/// The main loop: propose, prove, repair, then what is near the tolerance one by one.
 #pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
-#include "simplify/propose.h"
-#include "simplify/prove.h"
+#include "simplify/region_collapses.h"
 
 namespace meshbound {
 
+/// When a decimation ends, beside where nothing fits. Lengths as in its mesh.
 struct DecimationGoal {
-  double tolerance = 0;
+  double tolerance = 0;  ///< less all room for rounding
   std::size_t target_faces = 0;
+  OnExceed on_exceed = OnExceed::Skip;
+  Effort effort = Effort::Normal;
   StopToken stop;
+  std::function<void(std::size_t faces)> progress;  ///< called from the calling thread; may be none
+  const CollapseDriver* driver = nullptr;           ///< null: our own
 };
 
-void decimate(DecimationState& state, const DecimationGoal& goal, int threads);
+/// Scratch memory of the threads of a decimation, kept from level to level.
+class DecimationThreads {
+ public:
+  /// `state` must outlive this.
+  DecimationThreads(DecimationState& state, int threads);
+
+  [[nodiscard]] int count() const { return static_cast<int>(proposers.size()); }
+  [[nodiscard]] CollapseCounts counts() const;
+
+  ProofWorkers workers;
+  std::vector<std::unique_ptr<Proposer>> proposers;   ///< by thread
+  std::vector<std::unique_ptr<ChangeProver>> provers;  ///< by thread
+  CollapseCounts together;  ///< of what was proven together
+};
+
+/// Decimates until nothing more fits or the goal is reached. The state is proven for the tolerance of the goal, which
+/// must not be smaller than that of the call before, whatever ends it.
+[[nodiscard]] EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads);
 
 }  // namespace meshbound

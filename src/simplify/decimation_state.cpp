@@ -4,16 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "meshbound/deviation_tracker.h"
 #include "numeric/rounding.h"
+#include "simplify/edge_queue.h"
+#include "simplify/faults.h"
 #include "simplify/forward_cover.h"
 
 namespace meshbound {
+
+double internal::proof_fault = 1;
+
 
 namespace {
 
 /// Points between the ends of one edge: more cost more time than they save.
 constexpr double max_between = 7;
+
+/// What is left of the tolerance is room in which the measurement of the finished mesh can decide without refining to
+/// the last digit: it accepts an upper bound of the whole tolerance.
+constexpr double proven_share = 1 - 1e-4;
 
 }  // namespace
 
@@ -40,12 +48,37 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
   }
 }
 
+DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
+                                 const std::vector<std::array<std::uint32_t, 3>>& original_triangles,
+                                 const Bvh& original_tree, ArrayMesh start,
+                                 std::vector<std::uint32_t> vertex_of_vertex,
+                                 std::vector<std::uint32_t> triangle_of_face)
+    : vertices(original_vertices),
+      triangles(original_triangles),
+      tree(original_tree),
+      mesh(std::move(start)),
+      faces(mesh.face_count()),
+      source_vertex(std::move(vertex_of_vertex)),
+      source_triangle(std::move(triangle_of_face)),
+      locked(mesh.vertex_count(), 0),
+      quadrics(vertex_quadrics(mesh)),
+      share(mesh.vertex_count(), 1),
+      stamp(mesh.face_count(), 0),
+      touched(mesh.vertex_count(), 0),
+      refused_at(3 * mesh.face_count(), 0),
+      place_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
+      cover(triangles.size()),
+      nearest(source_triangle) {
+  for (const Vec3 p : vertices) magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
+}
+
 /// What must be proven in doubles so that `value` holds in real arithmetic.
 double DecimationState::provable(double value) const {
   // New vertices lie within the tolerance of old ones. The slack of a distance, and of the cuts above a piece:
   const double size = magnitude + tolerance;
   const double slack = CandidateFaces::rounding_slack(size) + ForwardCover::deepest_cut * cut_error * size;
-  return value * DeviationTracker::tracking_share * (1 - 2 * CandidateFaces::plane_slack) - slack;
+  return internal::proof_fault * (value * proven_share * (1 - 2 * CandidateFaces::plane_slack) - slack);
 }
 
 double DecimationState::limit_around(const std::array<Vec3, 3>& corners) const {

@@ -103,6 +103,15 @@ struct Region {
 /// `mesh` is proven to be within the tolerance of the original, both ways, but for the faces with a stamp: these were
 /// changed since, and `logs` can take the changes back. All coordinates are those of the working frame.
 struct DecimationState {
+  /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
+  /// vertex of the original is at the same place. The original must outlive this. Samples are still to be set.
+  DecimationState(const std::vector<Vec3>& original_vertices,
+                  const std::vector<std::array<std::uint32_t, 3>>& original_triangles, const Bvh& original_tree,
+                  ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+                  std::vector<std::uint32_t> triangle_of_face);
+  /// Takes samples at most `spacing` apart on edges.
+  void set_samples(double spacing) { samples = Samples(vertices, triangles, mesh, source_triangle, spacing); }
+
   const std::vector<Vec3>& vertices;                           ///< of the original
   const std::vector<std::array<std::uint32_t, 3>>& triangles;  ///< of the original
   const Bvh& tree;                                             ///< of the original
@@ -134,6 +143,8 @@ struct DecimationState {
   [[nodiscard]] double limit_in(const Eigen::AlignedBox3d& box) const {
     return local ? provable(local->sufficient_around(box, tolerance)) : limit;
   }
+  std::vector<std::uint32_t> kept;    ///< original triangles without a face near: part of every result as they are
+  std::vector<std::uint8_t> is_kept;  ///< by original triangle; empty: none is
   CoverAssignment cover;               ///< which faces each original triangle is proven to be near
   std::vector<std::uint32_t> nearest;  ///< by face: an original triangle near it
 };

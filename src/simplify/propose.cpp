@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simplify/faults.h"
 #include "simplify/minimax_step.h"
 
 namespace meshbound {
+
+double internal::sample_fault = 1;
+
 namespace {
 
 /// Placements are moved to where the largest sampled distance is least at most this often.
@@ -83,6 +87,17 @@ bool Proposer::set_faces(Vec3 point) {
   return true;
 }
 
+/// What must be found in doubles around the star.
+double Proposer::limit_around() const {
+  if (!state_.local) return state_.limit;
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t face : star_.removed)
+    for (const Vec3 p : state_.mesh.triangle(face)) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+  for (const Corner c : star_.moved)
+    for (const Vec3 p : state_.mesh.triangle(c / 3)) box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+  return state_.limit_in(box);
+}
+
 bool Proposer::owns(std::uint32_t face) const {
   if (split_->region_of.empty()) return true;
   const auto corners = state_.mesh.corners(face);
@@ -91,22 +106,18 @@ bool Proposer::owns(std::uint32_t face) const {
 
 bool Proposer::fits(Vec3 point, double limit) {
   if (!set_faces(point)) {
-    ++counts.folded;
     return false;
   }
   if (!gathered_) gather_samples();
-  if (!samples_.hold(faces_, beside_, limit)) return false;
-  if (samples_.is_near_original(point, limit)) return true;
-  ++counts.stray;
-  return false;
+  by_bound_ = true;
+  return samples_.hold(faces_, beside_, limit) && samples_.is_near_original(point, limit);
 }
 
-std::optional<Vec3> Proposer::placement(const Split& split, const Region& region, Corner edge, double share) {
-  split_ = &split, region_ = region.id;
+std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
+  by_bound_ = false;
   const ArrayMesh& mesh = state_.mesh;
   if (!star_.gather(mesh, edge)) {
-    ++counts.by_topology;
     return std::nullopt;
   }
   const std::uint32_t kept = star_.kept, gone = star_.gone;
@@ -118,19 +129,20 @@ std::optional<Vec3> Proposer::placement(const Split& split, const Region& region
     before_.emplace_back(
         GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
   lowered_ = false;
-  const double limit = limit_ =
-      state_.limit * std::min({share, double{state_.share[kept]}, double{state_.share[gone]}});
+  const double limit = limit_ = limit_around() * internal::sample_fault *
+      std::min({share, double{state_.share[kept]}, double{state_.share[gone]}});
   gathered_ = false;
   if (is_locked(kept) || is_locked(gone)) {
     const Vec3 fixed = is_locked(kept) ? p : q;
+    tried_ = fixed;
     return fits(fixed, limit) ? std::optional(fixed) : std::nullopt;
   }
-  const Vec3 wanted = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q).point;
-  if (fits(wanted, limit)) {
-    ++counts.by_cost;
+  if (!wanted) wanted = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q).point;
+  tried_ = *wanted;
+  if (fits(*wanted, limit)) {
     return wanted;
   }
-  if (const auto lower = minimax(wanted, limit)) return lower;
+  if (const auto lower = minimax(*wanted, limit)) return lower;
   for (const Vec3 end : {p, q}) {
     if (!hopeless_ && fits(end, limit)) return end;
   }
@@ -161,7 +173,6 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
     height_kernel_.linearise(few_, faces_, by_limit, heights_);
     if (minimax_step(heights_, height_kernel_).there > hopeless_height) {
       hopeless_ = true;
-      ++counts.hopeless;
       return std::nullopt;
     }
   }
@@ -170,17 +181,14 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
     const MinimaxStep step = minimax_step(heights_, height_kernel_);
     if (step.there > hopeless_height) {
       hopeless_ = true;
-      ++counts.hopeless;
       return std::nullopt;
     }
     point = point + limit * Vec3{step.move[0], step.move[1], step.move[2]};
     if (fits(point, limit_)) {
-      ++counts.by_minimax;
       return point;
     }
     if (faces_.size() != star_.moved.size()) return std::nullopt;
   }
-  ++counts.near_misses;
   return std::nullopt;
 }
 
@@ -220,78 +228,22 @@ void Proposer::settle(Region& region) {
   });
 }
 
-/// Whether all vertices around an edge belong to the region.
-bool Proposer::is_inside(const Split& split, const Region& region, Corner edge) const {
-  if (split.region_of.empty()) return true;
+void Proposer::enter(const Split& split, const Region& region) { split_ = &split, region_ = region.id; }
+
+bool Proposer::is_inside(Corner edge) const {
+  if (split_->region_of.empty()) return true;
   const auto owned_around = [&](std::uint32_t v) {
     return state_.mesh.for_each_corner(v, [&](Corner c) {
-      return split.owns(region.id, state_.mesh.end(c)) && split.owns(region.id, state_.mesh.apex(c));
+      return split_->owns(region_, state_.mesh.end(c)) && split_->owns(region_, state_.mesh.apex(c));
     });
   };
   return owned_around(state_.mesh.start(edge)) && owned_around(state_.mesh.end(edge));
 }
 
-float edge_cost(const DecimationState& state, Corner edge) {
-  const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
+float Proposer::cost(Corner edge) const {
+  const std::uint32_t a = state_.mesh.start(edge), b = state_.mesh.end(edge);
   return static_cast<float>(
-      best_placement(state.quadrics[a], state.quadrics[b], state.mesh.position(a), state.mesh.position(b)).cost);
-}
-
-/// Collapses an edge where that is near enough, and proven where there is a prover. `around` are then the edges there
-/// were at its ends.
-bool collapse(DecimationState& state, const Split& split, Region& region, Proposer& proposer, double share,
-              ChangeProver* prover, Corner edge, std::vector<Corner>& around) {
-  const std::optional<Vec3> point = proposer.placement(split, region, edge, share);
-  if (!point) return false;
-  around.clear();
-  for (const std::uint32_t v : {proposer.star().kept, proposer.star().gone}) {
-    state.mesh.for_each_corner(v, [&](Corner c) {
-      around.push_back(state.mesh.edge(c));
-      around.push_back(state.mesh.edge(previous_corner(c)));
-      return true;
-    });
-  }
-  proposer.collapse(region, *point);
-  if (prover != nullptr && !prover->prove_or_undo(split, region)) {
-    const std::optional<Vec3> lower = proposer.lower_placement(*point);
-    if (lower) proposer.collapse(region, *lower);
-    if (!lower || !prover->prove_or_undo(split, region)) return false;
-  }
-  proposer.settle(region);
-  return true;
-}
-
-void propose(DecimationState& state, const Split& split, Region& region, Proposer& proposer, double share,
-             ChangeProver* prover, const std::function<bool(std::size_t removed)>& stop) {
-  EdgeQueue queue(state.place_in_queue);
-  const ArrayMesh& mesh = state.mesh;
-  const auto is_open = [&](Corner e) {
-    const std::uint32_t a = mesh.start(e), b = mesh.end(e);
-    return split.owns(region.id, a) && split.owns(region.id, b) &&
-           std::max(state.touched[a], state.touched[b]) >= state.refused_at[e];
-  };
-  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
-    if (!mesh.is_removed(c / 3) && mesh.edge(c) == c && is_open(c)) queue.put(c, edge_cost(state, c));
-  }
-  std::vector<Corner> around;
-  while (!queue.empty() && !stop(region.removed_faces)) {
-    const Corner edge = queue.pop();
-    if (!proposer.is_inside(split, region, edge)) continue;
-    if (!collapse(state, split, region, proposer, share, prover, edge, around)) {
-      state.refused_at[edge] = region.clock + 1;
-      continue;
-    }
-    for (const Corner e : around) queue.erase(e);
-    mesh.for_each_corner(proposer.star().kept, [&](Corner c) {
-      for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) {
-        state.refused_at[e] = 0;
-        if (split.owns(region.id, mesh.start(e)) && split.owns(region.id, mesh.end(e)))
-          queue.put(e, edge_cost(state, e));
-      }
-      return true;
-    });
-  }
-  queue.clear();
+      best_placement(state_.quadrics[a], state_.quadrics[b], state_.mesh.position(a), state_.mesh.position(b)).cost);
 }
 
 }  // namespace meshbound

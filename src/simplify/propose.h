@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// Proposals: collapses, moves and flips that samples of the original find near enough. They prove nothing.
 #pragma once
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "simplify/decimation_state.h"
-#include "simplify/edge_queue.h"
 #include "simplify/linear_heights.h"
 #include "simplify/normal_guard.h"
-#include "simplify/prove.h"
+#include "simplify/regions.h"
 #include "simplify/star_samples.h"
 
 namespace meshbound {
@@ -36,10 +34,17 @@ class Proposer {
   explicit Proposer(DecimationState& state);
 
   /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance:
-  /// where its cost is least, or where the largest distance is. None where no such place is found.
-  [[nodiscard]] std::optional<Vec3> placement(const Split& split, const Region& region, Corner edge, double share);
+  /// at `wanted`, or where its cost is least, or else where the largest distance is. None where no such place is found.
+  [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share, std::optional<Vec3> wanted);
+  /// Changes from now on are those of this region. Both must outlive them.
+  void enter(const Split& split, const Region& region);
   /// Whether all vertices around an edge belong to the region.
-  [[nodiscard]] bool is_inside(const Split& split, const Region& region, Corner edge) const;
+  [[nodiscard]] bool is_inside(Corner edge) const;
+  /// What it costs to collapse an edge: the least sum of the quadrics of its ends.
+  [[nodiscard]] float cost(Corner edge) const;
+  /// Whether it was for the bound that the last edge was refused, and where its vertex was to go.
+  [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
+  [[nodiscard]] Vec3 refused_placement() const { return tried_; }
   /// Another place for the edge that was asked for last, where the largest distance is smaller: for one that could not
   /// be proven.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
@@ -50,13 +55,13 @@ class Proposer {
   [[nodiscard]] const EdgeStar& star() const { return star_; }
 
   struct Counts {
-    std::uint64_t tried = 0, by_topology = 0, by_cost = 0, by_minimax = 0, hopeless = 0, near_misses = 0, folded = 0,
-                  stray = 0;
+    std::uint64_t tried = 0, refused = 0;
   } counts;
 
  private:
   void gather_samples();
   [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
+  [[nodiscard]] double limit_around() const;
   [[nodiscard]] bool owns(std::uint32_t face) const;
   [[nodiscard]] bool set_faces(Vec3 point);
   [[nodiscard]] bool fits(Vec3 point, double limit);
@@ -73,6 +78,8 @@ class Proposer {
   bool lowered_ = false;   ///< the last place is one where the largest distance is least
   bool gathered_ = false;  ///< the samples
   bool hopeless_ = false;  ///< no place comes near
+  bool by_bound_ = false;  ///< samples were asked
+  Vec3 tried_;             ///< the first place
   Vec3 origin_;
   SamplePoints few_;
   std::vector<SampleFace> faces_;       ///< that stay, as they would be
@@ -80,10 +87,5 @@ class Proposer {
   std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
   LinearHeights heights_;
 };
-
-/// Collapses edges of a region by cost until `stop`, told how many faces have gone, says so, or nothing fits `share` of
-/// the tolerance. Each is proven at once where there is a prover.
-void propose(DecimationState& state, const Split& split, Region& region, Proposer& proposer, double share,
-             ChangeProver* prover, const std::function<bool(std::size_t removed)>& stop);
 
 }  // namespace meshbound

@@ -12,7 +12,6 @@
 
 #include "meshbound/proximity.h"
 #include "numeric/first_error.h"
-#include "simplify/box_tree.h"
 #include "simplify/degree_cover.h"
 #include "simplify/forward_cover.h"
 #include "simplify/marked_ids.h"
@@ -67,7 +66,10 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return;
     std::array<std::uint32_t, 3> at{};
-    for (std::size_t k = 0; k < 3; ++k) at[k] = state_.samples.face_of(v[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = state_.samples.face_of(v[k]);
+      if (at[k] != ArrayMesh::none && state_.mesh.is_removed(at[k])) at[k] = ArrayMesh::none;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       if (at[k] == ArrayMesh::none || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
       if (!holds(at[k], corners, limit)) continue;
@@ -82,16 +84,16 @@ class ProofWorkers::Worker {
     if (faces.empty()) cover_in_parts(corners, limit, faces);
   }
 
-  /// The same where the samples do not know which faces are near: `boxes` are those of `faces_of_boxes`.
-  void cover_anywhere(std::uint32_t t, const BoxTree& boxes, std::span<const std::uint32_t> faces_of_boxes,
-                      std::vector<std::uint32_t>& faces) {
+  /// The same where the samples do not know which faces are near.
+  void cover_anywhere(std::uint32_t t, const FaceBoxes& boxes, std::vector<std::uint32_t>& faces) {
+    faces.clear();
     const auto& v = state_.triangles[t];
     const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return;
     found_.clear();
     boxes.find(grown(box_of(corners), state_.tolerance), found_);
-    for (std::uint32_t& f : found_) f = faces_of_boxes[f];
+    std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
     cover_in_parts(corners, limit, faces);
   }
 
@@ -166,6 +168,7 @@ class ProofWorkers::Worker {
     }
     return true;
   }
+  [[nodiscard]] std::size_t affected() const { return affected_.size(); }
   void assign_covers(CoverAssignment& cover) {
     for (std::size_t i = 0; i < affected_.size(); ++i) {
       ids_.clear();
@@ -314,22 +317,45 @@ ProofWorkers::ProofWorkers(const DecimationState& state, int threads) {
 }
 ProofWorkers::~ProofWorkers() = default;
 
-ChangeProver::ChangeProver(DecimationState& state)
-    : state_(state), workers_(std::make_unique<ProofWorkers>(state, 1)) {}
-ChangeProver::~ChangeProver() = default;
+bool ProofWorkers::cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
+                                  std::vector<std::vector<std::uint32_t>>& covers) {
+  covers.resize(originals.size());
+  for (std::size_t i = 0; i < originals.size(); ++i) {
+    workers_.front()->cover_anywhere(originals[i], boxes, covers[i]);
+    if (covers[i].empty()) return false;
+  }
+  return true;
+}
+
+FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.is_removed(f)) continue;
+    faces_.push_back(f);
+    boxes.push_back(box_of(mesh.triangle(f)));
+  }
+  tree_.emplace(std::move(boxes));
+}
+
+void FaceBoxes::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
+  const std::size_t before = found.size();
+  tree_->find(box, found);
+  for (std::size_t i = before; i < found.size(); ++i) found[i] = faces_[found[i]];
+}
 
 bool ChangeProver::prove_or_undo(const Split& split, Region& region) {
-  ProofWorkers::Worker& worker = *workers_->workers_.front();
+  ProofWorkers::Worker& worker = *workers_.workers_[thread_];
   const auto stamps = region.log.stamps_of(region.log.last_number());
   bool holds = worker.cover_change(stamps, split, region.id);
-  uncovered += holds ? 0 : 1;
+  originals_tested += worker.affected();
   for (const EditLog::Stamp& stamp : stamps) {
     if (!holds) break;
     if (state_.mesh.is_removed(stamp.face)) continue;
     holds = worker.is_near(stamp.face, state_.nearest[stamp.face]);
-    too_far += holds ? 0 : 1;
+    ++faces_tested;
   }
   if (!holds) {
+    ++unproven;
     undo_last(state_, region);
     return false;
   }
@@ -359,6 +385,7 @@ std::span<const std::uint32_t> Proof::draft(std::uint32_t place) const {
 }
 
 bool Proof::is_stale(std::uint32_t original) const {
+  if (!state_.is_kept.empty() && state_.is_kept[original] != 0) return false;
   const auto faces = state_.cover.faces_of(original);
   return faces.empty() ||
          std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return state_.stamp[f] != 0; });
@@ -400,16 +427,9 @@ void Proof::cover_anywhere() {
   for (const std::uint32_t at : open_originals_)
     if (draft(at).empty()) lost.push_back(at);
   if (lost.empty()) return;
-  std::vector<std::uint32_t> faces;
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (std::uint32_t f = 0; f < state_.mesh.face_count(); ++f) {
-    if (state_.mesh.is_removed(f)) continue;
-    faces.push_back(f);
-    boxes.push_back(box_of(state_.mesh.triangle(f)));
-  }
-  const BoxTree tree(std::move(boxes));
+  const FaceBoxes boxes(state_.mesh);
   for (const std::uint32_t at : lost)
-    workers_.workers_.front()->cover_anywhere(originals_[at], tree, faces, faces_[at]);
+    workers_.workers_.front()->cover_anywhere(originals_[at], boxes, faces_[at]);
 }
 
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {

@@ -4,13 +4,35 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include "meshbound/deviation_tracker.h"
 #include "meshbound/stop_token.h"
+#include "simplify/box_tree.h"
 #include "simplify/regions.h"
 
 namespace meshbound {
+
+/// What could not be proven.
+struct Unproven {
+  std::vector<std::uint32_t> originals;  ///< triangles with a part that no face is near enough to
+  std::vector<std::uint32_t> faces;      ///< those that are too far from the original
+  [[nodiscard]] bool empty() const { return originals.empty() && faces.empty(); }
+};
+
+/// The boxes of all faces of a mesh as it was, to find those near something from scratch.
+class FaceBoxes {
+ public:
+  /// O(n log n).
+  explicit FaceBoxes(const ArrayMesh& mesh);
+  /// Those that meet `box`.
+  void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
+
+ private:
+  std::vector<std::uint32_t> faces_;
+  std::optional<BoxTree> tree_;
+};
 
 /// Scratch memory of the threads that prove, kept from proof to proof.
 class ProofWorkers {
@@ -18,6 +40,10 @@ class ProofWorkers {
   /// `state` must outlive this.
   ProofWorkers(const DecimationState& state, int threads);
   ~ProofWorkers();
+
+  /// Covers of originals by faces that are there, found by their boxes. False where one has none.
+  [[nodiscard]] bool cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
+                                    std::vector<std::vector<std::uint32_t>>& covers);
 
  private:
   friend class Proof;
@@ -29,16 +55,18 @@ class ProofWorkers {
 /// Proves changes one by one, right after they were made to a state that is proven but for them. One for each thread.
 class ChangeProver {
  public:
-  explicit ChangeProver(DecimationState& state);
-  ~ChangeProver();
+  /// Uses the memory of one thread of `workers`. All must outlive this.
+  ChangeProver(DecimationState& state, ProofWorkers& workers, std::size_t thread)
+      : state_(state), workers_(workers), thread_(thread) {}
   /// Makes the last change part of what is proven, or takes it back where that fails.
   bool prove_or_undo(const Split& split, Region& region);
 
-  std::uint64_t proven = 0, uncovered = 0, too_far = 0;
+  std::uint64_t proven = 0, unproven = 0, originals_tested = 0, faces_tested = 0;
 
  private:
   DecimationState& state_;
-  std::unique_ptr<ProofWorkers> workers_;
+  ProofWorkers& workers_;
+  std::size_t thread_;
 };
 
 /// A proof under way.

@@ -2,13 +2,14 @@
 #include "simplify/regions.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <span>
 
 namespace meshbound {
 namespace {
 
 /// Smaller regions lose more at their seams than threads gain.
-constexpr std::size_t min_vertices_of_region = 4000;
+std::size_t min_vertices_of_region = std::getenv("MINV") ? std::atoi(std::getenv("MINV")) : 4000;
 constexpr std::uint32_t max_regions = 64;
 
 /// Where the first cut of a shifted split runs; all others halve.

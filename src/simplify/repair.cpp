@@ -50,6 +50,7 @@ class Undoing {
   void want(std::uint32_t number) {
     if (number != 0) wanted_.push(number);
   }
+  [[nodiscard]] std::size_t undone() const { return undone_; }
   std::vector<std::uint32_t> run() {
     std::sort(at_fault_.begin(), at_fault_.end());
     while (!wanted_.empty()) {
@@ -102,6 +103,7 @@ class Undoing {
     give_samples(number);
     if (std::binary_search(at_fault_.begin(), at_fault_.end(), number)) lower_share(edit.edge);
     edit.edge = ArrayMesh::none;
+    ++undone_;
   }
   void lower_share(Corner edge) {
     float &at_start = state_.share[state_.mesh.start(edge)], &at_end = state_.share[state_.mesh.end(edge)];
@@ -133,6 +135,7 @@ class Undoing {
 
   DecimationState& state_;
   std::priority_queue<std::uint32_t> wanted_;
+  std::size_t undone_ = 0;
   std::vector<std::uint32_t> at_fault_, changed_, samples_;
 };
 
@@ -148,7 +151,7 @@ void undo_last(DecimationState& state, Region& region) {
   log.edits.pop_back();
 }
 
-std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unproven) {
+Repair repair(DecimationState& state, const Unproven& unproven) {
   Undoing undoing(state);
   for (const std::uint32_t f : unproven.faces) undoing.blame(state.stamp[f]);
   for (const std::uint32_t t : unproven.originals) {
@@ -166,7 +169,7 @@ std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unprov
   ++state.clock;
   for (const std::uint32_t f : changed)
     for (const std::uint32_t v : state.mesh.corners(f)) state.touched[v] = state.clock;
-  return changed;
+  return {changed, undoing.undone()};
 }
 
 void undo_all(DecimationState& state) {

@@ -2,14 +2,17 @@
 #pragma once
 #include <vector>
 
-#include "meshbound/deviation_tracker.h"
-#include "simplify/decimation_state.h"
+#include "simplify/prove.h"
 
 namespace meshbound {
 
 /// Takes back the changes that made what could not be proven, and those made on top of them. Samples around may reach a
-/// smaller share of the tolerance from then on. Returns the faces that changed by that, ascending.
-[[nodiscard]] std::vector<std::uint32_t> repair(DecimationState& state, const Unproven& unproven);
+/// smaller share of the tolerance from then on.
+struct Repair {
+  std::vector<std::uint32_t> faces;  ///< that have changed by that, ascending
+  std::size_t changes = 0;           ///< taken back
+};
+[[nodiscard]] Repair repair(DecimationState& state, const Unproven& unproven);
 
 /// Takes back the last change of a region, whose samples have not been given to other faces yet.
 void undo_last(DecimationState& state, Region& region);

@@ -1,14 +1,14 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshbound/cgal/lod_chain.h"
+// SPDX-License-Identifier: MIT
+#include "meshbound/lod_chain.h"
 
 #include <cmath>
 #include <utility>
 
-#include "cgal/level_run.h"
-#include "cgal/measured_level.h"
+#include "levels/level_run.h"
+#include "levels/measured_level.h"
 #include "meshbound/error.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 namespace {
 
 const LodOptions& checked(const LodOptions& options) {
@@ -53,12 +53,10 @@ LodLevel LodChain::next(double tolerance) {
     throw InvalidInput("the tolerances of a chain must be lengths, and grow from level to level");
   impl_->tolerance = tolerance;
   LodLevel level = impl_->run.next(tolerance, 0);
-  if (impl_->options.measure) {
-    const auto start = LevelRun::Clock::now();
-    if (!impl_->tree) impl_->tree.emplace(impl_->original, BvhOptions{impl_->options.threads});
-    measure_level(impl_->original, *impl_->tree, level, impl_->options);
-    impl_->measure_seconds += seconds_since(start);
-  }
+  const auto start = LevelRun::Clock::now();
+  if (!impl_->tree) impl_->tree.emplace(impl_->original, BvhOptions{impl_->options.threads});
+  measure_level(impl_->original, *impl_->tree, level, impl_->options);
+  impl_->measure_seconds += seconds_since(start);
   return level;
 }
 
@@ -87,4 +85,4 @@ std::size_t build_lod_chain(const MeshView& original, std::span<const double> to
   return tolerances.size();
 }
 
-}  // namespace meshbound::cgal
+}  // namespace meshbound

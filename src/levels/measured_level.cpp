@@ -1,38 +1,15 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshbound/cgal/simplify_with_bound.h"
+// SPDX-License-Identifier: MIT
+#include "levels/measured_level.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "cgal/level_run.h"
-#include "cgal/measured_level.h"
 #include "meshbound/error.h"
 #include "meshbound/face_tolerances.h"
-#include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 namespace {
-
-/// Ascending, each once, ending with the tolerance.
-std::vector<double> tolerances(const SimplifyOptions& options) {
-  std::vector<double> all = options.levels;
-  all.push_back(options.tolerance);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-/// Faces to end at in the last level; 0 when no target is given.
-std::size_t target(const TriangleMesh& original, const SimplifyOptions& options) {
-  std::size_t faces = options.target_faces.value_or(0);
-  if (options.target_ratio) {
-    const double share = *options.target_ratio * static_cast<double>(original.triangles.size());
-    faces = std::max(faces, static_cast<std::size_t>(std::floor(share)));
-  }
-  return faces;
-}
 
 Verdict verdict_of(const Bounds& bounds, double tolerance) {
   if (bounds.upper <= tolerance) return Verdict::Within;
@@ -40,23 +17,6 @@ Verdict verdict_of(const Bounds& bounds, double tolerance) {
 }
 
 }  // namespace
-
-std::string to_string(EndedBy reason) {
-  switch (reason) {
-    case EndedBy::NothingFits:
-    case EndedBy::Tolerance:
-      return "tolerance";
-    case EndedBy::Target:
-      return "target";
-    case EndedBy::Rounding:
-      return "rounding";
-    case EndedBy::TimeLimit:
-      return "time_limit";
-    case EndedBy::Cancelled:
-      break;
-  }
-  return "cancelled";
-}
 
 void check_options(const SimplifyOptions& options) {
   const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
@@ -71,7 +31,6 @@ void check_options(const SimplifyOptions& options) {
     throw InvalidInput("the target ratio must lie between 0 and 1");
   if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))
     throw InvalidInput("the feature angle must lie between 0 and 180 degrees");
-  if (!is_length(options.output_rounding)) throw InvalidInput("the output rounding must be a length, 0 or more");
   if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
 }
 
@@ -98,25 +57,4 @@ void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLeve
   level.certificate = build_certificate(original, level.mesh, level.tolerance, certificate);
 }
 
-SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options) {
-  check_options(options);
-  validate(original);
-  SimplifyResult result;
-  LevelRun run(original, options);
-  const std::vector<double> levels = tolerances(options);
-  for (const double tolerance : levels) {
-    const bool is_last = tolerance == levels.back();
-    result.levels.push_back(run.next(tolerance, is_last ? target(original, options) : 0));
-    if (options.progress)
-      options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
-  }
-  run.describe(result);
-  if (!options.measure) return result;
-  const auto measuring = LevelRun::Clock::now();
-  const Bvh tree(original, BvhOptions{options.threads});
-  for (SimplifiedLevel& level : result.levels) measure_level(original, tree, level, options);
-  result.seconds.measure = seconds_since(measuring);
-  return result;
-}
-
-}  // namespace meshbound::cgal
+}  // namespace meshbound

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 /// What `simplify_with_bound` and the chain of levels have in common.
 #pragma once
 #include "meshbound/bvh.h"
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/simplify.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 
 /// Throws `InvalidInput` for options out of range.
 void check_options(const SimplifyOptions& options);
@@ -13,4 +13,4 @@ void check_options(const SimplifyOptions& options);
 void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,
                    const SimplifyOptions& options);
 
-}  // namespace meshbound::cgal
+}  // namespace meshbound

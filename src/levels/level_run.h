@@ -1,14 +1,14 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 #include <chrono>
 #include <optional>
 
-#include "cgal/decimation.h"
+#include "simplify/decimation.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 
 /// The levels of one original, one after the other: a decimation, and what stands in its place where the time ended
-/// before it had proven anything. Not thread-safe.
+/// before there was one. Not thread-safe.
 class LevelRun {
  public:
   using Clock = StopToken::Clock;
@@ -26,21 +26,20 @@ class LevelRun {
   template <class Work>
   void until_stopped(const Work& work);
   [[nodiscard]] StopToken stop() const;
+  void take_original(SimplifiedLevel& level) const;
 
   const TriangleMesh& original_;
   const SimplifyOptions& options_;
   double prepare_seconds_ = 0, simplify_seconds_ = 0;
   std::optional<Decimation> decimation_;
-  std::optional<EndedBy> stopped_;  ///< before anything was proven: the original itself stands for every level
+  std::optional<EndedBy> stopped_;  ///< before anything was decimated: the original itself stands for every level
 };
-
-/// Which of the two ended the work of a token.
-[[nodiscard]] inline EndedBy ended_by(const StopToken& stop) {
-  return stop.cancelled() ? EndedBy::Cancelled : EndedBy::TimeLimit;
-}
 
 [[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace meshbound::cgal
+/// The levels of a run, ascending, not measured. Throws as `simplify_with_bound`.
+[[nodiscard]] SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options);
+
+}  // namespace meshbound

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+/// Simplification with a proven bound: as few triangles as possible, never further than a tolerance from the original.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshbound/certificate.h"
+#include "meshbound/distance.h"
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound {
+
+class RegionCollapses;
+
+/// Who chooses the order of the collapses that are proven one by one, and makes them.
+class CollapseDriver {
+ public:
+  virtual ~CollapseDriver() = default;
+  /// Collapses edges of one region of a mesh until nothing more fits. Called from several threads at once.
+  virtual void collapse(RegionCollapses& collapses) const = 0;
+};
+
+/// What happens at a collapse that would exceed the tolerance.
+enum class OnExceed {
+  Skip,  ///< it is refused, and decimation goes on until no collapse fits: far fewer faces at the same bound
+  Stop   ///< decimation ends there, once the global engine has confirmed that the distance would exceed
+};
+
+/// How long to look for a mesh with fewer faces. Both hold the same bound.
+enum class Effort {
+  Normal,  ///< collapses until nothing fits
+  High     ///< then vertices are moved and edges flipped to make room for further collapses, again and again
+};
+
+/// Numbers in which the caller keeps what comes out.
+enum class Precision {
+  Double,
+  Single  ///< every coordinate of a result is a float, and the bound is that of the rounded mesh
+};
+
+/// Why decimation ended.
+enum class EndedBy {
+  NothingFits,  ///< no further collapse keeps the bound
+  Target,
+  Tolerance,  ///< OnExceed::Stop: the next collapse would exceed
+  TimeLimit,
+  Cancelled,
+  Rounding  ///< the tolerance is too small for doubles at these coordinates: nothing was collapsed
+};
+
+/// Which bound came first, for reports: "tolerance" (also where nothing fits), "target", "rounding", "time_limit" or
+/// "cancelled".
+[[nodiscard]] std::string to_string(EndedBy reason);
+
+struct SimplifyOptions {
+  /// Bound of the symmetric Hausdorff distance to the original, model units. Must be given.
+  double tolerance = std::numeric_limits<double>::quiet_NaN();
+  std::optional<std::size_t> target_faces;  ///< decimation ends at this many faces if the tolerance allows it
+  std::optional<double> target_ratio;       ///< the same as a share of the original's faces, 0 to 1
+  OnExceed on_exceed = OnExceed::Skip;
+  /// Smaller tolerances at which the mesh is handed out as well, in any order. One run with growing tolerance makes
+  /// all, each bounded against the original itself. Targets apply to `tolerance` only.
+  std::vector<double> levels;
+  Effort effort = Effort::Normal;
+  /// Whole components whose every point lies within the tolerance of what remains are dropped, the smallest first. Not
+  /// those with locked vertices or, with `preserve_boundary`, with a border.
+  bool prune = false;
+  bool preserve_boundary = false;  ///< edges with one face stay as they are
+  /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.
+  std::vector<bool> locked_vertices;
+  /// Edges whose faces' normals are further apart than this stay as they are, both ends locked. Radians, 0 to pi.
+  std::optional<double> feature_angle;
+  /// By triangle of the original, model units, empty for none: beside `tolerance`, every point of triangle k stays
+  /// within face_tolerances[k] of the result, and every point of the result within face_tolerances[g] of the original
+  /// triangle g nearest to it. The verdict of a level includes them (`check_face_tolerances`).
+  std::vector<double> face_tolerances;
+  Precision precision = Precision::Double;
+  /// Make the certificate of each level that was measured to be within its tolerance.
+  bool certificate = false;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
+  int threads = 0;                                ///< 0: as many as OpenMP has. The result is the same for every value.
+  const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
+  std::function<void(double fraction)> progress;  ///< called from the calling thread; a guess
+  std::shared_ptr<const CollapseDriver> driver;   ///< none: our own
+};
+
+struct SimplifiedLevel {
+  double tolerance = 0;
+  TriangleMesh mesh;
+  /// By vertex and triangle of `mesh`: one of the original that it comes from, for data that the caller wants to carry
+  /// along. A vertex may have moved from where it was there, a triangle stands for others besides.
+  std::vector<std::uint32_t> source_vertex, source_triangle;
+  EndedBy ended_by = EndedBy::NothingFits;
+  /// Of the original (a) and `mesh` (b), with the verdict on `tolerance`.
+  std::optional<SymmetricDistance> distance;
+  Verdict verdict = Verdict::Undecided;
+  std::optional<Certificate> certificate;  ///< of the original and `mesh`, when it was asked for
+  std::uint64_t collapses_performed = 0;   ///< since the beginning of the run
+  std::uint64_t collapses_refused = 0;
+
+  [[nodiscard]] std::size_t faces() const { return mesh.triangles.size(); }
+};
+
+/// How the collapses of a run came about, for those who tune it.
+struct CollapseCounts {
+  std::uint64_t tried = 0;           ///< edges, against samples of the original
+  std::uint64_t refused = 0;         ///< of these
+  std::uint64_t proven_together = 0;  ///< collapses that samples admitted, and one proof of all of them held
+  std::uint64_t taken_back = 0;      ///< of those that samples admitted, since that proof failed there
+  std::uint64_t proven_alone = 0;    ///< collapses, and other changes, that were proven one by one
+  std::uint64_t unproven = 0;        ///< of those tried in this way: taken back
+  std::uint64_t originals_tested = 0, faces_tested = 0;  ///< by proofs
+
+  CollapseCounts& operator+=(const CollapseCounts& other);
+};
+
+struct SimplifyResult {
+  std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
+  std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
+  std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: part of every level as they are
+  std::size_t pruned_components = 0;      ///< dropped as wholes, `SimplifyOptions::prune`
+  std::size_t pruned_faces = 0;           ///< that these had when they were dropped
+  bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
+  bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
+  CollapseCounts counts;
+  struct Seconds {
+    double prepare = 0, simplify = 0, measure = 0;
+  } seconds;
+
+  [[nodiscard]] const SimplifiedLevel& last() const { return levels.back(); }
+};
+
+/// Simplifies a triangle soup by edge collapses while its symmetric Hausdorff distance to the original stays within the
+/// tolerance. Samples of the original propose collapses, proofs confirm them, and the verdict of each level is a fresh
+/// measurement of its mesh. Decimation works on a manifold that is cut from the soup; the bound is always against the
+/// soup as it came in. Deterministic for any number of threads, but for `time_limit` and `cancel`.
+///
+/// Expected O(n log n) time, O(n) memory. Safe to call from several threads. Throws `InvalidInput` for options out of
+/// range, for input that `validate` refuses, and where no triangle has three different corners.
+[[nodiscard]] SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options);
+
+}  // namespace meshbound

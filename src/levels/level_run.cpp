@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "levels/level_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "levels/measured_level.h"
+#include "meshbound/mesh_view.h"
+
+namespace meshbound {
+namespace {
+
+/// Ascending, each once, ending with the tolerance.
+std::vector<double> tolerances(const SimplifyOptions& options) {
+  std::vector<double> all = options.levels;
+  all.push_back(options.tolerance);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Faces to end at in the last level; 0 when no target is given.
+std::size_t target(const TriangleMesh& original, const SimplifyOptions& options) {
+  std::size_t faces = options.target_faces.value_or(0);
+  if (options.target_ratio) {
+    const double share = *options.target_ratio * static_cast<double>(original.triangles.size());
+    faces = std::max(faces, static_cast<std::size_t>(std::floor(share)));
+  }
+  return faces;
+}
+
+}  // namespace
+
+LevelRun::LevelRun(const TriangleMesh& original, const SimplifyOptions& options)
+    : original_(original), options_(options) {
+  const Clock::time_point start = Clock::now();
+  until_stopped([&] { decimation_.emplace(original, options, stop()); });
+  prepare_seconds_ = seconds_since(start);
+}
+
+StopToken LevelRun::stop() const {
+  const StopToken cancel{.cancel = options_.cancel};
+  return cancel.until(Clock::now(), options_.time_limit - prepare_seconds_ - simplify_seconds_);
+}
+
+template <class Work>
+void LevelRun::until_stopped(const Work& work) {
+  try {
+    work();
+  } catch (const Stopped&) {
+    decimation_.reset();
+    const bool cancelled = options_.cancel != nullptr && options_.cancel->load();
+    stopped_ = cancelled ? EndedBy::Cancelled : EndedBy::TimeLimit;
+  }
+}
+
+void LevelRun::take_original(SimplifiedLevel& level) const {
+  level.mesh = original_;
+  if (options_.precision == Precision::Single)
+    for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
+  level.source_vertex.resize(original_.vertices.size());
+  level.source_triangle.resize(original_.triangles.size());
+  std::iota(level.source_vertex.begin(), level.source_vertex.end(), 0u);
+  std::iota(level.source_triangle.begin(), level.source_triangle.end(), 0u);
+}
+
+SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
+  const Clock::time_point start = Clock::now();
+  SimplifiedLevel level;
+  level.tolerance = tolerance;
+  if (!stopped_) {
+    until_stopped([&] {
+      level.ended_by = decimation_->run(tolerance, target_faces, stop());
+      decimation_->current_mesh(level);
+      const CollapseCounts counts = decimation_->counts();
+      level.collapses_performed = counts.proven_together + counts.proven_alone;
+      level.collapses_refused = counts.refused;
+    });
+  }
+  if (stopped_) {
+    level.ended_by = *stopped_;
+    take_original(level);
+  }
+  simplify_seconds_ += seconds_since(start);
+  return level;
+}
+
+void LevelRun::describe(SimplifyResult& result) const {
+  if (decimation_) decimation_->describe(result);
+  result.seconds.prepare = prepare_seconds_;
+  result.seconds.simplify = simplify_seconds_;
+}
+
+SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options) {
+  check_options(options);
+  validate(original);
+  SimplifyResult result;
+  LevelRun run(original, options);
+  const std::vector<double> levels = tolerances(options);
+  for (const double tolerance : levels) {
+    const bool is_last = tolerance == levels.back();
+    result.levels.push_back(run.next(tolerance, is_last ? target(original, options) : 0));
+    if (options.progress)
+      options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
+  }
+  run.describe(result);
+  return result;
+}
+
+}  // namespace meshbound

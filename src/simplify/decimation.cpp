@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/decimation.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+#include "simplify/edge_queue.h"
+#include "simplify/manifold_soup.h"
+#include "simplify/prune.h"
+
+namespace meshbound {
+namespace {
+
+/// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge and
+/// miss its middle.
+constexpr double spacing_of_samples = 4;
+
+TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
+  TriangleMesh result;
+  result.triangles = mesh.triangles;
+  result.vertices.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3d& p : mesh.vertices) result.vertices.push_back(frame.to_frame(p));
+  return result;
+}
+
+Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
+bool is_same(Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
+
+/// False at a border, and where a face has no area and so no normal.
+bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
+  if (mesh.twin(edge) == ArrayMesh::none) return false;
+  const auto normal = [&](std::uint32_t face) {
+    const auto [a, b, c] = mesh.triangle(face);
+    return cross(b - a, c - a);
+  };
+  const Vec3 a = normal(edge / 3), b = normal(mesh.twin(edge) / 3);
+  if (squared_length(a) == 0 || squared_length(b) == 0) return false;
+  return std::atan2(length(cross(a, b)), dot(a, b)) > angle;
+}
+
+}  // namespace
+
+Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop)
+    : input_vertices_(original.vertices.size()),
+      order_(spatial_order(original, options.threads)),
+      original_(order_.mesh),
+      options_(options),
+      frame_(used_bounding_box(original_)),
+      tree_(mapped(original_, frame_), BvhOptions{options.threads}) {
+  for (const Eigen::Vector3d& p : original_.vertices) {
+    vertices_.push_back(to_vec3(frame_.to_frame(p)));
+    largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
+  }
+  stop.check();
+  sort_start_points();
+  make_state(stop);
+}
+
+void Decimation::make_state(const StopToken& stop) {
+  TriangleMesh framed;
+  framed.triangles = original_.triangles;
+  for (const Vec3 p : vertices_) framed.vertices.emplace_back(p.x, p.y, p.z);
+  ManifoldSoup soup = manifold_soup(framed);
+  stop.check();
+  dropped_triangles_ = soup.dropped_triangles;
+  split_ = soup.split;
+  std::vector<Vec3> positions;
+  for (const std::uint32_t v : soup.vertex_of) positions.push_back(vertices_[v]);
+  state_.emplace(vertices_, original_.triangles, tree_, ArrayMesh(std::move(positions), soup.faces, soup.twin),
+                 std::move(soup.vertex_of), std::move(soup.triangle_of));
+  stop.check();
+  state_->locked = locked();
+  if (!options_.face_tolerances.empty()) {
+    std::vector<Eigen::AlignedBox3d> boxes(original_.triangles.size());
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+      for (const std::uint32_t v : original_.triangles[t]) boxes[t].extend(frame_.to_frame(original_.vertices[v]));
+    state_->local.emplace(std::move(boxes), limits_in_frame());
+  }
+  threads_.emplace(*state_, options_.threads > 0 ? options_.threads : omp_get_max_threads());
+}
+
+void Decimation::sort_start_points() {
+  by_start_point_.resize(vertices_.size());
+  std::iota(by_start_point_.begin(), by_start_point_.end(), 0u);
+  std::sort(by_start_point_.begin(), by_start_point_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return is_before(vertices_[a], vertices_[b]) || (is_same(vertices_[a], vertices_[b]) && a < b);
+  });
+}
+
+/// The first vertex of the original, by index, at this place.
+std::optional<std::uint32_t> Decimation::first_at(Vec3 p) const {
+  const auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p,
+                                   [&](std::uint32_t v, Vec3 q) { return is_before(vertices_[v], q); });
+  if (at == by_start_point_.end() || !is_same(vertices_[*at], p)) return std::nullopt;
+  return *at;
+}
+
+/// By vertex of the mesh: several vertices of the original, at the same place, may have become one, or one several.
+std::vector<std::uint8_t> Decimation::locked() const {
+  const ArrayMesh& mesh = state_->mesh;
+  std::vector<std::uint8_t> locked(mesh.vertex_count(), 0);
+  if (!options_.locked_vertices.empty()) {
+    if (options_.locked_vertices.size() != input_vertices_)
+      throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
+    std::vector<std::uint8_t> locked_at(vertices_.size(), 0);  // by first vertex at the place
+    for (std::size_t v = 0; v < order_.vertex.size(); ++v)
+      if (options_.locked_vertices[order_.vertex[v]]) locked_at[*first_at(vertices_[v])] = 1;
+    for (std::uint32_t v = 0; v < locked.size(); ++v) locked[v] = locked_at[*first_at(mesh.position(v))];
+  }
+  lock_features(locked);
+  return locked;
+}
+
+void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {
+  const ArrayMesh& mesh = state_->mesh;
+  if (!options_.feature_angle && !options_.preserve_boundary) return;
+  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
+    const bool is_border = mesh.twin(c) == ArrayMesh::none;
+    if (is_border ? !options_.preserve_boundary
+                  : !options_.feature_angle || !is_feature(mesh, c, *options_.feature_angle))
+      continue;
+    locked[mesh.start(c)] = locked[mesh.end(c)] = 1;
+  }
+}
+
+std::vector<double> Decimation::limits_in_frame() const {
+  if (options_.face_tolerances.size() != order_.triangle.size())
+    throw InvalidInput("tolerances of triangles must be given for every triangle of the original");
+  std::vector<double> limits;
+  for (const std::uint32_t t : order_.triangle) {
+    const double tolerance = options_.face_tolerances[t];
+    if (!(tolerance >= 0)) throw InvalidInput("the tolerance of a triangle must be a length, 0 or more");
+    limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
+  }
+  return limits;
+}
+
+/// How far rounding to a float moves a point of the result, which may leave the box by the tolerance: half an ulp of
+/// each coordinate, doubled for the length of a vector.
+double Decimation::rounding_of_output() const {
+  if (options_.precision == Precision::Double) return 0;
+  constexpr double smallest_float = 0x1p-149;
+  const double tolerance = std::isnan(options_.tolerance) ? largest_ : options_.tolerance;
+  return std::max(smallest_float, (largest_ + tolerance) * 0x1p-24);
+}
+
+/// For the ways into and out of the frame, of the original and of the result, and for the output format.
+double Decimation::room() const {
+  return 4 * frame_.rounding() + frame_.length_to_frame(2 * rounding_of_output());
+}
+
+EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopToken& stop) {
+  const double framed = frame_.length_to_frame(tolerance);
+  below_rounding_ = !(framed > 2 * room());
+  if (below_rounding_) return EndedBy::Rounding;
+  DecimationGoal goal;
+  goal.tolerance = framed - room();
+  goal.target_faces = target_faces;
+  goal.on_exceed = options_.on_exceed;
+  goal.effort = options_.effort;
+  goal.stop = stop;
+  goal.driver = options_.driver.get();
+  if (options_.progress) {
+    goal.progress = [&](std::size_t faces) {
+      // Most runs end at a small share of the faces and spend their time on the way there.
+      options_.progress(1 - static_cast<double>(faces) / static_cast<double>(original_.triangles.size()));
+    };
+  }
+  if (state_->samples.size() == 0) state_->set_samples(spacing_of_samples * goal.tolerance);
+  const auto prune_components = [&] {
+    if (!options_.prune) return;
+    const Pruned pruned = prune(*state_, goal.tolerance, target_faces, options_.preserve_boundary, threads_->workers);
+    pruned_components_ += pruned.components;
+    pruned_faces_ += pruned.faces;
+  };
+  prune_components();
+  const EndedBy ended_by = decimate(*state_, goal, *threads_);
+  if (ended_by == EndedBy::NothingFits) prune_components();
+  return ended_by;
+}
+
+/// A vertex that never moved, or went to where another one was, gets the coordinates of the input to the bit: the way
+/// into the frame and back may round.
+Eigen::Vector3d Decimation::in_model(Vec3 p) const {
+  const std::optional<std::uint32_t> start = first_at(p);
+  Eigen::Vector3d point = start ? original_.vertices[*start] : frame_.to_model({p.x, p.y, p.z});
+  if (options_.precision == Precision::Single) point = point.cast<float>().cast<double>();
+  return point;
+}
+
+void Decimation::current_mesh(SimplifiedLevel& into) const {
+  const DecimationState& state = *state_;
+  const auto sorted = [](std::vector<std::pair<std::uint32_t, std::uint32_t>> items) {
+    std::sort(items.begin(), items.end());
+    return items;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices, faces, kept;  // by number in the input
+  for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
+    if (state.mesh.is_vertex(v)) vertices.emplace_back(order_.vertex[state.source_vertex[v]], v);
+  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f)
+    if (!state.mesh.is_removed(f)) faces.emplace_back(order_.triangle[state.source_triangle[f]], f);
+  for (const std::uint32_t t : state.kept) kept.emplace_back(order_.triangle[t], t);
+  TriangleMesh& mesh = into.mesh;
+  mesh = {};
+  into.source_vertex.clear();
+  into.source_triangle.clear();
+  std::vector<std::uint32_t> index(state.mesh.vertex_count());
+  for (const auto& [source, v] : sorted(std::move(vertices))) {
+    index[v] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(in_model(state.mesh.position(v)));
+    into.source_vertex.push_back(source);
+  }
+  for (const auto& [source, f] : sorted(std::move(faces))) {
+    const auto corners = state.mesh.corners(f);
+    mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
+    into.source_triangle.push_back(source);
+  }
+  for (const auto& [source, t] : sorted(std::move(kept))) {
+    Triangle corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = original_.triangles[t][i];
+      corners[i] = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(in_model(vertices_[v]));
+      into.source_vertex.push_back(order_.vertex[v]);
+    }
+    mesh.triangles.push_back(corners);
+    into.source_triangle.push_back(source);
+  }
+}
+
+void Decimation::describe(SimplifyResult& result) const {
+  result.kept_triangles = state_->kept.size();
+  result.dropped_triangles = dropped_triangles_ - result.kept_triangles;
+  result.split = split_;
+  result.pruned_components = pruned_components_;
+  result.pruned_faces = pruned_faces_;
+  result.tolerance_below_rounding = below_rounding_;
+  result.counts = counts();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "meshbound/simplify.h"
+#include "simplify/decimate.h"
+#include "simplify/spatial_order.h"
+#include "simplify/working_frame.h"
+
+namespace meshbound {
+
+/// One decimation under growing tolerances: the state in its working frame, and the way there and back.
+class Decimation {
+ public:
+  /// `options` must outlive this. Throws `Stopped`.
+  Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop);
+
+  /// Decimates until nothing fits, `target_faces` are left or `stop` says so. `tolerance` in model units, not smaller
+  /// than in the call before.
+  EndedBy run(double tolerance, std::size_t target_faces, const StopToken& stop);
+
+  /// The mesh as it is now, in model coordinates, with its sources. What is left of the original comes in its order.
+  void current_mesh(SimplifiedLevel& into) const;
+  [[nodiscard]] CollapseCounts counts() const { return threads_->counts(); }
+  void describe(SimplifyResult& result) const;
+
+ private:
+  void make_state(const StopToken& stop);
+  void sort_start_points();
+  [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
+  [[nodiscard]] std::vector<std::uint8_t> locked() const;
+  void lock_features(std::vector<std::uint8_t>& locked) const;
+  [[nodiscard]] std::vector<double> limits_in_frame() const;
+  void set_samples(double tolerance);
+  [[nodiscard]] double room() const;
+  [[nodiscard]] Eigen::Vector3d in_model(Vec3 p) const;
+  [[nodiscard]] double rounding_of_output() const;
+
+  std::size_t input_vertices_;
+  SpatialOrder order_;
+  const TriangleMesh& original_;  ///< `order_.mesh`: all indices here are its
+  const SimplifyOptions& options_;
+  WorkingFrame frame_;
+  double largest_ = 0;          ///< coordinate of the model
+  std::vector<Vec3> vertices_;  ///< of the original, in the frame
+  std::vector<std::uint32_t> by_start_point_;  ///< these sorted by place
+  Bvh tree_;                                   ///< in the frame
+  std::optional<DecimationState> state_;
+  std::optional<DecimationThreads> threads_;
+  std::size_t dropped_triangles_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
+  bool split_ = false, below_rounding_ = false;
+};
+
+}  // namespace meshbound

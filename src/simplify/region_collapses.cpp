@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/region_collapses.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "simplify/edge_queue.h"
+
+namespace meshbound {
+
+RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Region& region, Proposer& proposer,
+                                 ChangeProver* prover, Limits limits)
+    : state_(state),
+      split_(split),
+      region_(region),
+      proposer_(proposer),
+      prover_(prover),
+      limits_(std::move(limits)) {
+  proposer_.enter(split, region);
+}
+
+bool RegionCollapses::is_owned(Corner edge) const {
+  return split_.owns(region_.id, mesh().start(edge)) && split_.owns(region_.id, mesh().end(edge));
+}
+
+bool RegionCollapses::is_open(Corner edge) const {
+  return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >=
+                               state_.refused_at[mesh().edge(edge)];
+}
+
+bool RegionCollapses::make(Vec3 point) {
+  proposer_.collapse(region_, point);
+  if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_)) return false;
+  proposer_.settle(region_);
+  return true;
+}
+
+void RegionCollapses::list_edges() {
+  edges_before_.clear();
+  for (const std::uint32_t v : {proposer_.star().kept, proposer_.star().gone}) {
+    mesh().for_each_corner(v, [&](Corner c) {
+      edges_before_.push_back(mesh().edge(c));
+      edges_before_.push_back(mesh().edge(previous_corner(c)));
+      return true;
+    });
+  }
+}
+
+bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
+  if (!proposer_.is_inside(edge)) return false;
+  std::optional<Vec3> point = proposer_.placement(edge, limits_.share, wanted);
+  if (point) {
+    list_edges();
+    if (make(*point)) return true;
+    point = proposer_.lower_placement(*point);
+    if (point && make(*point)) return true;
+  }
+  ++proposer_.counts.refused;
+  state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
+  if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
+  return false;
+}
+
+void RegionCollapses::collapse_all() {
+  EdgeQueue queue(state_.place_in_queue);
+  for (Corner c = 0; c < 3 * mesh().face_count(); ++c)
+    if (!mesh().is_removed(c / 3) && mesh().edge(c) == c && is_open(c)) queue.put(c, proposer_.cost(c));
+  while (!queue.empty() && queue.min_cost() <= limits_.max_cost && !must_stop()) {
+    if (!collapse(queue.pop())) continue;
+    for (const Corner e : edges_before_) queue.erase(e);
+    mesh().for_each_corner(kept(), [&](Corner c) {
+      for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))}) {
+        state_.refused_at[e] = 0;
+        if (is_owned(e)) queue.put(e, proposer_.cost(e));
+      }
+      return true;
+    });
+  }
+  queue.clear();
+}
+
+}  // namespace meshbound

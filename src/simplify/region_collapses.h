@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "simplify/propose.h"
+#include "simplify/prove.h"
+
+namespace meshbound {
+
+/// Collapses of one region of a mesh, each near enough by the samples around it, and proven before the next where there
+/// is a prover: what a driver asks for and commits.
+class RegionCollapses {
+ public:
+  struct Limits {
+    double share = 1;                                    ///< of the tolerance, that samples may reach
+    float max_cost = std::numeric_limits<float>::infinity();  ///< of `collapse_all`
+    std::function<bool(std::size_t removed)> must_stop;  ///< asked with the number of faces gone from the region
+    /// Asked where a collapse would break the bound, as far as samples or the proof tell; true ends the collapses. None:
+    /// they go on.
+    std::function<bool()> ends_at_refusal;
+  };
+
+  /// All must outlive this. `prover` may be null.
+  RegionCollapses(DecimationState& state, const Split& split, Region& region, Proposer& proposer, ChangeProver* prover,
+                  Limits limits);
+
+  [[nodiscard]] const ArrayMesh& mesh() const { return state_.mesh; }
+  [[nodiscard]] const DecimationState& state() const { return state_; }
+  /// Whether both ends of the edge belong to the region, and something near has changed since it was refused.
+  [[nodiscard]] bool is_open(Corner edge) const;
+  [[nodiscard]] bool must_stop() const { return ended_ || limits_.must_stop(region_.removed_faces); }
+
+  /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the
+  /// largest distance is least. False: it is refused, and the mesh is as it was.
+  bool collapse(Corner edge, std::optional<Vec3> wanted = std::nullopt);
+  /// Of the last collapse: the vertex that is left, and the edges there were around both ends.
+  [[nodiscard]] std::uint32_t kept() const { return proposer_.star().kept; }
+  [[nodiscard]] const std::vector<Corner>& edges_before() const { return edges_before_; }
+
+  /// All open edges by cost, until nothing fits.
+  void collapse_all();
+
+ private:
+  [[nodiscard]] bool is_owned(Corner edge) const;
+  [[nodiscard]] bool make(Vec3 point);
+  void list_edges();
+
+  DecimationState& state_;
+  const Split& split_;
+  Region& region_;
+  Proposer& proposer_;
+  ChangeProver* prover_;
+  Limits limits_;
+  bool ended_ = false;
+  std::vector<Corner> edges_before_;
+};
+
+}  // namespace meshbound
