@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "simplify/faults.h"
 #include "simplify/minimax_step.h"
@@ -18,6 +19,9 @@ constexpr int max_minimax_steps = 3;
 
 /// One sample in this many tells for most edges that there is nothing to gain.
 constexpr std::size_t coarseness = 6;
+
+/// Distance from the planes that an edge stands for, in limits, beyond which it is refused at once.
+double max_root_mean_square = std::getenv("RMS") ? std::atof(std::getenv("RMS")) : 2;
 
 /// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
 bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
@@ -113,6 +117,13 @@ bool Proposer::fits(Vec3 point, double limit) {
   return samples_.hold(faces_, beside_, limit) && samples_.is_near_original(point, limit);
 }
 
+/// Whether the planes of the original that the ends stand for are too far from any one point for it to be near them all:
+/// collapses beyond are accepted once in a hundred times or less.
+bool Proposer::is_hopeless(double cost, double limit) const {
+  const double planes = state_.quadrics[star_.kept].planes() + state_.quadrics[star_.gone].planes();
+  return cost > max_root_mean_square * max_root_mean_square * limit * limit * planes;
+}
+
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
   by_bound_ = false;
@@ -137,7 +148,12 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
     tried_ = fixed;
     return fits(fixed, limit) ? std::optional(fixed) : std::nullopt;
   }
-  if (!wanted) wanted = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q).point;
+  if (!wanted) {
+    const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
+    wanted = best.point;
+    by_bound_ = true;
+    if (is_hopeless(best.cost, limit)) return std::nullopt;
+  }
   tried_ = *wanted;
   if (fits(*wanted, limit)) {
     return wanted;

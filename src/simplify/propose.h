@@ -64,6 +64,7 @@ class Proposer {
   [[nodiscard]] double limit_around() const;
   [[nodiscard]] bool owns(std::uint32_t face) const;
   [[nodiscard]] bool set_faces(Vec3 point);
+  [[nodiscard]] bool is_hopeless(double cost, double limit) const;
   [[nodiscard]] bool fits(Vec3 point, double limit);
   [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double limit);
 

@@ -20,6 +20,8 @@ struct Quadric {
   Quadric& operator+=(const Quadric& other);
   Quadric& operator-=(const Quadric& other);
   [[nodiscard]] double at(Vec3 p) const;
+  /// The weights of all planes together.
+  [[nodiscard]] double planes() const { return xx + yy + zz; }
   /// Where it is least; none where A is singular.
   [[nodiscard]] std::optional<Vec3> minimum() const;
 };
