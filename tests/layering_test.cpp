@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Folders of src in dependency order. `cgal` is what is compiled against CGAL and may use everything before it.
-constexpr std::array<std::string_view, 9> layers = {"numeric",  "geometry",    "mesh",   "bvh", "distance",
-                                                    "simplify", "certificate", "report", "cgal"};
+constexpr std::array<std::string_view, 10> layers = {"numeric",  "geometry",    "mesh",   "bvh",    "distance",
+                                                     "simplify", "certificate", "levels", "report", "cgal"};
 constexpr std::size_t longest_file = 600;
 
 struct SourceFile {

@@ -1,8 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // lod_chain IN DIR: levels of detail, each with a proven distance to IN. The files appear together, once every one of
 // them has been written, read back and measured.
-#include "meshbound/cgal/lod_chain.h"
-
 #include <cstdio>
 #include <numbers>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "common/output_folder.h"
 #include "common/signals.h"
 #include "decimation/decimation_run.h"
+#include "levels/level_run.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
@@ -58,7 +57,7 @@ class Run : DecimationRun {
   void choose_tolerances();
   void open_outputs();
   void make_levels();
-  [[nodiscard]] bool take(std::size_t index, const cgal::LodLevel& level);
+  [[nodiscard]] bool take(std::size_t index, const SimplifiedLevel& level);
   void publish();
   void print_summary() const;
 
@@ -148,28 +147,32 @@ void Run::make_levels() {
   report_.verdict = Verdict::Within;
   tree_.emplace(original_, BvhOptions{options_.common.threads});
   report_.seconds.certify += watch_.lap();
-  cgal::build_lod_chain(original_, tolerances_, decimation(outputs_.back(), *bar_),
-                        [&](std::size_t index, cgal::LodLevel&& level) { return take(index, level); });
+  SimplifyOptions options = decimation(outputs_.back(), *bar_);
+  options.tolerance = tolerances_.back();
+  LevelRun run(original_, options);
+  for (std::size_t i = 0; i < tolerances_.size(); ++i)
+    if (!take(i, run.next(tolerances_[i], 0))) break;
+  report_.driver = options_.driver;
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
 }
 
 /// Writes the level under a temporary name, reads it back and measures that. The chain ends where this fails.
-bool Run::take(std::size_t index, const cgal::LodLevel& level) {
+bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   if (interrupted_) throw Error("interrupted before every level was proven; nothing was written");
   report_.seconds.simplify += watch_.lap();
   GatedOutput& output = outputs_[index];
   output.write(level.mesh);
   report_.seconds.write += watch_.lap();
   const auto redo = [&](double tolerance) {
-    cgal::SimplifyOptions again = decimation(output, *bar_);
+    SimplifyOptions again = decimation(output, *bar_);
     again.tolerance = tolerance;
-    return cgal::simplify_with_bound(original_, again).last().mesh;
+    return decimate_levels(original_, again).last().mesh;
   };
   const DecidedBy decided_by = prove(output, level.tolerance, *tree_, index > 0 ? &outputs_[index - 1] : nullptr, redo);
   report_.seconds.certify += watch_.lap();
   report_.verdict = output.verdict();
-  if (report_.verdict == Verdict::Exceeds && level.ended_by != cgal::EndedBy::Rounding)
+  if (report_.verdict == Verdict::Exceeds && level.ended_by != EndedBy::Rounding)
     throw Error(
         "internal error: a level is further from the original than was proven during decimation; nothing was "
         "written. Please report this with the input and the command line");
@@ -186,8 +189,8 @@ bool Run::take(std::size_t index, const cgal::LodLevel& level) {
   entry.distance = output.distance();
   const bool was_late = options_.common.has_time_limit && remaining(1) == 0 &&
                         (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
-  entry.stopped_by = to_string(was_late ? cgal::EndedBy::TimeLimit : level.ended_by);
-  ended_by_time_ = ended_by_time_ || was_late || level.ended_by == cgal::EndedBy::TimeLimit;
+  entry.stopped_by = to_string(was_late ? EndedBy::TimeLimit : level.ended_by);
+  ended_by_time_ = ended_by_time_ || was_late || level.ended_by == EndedBy::TimeLimit;
   return true;
 }
 

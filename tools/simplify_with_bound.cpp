@@ -1,8 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // simplify_with_bound IN OUT --tolerance T: as few triangles as possible, never further than T from the original. What
 // appears under OUT has been written, read back and measured against IN before.
-#include "meshbound/cgal/simplify_with_bound.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <deque>
@@ -17,6 +15,7 @@
 #include "common/output_folder.h"
 #include "common/signals.h"
 #include "decimation/decimation_run.h"
+#include "levels/level_run.h"
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
@@ -31,6 +30,11 @@ struct Options : DecimationOptions {
   std::optional<double> target_ratio;
   bool prune = false;
 };
+
+/// Says what to use in place of an effort of earlier versions.
+std::string is_effort(const std::string& effort) {
+  return effort == "fast" ? "there is no fast any more: use normal, which is faster than it was" : "";
+}
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY or STL")->required();
@@ -54,7 +58,8 @@ void declare(CLI::App& app, Options& options) {
                  "FILE_level_1 and so on");
   app.add_option("--effort", options.effort,
                  "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
-      ->check(CLI::IsMember({"fast", "normal", "high"}))
+      ->check(is_effort)
+      ->check(CLI::IsMember({"normal", "high"}))
       ->capture_default_str();
   app.add_flag("--prune", options.prune, "Drop whole components that lie within the tolerance of what remains");
   add_decimation_options(app, options);
@@ -74,7 +79,7 @@ class Run : DecimationRun {
   void choose_tolerances();
   void open_outputs();
   void simplify();
-  [[nodiscard]] cgal::SimplifyOptions decimation_options(ProgressBar& bar) const;
+  [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void certify();
   void write_certificates();
   void end_if_interrupted() const;
@@ -88,7 +93,7 @@ class Run : DecimationRun {
   std::optional<OutputFolder> folder_;  ///< of the levels
   std::vector<GatedOutput> outputs_;
   std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
-  cgal::SimplifyResult result_;
+  SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
   /// The time ended the run: OUT is the best mesh that was proven by then.
@@ -176,27 +181,26 @@ void Run::open_outputs() {
 
 void Run::simplify() {
   ProgressBar bar("simplifying", options_.common.quiet);
-  cgal::SimplifyOptions simplify = decimation_options(bar);
+  SimplifyOptions simplify = decimation_options(bar);
   simplify.tolerance = tolerances_.back();
   simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
-  result_ = cgal::simplify_with_bound(original_, simplify);
+  result_ = decimate_levels(original_, simplify);
   report_.effort = options_.effort;
+  report_.driver = options_.driver;
   report_.pruned = {result_.pruned_components, result_.pruned_faces};
   report_.stopped_by = to_string(result_.last().ended_by);
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused,
-                       result_.estimated.performed, result_.estimated.restarts};
+                       result_.counts.proven_together, result_.counts.taken_back, result_.counts.proven_alone};
   report_.seconds.simplify = watch_.lap();
 }
 
 /// All but the tolerances.
-cgal::SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
-  cgal::SimplifyOptions simplify = decimation(outputs_.back(), bar);
+SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
+  SimplifyOptions simplify = decimation(outputs_.back(), bar);
   if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
   simplify.target_ratio = options_.target_ratio;
-  simplify.on_exceed = options_.on_exceed == "stop" ? cgal::OnExceed::Stop : cgal::OnExceed::Skip;
-  simplify.effort = options_.effort == "fast"   ? cgal::Effort::Fast
-                    : options_.effort == "high" ? cgal::Effort::High
-                                                : cgal::Effort::Normal;
+  simplify.on_exceed = options_.on_exceed == "stop" ? OnExceed::Stop : OnExceed::Skip;
+  simplify.effort = options_.effort == "high" ? Effort::High : Effort::Normal;
   simplify.prune = options_.prune;
   return simplify;
 }
@@ -213,9 +217,9 @@ void Run::certify() {
     ProgressBar bar("measuring", options_.common.quiet);
     bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
     const auto redo = [&](double tolerance) {
-      cgal::SimplifyOptions again = decimation_options(bar);
+      SimplifyOptions again = decimation_options(bar);
       again.tolerance = tolerance;
-      return cgal::simplify_with_bound(original_, again).last().mesh;
+      return decimate_levels(original_, again).last().mesh;
     };
     decided_by_.push_back(prove(outputs_[i], tolerances_[level], original, i > 0 ? &outputs_[i - 1] : nullptr, redo));
     verdict_ = outputs_[i].verdict();
@@ -248,6 +252,7 @@ std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double t
                             {"distance", {{"lower", rejected.distance().bounds.lower}}},
                             {"tolerances", tolerances_},
                             {"on_exceed", options_.on_exceed},
+                            {"driver", options_.driver},
                             {"cost", options_.cost},
                             {"effort", options_.effort},
                             {"preserve_boundary", options_.preserve_boundary},
@@ -303,7 +308,7 @@ void Run::report() {
   const GatedOutput& out = outputs_.back();
   report_.verdict = verdict_;
   report_.decided_by = decided_by_.empty() ? DecidedBy::Measurement : decided_by_.back();
-  if (ended_by_time()) report_.stopped_by = to_string(cgal::EndedBy::TimeLimit);
+  if (ended_by_time()) report_.stopped_by = to_string(EndedBy::TimeLimit);
   report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
   report_.distance = out.distance();
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
@@ -328,7 +333,7 @@ bool Run::ended_by_time() const {
   const bool was_late = std::any_of(decided_by_.begin(), decided_by_.end(), [](DecidedBy how) {
     return how == DecidedBy::SmallerLevel || how == DecidedBy::Original;
   });
-  return result_.last().ended_by == cgal::EndedBy::TimeLimit || (was_late && remaining(1) == 0);
+  return result_.last().ended_by == EndedBy::TimeLimit || (was_late && remaining(1) == 0);
 }
 
 std::string Run::end_reason() const {
@@ -336,12 +341,11 @@ std::string Run::end_reason() const {
   const bool had_target = options_.target_faces || options_.target_ratio;
   if (result_.tolerance_below_rounding)
     return "the tolerance is below the rounding of the coordinates: nothing collapsed";
-  if (ended_by_time() && ended != cgal::EndedBy::TimeLimit)
-    return "the time limit came before a smaller mesh was proven";
-  if (ended == cgal::EndedBy::Target) return "the target was reached first, within the tolerance";
-  if (ended == cgal::EndedBy::TimeLimit) return "the time limit came first";
-  const std::string tolerance = ended == cgal::EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
-                                                                  : "no further collapse fits the tolerance";
+  if (ended_by_time() && ended != EndedBy::TimeLimit) return "the time limit came before a smaller mesh was proven";
+  if (ended == EndedBy::Target) return "the target was reached first, within the tolerance";
+  if (ended == EndedBy::TimeLimit) return "the time limit came first";
+  const std::string tolerance = ended == EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
+                                                            : "no further collapse fits the tolerance";
   return had_target ? tolerance + ": it came before the target" : tolerance;
 }
 

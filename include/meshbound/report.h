@@ -102,13 +102,15 @@ struct SimplifyReport {
   struct Pruned {
     std::size_t components = 0, faces = 0;  ///< as of when they were dropped
   } pruned;
-  std::string effort;  ///< "fast", "normal" or "high"
+  std::string effort;  ///< "normal" or "high"
+  std::string driver;  ///< "cgal" or "core"
   std::vector<LevelReport> levels;
   std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
   struct Collapses {
     std::uint64_t performed = 0, refused = 0;
-    std::uint64_t estimated = 0;  ///< of those performed: by an estimate, and then proven as a whole
-    std::uint64_t restarts = 0;   ///< times that this proof failed and all began again
+    std::uint64_t proven_together = 0;  ///< of those performed; the key is "estimated"
+    std::uint64_t taken_back = 0;       ///< of those that samples admitted, since the proof of all failed there
+    std::uint64_t proven_alone = 0;     ///< of those performed
   } collapses;
   struct Seconds {
     double read = 0, simplify = 0, certify = 0, certificate = 0, write = 0, total = 0;
@@ -130,6 +132,7 @@ struct LodReport {
     std::string stopped_by;               ///< as in `SimplifyReport`
   };
   Verdict verdict = Verdict::Undecided;
+  std::string driver;  ///< "cgal" or "core"
   MeshReport original;
   std::optional<View> view;
   std::vector<Level> levels;  ///< those that were proven, ascending by tolerance

@@ -28,6 +28,7 @@ report::Json level_json(std::size_t index, const LodReport::Level& level, double
 std::string to_json(const LodReport& from) {
   using namespace report;
   Json json = {{"schema", "meshbound/lod/1"}, {"verdict", to_string(from.verdict)}};
+  json["driver"] = from.driver;
   json["original"] = mesh(from.original);
   if (from.view) {
     json["view"] = {{"pixels", number(from.view->pixels)},

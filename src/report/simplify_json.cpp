@@ -16,6 +16,7 @@ std::string to_json(const SimplifyReport& from) {
     json["worst"] = worst(*spot, "original_to_simplified", "simplified_to_original");
   json["stopped_by"] = from.stopped_by;
   json["effort"] = from.effort;
+  json["driver"] = from.driver;
   json["pruned"] = {{"components", from.pruned.components}, {"faces", from.pruned.faces}};
   json["levels"] = Json::array();
   for (const LevelReport& level : from.levels) {
@@ -30,10 +31,9 @@ std::string to_json(const SimplifyReport& from) {
     for (const CertificateReport& certificate : from.certificates)
       json["certificates"].push_back({{"path", certificate.path}, {"bytes", certificate.bytes}});
   }
-  json["collapses"] = {{"performed", from.collapses.performed},
-                       {"refused", from.collapses.refused},
-                       {"estimated", from.collapses.estimated},
-                       {"restarts", from.collapses.restarts}};
+  json["collapses"] = {{"performed", from.collapses.performed},       {"refused", from.collapses.refused},
+                       {"estimated", from.collapses.proven_together}, {"restarts", 0},
+                       {"taken_back", from.collapses.taken_back},     {"proven_alone", from.collapses.proven_alone}};
   json["stats"] = stats({&from.distance.a_to_b, &from.distance.b_to_a});
   json["seconds"] = seconds(from.seconds);
   if (!from.certificates.empty()) json["seconds"]["certificate"] = number(from.seconds.certificate);

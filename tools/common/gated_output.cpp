@@ -20,10 +20,8 @@ GatedOutput::GatedOutput(std::filesystem::path path, const std::atomic<bool>& ca
 
 void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, &cancel_); }
 
-double GatedOutput::largest_rounding(double largest) const {
-  if (format_of(path_) != FileFormat::Stl) return 0;
-  // Half an ulp of float in each coordinate, or half its smallest step; 2 > sqrt(3) covers the length of three.
-  return 2 * std::max(largest * 0x1p-24, 0x1p-150);
+Precision GatedOutput::precision() const {
+  return format_of(path_) == FileFormat::Stl ? Precision::Single : Precision::Double;
 }
 
 void GatedOutput::write(const TriangleMesh& mesh) {

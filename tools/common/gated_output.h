@@ -8,6 +8,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/simplify.h"
 
 namespace meshbound::tools {
 
@@ -22,9 +23,8 @@ class GatedOutput {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// No point of a mesh with coordinates of magnitude at most `largest` is moved by more than this when it is rounded
-  /// to the precision of the file format: 0 where that is double.
-  [[nodiscard]] double largest_rounding(double largest) const;
+  /// Of the coordinates in the file. A mesh that has this precision already is written without any rounding.
+  [[nodiscard]] Precision precision() const;
 
   /// Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
   void write(const TriangleMesh& mesh);

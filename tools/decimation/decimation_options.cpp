@@ -1,10 +1,18 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "decimation/decimation_options.h"
+
+#include "decimation/drivers.h"
 
 namespace meshbound::tools {
 
 void add_decimation_options(CLI::App& app, DecimationOptions& options) {
-  app.add_option("--cost", options.cost, "What makes a collapse cheap")
+  options.driver = default_driver();
+  app.add_option(
+         "--driver", options.driver,
+         "Who orders and makes the collapses that are proven one by one: CGAL's edge_collapse, or our own queue")
+      ->check(CLI::IsMember({"cgal", "core"}))
+      ->capture_default_str();
+  app.add_option("--cost", options.cost, "What makes a collapse cheap; lindstrom-turk needs --driver cgal")
       ->check(CLI::IsMember({"garland-heckbert", "lindstrom-turk"}))
       ->capture_default_str();
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 /// Options that every tool that decimates has.
 #pragma once
 #include <optional>
@@ -9,15 +9,15 @@
 namespace meshbound::tools {
 
 struct DecimationOptions {
-  std::string input, cost = "garland-heckbert";
+  std::string input, driver, cost = "garland-heckbert";
   bool preserve_boundary = false;
   std::optional<double> feature_angle;  ///< degrees
   std::string error_bound;              ///< of the measurements, a length as typed; empty: the default
   CommonOptions common;
 };
 
-/// Adds --cost, --preserve-boundary, --feature-angle, --error-bound and what `add_common_options` adds, and says in the
-/// description what outputs do not carry.
+/// Adds --driver, --cost, --preserve-boundary, --feature-angle, --error-bound and what `add_common_options` adds, and
+/// says in the description what outputs do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
 
 }  // namespace meshbound::tools

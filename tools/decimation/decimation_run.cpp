@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "decimation/decimation_run.h"
 
 #include <omp.h>
@@ -10,6 +10,7 @@
 
 #include "common/length.h"
 #include "common/signals.h"
+#include "decimation/drivers.h"
 #include "decimation/dropped_attributes.h"
 #include "decimation/measurement_fault.h"
 #include "meshbound/error.h"
@@ -34,7 +35,9 @@ constexpr double smaller_tolerance = 0.99;
 
 int internal::undecided_measurements = 0;
 
-DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(interrupted()), shared_(options) {}
+DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(interrupted()), shared_(options) {
+  (void)collapse_driver(options.driver, options.cost);  // throws before any work where there is none
+}
 
 void DecimationRun::read_original(MeshReport& report) {
   MeshFile file = read_mesh(shared_.input, {&interrupted_});
@@ -43,8 +46,6 @@ void DecimationRun::read_original(MeshReport& report) {
   report = {shared_.input,       summarise(original_),  file.triangulated_polygons,
             file.decoded_strips, file.ignored_elements, file.dropped};
   diagonal_ = report.summary.bbox_diagonal;
-  const Eigen::AlignedBox3d box = used_bounding_box(original_);
-  largest_coordinate_ = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
 void DecimationRun::add_tolerances(const std::string& flag, const std::vector<std::string>& texts) {
@@ -56,15 +57,12 @@ void DecimationRun::sort_tolerances() {
   tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
 }
 
-cgal::SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar& bar) const {
-  cgal::SimplifyOptions options;
-  options.cost =
-      shared_.cost == "lindstrom-turk" ? cgal::CollapseCost::LindstromTurk : cgal::CollapseCost::GarlandHeckbert;
+SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar& bar) const {
+  SimplifyOptions options;
+  options.driver = collapse_driver(shared_.driver, shared_.cost);
   options.preserve_boundary = shared_.preserve_boundary;
   if (shared_.feature_angle) options.feature_angle = *shared_.feature_angle / 180 * std::numbers::pi;
-  // A vertex may leave the box by the tolerance.
-  options.output_rounding = output.largest_rounding(largest_coordinate_ + tolerances_.back());
-  options.measure = false;  // the file is what counts
+  options.precision = output.precision();
   options.time_limit = remaining(simplify_share);
   options.threads = shared_.common.threads;
   options.cancel = &interrupted_;

