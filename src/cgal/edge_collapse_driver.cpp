@@ -1,1 +1,155 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cgal/edge_collapse_driver.h"
+
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <optional>
+#include <utility>
+
+#include "cgal/region_mesh.h"
+
+namespace meshbound::cgal {
+namespace {
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+using Point = Kernel::Point_3;
+using Vertex = SurfaceMesh::Vertex_index;
+using Edge = SurfaceMesh::Edge_index;
+using Profile = SMS::Edge_profile<SurfaceMesh, SurfaceMesh::Property_map<Vertex, Point>, Kernel>;
+using Tuned = SMS::LindstromTurk_placement<SurfaceMesh>;
+/// boost::optional in CGAL 5, std::optional in CGAL 6.
+using OptionalPoint = decltype(std::declval<const Tuned&>()(std::declval<const Profile&>()));
+using OptionalCost = decltype(std::declval<const SMS::LindstromTurk_cost<SurfaceMesh>&>()(
+    std::declval<const Profile&>(), std::declval<const OptionalPoint&>()));
+
+Vec3 to_vec3(const Point& p) { return {p.x(), p.y(), p.z()}; }
+Point to_point(Vec3 p) { return {p.x, p.y, p.z}; }
+
+/// Thrown out of `edge_collapse` where the collapses are to end while it asks for costs.
+struct Ended {};
+
+/// Costs between two looks at whether to end.
+constexpr std::uint32_t costs_between_looks = 64;
+
+/// One `edge_collapse`, of which its policies below are copyable handles.
+struct Run {
+  RegionCollapses& collapses;
+  RegionMesh& region;
+  CollapseCost cost;
+  bool collects = true;  ///< no edge has been popped yet
+  std::uint32_t asked = 0;
+
+  [[nodiscard]] Placement best_placement(const Profile& profile) const {
+    const std::vector<Quadric>& quadrics = collapses.state().quadrics;
+    return meshbound::best_placement(quadrics[region.vertex[profile.v0()]], quadrics[region.vertex[profile.v1()]],
+                                     to_vec3(profile.p0()), to_vec3(profile.p1()));
+  }
+  [[nodiscard]] double quadric_cost(const Profile& profile, const Point& placement) const {
+    const std::vector<Quadric>& quadrics = collapses.state().quadrics;
+    Quadric sum = quadrics[region.vertex[profile.v0()]];
+    sum += quadrics[region.vertex[profile.v1()]];
+    return sum.at(to_vec3(placement));
+  }
+  void look() {
+    if (++asked % costs_between_looks == 0 && collapses.must_stop()) throw Ended();
+  }
+};
+
+struct CollapsePlacement {
+  Run* run;
+
+  OptionalPoint operator()(const Profile& profile) const {
+    if (run->cost == CollapseCost::LindstromTurk) return Tuned()(profile);
+    return to_point(run->best_placement(profile).point);
+  }
+};
+
+struct Cost {
+  Run* run;
+
+  OptionalCost operator()(const Profile& profile, const OptionalPoint& placement) const {
+    run->look();
+    if (!placement) return {};
+    if (run->cost == CollapseCost::LindstromTurk) return SMS::LindstromTurk_cost<SurfaceMesh>()(profile, placement);
+    return run->quadric_cost(profile, *placement);
+  }
+};
+
+struct Stop {
+  Run* run;
+
+  template <class Value, class Size>
+  bool operator()(const Value&, const Profile&, Size, Size) const {
+    return run->collapses.must_stop();
+  }
+};
+
+/// The last that CGAL asks before it collapses an edge: the array mesh does so here.
+struct Filter {
+  Run* run;
+
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
+    const auto& vertex = run->region.vertex;
+    const Corner corner = corner_between(run->collapses.mesh(), vertex[profile.v0()], vertex[profile.v1()]);
+    if (corner == ArrayMesh::none || !run->collapses.is_open(corner)) return {};
+    // Without a wish the core takes the placement of the quadrics, which is what they gave here.
+    std::optional<Vec3> wanted;
+    if (run->cost != CollapseCost::GarlandHeckbert) wanted = to_vec3(*placement);
+    return run->collapses.collapse(corner, wanted) ? placement : OptionalPoint();
+  }
+};
+
+/// Where the array mesh left the vertex of a collapse, it is put in the other mesh too.
+struct Visitor : SMS::Edge_collapse_visitor_base<SurfaceMesh> {
+  Run* run;
+
+  explicit Visitor(Run& of) : run(&of) {}
+  template <class Size>
+  void OnSelected(const Profile&, const OptionalCost&, Size, Size) const {
+    run->collects = false;
+  }
+  void OnCollapsed(const Profile&, Vertex kept) const {
+    const std::uint32_t vertex = run->collapses.kept();
+    run->region.vertex[kept] = vertex;
+    run->region.mesh.point(kept) = to_point(run->collapses.mesh().position(vertex));
+  }
+};
+
+/// Edges that were refused before, and near which nothing has changed, are left alone until something does.
+struct Constraint {
+  using key_type = Edge;
+  using value_type = bool;
+  using reference = bool;
+  using category = boost::readable_property_map_tag;
+
+  const Run* run;
+  friend bool get(const Constraint& map, Edge edge) { return map.run->collects && map.run->region.is_open[edge] == 0; }
+};
+
+}  // namespace
+
+void EdgeCollapseDriver::collapse(RegionCollapses& collapses) const {
+  RegionMesh region(collapses);
+  if (region.max_edges_of_vertex > max_edges_of_vertex || region.has_edge_of_no_length) {
+    collapses.collapse_all();
+    return;
+  }
+  Run run{collapses, region, cost_};
+  try {
+    SMS::edge_collapse(region.mesh, Stop{&run},
+                       CGAL::parameters::get_cost(Cost{&run})
+                           .get_placement(CollapsePlacement{&run})
+                           .filter(Filter{&run})
+                           .visitor(Visitor(run))
+                           .edge_is_constrained_map(Constraint{&run}));
+  } catch (const Ended&) {
+  }
+}
+
+std::shared_ptr<const CollapseDriver> edge_collapse_driver(CollapseCost cost) {
+  return std::make_shared<EdgeCollapseDriver>(cost);
+}
+
+}  // namespace meshbound::cgal

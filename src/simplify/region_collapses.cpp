@@ -10,17 +10,17 @@ namespace meshbound {
 
 RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Region& region, Proposer& proposer,
                                  ChangeProver* prover, Limits limits)
-    : state_(state),
-      split_(split),
-      region_(region),
-      proposer_(proposer),
-      prover_(prover),
-      limits_(std::move(limits)) {
+    : state_(state), split_(split), region_(region), proposer_(proposer), prover_(prover), limits_(std::move(limits)) {
   proposer_.enter(split, region);
 }
 
 bool RegionCollapses::is_owned(Corner edge) const {
   return split_.owns(region_.id, mesh().start(edge)) && split_.owns(region_.id, mesh().end(edge));
+}
+
+bool RegionCollapses::owns_face(std::uint32_t face) const {
+  const auto corners = mesh().corners(face);
+  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split_.owns(region_.id, v); });
 }
 
 bool RegionCollapses::is_open(Corner edge) const {

@@ -15,11 +15,11 @@ namespace meshbound {
 class RegionCollapses {
  public:
   struct Limits {
-    double share = 1;                                    ///< of the tolerance, that samples may reach
+    double share = 1;                                         ///< of the tolerance, that samples may reach
     float max_cost = std::numeric_limits<float>::infinity();  ///< of `collapse_all`
-    std::function<bool(std::size_t removed)> must_stop;  ///< asked with the number of faces gone from the region
-    /// Asked where a collapse would break the bound, as far as samples or the proof tell; true ends the collapses. None:
-    /// they go on.
+    std::function<bool(std::size_t removed)> must_stop;       ///< asked with the number of faces gone from the region
+    /// Asked where a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
+    /// None: they go on.
     std::function<bool()> ends_at_refusal;
   };
 
@@ -29,6 +29,8 @@ class RegionCollapses {
 
   [[nodiscard]] const ArrayMesh& mesh() const { return state_.mesh; }
   [[nodiscard]] const DecimationState& state() const { return state_; }
+  /// Whether all corners of the face belong to the region.
+  [[nodiscard]] bool owns_face(std::uint32_t face) const;
   /// Whether both ends of the edge belong to the region, and something near has changed since it was refused.
   [[nodiscard]] bool is_open(Corner edge) const;
   [[nodiscard]] bool must_stop() const { return ended_ || limits_.must_stop(region_.removed_faces); }

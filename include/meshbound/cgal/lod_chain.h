@@ -1,55 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Levels of detail: one decimation with growing tolerances, each level bounded against the original itself.
+/// Levels of detail as in `meshbound/lod_chain.h`, with CGAL's `edge_collapse` in charge of the collapses that are
+/// proven one by one, for triangle soups and for CGAL's face graphs.
 #pragma once
-#include <functional>
-#include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include "meshbound/cgal/simplify_with_bound.h"
-#include "meshbound/mesh_view.h"
+#include "meshbound/lod_chain.h"
 
 namespace meshbound::cgal {
 
-/// `mesh`, `tolerance`, `faces()`, and `distance` from the original, which is a measurement of `mesh` of its own and
-/// not what decimation believes.
-using LodLevel = SimplifiedLevel;
+using meshbound::LodLevel;
+using meshbound::LodOptions;
+using meshbound::LodSink;
 
-/// Options of a chain: those of `simplify_with_bound` without `tolerance`, `levels` and targets, which stay unset.
-/// `time_limit` is that of all decimation together.
-using LodOptions = SimplifyOptions;
-
-/// Takes level `index`, 0 for the smallest tolerance; returning false ends the chain.
-using LodSink = std::function<bool(std::size_t index, LodLevel&& level)>;
-
-/// A chain whose levels are made when somebody asks for them, for a viewer that comes nearer to some models only. Not
-/// thread-safe. Memory: O(original).
-class LodChain {
+/// `meshbound::LodChain`, driven by `edge_collapse_driver()` unless `options.driver` is another.
+class LodChain : public meshbound::LodChain {
  public:
-  /// Nothing is decimated yet. `original` is copied. Throws `InvalidInput` as `simplify_with_bound` does, and for
-  /// options that are to stay unset.
-  explicit LodChain(TriangleMesh original, const LodOptions& options = {});
+  explicit LodChain(TriangleMesh original, const LodOptions& options = {})
+      : meshbound::LodChain(std::move(original), with_edge_collapse(options)) {}
   explicit LodChain(const MeshView& original, const LodOptions& options = {})
-      : LodChain(meshbound::to_triangle_mesh(original), options) {}
-  LodChain(LodChain&&) noexcept;
-  LodChain& operator=(LodChain&&) noexcept;
-  ~LodChain();
-
-  /// Decimation goes on from the level before, up to `tolerance`, model units. Throws `InvalidInput` when that is
-  /// smaller than the one before, negative or not finite.
-  [[nodiscard]] LodLevel next(double tolerance);
-
-  [[nodiscard]] const TriangleMesh& original() const;
-  /// Facts about the run so far: all of `SimplifyResult` but for the levels.
-  [[nodiscard]] SimplifyResult describe() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+      : meshbound::LodChain(original, with_edge_collapse(options)) {}
 };
 
-/// Makes the levels of the given tolerances, which must grow, and hands each to `sink` as soon as it is there. A level
-/// after the one for which the sink returns false is never computed. Returns how many levels the sink was given. Throws
-/// as `LodChain`, for tolerances before the first level is computed, and passes on what the sink throws.
+/// `meshbound::build_lod_chain` with that driver.
 std::size_t build_lod_chain(const MeshView& original, std::span<const double> tolerances, const LodOptions& options,
                             const LodSink& sink);
 
@@ -58,7 +33,7 @@ template <class FaceGraph>
 requires(!std::is_convertible_v<const FaceGraph&, MeshView>) std::size_t
     build_lod_chain(const FaceGraph& original, std::span<const double> tolerances, const LodOptions& options,
                     const LodSink& sink) {
-  return build_lod_chain(MeshView(to_triangle_mesh(original)), tolerances, options, sink);
+  return cgal::build_lod_chain(MeshView(to_triangle_mesh(original)), tolerances, options, sink);
 }
 
 }  // namespace meshbound::cgal

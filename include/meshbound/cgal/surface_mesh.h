@@ -60,7 +60,7 @@ struct ManifoldCopy {
 };
 
 /// Welds vertices of equal coordinates, drops duplicate triangles and those with two equal corners, and where the rest
-/// is not a 2-manifold orients the triangles and duplicates vertices (CGAL's `orient_polygon_soup`). The surface is
+/// is not a 2-manifold turns triangles over and duplicates vertices, as decimation in the core does. The surface is
 /// that of the soup but for what was dropped. Throws `InvalidInput` when nothing is left. O(n log n).
 [[nodiscard]] ManifoldCopy manifold_copy(const TriangleMesh& soup);
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "meshbound/cgal/surface_mesh.h"
+#include "simplify/region_collapses.h"
+
+namespace meshbound::cgal {
+
+/// The faces of one region of an array mesh as a `Surface_mesh`, which CGAL collapses while the array mesh follows.
+struct RegionMesh {
+  /// Only faces whose corners all belong to the region. A vertex at its rim may have several fans of them, of which
+  /// CGAL finds one; no collapse ever concerns an edge at such a vertex. O(m log n) for n faces of the region, m of the
+  /// array mesh.
+  explicit RegionMesh(const RegionCollapses& collapses);
+
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> vertex;  ///< by vertex of `mesh`: that of the array mesh
+  std::vector<std::uint8_t> is_open;  ///< by edge of `mesh`, at the start: see `RegionCollapses::is_open`
+  std::size_t max_edges_of_vertex = 0;
+  bool has_edge_of_no_length = false;  ///< among the open edges
+};
+
+/// The corner whose edge joins these vertices of the array mesh, in either direction; none where they are not
+/// neighbours. O(edges of `a`).
+[[nodiscard]] Corner corner_between(const ArrayMesh& mesh, std::uint32_t a, std::uint32_t b);
+
+}  // namespace meshbound::cgal
