@@ -2,6 +2,7 @@
 #include "distance/point_query.h"
 
 #include "distance/point_query_impl.h"
+#include "numeric/vector_code.h"
 
 namespace meshbound {
 
@@ -11,7 +12,7 @@ MeasurePoint portable_point_kernel() { return measure_point; }
 
 MeasurePoint point_kernel() {
 #if defined(MESHBOUND_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2_point_kernel();
+  if (uses_avx2()) return avx2_point_kernel();
 #endif
   return portable_point_kernel();
 }

@@ -2,6 +2,7 @@
 #include "distance/searcher.h"
 
 #include "numeric/rounding.h"
+#include "numeric/vector_code.h"
 
 namespace meshbound {
 
@@ -10,7 +11,7 @@ std::unique_ptr<Searcher> make_avx2_searcher(const Bvh::Data& target, const Goal
 
 std::unique_ptr<Searcher> make_searcher(const Bvh::Data& target, const Goal& goal) {
 #if defined(MESHBOUND_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return make_avx2_searcher(target, goal);
+  if (uses_avx2()) return make_avx2_searcher(target, goal);
 #endif
   return make_portable_searcher(target, goal);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/linear_heights.h"
 
+#include "numeric/vector_code.h"
 #include "simplify/linear_heights_impl.h"
 
 namespace meshbound {
@@ -11,7 +12,7 @@ HeightKernel portable_height_kernel() { return {linearise, weighted_sums, larges
 
 HeightKernel fastest_height_kernel() {
 #if defined(MESHBOUND_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2_height_kernel();
+  if (uses_avx2()) return avx2_height_kernel();
 #endif
   return portable_height_kernel();
 }

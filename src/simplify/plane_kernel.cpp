@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "numeric/vector_code.h"
 #include "simplify/plane_kernel_impl.h"
 
 namespace meshbound {
@@ -9,7 +10,7 @@ PlaneKernel portable_plane_kernel() { return {set_planes, test_slab, reach_in_sl
 
 PlaneKernel fastest_plane_kernel() {
 #if defined(MESHBOUND_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2_plane_kernel();
+  if (uses_avx2()) return avx2_plane_kernel();
 #endif
   return portable_plane_kernel();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/sampled_slope.h"
 
+#include "numeric/vector_code.h"
 #include "simplify/sampled_slope_impl.h"
 
 namespace meshbound {
@@ -40,7 +41,7 @@ SlopeKernel portable_slope_kernel() { return {offsets, drop_far, add_slope}; }
 
 SlopeKernel fastest_slope_kernel() {
 #if defined(MESHBOUND_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2_slope_kernel();
+  if (uses_avx2()) return avx2_slope_kernel();
 #endif
   return portable_slope_kernel();
 }
