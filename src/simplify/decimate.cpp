@@ -63,6 +63,7 @@ class Run {
 
   void grow_tolerance();
   void try_all_again();
+  void try_the_others_again();
   void keep_what_has_no_face();
   void propose(int shift, float max_cost);
   void prove_and_repair();
@@ -176,15 +177,22 @@ void Run::prove_and_repair() {
     ended_by_ = EndedBy::NothingFits;  // what was taken back is to be removed elsewhere
 }
 
-/// What was refused for a smaller tolerance, or a smaller share of it, may fit now.
+/// What was refused for a smaller tolerance may fit now.
 void Run::try_all_again() {
   std::fill(state_.refused_at.begin(), state_.refused_at.end(), 0);
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
+/// What was refused for a smaller share of the tolerance may fit now.
+void Run::try_the_others_again() {
+  for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
+    if (state_.hopeless[e] == 0) state_.refused_at[e] = 0;
+  std::fill(state_.share.begin(), state_.share.end(), 1.0F);
+}
+
 /// What is near the tolerance.
 void Run::prove_one_by_one() {
-  try_all_again();
+  try_the_others_again();
   while (!has_ended()) {
     const std::size_t before = state_.faces;
     for (int shift = 0; shift < 3 && !has_ended(); ++shift) {

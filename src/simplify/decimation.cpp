@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -19,7 +20,7 @@ namespace {
 
 /// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge and
 /// miss its middle.
-constexpr double spacing_of_samples = 4;
+double spacing_of_samples = std::getenv("SPACING") ? std::atof(std::getenv("SPACING")) : 4;
 
 TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   TriangleMesh result;

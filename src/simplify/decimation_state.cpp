@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "numeric/rounding.h"
 #include "simplify/edge_queue.h"
@@ -17,7 +18,7 @@ double internal::proof_fault = 1;
 namespace {
 
 /// Points between the ends of one edge: more cost more time than they save.
-constexpr double max_between = 7;
+double max_between = std::getenv("MAXB") ? std::atof(std::getenv("MAXB")) : 7;
 
 /// What is left of the tolerance is room in which the measurement of the finished mesh can decide without refining to
 /// the last digit: it accepts an upper bound of the whole tolerance.
@@ -66,6 +67,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       stamp(mesh.face_count(), 0),
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
+      hopeless(3 * mesh.face_count(), 0),
       place_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
       cover(triangles.size()),
       nearest(source_triangle) {

@@ -134,6 +134,7 @@ struct DecimationState {
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the beginning
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
+  std::vector<std::uint8_t> hopeless;  ///< by edge: whether a larger share of the tolerance would not have helped
   std::vector<std::uint32_t> place_in_queue;       ///< by edge
 
   /// What must be found in doubles so that `value` holds in real arithmetic.

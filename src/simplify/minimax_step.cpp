@@ -8,8 +8,6 @@
 namespace meshbound {
 namespace {
 
-/// A move that makes the largest height smaller than this, in tolerances, is good enough.
-constexpr float low_height = 0.9F;
 /// Two steps for each p = 4, 8, 16, 32, 64 and two more: then the p-norm is within a few percent of the maximum.
 constexpr int most_steps = 12;
 constexpr int most_doublings = 5;
@@ -38,7 +36,7 @@ HeightKernel::Move solve(const WeightedSums& sums, float mean_curvature) {
 
 }  // namespace
 
-MinimaxStep minimax_step(const LinearHeights& heights, const HeightKernel& kernel) {
+MinimaxStep minimax_step(const LinearHeights& heights, const HeightKernel& kernel, float low_height) {
   HeightKernel::Move move = {};
   float largest = kernel.largest_along(heights, move, {}, {})[0];
   MinimaxStep result{largest, largest, {}};

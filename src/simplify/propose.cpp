@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "simplify/faults.h"
 #include "simplify/minimax_step.h"
@@ -15,13 +14,28 @@ double internal::sample_fault = 1;
 namespace {
 
 /// Placements are moved to where the largest sampled distance is least at most this often.
-constexpr int max_minimax_steps = 3;
+/// Once where a proof of many collapses is still to come.
+constexpr int max_minimax_steps = 3, max_minimax_steps_together = 2;
 
-/// One sample in this many tells for most edges that there is nothing to gain.
-constexpr std::size_t coarseness = 6;
+/// So many samples tell for most edges that there is nothing to gain.
+constexpr std::size_t few_samples = 24;
 
-/// Distance from the planes that an edge stands for, in limits, beyond which it is refused at once.
-double max_root_mean_square = std::getenv("RMS") ? std::atof(std::getenv("RMS")) : 2;
+/// Root mean square of the distances from the planes that an edge stands for, in tolerances, beyond which it is refused
+/// at once: one in a hundred of the collapses that are accepted lies beyond, or fewer.
+constexpr double max_height_of_planes = 2;
+/// And up to which the place where it is least is likely to do.
+constexpr double likely_height_of_planes = 0.6;
+/// Where proofs are still to come, edges beyond are left for later: they are near the limit.
+constexpr double max_height_together = 1.2;
+
+/// Beyond this height, in limits, a first step is hardly ever followed by one that ends below 1.
+constexpr double hopeful_height = 1.05;
+
+/// A place is good enough where distances are this share of the limit: closest points move with it.
+constexpr double good_share = 0.9;
+
+/// Where a place could not be proven, another one is looked for where distances are this share of the limit.
+constexpr double lower_share = 0.7;
 
 /// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
 bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
@@ -108,72 +122,74 @@ bool Proposer::owns(std::uint32_t face) const {
   return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split_->owns(region_, v); });
 }
 
-bool Proposer::fits(Vec3 point, double limit) {
+bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) {
     return false;
   }
   if (!gathered_) gather_samples();
   by_bound_ = true;
-  return samples_.hold(faces_, beside_, limit) && samples_.is_near_original(point, limit);
-}
-
-/// Whether the planes of the original that the ends stand for are too far from any one point for it to be near them all:
-/// collapses beyond are accepted once in a hundred times or less.
-bool Proposer::is_hopeless(double cost, double limit) const {
-  const double planes = state_.quadrics[star_.kept].planes() + state_.quadrics[star_.gone].planes();
-  return cost > max_root_mean_square * max_root_mean_square * limit * limit * planes;
+  return samples_.hold(faces_, beside_, limit_) && samples_.is_near_original(point, limit_);
 }
 
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
   by_bound_ = false;
-  const ArrayMesh& mesh = state_.mesh;
-  if (!star_.gather(mesh, edge)) {
-    return std::nullopt;
-  }
+  hopeless_ = true;
+  if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   if (is_locked(kept) && is_locked(gone)) return std::nullopt;
-  const Vec3 p = mesh.position(kept), q = mesh.position(gone);
-  origin_ = p;
-  before_.clear();
-  for (const Corner c : star_.moved)
-    before_.emplace_back(
-        GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
-  lowered_ = false;
-  const double limit = limit_ = limit_around() * internal::sample_fault *
-      std::min({share, double{state_.share[kept]}, double{state_.share[gone]}});
-  gathered_ = false;
+  begin_star(share);
+  const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
   if (is_locked(kept) || is_locked(gone)) {
-    const Vec3 fixed = is_locked(kept) ? p : q;
-    tried_ = fixed;
-    return fits(fixed, limit) ? std::optional(fixed) : std::nullopt;
+    tried_ = is_locked(kept) ? p : q;
+    hopeless_ = false;
+    return fits(tried_) ? std::optional(tried_) : std::nullopt;
   }
-  if (!wanted) {
-    const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
-    wanted = best.point;
-    by_bound_ = true;
-    if (is_hopeless(best.cost, limit)) return std::nullopt;
-  }
-  tried_ = *wanted;
-  if (fits(*wanted, limit)) {
-    return wanted;
-  }
-  if (const auto lower = minimax(*wanted, limit)) return lower;
+  const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
+  tried_ = wanted ? *wanted : best.point;
+  by_bound_ = true;
+  const double planes = state_.quadrics[kept].planes() + state_.quadrics[gone].planes();
+  const double height = std::sqrt(std::max(0.0, best.cost) / planes);
+  if (!wanted && height > max_height_of_planes * full_limit_) return std::nullopt;
+  hopeless_ = false;
+  if (share < 1 && height > max_height_together * limit_) return std::nullopt;
+  if (height < likely_height_of_planes * limit_ && fits(tried_)) return tried_;
+  if (const auto lower = minimax(tried_, good_share * limit_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (!hopeless_ && fits(end, limit)) return end;
+    if (!hopeless_ && fits(end)) return end;
   }
   return std::nullopt;
 }
 
-std::optional<Vec3> Proposer::lower_placement(Vec3 than) {
-  if (lowered_ || is_locked(star_.kept) || is_locked(star_.gone)) return std::nullopt;
-  // Beyond what keeps from moving any further.
-  return minimax(than, 0.8 * limit_);
+/// What is known of a star before its vertex is placed.
+void Proposer::begin_star(double share) {
+  const ArrayMesh& mesh = state_.mesh;
+  origin_ = mesh.position(star_.kept);
+  before_.clear();
+  for (const Corner c : star_.moved)
+    before_.emplace_back(
+        GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
+  full_limit_ = limit_around() * internal::sample_fault;
+  limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
+  lowered_ = gathered_ = false;
+  max_steps_ = share < 1 ? max_minimax_steps_together : max_minimax_steps;
 }
 
-/// From a placement to where the largest distance is least.
-std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
-  hopeless_ = false;
+std::optional<Vec3> Proposer::lower_placement(Vec3 than) {
+  if (lowered_ || is_locked(star_.kept) || is_locked(star_.gone)) return std::nullopt;
+  return minimax(than, lower_share * limit_);
+}
+
+/// Samples from all of the star.
+void Proposer::take_few() {
+  const SamplePoints& points = samples_.points();
+  const std::size_t stride = points.size() / few_samples;
+  few_.clear();
+  for (std::size_t i = 0; i < points.size(); i += stride) few_.add(points.at(i));
+}
+
+/// From a placement to where the largest distance is least, or below `low`.
+std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   lowered_ = true;
   if (!set_faces(point)) {
     point = 0.5 * (state_.mesh.position(star_.kept) + state_.mesh.position(star_.gone));
@@ -181,31 +197,50 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
   }
   if (!gathered_) gather_samples();
   const SamplePoints& points = samples_.points();
-  if (points.blocks.empty()) return std::nullopt;
-  const auto by_limit = static_cast<float>(1 / limit);
-  if (points.blocks.size() > 2 * coarseness) {
-    few_.blocks.clear();
-    for (std::size_t b = 0; b < points.blocks.size(); b += coarseness) few_.blocks.push_back(points.blocks[b]);
+  if (points.blocks.empty()) return fits(point) ? std::optional(point) : std::nullopt;
+  const auto by_limit = static_cast<float>(1 / full_limit_), low_height = static_cast<float>(low / full_limit_);
+  const float max_height = hopeless_height * static_cast<float>(limit_ / full_limit_);
+  if (points.size() > 2 * few_samples) {
+    take_few();
     height_kernel_.linearise(few_, faces_, by_limit, heights_);
-    if (minimax_step(heights_, height_kernel_).there > hopeless_height) {
-      hopeless_ = true;
-      return std::nullopt;
-    }
+    const MinimaxStep step = minimax_step(heights_, height_kernel_, low_height);
+    hopeless_ = step.there > hopeless_height;
+    if (step.there > max_height) return std::nullopt;
+    const Vec3 moved = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
+    if (set_faces(moved))
+      point = moved;
+    else
+      (void)set_faces(point);
   }
-  for (int k = 0; k < max_minimax_steps; ++k) {
+  bool is_stray = false;
+  for (int k = 0; k < max_steps_; ++k) {
     height_kernel_.linearise(points, faces_, by_limit, heights_);
-    const MinimaxStep step = minimax_step(heights_, height_kernel_);
-    if (step.there > hopeless_height) {
-      hopeless_ = true;
-      return std::nullopt;
+    if (is_stray) add_vertex(point);
+    MinimaxStep step = minimax_step(heights_, height_kernel_, low_height);
+    if (full_limit_ * step.here <= limit_) {
+      if (fits(point)) return point;
+      if (!is_stray) {
+        is_stray = true;
+        add_vertex(point);
+        step = minimax_step(heights_, height_kernel_, low_height);
+      }
     }
-    point = point + limit * Vec3{step.move[0], step.move[1], step.move[2]};
-    if (fits(point, limit_)) {
-      return point;
-    }
-    if (faces_.size() != star_.moved.size()) return std::nullopt;
+    hopeless_ = step.there > hopeless_height;
+    if (full_limit_ * step.there > (k == 0 ? hopeful_height : 1) * limit_) return std::nullopt;
+    point = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
+    if (!set_faces(point)) return std::nullopt;
   }
-  return std::nullopt;
+  return fits(point) ? std::optional(point) : std::nullopt;
+}
+
+/// The distance of the vertex from the original is a height like those of samples from the faces.
+void Proposer::add_vertex(Vec3 point) {
+  const Vec3 offset = (1 / full_limit_) * samples_.offset_from_original(point);
+  const double height = length(offset);
+  if (!(height > 0)) return;
+  // It is the vertex that moves, not its closest point.
+  const auto slope = [&](double component) { return static_cast<float>(-component / height); };
+  heights_.add(static_cast<float>(height), slope(offset.x), slope(offset.y), slope(offset.z));
 }
 
 void Proposer::collapse(Region& region, Vec3 point) {

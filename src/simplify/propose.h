@@ -45,6 +45,8 @@ class Proposer {
   /// Whether it was for the bound that the last edge was refused, and where its vertex was to go.
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
+  /// Whether the last edge would be refused with a larger share of the tolerance as well.
+  [[nodiscard]] bool is_hopeless() const { return hopeless_; }
   /// Another place for the edge that was asked for last, where the largest distance is smaller: for one that could not
   /// be proven.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
@@ -64,9 +66,11 @@ class Proposer {
   [[nodiscard]] double limit_around() const;
   [[nodiscard]] bool owns(std::uint32_t face) const;
   [[nodiscard]] bool set_faces(Vec3 point);
-  [[nodiscard]] bool is_hopeless(double cost, double limit) const;
-  [[nodiscard]] bool fits(Vec3 point, double limit);
-  [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double limit);
+  void begin_star(double share);
+  void take_few();
+  void add_vertex(Vec3 point);
+  [[nodiscard]] bool fits(Vec3 point);
+  [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double low);
 
   DecimationState& state_;
   const Split* split_ = nullptr;  ///< of the last edge
@@ -75,7 +79,8 @@ class Proposer {
   HeightKernel height_kernel_ = fastest_height_kernel();
   EdgeStar star_;
   std::vector<GuardedFace> before_;  ///< the faces that move
-  double limit_ = 0;
+  double limit_ = 0, full_limit_ = 0;  ///< of samples, with the share that they may reach, and of the tolerance
+  int max_steps_ = 0;
   bool lowered_ = false;   ///< the last place is one where the largest distance is least
   bool gathered_ = false;  ///< the samples
   bool hopeless_ = false;  ///< no place comes near

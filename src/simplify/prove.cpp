@@ -147,23 +147,20 @@ class ProofWorkers::Worker {
     }
     const FaceMask added = ForwardCover::first(cover_.size());
     const std::size_t added_count = found_.size();
-    bool ring_known = false;
     used_.assign(affected_.size(), 0);
+    in_pieces_.clear();
     for (std::size_t i = 0; i < affected_.size(); ++i) {
       used_[i] = cover_.cover_whole(affected_[i], added, 0);
-      if (used_[i] != 0) continue;
-      if (!ring_known) {
-        ring_known = true;
-        for (std::size_t k = 0; k < added_count; ++k) {
-          for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
-            state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
-              if (found_marks_.insert(d / 3) && owned(d / 3)) enter_face(d / 3);
-              return found_.size() < CandidateFaces::capacity;
-            });
-          }
-        }
-      }
-      used_[i] = cover_.cover(affected_[i], ForwardCover::first(cover_.size()), added);
+      if (used_[i] == 0) in_pieces_.push_back(i);
+    }
+    if (in_pieces_.empty()) return true;
+    enter_ring(added_count, owned);
+    // What is cheap and likely to fail comes first.
+    const FaceMask all = ForwardCover::first(cover_.size());
+    for (const std::size_t i : in_pieces_)
+      if (cover_.corner_out_of_reach(affected_[i], all)) return false;
+    for (const std::size_t i : in_pieces_) {
+      used_[i] = cover_.cover(affected_[i], all, added);
       if (used_[i] == 0) return false;
     }
     return true;
@@ -178,6 +175,18 @@ class ProofWorkers::Worker {
   }
 
  private:
+  /// The faces around the first `count` of those found.
+  template <class Owned>
+  void enter_ring(std::size_t count, const Owned& owned) {
+    for (std::size_t k = 0; k < count; ++k) {
+      for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
+        state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
+          if (found_marks_.insert(d / 3) && owned(d / 3)) enter_face(d / 3);
+          return found_.size() < CandidateFaces::capacity;
+        });
+      }
+    }
+  }
   void enter_face(std::uint32_t face) {
     found_.push_back(face);
     cover_.add(state_.mesh.triangle(face), face);
@@ -308,6 +317,7 @@ class ProofWorkers::Worker {
   std::array<Prepared, 64> prepared_;
   MarkedIds found_marks_, affected_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, ids_;
+  std::vector<std::size_t> in_pieces_;  ///< places in `affected_`
   std::vector<FaceMask> used_;
   std::vector<Part> parts_;
 };

@@ -49,6 +49,7 @@ void RegionCollapses::list_edges() {
 bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   if (!proposer_.is_inside(edge)) return false;
   std::optional<Vec3> point = proposer_.placement(edge, limits_.share, wanted);
+  const bool point_found = point.has_value();
   if (point) {
     list_edges();
     if (make(*point)) return true;
@@ -57,6 +58,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   }
   ++proposer_.counts.refused;
   state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
+  state_.hopeless[mesh().edge(edge)] = !point_found && proposer_.is_hopeless() ? 1 : 0;
   if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
   return false;
 }

@@ -27,6 +27,10 @@ struct SamplePoints {
     block.weight[lane_++] = 1;
   }
   [[nodiscard]] std::size_t size() const { return 8 * blocks.size() - (8 - lane_); }
+  [[nodiscard]] Vec3 at(std::size_t i) const {
+    const Block& block = blocks[i / 8];
+    return {block.x[i % 8], block.y[i % 8], block.z[i % 8]};
+  }
 
  private:
   std::size_t lane_ = 8;  ///< the next one of the last block

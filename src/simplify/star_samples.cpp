@@ -70,6 +70,19 @@ std::uint32_t StarSamples::face_beside(std::uint32_t sample, std::span<const std
 
 bool StarSamples::is_near_original(Vec3 point, double limit) {
   if (ids_.empty()) return true;
+  near_ = triangle_near(point);
+  return proximity_.upper_distance({point.x, point.y, point.z}, near_, limit) <= limit;
+}
+
+Vec3 StarSamples::offset_from_original(Vec3 point) {
+  (void)proximity_.upper_distance({point.x, point.y, point.z}, near_);
+  const auto& v = state_.triangles[near_];
+  const Vec3 a = state_.vertices[v[0]], b = state_.vertices[v[1]], c = state_.vertices[v[2]];
+  return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, point).offset;
+}
+
+/// An original triangle at the sample nearest to a point.
+std::uint32_t StarSamples::triangle_near(Vec3 point) const {
   std::uint32_t best = ids_[0];
   double least = HUGE_VAL;
   const std::size_t stride = ids_.size() / 32 + 1;
@@ -77,8 +90,7 @@ bool StarSamples::is_near_original(Vec3 point, double limit) {
     const double squared = squared_length(state_.samples.at(ids_[i]) - point);
     if (squared < least) least = squared, best = ids_[i];
   }
-  std::uint32_t hint = state_.samples.triangle_near(best);
-  return proximity_.upper_distance({point.x, point.y, point.z}, hint, limit) <= limit;
+  return state_.samples.triangle_near(best);
 }
 
 /// Which of the changed faces is nearest to a point.

@@ -26,11 +26,14 @@ class StarSamples {
   [[nodiscard]] bool hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
+  /// From the point of the original nearest to the vertex that was asked for last to it.
+  [[nodiscard]] Vec3 offset_from_original(Vec3 point);
   /// Gives each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the faces
   /// whose samples were added must have been cleared.
   void give(std::span<const std::uint32_t> numbers);
 
  private:
+  [[nodiscard]] std::uint32_t triangle_near(Vec3 point) const;
   [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
                                           float squared_limit) const;
   [[nodiscard]] std::size_t nearest(std::size_t i) const;
@@ -39,6 +42,7 @@ class StarSamples {
   DecimationState& state_;
   Proximity proximity_;
   SlopeKernel kernel_ = fastest_slope_kernel();
+  std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;
   std::vector<std::uint32_t> ids_;  ///< by point
   SamplePoints points_;
