@@ -38,7 +38,6 @@ int main(int argc, char** argv) {
   const meshbound::Bvh original(meshbound::cgal::to_triangle_mesh(mesh));
 
   meshbound::cgal::DeviationMonitor<Mesh> monitor(mesh, tolerance);
-  monitor.normal_guard = meshbound::cgal::NormalGuard();
   SMS::edge_collapse(mesh, monitor.stop_predicate(),
                      CGAL::parameters::get_cost(OwnCost())
                          .get_placement(monitor.placement(OwnPlacement()))  // others where this one breaks the bound

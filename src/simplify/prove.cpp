@@ -138,7 +138,9 @@ class ProofWorkers::Worker {
       for (const EditLog::Stamp& stamp : changed)
         if (!state_.mesh.is_removed(stamp.face)) box.extend(box_of(state_.mesh.triangle(stamp.face)));
     }
-    cover_.begin(state_.local ? state_.limit_in(box) : state_.limit);
+    const double limit = state_.local ? state_.limit_in(box) : state_.limit;
+    if (!(limit > 0)) return false;
+    cover_.begin(limit);
     found_marks_.clear();
     found_.clear();
     for (const EditLog::Stamp& stamp : changed) {
@@ -353,7 +355,7 @@ void FaceBoxes::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>&
   for (std::size_t i = before; i < found.size(); ++i) found[i] = faces_[found[i]];
 }
 
-bool ChangeProver::prove_or_undo(const Split& split, Region& region) {
+bool ChangeProver::prove(const Split& split, Region& region) {
   ProofWorkers::Worker& worker = *workers_.workers_[thread_];
   const auto stamps = region.log.stamps_of(region.log.last_number());
   bool holds = worker.cover_change(stamps, split, region.id);
@@ -369,12 +371,15 @@ bool ChangeProver::prove_or_undo(const Split& split, Region& region) {
     undo_last(state_, region);
     return false;
   }
+  return true;
+}
+
+void ChangeProver::accept(Region& region) {
   ++proven;
-  worker.assign_covers(state_.cover);
-  for (const EditLog::Stamp& stamp : stamps) state_.stamp[stamp.face] = 0;
+  workers_.workers_[thread_]->assign_covers(state_.cover);
+  for (const EditLog::Stamp& stamp : region.log.stamps_of(region.log.last_number())) state_.stamp[stamp.face] = 0;
   region.log.edits.clear();
   region.log.stamps.clear();
-  return true;
 }
 
 Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), workers_(workers) {

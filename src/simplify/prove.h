@@ -59,7 +59,14 @@ class ChangeProver {
   ChangeProver(DecimationState& state, ProofWorkers& workers, std::size_t thread)
       : state_(state), workers_(workers), thread_(thread) {}
   /// Makes the last change part of what is proven, or takes it back where that fails.
-  bool prove_or_undo(const Split& split, Region& region);
+  bool prove_or_undo(const Split& split, Region& region) {
+    if (!prove(split, region)) return false;
+    accept(region);
+    return true;
+  }
+  /// In two steps: until `accept`, `undo_last` may still take back a change that holds.
+  bool prove(const Split& split, Region& region);
+  void accept(Region& region);
 
   std::uint64_t proven = 0, unproven = 0, originals_tested = 0, faces_tested = 0;
 

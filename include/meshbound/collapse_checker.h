@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// The two-sided bound for anyone's own decimation by edge collapses: each collapse is proven before it is made.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound {
+
+/// Follows a triangle mesh from collapse to collapse, and admits those after which the symmetric Hausdorff distance to
+/// the mesh at the start is proven to be within the tolerance:
+///
+///     CollapseChecker checker(mesh, tolerance);
+///     if (checker.admits(u, v, point)) {
+///       ...                                       // the caller collapses its own edge u v into the point
+///       checker.commit();
+///     }
+///
+/// Vertices are the numbers of the mesh at the start. A collapse is also refused where it would leave no 2-manifold
+/// (link condition), turn a face by more than a right angle or make one that is next to nothing, move a locked vertex,
+/// or change more than 48 faces. The state is a proof, rounding included, for the points as they were given; measure
+/// the result all the same (`check_symmetric`) where it matters. Not thread-safe. Memory: O(original); a collapse takes
+/// time by the number of original triangles near it.
+class CollapseChecker {
+ public:
+  /// `original` is an oriented 2-manifold, with or without borders, joined by the indices of its vertices. Throws
+  /// `InvalidInput` where it is not, for what `validate` refuses, and for a tolerance that is no length. Model units.
+  /// O(n log n).
+  CollapseChecker(const TriangleMesh& original, double tolerance);
+  CollapseChecker(CollapseChecker&&) noexcept;
+  CollapseChecker& operator=(CollapseChecker&&) noexcept;
+  ~CollapseChecker();
+
+  /// Whether the bound holds after the collapse of the edge between the vertices u and v into `point`. `commit` makes
+  /// this collapse part of the mesh; any other call goes on from the mesh as it was before.
+  [[nodiscard]] bool admits(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& point);
+  /// The first point of these for which the bound holds: `wanted`, where the largest sampled distance is least, the
+  /// ends. With a locked end, that one. None: the edge is refused, and again until something near has changed.
+  [[nodiscard]] std::optional<Eigen::Vector3d> admitted_placement(std::uint32_t u, std::uint32_t v,
+                                                                  const Eigen::Vector3d& wanted);
+  /// Makes the collapse that was admitted by the call before. Returns the number that its vertex has from now on, that
+  /// of u or v. Throws `Error` where nothing was admitted.
+  std::uint32_t commit();
+
+  /// The vertex stays where it is: collapses of its edges go to its place.
+  void lock(std::uint32_t vertex);
+  [[nodiscard]] bool is_locked(std::uint32_t vertex) const;
+  /// By triangle of the original, model units, beside `tolerance`: as `SimplifyOptions::face_tolerances`. Before the
+  /// first collapse; throws `InvalidInput` for another number of them or one that is no length.
+  void limit_triangles(std::span<const double> tolerances);
+  /// Goes on with a larger tolerance. Throws `InvalidInput` for a smaller one.
+  void grow_tolerance(double tolerance);
+
+  [[nodiscard]] double tolerance() const;
+  [[nodiscard]] std::size_t faces() const;  ///< that are left
+  struct Counts {
+    std::uint64_t performed = 0;
+    std::uint64_t refused = 0;   ///< tested, and not admitted
+    std::uint64_t repeated = 0;  ///< refused without a test: nothing near has changed since the last one
+  };
+  [[nodiscard]] const Counts& counts() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meshbound
