@@ -4,8 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "meshbound/distance.h"
@@ -42,17 +40,10 @@ class Run {
       : state_(state), goal_(goal), threads_(threads), stop_of_proof_(later(goal.stop)) {}
 
   EndedBy operator()() {
-    grow_tolerance();
+    state_.grow_tolerance(goal_.tolerance);
     keep_what_has_no_face();
-    const double e = std::getenv("EARLY") ? std::atof(std::getenv("EARLY")) : 0;
-    if (e > 0) {
-      const auto cheap = static_cast<float>(e * e * goal_.tolerance * goal_.tolerance);
-      propose(0, cheap);
-      propose(1, cheap);
-    }
-    const float any_cost = std::numeric_limits<float>::infinity();
-    propose(0, any_cost);
-    propose(1, any_cost);
+    propose(0);
+    propose(1);
     prove_and_repair();
     prove_one_by_one();
     return ended_by_;
@@ -61,11 +52,9 @@ class Run {
  private:
   using Work = std::function<void(const Split&, Region&, Proposer&, ChangeProver&)>;
 
-  void grow_tolerance();
-  void try_all_again();
   void try_the_others_again();
   void keep_what_has_no_face();
-  void propose(int shift, float max_cost);
+  void propose(int shift);
   void prove_and_repair();
   void prove_one_by_one();
   void in_regions(Split split, const Work& work);
@@ -82,13 +71,6 @@ class Run {
   StopToken stop_of_proof_;
   std::atomic<EndedBy> ended_by_{EndedBy::NothingFits};
 };
-
-void Run::grow_tolerance() {
-  if (goal_.tolerance == state_.tolerance) return;
-  state_.tolerance = goal_.tolerance;
-  state_.limit = state_.provable(goal_.tolerance);
-  try_all_again();
-}
 
 /// Triangles of the original that the mesh was not made from need a face that covers them; those that have none stay.
 void Run::keep_what_has_no_face() {
@@ -134,12 +116,12 @@ std::function<bool(std::size_t)> Run::must_stop() {
 }
 
 /// Collapses that samples find well within the tolerance. Nothing of them is proven.
-void Run::propose(int shift, float max_cost) {
+void Run::propose(int shift) {
   if (has_ended()) return;
   if (is_global() && shift > 0) return;
   in_regions(is_global() ? whole(state_) : split(state_, shift),
              [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
-               RegionCollapses::Limits limits{share_together, max_cost, must_stop(), nullptr};
+               RegionCollapses::Limits limits{share_together, must_stop(), nullptr};
                if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };
                RegionCollapses(state_, split, region, proposer, nullptr, std::move(limits)).collapse_all();
              });
@@ -150,8 +132,8 @@ StopToken Run::stop_of_proof() const {
   return StopToken().until(StopToken::Clock::now(), seconds_of_last_proof);
 }
 
-/// Proves what the proposals left, and takes back what cannot be proven until all is. Where the time ends before, all of
-/// them are taken back.
+/// Proves what the proposals left, and takes back what cannot be proven until all is. Where the time ends before, all
+/// of them are taken back.
 void Run::prove_and_repair() {
   if (state_.logs.empty()) return;
   std::uint64_t proposed = 0;
@@ -177,12 +159,6 @@ void Run::prove_and_repair() {
     ended_by_ = EndedBy::NothingFits;  // what was taken back is to be removed elsewhere
 }
 
-/// What was refused for a smaller tolerance may fit now.
-void Run::try_all_again() {
-  std::fill(state_.refused_at.begin(), state_.refused_at.end(), 0);
-  std::fill(state_.share.begin(), state_.share.end(), 1.0F);
-}
-
 /// What was refused for a smaller share of the tolerance may fit now.
 void Run::try_the_others_again() {
   for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
@@ -200,7 +176,7 @@ void Run::prove_one_by_one() {
       in_regions(shift == 2 ? whole(state_) : split(state_, shift),
                  [&](const Split& split, Region& region, Proposer& proposer, ChangeProver& prover) {
                    if (shift < 2 && split.regions.size() == 1) return;
-                   RegionCollapses::Limits limits{1, std::numeric_limits<float>::infinity(), must_stop(), nullptr};
+                   RegionCollapses::Limits limits{1, must_stop(), nullptr};
                    if (goal_.on_exceed == OnExceed::Stop) {
                      limits.ends_at_refusal = [&] {
                        if (!truly_exceeds(region, proposer)) return false;
@@ -221,8 +197,8 @@ void Run::prove_one_by_one() {
   }
 }
 
-/// Whether the whole mesh leaves the tolerance by the collapse that was refused last: the local proof may fail where the
-/// bound still holds, with the help of faces that are far along the surface.
+/// Whether the whole mesh leaves the tolerance by the collapse that was refused last: the local proof may fail where
+/// the bound still holds, with the help of faces that are far along the surface.
 bool Run::truly_exceeds(Region& region, Proposer& proposer) {
   proposer.collapse(region, proposer.refused_placement());
   TriangleMesh soup;

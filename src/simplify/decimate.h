@@ -32,9 +32,9 @@ class DecimationThreads {
   [[nodiscard]] CollapseCounts counts() const;
 
   ProofWorkers workers;
-  std::vector<std::unique_ptr<Proposer>> proposers;   ///< by thread
+  std::vector<std::unique_ptr<Proposer>> proposers;    ///< by thread
   std::vector<std::unique_ptr<ChangeProver>> provers;  ///< by thread
-  CollapseCounts together;  ///< of what was proven together
+  CollapseCounts together;                             ///< of what was proven together
 };
 
 /// Decimates until nothing more fits or the goal is reached. The state is proven for the tolerance of the goal, which

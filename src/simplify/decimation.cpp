@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -18,9 +17,9 @@
 namespace meshbound {
 namespace {
 
-/// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge and
-/// miss its middle.
-double spacing_of_samples = std::getenv("SPACING") ? std::atof(std::getenv("SPACING")) : 4;
+/// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge
+/// and miss its middle.
+constexpr double spacing_of_samples = 4;
 
 TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   TriangleMesh result;
@@ -154,9 +153,7 @@ double Decimation::rounding_of_output() const {
 }
 
 /// For the ways into and out of the frame, of the original and of the result, and for the output format.
-double Decimation::room() const {
-  return 4 * frame_.rounding() + frame_.length_to_frame(2 * rounding_of_output());
-}
+double Decimation::room() const { return 4 * frame_.rounding() + frame_.length_to_frame(2 * rounding_of_output()); }
 
 EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopToken& stop) {
   const double framed = frame_.length_to_frame(tolerance);

@@ -42,8 +42,8 @@ class Decimation {
   const TriangleMesh& original_;  ///< `order_.mesh`: all indices here are its
   const SimplifyOptions& options_;
   WorkingFrame frame_;
-  double largest_ = 0;          ///< coordinate of the model
-  std::vector<Vec3> vertices_;  ///< of the original, in the frame
+  double largest_ = 0;                         ///< coordinate of the model
+  std::vector<Vec3> vertices_;                 ///< of the original, in the frame
   std::vector<std::uint32_t> by_start_point_;  ///< these sorted by place
   Bvh tree_;                                   ///< in the frame
   std::optional<DecimationState> state_;

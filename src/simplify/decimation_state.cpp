@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "numeric/rounding.h"
 #include "simplify/edge_queue.h"
@@ -14,11 +13,10 @@ namespace meshbound {
 
 double internal::proof_fault = 1;
 
-
 namespace {
 
 /// Points between the ends of one edge: more cost more time than they save.
-double max_between = std::getenv("MAXB") ? std::atof(std::getenv("MAXB")) : 7;
+constexpr double max_between = 7;
 
 /// What is left of the tolerance is room in which the measurement of the finished mesh can decide without refining to
 /// the last digit: it accepts an upper bound of the whole tolerance.
@@ -51,8 +49,7 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
 
 DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
                                  const std::vector<std::array<std::uint32_t, 3>>& original_triangles,
-                                 const Bvh& original_tree, ArrayMesh start,
-                                 std::vector<std::uint32_t> vertex_of_vertex,
+                                 const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                                  std::vector<std::uint32_t> triangle_of_face)
     : vertices(original_vertices),
       triangles(original_triangles),
@@ -73,6 +70,14 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       nearest(source_triangle) {
   for (const Vec3 p : vertices) magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
+}
+
+void DecimationState::grow_tolerance(double to) {
+  if (to == tolerance) return;
+  tolerance = to;
+  limit = provable(to);
+  std::fill(refused_at.begin(), refused_at.end(), 0);
+  std::fill(share.begin(), share.end(), 1.0F);
 }
 
 /// What must be proven in doubles so that `value` holds in real arithmetic.

@@ -96,6 +96,7 @@ struct Region {
   EditLog log;  ///< of what has not been proven
   std::size_t removed_faces = 0;
   std::uint32_t clock = 0;
+  std::vector<std::uint32_t> vertices;  ///< of the region; empty where it is the whole mesh
 };
 
 /// A mesh under decimation and all that is known of it.
@@ -135,8 +136,10 @@ struct DecimationState {
   std::uint32_t clock = 0;                         ///< changes since the beginning
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
   std::vector<std::uint8_t> hopeless;  ///< by edge: whether a larger share of the tolerance would not have helped
-  std::vector<std::uint32_t> place_in_queue;       ///< by edge
+  std::vector<std::uint32_t> place_in_queue;  ///< by edge
 
+  /// All proofs hold for a larger tolerance as well, and what was refused may fit now. Not for a smaller one.
+  void grow_tolerance(double to);
   /// What must be found in doubles so that `value` holds in real arithmetic.
   [[nodiscard]] double provable(double value) const;
   /// What must be found in doubles around a triangle so that the tolerances hold there.
@@ -144,8 +147,8 @@ struct DecimationState {
   [[nodiscard]] double limit_in(const Eigen::AlignedBox3d& box) const {
     return local ? provable(local->sufficient_around(box, tolerance)) : limit;
   }
-  std::vector<std::uint32_t> kept;    ///< original triangles without a face near: part of every result as they are
-  std::vector<std::uint8_t> is_kept;  ///< by original triangle; empty: none is
+  std::vector<std::uint32_t> kept;     ///< original triangles without a face near: part of every result as they are
+  std::vector<std::uint8_t> is_kept;   ///< by original triangle; empty: none is
   CoverAssignment cover;               ///< which faces each original triangle is proven to be near
   std::vector<std::uint32_t> nearest;  ///< by face: an original triangle near it
 };

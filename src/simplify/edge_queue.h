@@ -41,7 +41,6 @@ class EdgeQueue {
     rise(at);
     sink(place_[last.edge]);
   }
-  [[nodiscard]] float min_cost() const { return heap_.front().cost; }
   Corner pop() {
     const Corner edge = heap_.front().edge;
     erase(edge);

@@ -78,7 +78,7 @@ class Proposer {
   StarSamples samples_;
   HeightKernel height_kernel_ = fastest_height_kernel();
   EdgeStar star_;
-  std::vector<GuardedFace> before_;  ///< the faces that move
+  std::vector<GuardedFace> before_;    ///< the faces that move
   double limit_ = 0, full_limit_ = 0;  ///< of samples, with the share that they may reach, and of the tolerance
   int max_steps_ = 0;
   bool lowered_ = false;   ///< the last place is one where the largest distance is least

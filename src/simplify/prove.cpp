@@ -443,8 +443,7 @@ void Proof::cover_anywhere() {
     if (draft(at).empty()) lost.push_back(at);
   if (lost.empty()) return;
   const FaceBoxes boxes(state_.mesh);
-  for (const std::uint32_t at : lost)
-    workers_.workers_.front()->cover_anywhere(originals_[at], boxes, faces_[at]);
+  for (const std::uint32_t at : lost) workers_.workers_.front()->cover_anywhere(originals_[at], boxes, faces_[at]);
 }
 
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {

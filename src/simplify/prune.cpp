@@ -59,8 +59,7 @@ std::vector<std::uint32_t> originals_of(const DecimationState& state, const Comp
 
 Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bool keeps_borders,
              ProofWorkers& workers) {
-  state.tolerance = std::max(state.tolerance, tolerance);
-  state.limit = state.provable(state.tolerance);
+  state.grow_tolerance(tolerance);
   Pruned pruned;
   const std::vector<Component> all = components(state.mesh);
   if (all.size() < 2) return pruned;

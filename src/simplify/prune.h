@@ -11,8 +11,8 @@ struct Pruned {
 };
 
 /// Removes components, the smallest first, as long as `min_faces` are left: those whose part of the original is proven
-/// to lie within the tolerance of what remains. Ones with locked vertices, and where `keeps_borders` ones with a border,
-/// stay. The state has nothing unproven. O(n log n + size of the original).
+/// to lie within the tolerance of what remains. Ones with locked vertices, and where `keeps_borders` ones with a
+/// border, stay. The state has nothing unproven. O(n log n + size of the original).
 Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bool keeps_borders,
              ProofWorkers& workers);
 

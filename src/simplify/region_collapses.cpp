@@ -65,9 +65,10 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
 
 void RegionCollapses::collapse_all() {
   EdgeQueue queue(state_.place_in_queue);
-  for (Corner c = 0; c < 3 * mesh().face_count(); ++c)
-    if (!mesh().is_removed(c / 3) && mesh().edge(c) == c && is_open(c)) queue.put(c, proposer_.cost(c));
-  while (!queue.empty() && queue.min_cost() <= limits_.max_cost && !must_stop()) {
+  for_each_edge([&](Corner e) {
+    if (is_open(e)) queue.put(e, proposer_.cost(e));
+  });
+  while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_before_) queue.erase(e);
     mesh().for_each_corner(kept(), [&](Corner c) {

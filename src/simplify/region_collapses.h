@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,9 +14,8 @@ namespace meshbound {
 class RegionCollapses {
  public:
   struct Limits {
-    double share = 1;                                         ///< of the tolerance, that samples may reach
-    float max_cost = std::numeric_limits<float>::infinity();  ///< of `collapse_all`
-    std::function<bool(std::size_t removed)> must_stop;       ///< asked with the number of faces gone from the region
+    double share = 1;                                    ///< of the tolerance, that samples may reach
+    std::function<bool(std::size_t removed)> must_stop;  ///< asked with the number of faces gone from the region
     /// Asked where a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
     /// None: they go on.
     std::function<bool()> ends_at_refusal;
@@ -33,6 +31,21 @@ class RegionCollapses {
   [[nodiscard]] bool owns_face(std::uint32_t face) const;
   /// Whether both ends of the edge belong to the region, and something near has changed since it was refused.
   [[nodiscard]] bool is_open(Corner edge) const;
+  /// Calls `visit(edge)` for each edge of the region, and others that begin in it.
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    if (split_.region_of.empty()) {
+      for (Corner c = 0; c < 3 * mesh().face_count(); ++c)
+        if (!mesh().is_removed(c / 3) && mesh().edge(c) == c) visit(c);
+      return;
+    }
+    for (const std::uint32_t v : region_.vertices) {
+      mesh().for_each_corner(v, [&](Corner c) {
+        if (mesh().edge(c) == c) visit(c);
+        return true;
+      });
+    }
+  }
   [[nodiscard]] bool must_stop() const { return ended_ || limits_.must_stop(region_.removed_faces); }
 
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the

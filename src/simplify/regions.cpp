@@ -2,14 +2,13 @@
 #include "simplify/regions.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <span>
 
 namespace meshbound {
 namespace {
 
 /// Smaller regions lose more at their seams than threads gain.
-std::size_t min_vertices_of_region = std::getenv("MINV") ? std::atoi(std::getenv("MINV")) : 4000;
+constexpr std::size_t min_vertices_of_region = 4000;
 constexpr std::uint32_t max_regions = 64;
 
 /// Where the first cut of a shifted split runs; all others halve.
@@ -22,13 +21,18 @@ class Cutter {
       if (state.mesh.is_vertex(v)) vertices_.push_back(v);
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
-  void run(std::uint32_t regions, int shift) { cut(vertices_, regions, shift == 0 ? 0.5 : shifted_cut); }
+  /// By region: its vertices.
+  std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions, int shift) {
+    cut(vertices_, regions, shift == 0 ? 0.5 : shifted_cut);
+    return std::move(of_region_);
+  }
 
  private:
   void cut(std::span<std::uint32_t> vertices, std::uint32_t regions, double share) {
     if (regions == 1) {
-      for (const std::uint32_t v : vertices) into_.region_of[v] = next_;
-      ++next_;
+      for (const std::uint32_t v : vertices) into_.region_of[v] = static_cast<std::uint32_t>(of_region_.size());
+      std::vector<std::uint32_t>& of_region = of_region_.emplace_back(vertices.begin(), vertices.end());
+      std::sort(of_region.begin(), of_region.end());
       return;
     }
     Eigen::AlignedBox3d box;
@@ -53,7 +57,7 @@ class Cutter {
   const DecimationState& state_;
   Split& into_;
   std::vector<std::uint32_t> vertices_;
-  std::uint32_t next_ = 0;
+  std::vector<std::vector<std::uint32_t>> of_region_;
 };
 
 /// The numbers of changes of a region follow those of the regions before: there are fewer than faces.
@@ -66,7 +70,7 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
   }
   std::uint32_t number = state.last_number();
   for (std::uint32_t r = 0; r < count; ++r) {
-    split.regions.push_back({r, EditLog{number, {}, {}}, 0, state.clock});
+    split.regions.push_back({r, EditLog{number, {}, {}}, 0, state.clock, {}});
     number += faces[r];
   }
 }
@@ -81,7 +85,10 @@ Split split(const DecimationState& state, int shift) {
   if (count > 1) {
     result.region_of.assign(state.mesh.vertex_count(), ArrayMesh::none);
     if (shift != 0) ++count;
-    cutter.run(count, shift);
+    auto vertices = cutter.run(count, shift);
+    make_regions(state, result, count);
+    for (std::uint32_t r = 0; r < count; ++r) result.regions[r].vertices = std::move(vertices[r]);
+    return result;
   }
   make_regions(state, result, count);
   return result;
