@@ -40,6 +40,9 @@ class Samples {
   [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
   [[nodiscard]] std::uint32_t following(std::uint32_t sample) const { return samples_[sample].following; }
 
+  /// The sample is going to be asked for.
+  void prefetch(std::uint32_t sample) const { __builtin_prefetch(&samples_[sample]); }
+
   /// The samples of the face are to be given to others.
   void clear(std::uint32_t face) { first_[face] = none; }
   void give_to(std::uint32_t sample, std::uint32_t face) {

@@ -81,16 +81,17 @@ Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {}
 
 void Proposer::gather_samples() {
   gathered_ = true;
-  samples_.begin(origin_);
-  for (const std::uint32_t face : star_.removed) samples_.add_face(face);
   numbers_.clear();
   beside_.clear();
   for (const Corner c : star_.moved) {
-    samples_.add_face(c / 3);
     numbers_.push_back(c / 3);
     const Corner across = state_.mesh.twin(next_corner(c));
     if (across != ArrayMesh::none && owns(across / 3)) beside_.push_back(across / 3);
   }
+  samples_.begin(origin_);
+  all_faces_ = numbers_;
+  all_faces_.insert(all_faces_.end(), star_.removed.begin(), star_.removed.end());
+  samples_.add_faces(all_faces_);
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.

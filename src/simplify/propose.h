@@ -88,9 +88,10 @@ class Proposer {
   Vec3 tried_;             ///< the first place
   Vec3 origin_;
   SamplePoints few_;
-  std::vector<SampleFace> faces_;       ///< that stay, as they would be
-  std::vector<std::uint32_t> numbers_;  ///< of these in the mesh
-  std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
+  std::vector<SampleFace> faces_;         ///< that stay, as they would be
+  std::vector<std::uint32_t> numbers_;    ///< of these in the mesh
+  std::vector<std::uint32_t> all_faces_;  ///< of the star, with those that go
+  std::vector<std::uint32_t> beside_;     ///< faces around the star, of the same region
   LinearHeights heights_;
 };
 

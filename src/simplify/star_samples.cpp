@@ -27,11 +27,26 @@ void StarSamples::begin(Vec3 origin) {
   ids_.clear();
 }
 
-void StarSamples::add_face(std::uint32_t face) {
+/// One of each list at a time: where the next one is known only from the last, many are fetched at once.
+void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
   const Samples& samples = state_.samples;
-  for (std::uint32_t s = samples.first(face); s != Samples::none; s = samples.following(s)) {
-    ids_.push_back(s);
-    points_.add(samples.at(s) - origin_);
+  next_.clear();
+  for (const std::uint32_t face : faces) {
+    if (samples.first(face) == Samples::none) continue;
+    samples.prefetch(samples.first(face));
+    next_.push_back(samples.first(face));
+  }
+  while (!next_.empty()) {
+    std::size_t left = 0;
+    for (const std::uint32_t s : next_) {
+      ids_.push_back(s);
+      points_.add(samples.at(s) - origin_);
+      const std::uint32_t following = samples.following(s);
+      if (following == Samples::none) continue;
+      samples.prefetch(following);
+      next_[left++] = following;
+    }
+    next_.resize(left);
   }
 }
 

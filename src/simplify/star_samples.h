@@ -17,7 +17,7 @@ class StarSamples {
 
   /// Starts anew, without samples. `points` are relative to `origin`, a point near by.
   void begin(Vec3 origin);
-  void add_face(std::uint32_t face);
+  void add_faces(std::span<const std::uint32_t> faces);
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] const SamplePoints& points() const { return points_; }
 
@@ -44,7 +44,8 @@ class StarSamples {
   SlopeKernel kernel_ = fastest_slope_kernel();
   std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;
-  std::vector<std::uint32_t> ids_;  ///< by point
+  std::vector<std::uint32_t> next_;  ///< samples of each face that is being added
+  std::vector<std::uint32_t> ids_;   ///< by point
   SamplePoints points_;
   std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces
   std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< points that only a face beside is near
