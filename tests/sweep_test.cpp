@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every real mesh on this machine through the simplifier at many tolerances: what would be written is measured afresh,
-// and no verdict may stay open. Failures name the mesh, the tolerance and the interval.
+// Every real mesh on this machine through the simplifier at many tolerances, with every driver: what would be written
+// is measured afresh, and no verdict may stay open. Failures name the mesh, the tolerance and the interval.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "datasets.h"
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "drivers.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/report.h"
+#include "meshbound/simplify.h"
 
 namespace meshbound {
 namespace {
@@ -34,16 +35,13 @@ struct Subject {
   std::string name;
   TriangleMesh mesh;
   double diagonal = 0;
-  double largest_coordinate = 0;
 };
 
 /// Nothing where the reader refuses the file.
 std::optional<Subject> read_subject(const fs::path& file) {
   try {
     Subject subject{file.parent_path().filename().string() + '/' + file.filename().string(), read_mesh(file).mesh};
-    const Eigen::AlignedBox3d box = used_bounding_box(subject.mesh);
-    subject.diagonal = diagonal_of(box);
-    subject.largest_coordinate = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    subject.diagonal = diagonal_of(used_bounding_box(subject.mesh));
     (void)Bvh(subject.mesh, BvhOptions{1});  // refuses coordinates that are too large
     return subject;
   } catch (const Error&) {
@@ -51,16 +49,12 @@ std::optional<Subject> read_subject(const fs::path& file) {
   }
 }
 
-/// How far writing to this format may move a vertex, as `simplify_with_bound` allows for it (STL holds floats).
-double output_rounding(const fs::path& format, double largest_coordinate) {
-  return format_of(format) == FileFormat::Stl ? 2 * std::max(largest_coordinate * 0x1p-24, 0x1p-150) : 0;
-}
-
-cgal::SimplifyOptions options_for(const Subject& subject, double tolerance, const fs::path& format) {
-  cgal::SimplifyOptions options;
+SimplifyOptions options_for(double tolerance, const fs::path& format, const test::NamedDriver& driver) {
+  SimplifyOptions options;
   options.tolerance = tolerance;
-  options.output_rounding = output_rounding(format, subject.largest_coordinate + tolerance);
+  options.precision = format_of(format) == FileFormat::Stl ? Precision::Single : Precision::Double;
   options.threads = 1;
+  options.driver = driver.driver;
   return options;
 }
 
@@ -74,23 +68,24 @@ DistanceOptions measurement(const Subject& subject, double tolerance) {
 }
 
 /// Simplifies and measures what a file of this format would hold. Whether the verdict is Within.
-bool is_decided(const Subject& subject, double tolerance, const fs::path& format) {
-  const cgal::SimplifiedLevel level =
-      cgal::simplify_with_bound(subject.mesh, options_for(subject, tolerance, format)).last();
+bool is_decided(const Subject& subject, double tolerance, const fs::path& format, const test::NamedDriver& driver) {
+  const SimplifiedLevel level = simplify_with_bound(subject.mesh, options_for(tolerance, format, driver)).last();
   const TriangleMesh written = rounded_for(format, level.mesh);
   const SymmetricDistance distance = symmetric_distance(subject.mesh, written, measurement(subject, tolerance));
   const bool is_within = level.verdict == Verdict::Within && distance.bounds.upper <= tolerance;
   if (!is_within)
     std::printf(
-        "undecided: %s to %s at %.17g (%.4g%%), %zu faces left: library's verdict %s, measured [%.17g, %.17g]\n",
-        subject.name.c_str(), format.c_str(), tolerance, 100 * tolerance / subject.diagonal, level.faces(),
-        to_string(level.verdict).c_str(), distance.bounds.lower, distance.bounds.upper);
+        "undecided: %s to %s, driver %s, at %.17g (%.4g%%), %zu faces left: library's verdict %s, measured [%.17g, "
+        "%.17g]\n",
+        subject.name.c_str(), format.c_str(), driver.name.c_str(), tolerance, 100 * tolerance / subject.diagonal,
+        level.faces(), to_string(level.verdict).c_str(), distance.bounds.lower, distance.bounds.upper);
   return is_within;
 }
 
 int count_undecided(const Subject& subject, std::span<const double> tolerances, const fs::path& format) {
   int undecided = 0;
-  for (const double tolerance : tolerances) undecided += is_decided(subject, tolerance, format) ? 0 : 1;
+  for (const test::NamedDriver& driver : test::drivers())
+    for (const double tolerance : tolerances) undecided += is_decided(subject, tolerance, format, driver) ? 0 : 1;
   std::printf("%s, %zu triangles, %s: %zu tolerances, %d undecided\n", subject.name.c_str(),
               subject.mesh.triangles.size(), format.c_str(), tolerances.size(), undecided);
   std::fflush(stdout);

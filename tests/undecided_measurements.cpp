@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Linked with the source of simplify_with_bound: the tool as it is, but the first measurements of results, as many as
 // the environment says, count as undecided.
 #include <cstdlib>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <utility>
@@ -18,8 +19,12 @@ class FirstError {
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!error_) error_ = std::current_exception();
+      has_error_ = true;
     }
   }
+
+  /// For work that is of no use once other work has failed.
+  [[nodiscard]] bool has_error() const { return has_error_; }
 
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
@@ -28,6 +33,7 @@ class FirstError {
  private:
   std::mutex mutex_;
   std::exception_ptr error_;
+  std::atomic<bool> has_error_ = false;
 };
 
 }  // namespace meshbound

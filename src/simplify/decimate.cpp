@@ -70,6 +70,7 @@ class Run {
   DecimationThreads& threads_;
   StopToken stop_of_proof_;
   std::atomic<EndedBy> ended_by_{EndedBy::NothingFits};
+  FirstError error_;  ///< of a region: the others end
 };
 
 /// Triangles of the original that the mesh was not made from need a face that covers them; those that have none stay.
@@ -86,24 +87,24 @@ void Run::keep_what_has_no_face() {
 
 /// Runs of the regions of a split side by side.
 void Run::in_regions(Split split, const Work& work) {
-  FirstError error;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_.count())
   for (std::size_t r = 0; r < split.regions.size(); ++r) {
-    error.guard([&] {
+    if (error_.has_error()) continue;
+    error_.guard([&] {
       const auto thread = static_cast<std::size_t>(omp_get_thread_num());
       threads_.proposers[thread]->enter(split, split.regions[r]);
       work(split, split.regions[r], *threads_.proposers[thread], *threads_.provers[thread]);
     });
   }
   merge(state_, std::move(split));
-  error.rethrow();
+  error_.rethrow();
 }
 
 /// For one region: asked before each collapse.
 std::function<bool(std::size_t)> Run::must_stop() {
   const bool tells = omp_get_thread_num() == 0 && goal_.progress;
   return [this, tells, edges = std::uint32_t{0}](std::size_t removed) mutable {
-    if (has_ended()) return true;
+    if (has_ended() || error_.has_error()) return true;
     if (goal_.target_faces > 0 && state_.faces - removed <= goal_.target_faces) {
       ended_by_ = EndedBy::Target;
       return true;

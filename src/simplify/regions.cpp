@@ -16,14 +16,14 @@ constexpr double shifted_cut = 1.0 / 3;
 
 class Cutter {
  public:
-  explicit Cutter(const DecimationState& state, Split& into) : state_(state), into_(into) {
+  Cutter(const DecimationState& state, Split& into, int shift) : state_(state), into_(into), shift_(shift) {
     for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
       if (state.mesh.is_vertex(v)) vertices_.push_back(v);
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
   /// By region: its vertices.
-  std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions, int shift) {
-    cut(vertices_, regions, shift == 0 ? 0.5 : shifted_cut);
+  std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions) {
+    cut(vertices_, regions, shift_ == 0 ? 0.5 : shifted_cut);
     return std::move(of_region_);
   }
 
@@ -36,16 +36,10 @@ class Cutter {
       return;
     }
     Eigen::AlignedBox3d box;
-    for (const std::uint32_t v : vertices) {
-      const Vec3 p = state_.mesh.position(v);
-      box.extend(Eigen::Vector3d(p.x, p.y, p.z));
-    }
+    for (const std::uint32_t v : vertices) box.extend(position(v));
     Eigen::Index axis = 0;
     box.sizes().maxCoeff(&axis);
-    const auto along = [&](std::uint32_t v) {
-      const Vec3 p = state_.mesh.position(v);
-      return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-    };
+    const auto along = [&](std::uint32_t v) { return position(v)[axis]; };
     const auto middle = static_cast<std::size_t>(share * static_cast<double>(vertices.size()));
     std::nth_element(
         vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
@@ -54,8 +48,17 @@ class Cutter {
     cut(vertices.subspan(middle), regions - regions / 2, 0.5);
   }
 
+  /// A shifted split has axes of other directions, scaled by 3: planes of both splits share lines at most, where
+  /// planes along the same axes through the middles of a symmetric mesh would be the same ones.
+  [[nodiscard]] Eigen::Vector3d position(std::uint32_t v) const {
+    const Vec3 p = state_.mesh.position(v);
+    if (shift_ == 0) return {p.x, p.y, p.z};
+    return {2 * p.x + 2 * p.y + p.z, p.y - 2 * p.x + 2 * p.z, p.x - 2 * p.y + 2 * p.z};
+  }
+
   const DecimationState& state_;
   Split& into_;
+  const int shift_;
   std::vector<std::uint32_t> vertices_;
   std::vector<std::vector<std::uint32_t>> of_region_;
 };
@@ -79,13 +82,13 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
 
 Split split(const DecimationState& state, int shift) {
   Split result;
-  Cutter cutter(state, result);
+  Cutter cutter(state, result, shift);
   std::uint32_t count = 1;
   while (count < max_regions && cutter.vertices() >= 2 * std::size_t{count} * min_vertices_of_region) count *= 2;
   if (count > 1) {
     result.region_of.assign(state.mesh.vertex_count(), ArrayMesh::none);
     if (shift != 0) ++count;
-    auto vertices = cutter.run(count, shift);
+    auto vertices = cutter.run(count);
     make_regions(state, result, count);
     for (std::uint32_t r = 0; r < count; ++r) result.regions[r].vertices = std::move(vertices[r]);
     return result;

@@ -21,7 +21,7 @@ struct Split {
 };
 
 /// Cuts a mesh into regions of about equal numbers of vertices, each between planes. The number depends on the mesh
-/// alone. Cuts of another `shift`, 0 or 1, run through the middle of regions. O(n log n).
+/// alone. Cuts of another `shift`, 0 or 1, run in other directions. O(n log n).
 [[nodiscard]] Split split(const DecimationState& state, int shift);
 /// One region of all.
 [[nodiscard]] Split whole(const DecimationState& state);

@@ -1,7 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Passes when an installed meshbound can be compiled against, linked and run.
+// Passes when an installed meshbound can be compiled against, linked and run: it measures, and simplifies without CGAL.
 #include <meshbound/distance.h>
 #include <meshbound/mesh_summary.h>
+#include <meshbound/simplify.h>
+
+namespace {
+
+/// Whether a flat grid comes out with fewer faces, within the tolerance.
+bool simplifies() {
+  meshbound::TriangleMesh grid;
+  for (std::uint32_t i = 0; i < 16; ++i) grid.vertices.emplace_back(i % 4, i / 4, 0);
+  for (std::uint32_t i = 0; i < 11; ++i) {
+    if (i % 4 == 3) continue;
+    grid.triangles.push_back({i, i + 1, i + 5});
+    grid.triangles.push_back({i, i + 5, i + 4});
+  }
+  meshbound::SimplifyOptions options;
+  options.tolerance = 0.01;
+  const meshbound::SimplifiedLevel level = meshbound::simplify_with_bound(grid, options).last();
+  return level.faces() < grid.triangles.size() && level.verdict == meshbound::Verdict::Within;
+}
+
+}  // namespace
 
 int main() {
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -10,5 +30,6 @@ int main() {
   const meshbound::MeshSummary summary = meshbound::summarise(view);
   const meshbound::Bvh bvh(view);
   const meshbound::SymmetricDistance distance = meshbound::symmetric_distance(bvh, bvh);
-  return summary.faces == 1 && !summary.closed && distance.bounds.lower == 0 ? 0 : 1;
+  const bool is_measured = summary.faces == 1 && !summary.closed && distance.bounds.lower == 0;
+  return is_measured && simplifies() ? 0 : 1;
 }

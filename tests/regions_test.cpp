@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Large meshes are cut into regions that threads decimate side by side: the result is the same for any number of
+// threads, holds its bound, and no seam is left; every kind of input and every way to end comes through.
+#include "simplify/regions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include "datasets/analytic_meshes.h"
+#include "decimation_states.h"
+#include "drivers.h"
+#include "meshbound/lod_chain.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/simplify.h"
+#include "reference/small_meshes.h"
+
+namespace meshbound {
+namespace {
+
+SimplifyOptions within(double tolerance) {
+  SimplifyOptions options;
+  options.tolerance = tolerance;
+  options.threads = 2;
+  return options;
+}
+
+TriangleMesh sphere() { return datasets::icosphere(1, 5); }      // 10,242 vertices: two regions
+TriangleMesh terrain() { return datasets::terrain(1, 100, 3); }  // 10,201 vertices
+
+void expect_within(const TriangleMesh& original, const SimplifiedLevel& level) {
+  EXPECT_EQ(level.verdict, Verdict::Within);
+  EXPECT_EQ(check_symmetric(Bvh(original), Bvh(level.mesh), level.tolerance).verdict, Verdict::Within);
+}
+
+std::vector<std::size_t> sizes(const Split& split) {
+  std::vector<std::size_t> sizes(split.regions.size(), 0);
+  for (const std::uint32_t r : split.region_of) {
+    if (r != ArrayMesh::none) ++sizes[r];
+  }
+  return sizes;
+}
+
+TEST(Split, CutsLargeMeshesIntoRegionsOfEqualSizeAndLeavesSmallOnesWhole) {
+  const test::StateOf small(datasets::icosphere(1, 4));
+  EXPECT_EQ(split(*small, 0).regions.size(), 1u);
+  const test::StateOf large(datasets::icosphere(1, 6));
+  const Split halved = split(*large, 0);
+  ASSERT_GT(halved.regions.size(), 2u);
+  const double even = static_cast<double>(large->mesh.vertex_count()) / static_cast<double>(halved.regions.size());
+  for (const std::size_t vertices : sizes(halved)) EXPECT_NEAR(static_cast<double>(vertices), even, 4);
+}
+
+/// Otherwise an edge at a seam of one would be at a seam of the other too, and never tried.
+TEST(Split, CutsElsewhereWhereItIsShifted) {
+  const test::StateOf state(datasets::icosphere(1, 6));
+  const Split one = split(*state, 0), other = split(*state, 1);
+  std::size_t at_a_seam_of_one = 0, at_seams_of_both = 0;
+  const auto is_seam = [&](const Split& of, Corner c) {
+    return of.region_of[state->mesh.start(c)] != of.region_of[state->mesh.end(c)];
+  };
+  for (Corner c = 0; c < 3 * state->mesh.face_count(); ++c) {
+    at_a_seam_of_one += is_seam(one, c) ? 1 : 0;
+    at_seams_of_both += is_seam(one, c) && is_seam(other, c) ? 1 : 0;
+  }
+  EXPECT_GT(at_a_seam_of_one, 0u);
+  EXPECT_LT(20 * at_seams_of_both, at_a_seam_of_one);
+}
+
+TEST(Split, DependsOnTheMeshAlone) {
+  const test::StateOf state(terrain());
+  for (const int shift : {0, 1}) EXPECT_EQ(split(*state, shift).region_of, split(*state, shift).region_of);
+}
+
+TEST(Split, NumbersOfChangesOfRegionsNeverMeet) {
+  const test::StateOf state(datasets::icosphere(1, 6));
+  const Split parts = split(*state, 0);
+  std::vector<std::uint32_t> faces(parts.regions.size(), 0);
+  for (std::uint32_t f = 0; f < state->mesh.face_count(); ++f) ++faces[parts.region_of[state->mesh.vertex(3 * f)]];
+  for (std::size_t r = 0; r + 1 < parts.regions.size(); ++r)
+    EXPECT_LE(parts.regions[r].log.before + faces[r], parts.regions[r + 1].log.before);
+}
+
+TEST(Merge, CountsTheFacesThatAreGoneAndKeepsTheLogsInTheirOrder) {
+  test::StateOf state(datasets::icosphere(1, 6));
+  Split parts = split(*state, 0);
+  const std::size_t faces = state->faces;
+  for (Region& region : parts.regions) {
+    region.removed_faces = 2 + region.id;
+    region.clock = 10 + region.id;
+    if (region.id != 1) region.log.edits.emplace_back();
+  }
+  std::size_t removed = 0;
+  for (const Region& region : parts.regions) removed += region.removed_faces;
+  const std::size_t regions = parts.regions.size();
+  merge(*state, std::move(parts));
+  EXPECT_EQ(state->faces, faces - removed);
+  EXPECT_EQ(state->clock, 10 + regions - 1);
+  ASSERT_EQ(state->logs.size(), regions - 1) << "that of a region without a change is no use";
+  for (std::size_t i = 1; i < state->logs.size(); ++i)
+    EXPECT_LT(state->logs[i - 1].last_number(), state->logs[i].last_number());
+}
+
+class Regions : public testing::TestWithParam<test::NamedDriver> {
+ protected:
+  static SimplifyOptions options(double tolerance) {
+    SimplifyOptions options = within(tolerance);
+    options.driver = GetParam().driver;
+    return options;
+  }
+};
+
+TEST_P(Regions, TheResultIsTheSameForAnyNumberOfThreads) {
+  const TriangleMesh original = datasets::icosphere(1, 6);
+  std::vector<TriangleMesh> results;
+  for (const int threads : {1, 2, 5}) {
+    SimplifyOptions with = options(0.01);
+    with.threads = threads;
+    results.push_back(simplify_with_bound(original, with).last().mesh);
+  }
+  for (const TriangleMesh& result : results) {
+    EXPECT_EQ(result.vertices, results.front().vertices);
+    EXPECT_EQ(result.triangles, results.front().triangles);
+  }
+}
+
+/// Were seams left as they are, hundreds of faces would stay at each: on the sphere of 81,920 at least 8 times 100.
+TEST_P(Regions, LeaveNoSeams) {
+  EXPECT_LT(simplify_with_bound(datasets::icosphere(1, 6), options(0.01)).last().faces(), 450u);
+  EXPECT_EQ(simplify_with_bound(datasets::cube(1, 60), options(0.01)).last().faces(), 12u);
+}
+
+TEST_P(Regions, KeepTheTopologyOfTheOriginal) {
+  for (const TriangleMesh& original : {sphere(), terrain(), datasets::torus(1, 0.3, 180, 60)}) {
+    const TriangleMesh result = simplify_with_bound(original, options(0.005)).last().mesh;
+    EXPECT_EQ(summarise(result).closed, summarise(original).closed);
+    const auto euler = [](const TriangleMesh& mesh) {
+      std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+      for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax({t[k], t[(k + 1) % 3]}));
+      }
+      return static_cast<std::ptrdiff_t>(mesh.vertices.size() + mesh.triangles.size()) -
+             static_cast<std::ptrdiff_t>(edges.size());
+    };
+    EXPECT_EQ(euler(result), euler(original));
+  }
+}
+
+TEST_P(Regions, TheReportAddsUp) {
+  const TriangleMesh original = sphere();
+  const SimplifyResult result = simplify_with_bound(original, options(0.01));
+  // A closed surface of genus 0 has 2 vertices less than half its faces, and loses one by each collapse.
+  EXPECT_EQ(result.last().collapses_performed, (original.triangles.size() - result.last().faces()) / 2);
+  EXPECT_GT(result.last().collapses_refused, 0u);
+  EXPECT_EQ(result.counts.proven_together + result.counts.proven_alone, result.last().collapses_performed);
+  EXPECT_EQ(result.last().ended_by, EndedBy::NothingFits);
+}
+
+TEST_P(Regions, TakeSoupsThatAreNoManifolds) {
+  TriangleMesh soup = reference::both(sphere(), reference::moved(sphere(), {0.5, 0, 0}));
+  for (std::uint32_t t = 0; t < 20000; t += 7) std::swap(soup.triangles[t][0], soup.triangles[t][1]);
+  const auto second = static_cast<std::uint32_t>(soup.vertices.size() / 2);
+  for (std::uint32_t t = 0; t < 20000; t += 100) {
+    soup.triangles.push_back(soup.triangles[t]);
+    const std::uint32_t a = soup.triangles[t][0], b = soup.triangles[t][1];
+    soup.triangles.push_back({a, b, second + soup.triangles[t][2]});  // a third face at an edge
+    soup.triangles.push_back({a, a, b});
+  }
+  const SimplifyResult result = simplify_with_bound(soup, options(0.01));
+  expect_within(soup, result.last());
+  EXPECT_TRUE(result.split);
+  EXPECT_EQ(result.dropped_triangles + result.kept_triangles, 400u);
+  EXPECT_LT(result.last().faces(), soup.triangles.size() / 10);
+}
+
+TEST_P(Regions, KeepTrianglesThatTheMeshHasNoFaceNear) {
+  TriangleMesh soup = sphere();
+  const auto far = static_cast<std::uint32_t>(soup.vertices.size());
+  soup.vertices.emplace_back(3, 0, 0);
+  soup.triangles.push_back({0, 0, far});
+  const SimplifyResult result = simplify_with_bound(soup, options(0.01));
+  expect_within(soup, result.last());
+  EXPECT_EQ(result.kept_triangles, 1u);
+  EXPECT_LT(result.last().faces(), soup.triangles.size() / 10);
+}
+
+TEST_P(Regions, KeepLocksAndBordersOnBothSidesOfASeam) {
+  const TriangleMesh original = terrain();
+  SimplifyOptions with = options(0.01);
+  with.locked_vertices.assign(original.vertices.size(), false);
+  for (std::size_t v = 0; v < original.vertices.size(); v += 50) with.locked_vertices[v] = true;
+  with.preserve_boundary = true;
+  const SimplifyResult result = simplify_with_bound(original, with);
+  expect_within(original, result.last());
+  EXPECT_LT(result.last().faces(), original.triangles.size() / 2);
+  const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  const std::set<Eigen::Vector3d, decltype(less)> left(result.last().mesh.vertices.begin(),
+                                                       result.last().mesh.vertices.end(), less);
+  for (std::size_t v = 0; v < original.vertices.size(); ++v) {
+    const auto is_end = [](double x) { return x == 0 || x == 1; };
+    const bool on_border = is_end(original.vertices[v].x()) || is_end(original.vertices[v].y());
+    EXPECT_TRUE(left.count(original.vertices[v]) > 0 || !(with.locked_vertices[v] || on_border))
+        << original.vertices[v].transpose() << " locked " << with.locked_vertices[v];
+  }
+}
+
+TEST_P(Regions, EveryWayToRunEndsWithAProvenMesh) {
+  const TriangleMesh original = terrain();
+  SimplifyOptions with = options(0.01);
+  with.levels = {0.001, 0.004};
+  const SimplifyResult levels = simplify_with_bound(original, with);
+  ASSERT_EQ(levels.levels.size(), 3u);
+  for (const SimplifiedLevel& level : levels.levels) expect_within(original, level);
+  EXPECT_LT(levels.levels[2].faces(), levels.levels[1].faces());
+  EXPECT_LT(levels.levels[1].faces(), levels.levels[0].faces());
+  LodOptions chained;
+  chained.driver = GetParam().driver;
+  LodChain chain(original, chained);
+  for (const double tolerance : {1e-300, 0.002, 0.01}) expect_within(original, chain.next(tolerance));
+}
+
+TEST_P(Regions, ATimeLimitOrACancellationLeavesAProvenMesh) {
+  const TriangleMesh original = sphere();
+  SimplifyOptions with = options(0.01);
+  with.time_limit = 0;
+  const SimplifyResult at_once = simplify_with_bound(original, with);
+  expect_within(original, at_once.last());
+  EXPECT_EQ(at_once.last().ended_by, EndedBy::TimeLimit);
+  EXPECT_EQ(at_once.last().faces(), original.triangles.size());
+  // In the middle: told so by the progress of the run itself.
+  std::atomic<bool> cancel = false;
+  with = options(0.01);
+  with.threads = 1;
+  with.cancel = &cancel;
+  with.progress = [&](double fraction) { cancel = cancel || fraction > 0.3; };
+  const SimplifiedLevel level = simplify_with_bound(original, with).last();
+  EXPECT_EQ(level.ended_by, EndedBy::Cancelled);
+  EXPECT_LT(level.faces(), original.triangles.size() * 9 / 10);
+  EXPECT_GT(level.faces(), original.triangles.size() / 10);
+  EXPECT_EQ(check_symmetric(Bvh(original), Bvh(level.mesh), 0.01).verdict, Verdict::Within);
+}
+
+TEST_P(Regions, OneThatFailsEndsTheOthers) {
+  SimplifyOptions with = options(0.01);
+  with.threads = 1;
+  int calls = 0;
+  with.progress = [&](double) {
+    ++calls;
+    throw std::runtime_error("enough");
+  };
+  EXPECT_THROW((void)simplify_with_bound(datasets::icosphere(1, 6), with), std::runtime_error);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_P(Regions, ShowTheirProgressInTheCallingThreadAndPassOnWhatItThrows) {
+  SimplifyOptions with = options(0.01);
+  double last = -1;
+  const std::thread::id caller = std::this_thread::get_id();
+  bool elsewhere = false;
+  with.progress = [&](double fraction) {
+    elsewhere = elsewhere || std::this_thread::get_id() != caller;
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+  };
+  (void)simplify_with_bound(sphere(), with);
+  EXPECT_FALSE(elsewhere);
+  EXPECT_EQ(last, 1);
+  with.progress = [](double) { throw std::runtime_error("enough"); };
+  EXPECT_THROW((void)simplify_with_bound(sphere(), with), std::runtime_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(With, Regions, testing::ValuesIn(test::drivers()),
+                         [](const auto& driver) { return driver.param.name; });
+
+}  // namespace
+}  // namespace meshbound
