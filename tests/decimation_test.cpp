@@ -1,1 +1,249 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One decimation for everything: samples propose, proofs confirm, and what they do not confirm is repaired there only.
+// Wrong samples cost time, not the bound; wrong proofs are found by the measurement; nothing in the input or the
+// options changes the way that collapses are made.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "datasets/analytic_meshes.h"
+#include "drivers.h"
+#include "levels/level_run.h"
+#include "meshbound/simplify.h"
+#include "numeric/vector_code.h"
+#include "reference/small_meshes.h"
+#include "simplify/faults.h"
+
+namespace meshbound {
+namespace {
+
+SimplifyOptions within(double tolerance) {
+  SimplifyOptions options;
+  options.tolerance = tolerance;
+  options.threads = 1;
+  return options;
+}
+
+/// Sets a variable for its lifetime.
+template <class T>
+class Setting {
+ public:
+  Setting(T& variable, T value) : variable_(variable), before_(std::exchange(variable, value)) {}
+  ~Setting() { variable_ = before_; }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+ private:
+  T& variable_;
+  const T before_;
+};
+
+bool holds(const TriangleMesh& original, const SimplifiedLevel& level) {
+  return level.verdict == Verdict::Within &&
+         check_symmetric(Bvh(original), Bvh(level.mesh), level.tolerance).verdict == Verdict::Within;
+}
+
+void expect_equal(const SimplifyResult& a, const SimplifyResult& b) {
+  ASSERT_EQ(a.levels.size(), b.levels.size());
+  for (std::size_t i = 0; i < a.levels.size(); ++i) {
+    EXPECT_EQ(a.levels[i].mesh.vertices, b.levels[i].mesh.vertices);
+    EXPECT_EQ(a.levels[i].mesh.triangles, b.levels[i].mesh.triangles);
+    EXPECT_EQ(a.levels[i].source_vertex, b.levels[i].source_vertex);
+    EXPECT_EQ(a.levels[i].source_triangle, b.levels[i].source_triangle);
+  }
+}
+
+class Decimation : public testing::TestWithParam<test::NamedDriver> {
+ protected:
+  static SimplifyOptions options(double tolerance) {
+    SimplifyOptions options = within(tolerance);
+    options.driver = GetParam().driver;
+    return options;
+  }
+};
+
+TEST_P(Decimation, MakesMostCollapsesOfSmoothShapesTogether) {
+  for (const TriangleMesh& shape :
+       {datasets::icosphere(1, 5), datasets::torus(1, 0.3, 120, 48), datasets::cube(1, 30)}) {
+    const SimplifyResult result = simplify_with_bound(shape, options(0.01));
+    EXPECT_TRUE(holds(shape, result.last()));
+    EXPECT_GT(2 * result.counts.proven_together, result.last().collapses_performed);
+    EXPECT_EQ(result.counts.proven_together + result.counts.proven_alone, result.last().collapses_performed);
+    EXPECT_EQ(2 * result.last().collapses_performed + result.last().faces(), shape.triangles.size());
+  }
+}
+
+/// Samples may reach many times what they ought to: the proof of all collapses together fails, and those it fails for
+/// are taken back. The rest stays, so that little is lost.
+TEST_P(Decimation, RepairsWhatWrongSamplesHaveAdmitted) {
+  for (const TriangleMesh& shape : {datasets::terrain(1, 60, 3), datasets::torus(1, 0.3, 120, 48)}) {
+    const SimplifyResult right = simplify_with_bound(shape, options(0.01));
+    for (const double factor : {2.0, 30.0}) {
+      const Setting fault(internal::sample_fault, factor);
+      const SimplifyResult wrong = simplify_with_bound(shape, options(0.01));
+      EXPECT_TRUE(holds(shape, wrong.last()));
+      EXPECT_GT(wrong.counts.taken_back, right.counts.taken_back);
+      EXPECT_LT(static_cast<double>(wrong.last().faces()), 1.4 * static_cast<double>(right.last().faces()));
+    }
+  }
+}
+
+TEST_P(Decimation, RepairsForATargetThatWasReachedWithoutAProof) {
+  const TriangleMesh sphere = datasets::icosphere(1, 4);
+  SimplifyOptions with = options(0.001);
+  with.target_faces = 20;
+  const Setting fault(internal::sample_fault, 1000.0);
+  const SimplifyResult result = simplify_with_bound(sphere, with);
+  EXPECT_TRUE(holds(sphere, result.last()));
+  EXPECT_GT(result.counts.taken_back, 0u);
+  EXPECT_EQ(result.last().ended_by, EndedBy::NothingFits);
+  EXPECT_GT(result.last().faces(), 100u);
+}
+
+TEST_P(Decimation, IsFoundOutByTheMeasurementWhereItsProofsAreWrong) {
+  const TriangleMesh sphere = datasets::icosphere(1, 4);
+  const Setting fault(internal::proof_fault, 1.5);
+  const SimplifyResult result = simplify_with_bound(sphere, options(0.01));
+  EXPECT_EQ(result.last().verdict, Verdict::Exceeds);
+  EXPECT_GT(result.last().distance->bounds.lower, 0.01);
+}
+
+/// An input or options that differ a little from those of a plain run.
+struct Variant {
+  const char* name;
+  std::function<void(TriangleMesh&, SimplifyOptions&)> change;
+};
+
+std::vector<Variant> variants() {
+  return {
+      {"a duplicate triangle",
+       [](TriangleMesh& mesh, SimplifyOptions&) { mesh.triangles.push_back(mesh.triangles[5]); }},
+      {"a degenerate triangle",
+       [](TriangleMesh& mesh, SimplifyOptions&) {
+         const Triangle t = mesh.triangles[5];
+         mesh.triangles.push_back({t[0], t[1], t[1]});
+       }},
+      {"a triangle turned over",
+       [](TriangleMesh& mesh, SimplifyOptions&) { std::swap(mesh.triangles[5][0], mesh.triangles[5][1]); }},
+      {"pruning", [](TriangleMesh&, SimplifyOptions& options) { options.prune = true; }},
+      {"tolerances of triangles",
+       [](TriangleMesh& mesh, SimplifyOptions& options) { options.face_tolerances.assign(mesh.triangles.size(), 1); }},
+      {"a locked vertex",
+       [](TriangleMesh& mesh, SimplifyOptions& options) {
+         options.locked_vertices.assign(mesh.vertices.size(), false);
+         options.locked_vertices[7] = true;
+       }},
+      {"features", [](TriangleMesh&, SimplifyOptions& options) { options.feature_angle = 2; }},
+      {"single precision", [](TriangleMesh&, SimplifyOptions& options) { options.precision = Precision::Single; }},
+      {"a target that is not reached", [](TriangleMesh&, SimplifyOptions& options) { options.target_faces = 10; }},
+  };
+}
+
+TEST_P(Decimation, TakesTheSameWayForEveryInputAndOption) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 120, 48);
+  const CollapseCounts plain = decimate_levels(torus, options(0.01)).counts;
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(variant.name);
+    TriangleMesh mesh = torus;
+    SimplifyOptions with = options(0.01);
+    variant.change(mesh, with);
+    const CollapseCounts counts = decimate_levels(mesh, with).counts;
+    EXPECT_GT(1.05 * static_cast<double>(counts.proven_together), static_cast<double>(plain.proven_together));
+    EXPECT_LT(static_cast<double>(counts.originals_tested), 1.1 * static_cast<double>(plain.originals_tested));
+    EXPECT_LT(static_cast<double>(counts.tried), 1.1 * static_cast<double>(plain.tried));
+  }
+}
+
+/// Each goes on from the one before: half as many edges are tried as in a run for each, with no more proofs.
+TEST_P(Decimation, OfSeveralLevelsCostsLessThanOneForEach) {
+  for (const TriangleMesh& shape : {datasets::icosphere(1, 5), datasets::terrain(1, 60, 3)}) {
+    const std::vector<double> tolerances = {0.0025, 0.005, 0.01, 0.02};
+    CollapseCounts alone;
+    for (const double tolerance : tolerances) alone += decimate_levels(shape, options(tolerance)).counts;
+    SimplifyOptions with = options(tolerances.back());
+    with.levels.assign(tolerances.begin(), tolerances.end() - 1);
+    const CollapseCounts levels = decimate_levels(shape, with).counts;
+    EXPECT_LT(static_cast<double>(levels.originals_tested), 1.1 * static_cast<double>(alone.originals_tested));
+    EXPECT_LT(static_cast<double>(levels.tried), 0.7 * static_cast<double>(alone.tried));
+  }
+}
+
+TEST_P(Decimation, EndsAtATargetThatIsNearWithoutASingleProofOfItsOwn) {
+  SimplifyOptions with = options(0.05);
+  with.target_faces = 4000;
+  const SimplifyResult result = simplify_with_bound(datasets::icosphere(1, 4), with);
+  EXPECT_EQ(result.last().ended_by, EndedBy::Target);
+  EXPECT_EQ(result.last().faces(), 4000u);
+  EXPECT_EQ(result.last().collapses_performed, result.counts.proven_together);
+}
+
+TEST_P(Decimation, LeavesLockedVerticesAndTheBoundaryWhereTheyAre) {
+  const TriangleMesh terrain = datasets::terrain(1, 60, 3);
+  SimplifyOptions with = options(0.02);
+  with.preserve_boundary = true;
+  with.locked_vertices.assign(terrain.vertices.size(), false);
+  for (std::size_t v = 0; v < terrain.vertices.size(); v += 97) with.locked_vertices[v] = true;
+  const SimplifyResult result = simplify_with_bound(terrain, with);
+  EXPECT_GT(result.counts.proven_together, 1000u);
+  const auto& left = result.last().mesh.vertices;
+  for (std::size_t v = 0; v < terrain.vertices.size(); ++v) {
+    const Eigen::Vector3d& p = terrain.vertices[v];
+    const bool on_border = p.x() == 0 || p.y() == 0 || p.x() == 1 || p.y() == 1;
+    if (!with.locked_vertices[v] && !on_border) continue;
+    EXPECT_NE(std::find(left.begin(), left.end(), p), left.end()) << v;
+  }
+}
+
+/// Sources are different, in the order of the input, and a vertex of the input that is left is its own source.
+TEST_P(Decimation, NamesTheSourceOfEveryVertexAndTriangle) {
+  const TriangleMesh terrain = datasets::terrain(1, 40, 3);
+  SimplifyOptions with = options(0.01);
+  with.levels = {0.003};
+  with.locked_vertices.assign(terrain.vertices.size(), false);
+  for (std::size_t v = 0; v < terrain.vertices.size(); v += 50) with.locked_vertices[v] = true;
+  for (const SimplifiedLevel& level : simplify_with_bound(terrain, with).levels) {
+    ASSERT_EQ(level.source_vertex.size(), level.mesh.vertices.size());
+    ASSERT_EQ(level.source_triangle.size(), level.mesh.triangles.size());
+    EXPECT_EQ(std::set(level.source_vertex.begin(), level.source_vertex.end()).size(), level.source_vertex.size());
+    EXPECT_EQ(std::set(level.source_triangle.begin(), level.source_triangle.end()).size(),
+              level.source_triangle.size());
+    EXPECT_TRUE(std::is_sorted(level.source_vertex.begin(), level.source_vertex.end()));
+    for (std::size_t v = 0; v < level.source_vertex.size(); ++v) {
+      ASSERT_LT(level.source_vertex[v], terrain.vertices.size());
+      if (!with.locked_vertices[level.source_vertex[v]]) continue;
+      EXPECT_EQ(level.mesh.vertices[v], terrain.vertices[level.source_vertex[v]]);
+    }
+    for (const std::uint32_t triangle : level.source_triangle) EXPECT_LT(triangle, terrain.triangles.size());
+  }
+}
+
+TEST_P(Decimation, NamesTheTriangleItselfWhereNothingWasCollapsed) {
+  const TriangleMesh sphere = datasets::icosphere(1, 2);
+  for (const double time : {0.0, std::numeric_limits<double>::infinity()}) {
+    SimplifyOptions with = options(0);
+    with.time_limit = time;
+    const SimplifiedLevel level = simplify_with_bound(sphere, with).last();
+    for (std::uint32_t v = 0; v < sphere.vertices.size(); ++v) EXPECT_EQ(level.source_vertex[v], v);
+    for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t) EXPECT_EQ(level.source_triangle[t], t);
+  }
+}
+
+TEST_P(Decimation, GivesTheSameMeshWithAndWithoutVectorCode) {
+  if (!uses_avx2()) GTEST_SKIP() << "this machine has no AVX2";
+  for (const TriangleMesh& shape : {datasets::terrain(1, 40, 3), datasets::torus(1, 0.3, 60, 24)}) {
+    SimplifyOptions with = options(0.01);
+    with.levels = {0.003};
+    const SimplifyResult with_vectors = simplify_with_bound(shape, with);
+    const Setting portable(internal::portable_kernels, true);
+    ASSERT_FALSE(uses_avx2());
+    expect_equal(with_vectors, simplify_with_bound(shape, with));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(With, Decimation, testing::ValuesIn(test::drivers()),
+                         [](const auto& driver) { return driver.param.name; });
+
+}  // namespace
+}  // namespace meshbound

@@ -137,23 +137,24 @@ StopToken Run::stop_of_proof() const {
 /// of them are taken back.
 void Run::prove_and_repair() {
   if (state_.logs.empty()) return;
-  std::uint64_t proposed = 0;
-  for (const EditLog& log : state_.logs) proposed += log.edits.size();
+  std::uint64_t left = 0;  // of what was proposed
+  for (const EditLog& log : state_.logs) left += log.edits.size();
   const std::size_t faces = state_.faces;
   Proof proof(state_, threads_.workers);
   try {
     for (proof.run(stop_of_proof()); !proof.unproven().empty(); proof.run(stop_of_proof())) {
       const Repair repaired = repair(state_, proof.unproven());
       threads_.together.taken_back += repaired.changes;
+      left -= repaired.changes;
       proof.reopen(repaired.faces);
     }
     proof.commit();
   } catch (const Stopped&) {
     undo_all(state_);
     note_stop();
-    proposed = 0;
+    threads_.together.taken_back += std::exchange(left, 0);
   }
-  threads_.together.proven_together += proposed;
+  threads_.together.proven_together += left;
   threads_.together.originals_tested += proof.originals_tested;
   threads_.together.faces_tested += proof.faces_tested;
   if (ended_by_ == EndedBy::Target && state_.faces > goal_.target_faces && state_.faces > faces)
