@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the user wants kept is there afterwards, to the bit, and the rest is simplified all the same.
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <set>
 
 #include "datasets/analytic_meshes.h"
-#include "meshbound/cgal/deviation_monitor.h"
 #include "meshbound/cgal/lod_chain.h"
 #include "meshbound/cgal/simplify_with_bound.h"
 #include "meshbound/error.h"
@@ -18,7 +16,6 @@
 namespace meshbound::cgal {
 namespace {
 
-namespace SMS = CGAL::Surface_mesh_simplification;
 using Place = std::array<double, 3>;
 
 Place place(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -55,9 +52,9 @@ TEST(VertexLocks, KeepLockedVerticesToTheBitAndSimplifyTheRest) {
   const TriangleMesh far = reference::moved(datasets::torus(1, 0.3, 60, 24), {100.1, -3.3, 7.7});
   for (const CollapseCost cost : {CollapseCost::GarlandHeckbert, CollapseCost::LindstromTurk}) {
     SimplifyOptions options = within(0.03);
-    options.cost = cost;
+    options.driver = edge_collapse_driver(cost);
     options.locked_vertices = every(17, far.vertices.size());
-    const SimplifiedLevel level = simplify_with_bound(far, options).last();
+    const SimplifiedLevel level = cgal::simplify_with_bound(far, options).last();
     EXPECT_EQ(level.verdict, Verdict::Within);
     EXPECT_LT(level.faces(), far.triangles.size() / 3);
     const std::set<Place> left = places(level.mesh);
@@ -65,7 +62,7 @@ TEST(VertexLocks, KeepLockedVerticesToTheBitAndSimplifyTheRest) {
       EXPECT_TRUE(!options.locked_vertices[v] || left.contains(place(far.vertices[v]))) << v;
     }
     options.locked_vertices.clear();
-    EXPECT_LT(simplify_with_bound(far, options).last().faces(), level.faces()) << "locks cost nothing here";
+    EXPECT_LT(cgal::simplify_with_bound(far, options).last().faces(), level.faces()) << "locks cost nothing here";
   }
 }
 
@@ -80,7 +77,7 @@ TEST(VertexLocks, HoldInAllLevelsOfAChainAndOnDuplicatedVertices) {
   options.threads = 1;
   options.locked_vertices.assign(sphere.vertices.size(), false);
   options.locked_vertices[copy] = true;
-  build_lod_chain(sphere, std::vector<double>{0.02, 0.1, 0.3}, options, [&](std::size_t, LodLevel&& level) {
+  cgal::build_lod_chain(sphere, std::vector<double>{0.02, 0.1, 0.3}, options, [&](std::size_t, LodLevel&& level) {
     EXPECT_EQ(level.verdict, Verdict::Within);
     EXPECT_TRUE(places(level.mesh).contains(place(sphere.vertices[copy])));
     return true;
@@ -92,74 +89,20 @@ TEST(VertexLocks, HoldWithHighEffort) {
   const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
   SimplifyOptions options = within(0.03);
   options.locked_vertices = every(17, torus.vertices.size());
-  const std::size_t normal = simplify_with_bound(torus, options).last().faces();
+  const std::size_t normal = cgal::simplify_with_bound(torus, options).last().faces();
   options.effort = Effort::High;
-  const SimplifiedLevel level = simplify_with_bound(torus, options).last();
+  const SimplifiedLevel level = cgal::simplify_with_bound(torus, options).last();
   EXPECT_EQ(level.verdict, Verdict::Within);
   EXPECT_LT(level.faces(), normal);
   const std::set<Place> left = places(level.mesh);
   for (std::size_t v = 0; v < torus.vertices.size(); v += 17) EXPECT_TRUE(left.contains(place(torus.vertices[v]))) << v;
 }
 
-/// The edits themselves, one by one, on a mesh that they all improve where nothing is locked.
-TEST(VertexLocks, RefuseEveryEdit) {
-  SurfaceMesh mesh = to_surface_mesh(datasets::torus(1, 0.3, 40, 16));
-  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.05);
-  SMS::edge_collapse(mesh, monitor.stop_predicate(),
-                     CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor()));
-  const auto locked = mesh.add_property_map<SurfaceMesh::Vertex_index, bool>("v:locked", false).first;
-  const auto count = [&] {
-    std::size_t moved = 0, flipped = 0;
-    for (const auto v : mesh.vertices()) {
-      const auto p = mesh.point(v);
-      moved += monitor.move_vertex(v, {p.x(), p.y(), p.z() + 0.01}) ? 1 : 0;
-      moved += monitor.relocate_vertex(v) ? 1 : 0;
-    }
-    for (const auto e : mesh.edges()) flipped += monitor.flip_edge(e) || monitor.turn_edge(e) ? 1 : 0;
-    return std::pair(moved, flipped);
-  };
-  for (const auto v : mesh.vertices()) locked[v] = true;
-  monitor.lock_vertices(locked);
-  EXPECT_EQ(count(), std::pair(std::size_t{0}, std::size_t{0}));
-  for (const auto v : mesh.vertices()) locked[v] = false;
-  monitor.lock_vertices(locked);
-  const auto [moved, flipped] = count();
-  EXPECT_GT(moved, 0u);
-  EXPECT_GT(flipped, 0u);
-}
-
 TEST(VertexLocks, AllLockedChangesNothing) {
   const TriangleMesh sphere = datasets::icosphere(1, 2);
   SimplifyOptions options = within(0.5);
   options.locked_vertices.assign(sphere.vertices.size(), true);
-  EXPECT_EQ(simplify_with_bound(sphere, options).last().faces(), sphere.triangles.size());
-}
-
-/// The property map of a user's own graph, in a plain edge_collapse, with and without our placement.
-TEST(VertexLocks, AreReadFromAPropertyMap) {
-  for (const bool with_placement : {false, true}) {
-    SurfaceMesh mesh = to_surface_mesh(datasets::torus(1, 0.3, 40, 16));
-    const auto locked = mesh.add_property_map<SurfaceMesh::Vertex_index, bool>("v:locked", false).first;
-    std::set<Place> kept;
-    for (const auto v : mesh.vertices()) {
-      locked[v] = v.idx() % 13 == 0;
-      if (locked[v]) kept.insert({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
-    }
-    EXPECT_EQ(locked_vertices(mesh, locked)[13], true);
-    DeviationMonitor<SurfaceMesh> monitor(mesh, 0.03);
-    monitor.lock_vertices(locked);
-    const SMS::LindstromTurk_cost<SurfaceMesh> cost;
-    const SMS::LindstromTurk_placement<SurfaceMesh> placement;
-    const auto run = [&](const auto& chosen) {
-      return SMS::edge_collapse(
-          mesh, monitor.stop_predicate(),
-          CGAL::parameters::get_cost(cost).get_placement(chosen).filter(monitor.filter()).visitor(monitor.visitor()));
-    };
-    EXPECT_GT(with_placement ? run(monitor.placement(placement)) : run(placement), 100);
-    mesh.collect_garbage();
-    const std::set<Place> left = places(to_triangle_mesh(mesh));
-    EXPECT_TRUE(std::includes(left.begin(), left.end(), kept.begin(), kept.end()));
-  }
+  EXPECT_EQ(cgal::simplify_with_bound(sphere, options).last().faces(), sphere.triangles.size());
 }
 
 /// The rim of each side of a box and nothing else: a right angle is above 60 degrees, flat is below.
@@ -168,7 +111,7 @@ void expect_rim_kept(Effort effort) {
   SimplifyOptions options = within(0.2);
   options.effort = effort;
   options.feature_angle = std::numbers::pi / 3;
-  const SimplifiedLevel level = simplify_with_bound(cube, options).last();
+  const SimplifiedLevel level = cgal::simplify_with_bound(cube, options).last();
   EXPECT_EQ(level.verdict, Verdict::Within);
   const auto on_rim = [](const Place& p) {
     return std::count_if(p.begin(), p.end(), [](double x) { return x == 0 || x == 1; }) > 1;
@@ -185,7 +128,7 @@ void expect_rim_kept(Effort effort) {
   EXPECT_EQ(rim, 12u * 8);
   EXPECT_LT(level.faces(), cube.triangles.size() / 2);
   options.feature_angle = std::numbers::pi / 2 + 0.01;
-  EXPECT_LT(simplify_with_bound(cube, options).last().faces(), level.faces());
+  EXPECT_LT(cgal::simplify_with_bound(cube, options).last().faces(), level.faces());
 }
 
 TEST(FeatureAngle, KeepsSharpEdgesAsTheyAre) { expect_rim_kept(Effort::Normal); }
@@ -195,10 +138,10 @@ TEST(VertexLocks, RefuseAWrongNumberOfVerticesAndAWrongAngle) {
   const TriangleMesh sphere = datasets::icosphere(1, 1);
   SimplifyOptions options = within(0.1);
   options.locked_vertices.assign(3, true);
-  EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput);
+  EXPECT_THROW((void)cgal::simplify_with_bound(sphere, options), InvalidInput);
   options.locked_vertices.clear();
   options.feature_angle = -0.1;
-  EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput);
+  EXPECT_THROW((void)cgal::simplify_with_bound(sphere, options), InvalidInput);
 }
 
 }  // namespace

@@ -26,11 +26,14 @@ class Builder {
 
  private:
   void list_faces() {
-    for (std::uint32_t f = 0; f < source_.face_count(); ++f) {
-      if (source_.is_removed(f) || !collapses_.owns_face(f)) continue;
-      faces_.push_back(f);
+    collapses_.for_each_edge([&](Corner c) {
+      for (const Corner side : {c, source_.twin(c)})
+        if (side != ArrayMesh::none && collapses_.owns_face(side / 3)) faces_.push_back(side / 3);
+    });
+    std::sort(faces_.begin(), faces_.end());
+    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    for (const std::uint32_t f : faces_)
       for (const std::uint32_t v : source_.corners(f)) into_.vertex.push_back(v);
-    }
     std::sort(into_.vertex.begin(), into_.vertex.end());
     into_.vertex.erase(std::unique(into_.vertex.begin(), into_.vertex.end()), into_.vertex.end());
   }

@@ -11,8 +11,7 @@ namespace meshbound::cgal {
 /// The faces of one region of an array mesh as a `Surface_mesh`, which CGAL collapses while the array mesh follows.
 struct RegionMesh {
   /// Only faces whose corners all belong to the region. A vertex at its rim may have several fans of them, of which
-  /// CGAL finds one; no collapse ever concerns an edge at such a vertex. O(m log n) for n faces of the region, m of the
-  /// array mesh.
+  /// CGAL finds one; no collapse ever concerns an edge at such a vertex. O(n log n).
   explicit RegionMesh(const RegionCollapses& collapses);
 
   SurfaceMesh mesh;

@@ -119,6 +119,7 @@ class CollapseChecker::Impl {
   std::optional<Question> refused_;   ///< by `admitted_placement`
 };
 
+/// From u to v, but at a border where only the other way has a face.
 Corner CollapseChecker::Impl::corner_between(std::uint32_t u, std::uint32_t v) const {
   const ArrayMesh& mesh = state_.mesh;
   for (const std::uint32_t end : {u, v})
@@ -132,6 +133,7 @@ Corner CollapseChecker::Impl::corner_between(std::uint32_t u, std::uint32_t v) c
   });
   if (found == ArrayMesh::none)
     throw InvalidInput("vertices " + std::to_string(u) + " and " + std::to_string(v) + " have no edge in common");
+  if (mesh.start(found) != u && mesh.twin(found) != ArrayMesh::none) found = mesh.twin(found);
   return found;
 }
 
@@ -254,9 +256,8 @@ void CollapseChecker::Impl::set_tolerance(double tolerance) {
   if (!std::isfinite(tolerance) || !(tolerance >= tolerance_))
     throw InvalidInput("the tolerance must be a length, and may only grow");
   tolerance_ = tolerance;
-  state_.tolerance = std::max(0.0, frame_.length_to_frame(tolerance) - room());
-  state_.limit = state_.tolerance > room() ? state_.provable(state_.tolerance) : 0;
-  std::fill(state_.refused_at.begin(), state_.refused_at.end(), 0);
+  state_.grow_tolerance(std::max(0.0, frame_.length_to_frame(tolerance) - room()));
+  if (state_.tolerance <= room()) state_.limit = 0;
 }
 
 CollapseChecker::CollapseChecker(const TriangleMesh& original, double tolerance)

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Both drivers, the core's own queue and CGAL's edge_collapse, hold the same bound with about as many faces; and what
+// is quadratic in CGAL's loop is left to the queue.
+#include "cgal/edge_collapse_driver.h"
+
+#include <CGAL/boost/graph/helpers.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "cgal/region_mesh.h"
+#include "datasets/analytic_meshes.h"
+#include "meshbound/cgal/lod_chain.h"
+#include "reference/small_meshes.h"
+#include "simplify/indexed_manifold.h"
+
+namespace meshbound::cgal {
+namespace {
+
+SimplifyOptions within(double tolerance, std::shared_ptr<const CollapseDriver> driver = nullptr) {
+  SimplifyOptions options;
+  options.tolerance = tolerance;
+  options.threads = 1;
+  options.driver = std::move(driver);
+  return options;
+}
+
+/// Counts what it passes on.
+class CountingDriver : public CollapseDriver {
+ public:
+  void collapse(RegionCollapses& collapses) const override {
+    ++regions;
+    driver_->collapse(collapses);
+  }
+  mutable std::atomic<int> regions = 0;
+
+ private:
+  std::shared_ptr<const CollapseDriver> driver_ = edge_collapse_driver();
+};
+
+struct Shape {
+  const char* name;
+  TriangleMesh mesh;
+  double tolerance;
+};
+
+/// A third of the triangles turned over, 100 duplicates, and 20 without area.
+TriangleMesh untidy() {
+  TriangleMesh mesh = datasets::torus(1, 0.3, 60, 24);
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+  for (std::size_t t = 0; t < 100; ++t) mesh.triangles.push_back(mesh.triangles[5 * t]);
+  for (std::uint32_t t = 0; t < 20; ++t) mesh.triangles.push_back({t, t, t + 1});
+  return mesh;
+}
+
+std::vector<Shape> shapes() {
+  return {{"sphere", datasets::icosphere(1, 4), 0.01},
+          {"torus", datasets::torus(1, 0.3, 80, 32), 0.01},
+          {"large torus, several regions", datasets::torus(1, 0.3, 300, 100), 0.002},
+          {"open terrain", datasets::terrain(1, 50, 3), 0.01},
+          {"cube", datasets::cube(1, 12), 0.01},
+          {"thin sheet, tolerance below its thickness", datasets::thin_sheet(1, 0.02, 20), 0.01},
+          {"thin sheet, tolerance above its thickness", datasets::thin_sheet(1, 0.005, 20), 0.01},
+          {"plane with spikes", datasets::spiked_plane(1, 0.1, 24, 6), 0.01},
+          {"gear", datasets::gear(1, 0.4, 12, 12, 4), 0.01},
+          {"untidy torus", untidy(), 0.01},
+          {"separate triangles", reference::random_soup(1, 200, 0.3), 0.02}};
+}
+
+TEST(EdgeCollapseDriver, HoldsTheBoundWithAboutAsManyFacesAsTheQueueOfTheCore) {
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    const SimplifiedLevel own = meshbound::simplify_with_bound(shape.mesh, within(shape.tolerance)).last();
+    const SimplifiedLevel cgal = cgal::simplify_with_bound(shape.mesh, within(shape.tolerance)).last();
+    for (const SimplifiedLevel& level : {own, cgal}) {
+      EXPECT_EQ(level.verdict, Verdict::Within);
+      EXPECT_EQ(check_symmetric(Bvh(shape.mesh), Bvh(level.mesh), shape.tolerance).verdict, Verdict::Within);
+    }
+    const auto faces = static_cast<double>(own.faces());
+    EXPECT_NEAR(static_cast<double>(cgal.faces()), faces, std::max(10.0, 0.03 * faces));
+  }
+}
+
+TEST(EdgeCollapseDriver, IsAskedByDefaultAndOnlyWhereNoOtherIsGiven) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  const auto counting = std::make_shared<CountingDriver>();
+  const SimplifiedLevel counted = cgal::simplify_with_bound(torus, within(0.01, counting)).last();
+  EXPECT_GT(counting->regions, 0);
+  EXPECT_EQ(counted.mesh.triangles, cgal::simplify_with_bound(torus, within(0.01)).last().mesh.triangles);
+  EXPECT_EQ(counted.mesh.triangles,
+            cgal::simplify_with_bound(to_surface_mesh(torus), within(0.01)).last().mesh.triangles);
+}
+
+/// Levels go on from a mesh that CGAL has left.
+TEST(EdgeCollapseDriver, GoesOnFromLevelToLevel) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 80, 32);
+  LodOptions options;
+  options.threads = 1;
+  LodChain chain(torus, options);
+  std::size_t faces = torus.triangles.size();
+  for (const double tolerance : {0.002, 0.008, 0.03}) {
+    const LodLevel level = chain.next(tolerance);
+    EXPECT_EQ(level.verdict, Verdict::Within);
+    EXPECT_LT(level.faces(), faces);
+    faces = level.faces();
+  }
+}
+
+TEST(EdgeCollapseDriver, GivesTheSameMeshForAnyNumberOfThreads) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 300, 100);
+  SimplifyOptions options = within(0.001);
+  const SimplifiedLevel one = cgal::simplify_with_bound(torus, options).last();
+  options.threads = 3;
+  const SimplifiedLevel three = cgal::simplify_with_bound(torus, options).last();
+  EXPECT_EQ(one.mesh.vertices, three.mesh.vertices);
+  EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
+}
+
+TEST(EdgeCollapseDriver, EndsWhereItIsTold) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  SimplifyOptions options = within(0.02);
+  options.target_faces = 500;
+  const SimplifiedLevel target = cgal::simplify_with_bound(torus, options).last();
+  EXPECT_EQ(target.ended_by, EndedBy::Target);
+  EXPECT_NEAR(static_cast<double>(target.faces()), 499, 1);
+  options.target_faces.reset();
+  options.on_exceed = OnExceed::Stop;
+  const SimplifiedLevel stop = cgal::simplify_with_bound(torus, options).last();
+  EXPECT_EQ(stop.ended_by, EndedBy::Tolerance);
+  EXPECT_EQ(stop.verdict, Verdict::Within);
+}
+
+TriangleMesh fan(std::uint32_t n) {
+  TriangleMesh mesh;
+  mesh.vertices.emplace_back(0, 0, 0);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    mesh.triangles.push_back({0, i + 1, (i + 1) % n + 1});
+  }
+  return mesh;
+}
+
+/// At a vertex with thousands of edges CGAL asks for thousands of costs after each collapse beside it.
+TEST(Hubs, KeepTheBoundAndFewFacesWithBothDrivers) {
+  for (const auto& [mesh, tolerance, max_faces] :
+       {std::tuple{fan(1000), 0.003, 50u}, std::tuple{datasets::cylinder(1, 2, 360), 0.003, 180u},
+        std::tuple{datasets::cylinder(1, 2, 4000), 0.003, 220u},
+        std::tuple{datasets::uv_sphere(1, 20, 400), 0.01, 700u}}) {
+    for (const bool by_cgal : {false, true}) {
+      const SimplifyOptions options = within(tolerance, by_cgal ? edge_collapse_driver() : nullptr);
+      const SimplifiedLevel level = meshbound::simplify_with_bound(mesh, options).last();
+      SCOPED_TRACE(std::to_string(mesh.triangles.size()) + (by_cgal ? " by CGAL" : " by the core"));
+      EXPECT_EQ(level.verdict, Verdict::Within);
+      EXPECT_LE(level.faces(), max_faces);
+    }
+  }
+}
+
+TEST(EdgeCollapseDriver, CollapsesForBothCosts) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  const auto by = [&](CollapseCost cost) {
+    return cgal::simplify_with_bound(torus, within(0.01, edge_collapse_driver(cost))).last();
+  };
+  const SimplifiedLevel quadrics = by(CollapseCost::GarlandHeckbert), volume = by(CollapseCost::LindstromTurk);
+  EXPECT_EQ(volume.verdict, Verdict::Within);
+  EXPECT_LT(volume.faces(), torus.triangles.size() / 4);
+  EXPECT_NE(volume.mesh.triangles, quadrics.mesh.triangles);
+}
+
+/// Looks at the region instead of collapsing it; for one thread.
+class LookingDriver : public CollapseDriver {
+ public:
+  void collapse(RegionCollapses& collapses) const override {
+    const RegionMesh region(collapses);
+    const ArrayMesh& mesh = collapses.mesh();
+    std::size_t faces = 0;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) faces += !mesh.is_removed(f) && collapses.owns_face(f);
+    valid = valid && CGAL::is_valid_polygon_mesh(region.mesh) && region.mesh.number_of_faces() == faces;
+    for (const auto v : region.mesh.vertices()) {
+      const Vec3 p = mesh.position(region.vertex[v]);
+      valid = valid && region.mesh.point(v) == Kernel::Point_3(p.x, p.y, p.z);
+    }
+    for (const auto e : region.mesh.edges())
+      valid = valid && corner_between(mesh, region.vertex[region.mesh.vertex(e, 0)],
+                                      region.vertex[region.mesh.vertex(e, 1)]) != ArrayMesh::none;
+    sizes.insert(faces);
+  }
+  mutable bool valid = true;
+  mutable std::set<std::size_t> sizes;
+};
+
+TEST(RegionMesh, IsThatOfTheArrayMeshWholeAndInRegions) {
+  for (const TriangleMesh& mesh : {datasets::torus(1, 0.3, 300, 100), datasets::terrain(1, 150, 3)}) {
+    const auto looking = std::make_shared<LookingDriver>();
+    // Nothing is proposed at so small a tolerance, but the regions are passed.
+    (void)meshbound::simplify_with_bound(mesh, within(1e-12, looking));
+    EXPECT_TRUE(looking->valid);
+    EXPECT_GT(looking->sizes.size(), 2u) << "there are several regions";
+  }
+}
+
+}  // namespace
+}  // namespace meshbound::cgal

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// The proof of a mesh from nothing: it proves what holds, never what does not, names what is at fault, and is the same
+// for any number of threads.
+#include "simplify/prove.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "reference/small_meshes.h"
+#include "simplify/indexed_manifold.h"
+
+namespace meshbound {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Vec3> positions_of(const TriangleMesh& mesh) {
+  std::vector<Vec3> positions;
+  for (const Vector3d& p : mesh.vertices) positions.push_back({p.x(), p.y(), p.z()});
+  return positions;
+}
+
+/// A state whose mesh has nothing in common with its original but the place, all of it changed since it was last
+/// proven.
+struct Approximation {
+  Approximation(const TriangleMesh& original, const TriangleMesh& mesh, double tolerance,
+                const std::vector<double>& limits = {})
+      : soup(original),
+        vertices(positions_of(original)),
+        tree(original),
+        state(vertices, soup.triangles, tree, indexed_manifold(mesh),
+              std::vector<std::uint32_t>(mesh.vertices.size(), 0),
+              std::vector<std::uint32_t>(mesh.triangles.size(), 0)) {
+    if (!limits.empty()) {
+      std::vector<Eigen::AlignedBox3d> boxes(original.triangles.size());
+      for (std::size_t t = 0; t < boxes.size(); ++t)
+        for (const std::uint32_t v : original.triangles[t]) boxes[t].extend(original.vertices[v]);
+      state.local.emplace(std::move(boxes), limits);
+    }
+    state.grow_tolerance(tolerance);
+    state.set_samples(4 * tolerance);
+    std::fill(state.stamp.begin(), state.stamp.end(), 1);
+  }
+  Approximation(const Approximation&) = delete;
+  Approximation& operator=(const Approximation&) = delete;
+
+  TriangleMesh soup;
+  std::vector<Vec3> vertices;
+  Bvh tree;
+  DecimationState state;
+};
+
+Unproven prove(const TriangleMesh& original, const TriangleMesh& mesh, double tolerance,
+               const std::vector<double>& limits = {}, int threads = 1) {
+  Approximation it(original, mesh, tolerance, limits);
+  ProofWorkers workers(it.state, threads);
+  Proof proof(it.state, workers);
+  proof.run({});
+  return proof.unproven();
+}
+
+struct Pair {
+  const char* name;
+  TriangleMesh original, mesh;
+};
+
+std::vector<Pair> pairs() {
+  return {{"sphere", datasets::icosphere(1, 5), datasets::icosphere(1, 3)},
+          {"torus", datasets::torus(1, 0.3, 120, 48), datasets::torus(1, 0.3, 50, 20)},
+          {"other way round", datasets::torus(1, 0.3, 50, 20), datasets::torus(1, 0.3, 70, 30)},
+          {"tilted sphere", datasets::icosphere(1, 4), datasets::uv_sphere(1, 20, 40)},
+          {"open", datasets::terrain(1, 32, 5), datasets::terrain(1, 16, 5)}};
+}
+
+TEST(Proof, ProvesWhatHoldsWithALittleRoom) {
+  for (const Pair& pair : pairs()) {
+    SCOPED_TRACE(pair.name);
+    const double distance = symmetric_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.upper;
+    const Unproven unproven = prove(pair.original, pair.mesh, 1.1 * distance);
+    EXPECT_EQ(unproven.originals, std::vector<std::uint32_t>());
+    EXPECT_EQ(unproven.faces, std::vector<std::uint32_t>());
+  }
+}
+
+TEST(Proof, NeverProvesWhatDoesNotHold) {
+  for (const Pair& pair : pairs()) {
+    SCOPED_TRACE(pair.name);
+    const double distance = symmetric_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.lower;
+    EXPECT_FALSE(prove(pair.original, pair.mesh, 0.999 * distance).empty());
+  }
+}
+
+TEST(Proof, IsTheSameForAnyNumberOfThreads) {
+  for (const Pair& pair : pairs()) {
+    const double distance = symmetric_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.upper;
+    const Unproven one = prove(pair.original, pair.mesh, 0.6 * distance);
+    const Unproven three = prove(pair.original, pair.mesh, 0.6 * distance, {}, 3);
+    EXPECT_FALSE(one.empty());
+    EXPECT_EQ(one.originals, three.originals);
+    EXPECT_EQ(one.faces, three.faces);
+  }
+}
+
+TEST(Proof, NamesTheFacesOfAVertexThatWasMovedOut) {
+  TriangleMesh moved = datasets::icosphere(1, 3);
+  const std::uint32_t vertex = moved.triangles[100][1];
+  moved.vertices[vertex] *= 1.05;
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t t = 0; t < moved.triangles.size(); ++t)
+    if (std::count(moved.triangles[t].begin(), moved.triangles[t].end(), vertex) > 0) around.push_back(t);
+  EXPECT_EQ(prove(datasets::icosphere(1, 4), moved, 0.02).faces, around);
+}
+
+TEST(Proof, NamesAnOriginalTriangleWithNothingNear) {
+  const TriangleMesh original = reference::unit_square(8);
+  TriangleMesh with_hole = original;
+  with_hole.triangles.erase(with_hole.triangles.begin() + 50);
+  const Unproven unproven = prove(original, with_hole, 0.01);
+  EXPECT_EQ(unproven.originals, std::vector<std::uint32_t>{50});
+  EXPECT_EQ(unproven.faces, std::vector<std::uint32_t>());
+}
+
+/// Larger coordinates would have larger rounding errors than the proof leaves room for.
+TEST(Proof, RefusesFacesFarAwayAndCoordinatesThatAreNoNumbers) {
+  const TriangleMesh original = reference::unit_square(4);
+  for (const double x : {1e300, std::nan(""), -HUGE_VAL}) {
+    TriangleMesh with_another = original;
+    const auto first = static_cast<std::uint32_t>(original.vertices.size());
+    for (const Vector3d& p : {Vector3d(x, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)})
+      with_another.vertices.push_back(p);
+    with_another.triangles.push_back({first, first + 1, first + 2});
+    const Unproven unproven = prove(original, with_another, 0.01);
+    EXPECT_EQ(unproven.originals, std::vector<std::uint32_t>());
+    EXPECT_EQ(unproven.faces, std::vector<std::uint32_t>{32});
+  }
+}
+
+/// Far more faces than a cover has candidates or cuts for.
+TEST(Proof, CoversLargeTrianglesByManySmallFaces) {
+  const TriangleMesh original = datasets::cube(1, 1), fine = datasets::cube(1, 24);
+  EXPECT_TRUE(prove(original, fine, 1e-3).empty());
+  TriangleMesh with_hole = fine;
+  with_hole.triangles.erase(with_hole.triangles.begin() + 1000);
+  EXPECT_EQ(prove(original, with_hole, 1e-3).originals.size(), 1u);
+}
+
+/// Each of them has a hundred candidates, of which it may look at 64.
+TEST(Proof, FindsTheFaceOfATriangleAmongManyThatCrossIt) {
+  TriangleMesh fan;
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    const double angle = 0.01 * k * std::numbers::pi, c = std::cos(angle), s = std::sin(angle);
+    for (const Vector3d& p : {Vector3d(-c, -s, -1), Vector3d(c, s, -1), Vector3d(0, 0, 2)}) fan.vertices.push_back(p);
+    fan.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  EXPECT_TRUE(prove(fan, fan, 1e-3).empty());
+}
+
+TEST(Proof, KeepsTheTolerancesOfTriangles) {
+  const TriangleMesh original = datasets::icosphere(1, 4), mesh = datasets::icosphere(1, 3);
+  std::vector<double> limits(original.triangles.size(), HUGE_VAL);
+  EXPECT_TRUE(prove(original, mesh, 0.02, limits).empty());
+  for (const double limit : {1e-5, 0.0}) {
+    limits[7] = limit;
+    const Unproven unproven = prove(original, mesh, 0.02, limits);
+    EXPECT_TRUE(std::binary_search(unproven.originals.begin(), unproven.originals.end(), 7u));
+    EXPECT_LT(unproven.originals.size(), 100u);
+    EXPECT_FALSE(unproven.faces.empty());
+  }
+}
+
+}  // namespace
+}  // namespace meshbound

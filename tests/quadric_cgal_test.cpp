@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The quadrics of the core are those of CGAL's Garland-Heckbert policies, with the border, and give the same
+// placements.
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_profile.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "meshbound/cgal/surface_mesh.h"
+#include "simplify/indexed_manifold.h"
+#include "simplify/quadric.h"
+
+namespace meshbound::cgal {
+namespace {
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+/// A square of waves, with a border.
+SurfaceMesh waves(unsigned n) {
+  SurfaceMesh mesh;
+  for (unsigned i = 0; i <= n; ++i) {
+    for (unsigned j = 0; j <= n; ++j) {
+      const double x = double(i) / n, y = double(j) / n;
+      mesh.add_vertex(Kernel::Point_3(x, y, 0.1 * std::sin(7 * x + 0.3) * std::cos(5 * y)));
+    }
+  }
+  const auto at = [&](unsigned i, unsigned j) { return SurfaceMesh::Vertex_index(i * (n + 1) + j); };
+  for (unsigned i = 0; i < n; ++i) {
+    for (unsigned j = 0; j < n; ++j) {
+      mesh.add_face(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      mesh.add_face(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return mesh;
+}
+
+std::vector<Quadric> quadrics_of(const SurfaceMesh& mesh) {
+  return vertex_quadrics(indexed_manifold(to_triangle_mesh(mesh)));
+}
+
+Vec3 to_vec3(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+Kernel::Point_3 to_point(Vec3 p) { return {p.x, p.y, p.z}; }
+
+TEST(Quadric, IsCgalsWithTheBorderIncluded) {
+  SurfaceMesh mesh = waves(12);
+  const auto points = mesh.points();
+  const SMS::GarlandHeckbert_plane_policies<SurfaceMesh, Kernel> cgal(mesh);
+  cgal.initialize(mesh, points, Kernel());
+  const std::vector<Quadric> ours = quadrics_of(mesh);
+  using Points = std::decay_t<decltype(points)>;
+  using Profile = SMS::Edge_profile<SurfaceMesh, Points, Kernel>;
+  int optima = 0;
+  for (const auto e : mesh.edges()) {
+    const Profile profile(mesh.halfedge(e), mesh, Kernel(), 0, points, 0, true);
+    auto optimum = cgal(profile);
+    auto somewhere = optimum;
+    *somewhere = Kernel::Point_3(0.3, 0.2, 0.1);
+    const Quadric &p = ours[profile.v0()], &q = ours[profile.v1()];
+    Quadric sum = p;
+    sum += q;
+    EXPECT_NEAR(sum.at({0.3, 0.2, 0.1}), *cgal(profile, somewhere), 1e-12);
+    const Placement best = best_placement(p, q, to_vec3(profile.p0()), to_vec3(profile.p1()));
+    EXPECT_NEAR(best.cost, sum.at(best.point), 1e-15);
+    if (CGAL::squared_distance(*optimum, profile.p0()) > 0.01) continue;
+    EXPECT_NEAR(std::sqrt(CGAL::squared_distance(to_point(best.point), *optimum)), 0, 1e-6);
+    ++optima;
+  }
+  EXPECT_GT(optima, 200);
+}
+
+TEST(Quadric, OfFlatSurroundingsGivesAPointNearTheEdge) {
+  EXPECT_FALSE(Quadric::of_plane({0, 0, 1}, {0, 0, 2}, 3).minimum());
+  SurfaceMesh flat = waves(12);
+  for (const auto v : flat.vertices()) {
+    const auto& p = flat.point(v);
+    flat.point(v) = Kernel::Point_3(p.x(), p.y(), 0.25 + 0.5 * p.x());
+  }
+  const std::vector<Quadric> quadrics = quadrics_of(flat);
+  for (const auto e : flat.edges()) {
+    const auto v = flat.vertex(e, 0), w = flat.vertex(e, 1);
+    const Vec3 p = to_vec3(flat.point(v)), q = to_vec3(flat.point(w));
+    const Placement best = best_placement(quadrics[v], quadrics[w], p, q);
+    EXPECT_LT(squared_length(best.point - p), 25 * squared_length(p - q));
+    EXPECT_LT(squared_length(best.point - q), 25 * squared_length(p - q));
+    EXPECT_NEAR(best.cost, 0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace meshbound::cgal

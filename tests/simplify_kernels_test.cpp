@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// What proposals and proofs are made of: vector code gives what portable code gives, to the bit; covers by candidates
+// and by parity say nothing that the distance engine denies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <set>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "reference/small_meshes.h"
+#include "simplify/candidate_faces.h"
+#include "simplify/cover_assignment.h"
+#include "simplify/degree_cover.h"
+#include "simplify/linear_heights.h"
+#include "simplify/sampled_slope.h"
+
+namespace meshbound {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Shape {
+  const char* name;
+  TriangleMesh mesh;
+  double tolerance;
+};
+
+std::vector<Shape> shapes() {
+  return {{"sphere", datasets::icosphere(1, 3), 0.05},
+          {"open plane with spikes", datasets::spiked_plane(1, 0.2, 16, 4), 0.03},
+          {"thin sheet, tolerance above its thickness", datasets::thin_sheet(1, 0.01, 12), 0.02},
+          {"open terrain", datasets::terrain(1, 16, 7), 0.02},
+          {"two spheres through each other",
+           reference::both(datasets::icosphere(1, 2), reference::moved(datasets::icosphere(1, 2), {0.5, 0, 0})), 0.1}};
+}
+
+TEST(SlopeKernel, IsTheSameOnEveryProcessor) {
+  SamplePoints points;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 40; ++i) points.add({unit(random), unit(random), unit(random)});
+  const std::vector<SampleFace> triangles = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                                             SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
+                                             SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  std::vector<SampleOffsets> portable, fastest;
+  portable_slope_kernel().offsets(points, triangles, portable);
+  fastest_slope_kernel().offsets(points, triangles, fastest);
+  EXPECT_EQ(portable.size(), 5U);
+  EXPECT_TRUE(portable == fastest);
+  SlopeSums one, two;
+  SamplePoints near = points, nearby = points;
+  portable_slope_kernel().drop_far(near, triangles, 0.5F);
+  fastest_slope_kernel().drop_far(nearby, triangles, 0.5F);
+  EXPECT_TRUE(near.blocks == nearby.blocks);
+  std::ptrdiff_t far = 0;
+  for (const SamplePoints::Block& block : near.blocks) far += std::ranges::count(block.weight, 0.0F);
+  EXPECT_GT(far, 0);
+  EXPECT_LT(far, 40);
+  portable_slope_kernel().add_slope(near, triangles, 2, one);
+  fastest_slope_kernel().add_slope(near, triangles, 2, two);
+  EXPECT_EQ(one.sum, two.sum);
+  EXPECT_EQ(one.worst_squared, two.worst_squared);
+  EXPECT_LE(one.worst_squared, 1);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(one.gradient[k], two.gradient[k]);
+  for (int k = 0; k < 6; ++k) EXPECT_EQ(one.curvature[k], two.curvature[k]);
+}
+
+TEST(HeightKernel, IsTheSameOnEveryProcessor) {
+  SamplePoints points;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 40; ++i) points.add({unit(random), unit(random), i % 4 == 0 ? 0 : unit(random)});
+  const std::vector<SampleFace> faces = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                                         SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
+                                         SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const HeightKernel one = portable_height_kernel(), two = fastest_height_kernel();
+  LinearHeights a, b;
+  one.linearise(points, faces, 2, a);
+  two.linearise(points, faces, 2, b);
+  EXPECT_EQ(a.blocks.size(), 5U);
+  EXPECT_TRUE(a.blocks == b.blocks);
+  const HeightKernel::Move move = {0.1F, 0.2F, -0.1F}, step = {0.3F, -0.1F, 0.2F};
+  const WeightedSums sums = one.weighted_sums(a, move, 0.3F, 3), same = two.weighted_sums(a, move, 0.3F, 3);
+  EXPECT_GT(sums.square, 0);
+  EXPECT_EQ(sums.weight, same.weight);
+  EXPECT_EQ(sums.square, same.square);
+  EXPECT_EQ(sums.right, same.right);
+  EXPECT_EQ(sums.matrix, same.matrix);
+  const std::array<float, 8> shares = {0, 0.1F, 0.2F, 0.3F, 0.5F, 0.7F, 0.9F, 1};
+  const auto largest = one.largest_along(a, move, step, shares);
+  EXPECT_EQ(largest, two.largest_along(a, move, step, shares));
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    float expected = 0;
+    for (const LinearHeights::Block& block : a.blocks) {
+      for (std::size_t i = 0; i < 8; ++i)
+        expected = std::max(expected, std::abs(block.height[i] - block.x[i] * (move[0] + shares[k] * step[0]) -
+                                               block.y[i] * (move[1] + shares[k] * step[1]) -
+                                               block.z[i] * (move[2] + shares[k] * step[2])));
+    }
+    EXPECT_NEAR(largest[k], expected, 1e-5);
+  }
+}
+
+TEST(CoverAssignment, KeepsBothSidesOfTheRelationThroughCoversOfAnySize) {
+  constexpr std::uint32_t originals = 20, faces = 12;
+  CoverAssignment cover(originals);
+  std::vector<std::set<std::uint32_t>> expected(originals);
+  std::mt19937 random(3);
+  for (int step = 0; step < 2000; ++step) {
+    const auto t = static_cast<std::uint32_t>(random() % originals);
+    expected[t].clear();
+    for (auto k = random() % 7; k > 0; --k) expected[t].insert(static_cast<std::uint32_t>(random() % faces));
+    cover.assign(t, std::vector<std::uint32_t>(expected[t].begin(), expected[t].end()));
+  }
+  for (std::uint32_t t = 0; t < originals; ++t) {
+    const auto ids = cover.faces_of(t);
+    EXPECT_EQ(std::set<std::uint32_t>(ids.begin(), ids.end()), expected[t]);
+    for (std::uint32_t f = 0; f < faces; ++f) {
+      const auto of_face = cover.originals_of(f);
+      EXPECT_EQ(std::count(of_face.begin(), of_face.end(), t), static_cast<std::ptrdiff_t>(expected[t].count(f)));
+    }
+  }
+}
+
+/// The slab test must not depend on the machine: the chosen one against plain arithmetic.
+TEST(CandidateFaces, HoldExactlyThoseThatAreNear) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
+  constexpr double tolerance = 0.3;
+  for (int round = 0; round < 200; ++round) {
+    CandidateFaces candidates;
+    candidates.clear(tolerance);
+    std::vector<std::array<Vec3, 3>> faces;
+    for (int k = 0; k < CandidateFaces::capacity; ++k) {
+      const Vec3 a = point(), b = point();
+      faces.push_back({a, b, k % 9 == 0 ? b : point()});  // some without area
+      candidates.add(faces.back());
+    }
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = point();
+      const FaceMask among = (FaceMask{random()} << 32) | random();
+      const FaceMask mask = candidates.holding(p, among);
+      EXPECT_EQ(mask & ~among, 0u);
+      for (int k = 0; k < CandidateFaces::capacity; ++k) {
+        const auto& f = faces[static_cast<std::size_t>(k)];
+        const double squared =
+            closest_on_triangle(CornerTriangle<double>{f[0], f[1] - f[0], f[2] - f[0]}, p).squared_distance;
+        if (std::abs(std::sqrt(squared) - tolerance) < 1e-6 || ((among >> k) & 1) == 0) continue;
+        EXPECT_EQ((mask >> k) & 1, squared < tolerance * tolerance ? 1u : 0u);
+      }
+    }
+  }
+}
+
+TEST(PlaneKernel, IsTheSameOnEveryProcessor) {
+  const PlaneKernel portable = portable_plane_kernel(), fastest = fastest_plane_kernel();
+  if (portable.test == fastest.test) GTEST_SKIP() << "this processor has no AVX2";
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  unsigned accurate = 0, held = 0;
+  for (int round = 0; round < 1000; ++round) {
+    std::array<PlaneKernel::Corners, 4> faces;
+    for (auto& corners : faces) {
+      corners = {point(), point(), point()};
+      if (random() % 4 == 0) corners[2] = 0.5 * (corners[0] + corners[1]);
+    }
+    PlaneBlock ours, theirs;
+    const unsigned flat = portable.set(ours, faces.data(), 0.3, 3e-7);
+    ASSERT_EQ(fastest.set(theirs, faces.data(), 0.3, 3e-7), flat);
+    ASSERT_EQ(std::memcmp(&ours, &theirs, sizeof(PlaneBlock)), 0);
+    const Vec3 p = point(), q = point();
+    const SlabBits here = portable.test(ours, p, 0.3, 0.09), there = fastest.test(theirs, p, 0.3, 0.09);
+    ASSERT_EQ(here.inside, there.inside);
+    ASSERT_EQ(here.outside, there.outside);
+    const unsigned forth = static_cast<unsigned>(random()) & flat, back = flat & ~forth;
+    const Reach one = portable.reach(ours, forth, back, p, q, 0.3, 0.09);
+    const Reach other = fastest.reach(theirs, forth, back, p, q, 0.3, 0.09);
+    ASSERT_EQ(one.forth, other.forth);
+    ASSERT_EQ(one.back, other.back);
+    EXPECT_EQ(one.back, portable.reach(ours, back, forth, q, p, 0.3, 0.09).forth) << "the way back is the way from q";
+    accurate |= flat;
+    held |= here.inside;
+  }
+  EXPECT_EQ(accurate, 15u);
+  EXPECT_EQ(held, 15u);
+}
+
+/// Random triangles near rough surfaces: the parity proof may fail where the bound holds, never the other way.
+TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    std::vector<Vec3> vertices;
+    for (const Vector3d& p : shape.mesh.vertices) vertices.push_back({p.x(), p.y(), p.z()});
+    DegreeCover degree(vertices, shape.mesh.triangles);
+    const Bvh original(shape.mesh);
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(0, 0.5 * shape.tolerance);
+    int covered = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const auto t = static_cast<std::uint32_t>(random() % shape.mesh.triangles.size());
+      const Triangle& near = shape.mesh.triangles[t];
+      TriangleMesh face{{}, {{0, 1, 2}}};
+      const double size = 0.2 + 0.001 * static_cast<double>(i % 2000);
+      const Vector3d first = shape.mesh.vertices[near[0]];
+      for (const std::uint32_t v : near)
+        face.vertices.push_back(first + size * (shape.mesh.vertices[v] - first) +
+                                Vector3d(noise(random), noise(random), noise(random)));
+      std::array<Vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = {face.vertices[k].x(), face.vertices[k].y(), face.vertices[k].z()};
+      if (!degree.covers(corners, shape.tolerance, 2, t)) continue;
+      ++covered;
+      EXPECT_NE(check_one_sided(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
+    }
+    EXPECT_GT(covered, 100);
+  }
+}
+
+}  // namespace
+}  // namespace meshbound
