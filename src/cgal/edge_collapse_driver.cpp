@@ -86,14 +86,16 @@ struct Stop {
   }
 };
 
-/// The last that CGAL asks before it collapses an edge: the array mesh does so here.
+/// The last that CGAL asks before it collapses an edge: the array mesh does so here. CGAL comes back to all edges of
+/// all vertices around a collapse; those that were refused are tried again where a face at one of their ends has
+/// changed.
 struct Filter {
   Run* run;
 
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
     const auto& vertex = run->region.vertex;
     const Corner corner = corner_between(run->collapses.mesh(), vertex[profile.v0()], vertex[profile.v1()]);
-    if (corner == ArrayMesh::none || !run->collapses.is_open(corner)) return {};
+    if (corner == ArrayMesh::none || run->collapses.is_refused(corner)) return {};
     // Without a wish the core takes the placement of the quadrics, which is what they gave here.
     std::optional<Vec3> wanted;
     if (run->cost != CollapseCost::GarlandHeckbert) wanted = to_vec3(*placement);

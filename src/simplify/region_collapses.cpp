@@ -10,7 +10,13 @@ namespace meshbound {
 
 RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Region& region, Proposer& proposer,
                                  ChangeProver* prover, Limits limits)
-    : state_(state), split_(split), region_(region), proposer_(proposer), prover_(prover), limits_(std::move(limits)) {
+    : state_(state),
+      split_(split),
+      region_(region),
+      proposer_(proposer),
+      prover_(prover),
+      limits_(std::move(limits)),
+      clock_at_start_(region.clock) {
   proposer_.enter(split, region);
 }
 
@@ -28,10 +34,16 @@ bool RegionCollapses::is_open(Corner edge) const {
                                state_.refused_at[mesh().edge(edge)];
 }
 
+bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[mesh().edge(edge)] > clock_at_start_; }
+
 bool RegionCollapses::make(Vec3 point) {
   proposer_.collapse(region_, point);
   if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_)) return false;
   proposer_.settle(region_);
+  mesh().for_each_corner(kept(), [&](Corner c) {
+    state_.refused_at[mesh().edge(c)] = state_.refused_at[mesh().edge(previous_corner(c))] = 0;
+    return true;
+  });
   return true;
 }
 
@@ -72,10 +84,8 @@ void RegionCollapses::collapse_all() {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_before_) queue.erase(e);
     mesh().for_each_corner(kept(), [&](Corner c) {
-      for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))}) {
-        state_.refused_at[e] = 0;
+      for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))})
         if (is_owned(e)) queue.put(e, proposer_.cost(e));
-      }
       return true;
     });
   }

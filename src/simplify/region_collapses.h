@@ -31,6 +31,8 @@ class RegionCollapses {
   [[nodiscard]] bool owns_face(std::uint32_t face) const;
   /// Whether both ends of the edge belong to the region, and something near has changed since it was refused.
   [[nodiscard]] bool is_open(Corner edge) const;
+  /// Whether the edge was refused in this run, and its star is still the same.
+  [[nodiscard]] bool is_refused(Corner edge) const;
   /// Calls `visit(edge)` for each edge of the region, and others that begin in it.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
@@ -69,6 +71,7 @@ class RegionCollapses {
   Proposer& proposer_;
   ChangeProver* prover_;
   Limits limits_;
+  std::uint32_t clock_at_start_;
   bool ended_ = false;
   std::vector<Corner> edges_before_;
 };
