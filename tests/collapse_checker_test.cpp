@@ -201,6 +201,20 @@ TEST(CollapseChecker, TriesAHopelessEdgeAgainOnlyWhenSomethingHasChanged) {
   EXPECT_GT(pass(), 50u);
 }
 
+/// Vertices a few units in the last place apart: a point between two of them is rounded to one, and one edge less to a
+/// point would be an edge of no length.
+TEST(CollapseChecker, LeavesNoEdgeWithoutALength) {
+  const double ulp = 0x1p-32;  // of coordinates between 2^20 and 2^21
+  const TriangleMesh grid =
+      reference::moved(reference::scaled(reference::unit_square(16), 32 * ulp), {1.5e6, 1.5e6, 1.5e6});
+  CheckedMesh mesh(grid, 200 * ulp);
+  EXPECT_GT(random_collapses(mesh, 1, 6000, 20 * ulp), 100);
+  const TriangleMesh left = mesh.current();
+  for (const Triangle& t : left.triangles)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NE(left.vertices[t[k]], left.vertices[t[(k + 1) % 3]]);
+  EXPECT_LE(mesh.distance().upper, 200 * ulp);
+}
+
 TEST(CollapseChecker, GrowsItsToleranceButNeverShrinksIt) {
   CheckedMesh mesh(reference::unit_square(4), 0.01);
   const Vector3d above(0.4, 0.3, 0.05);

@@ -15,9 +15,9 @@
 
 #include "cgal/region_mesh.h"
 #include "datasets/analytic_meshes.h"
+#include "decimation_states.h"
 #include "meshbound/cgal/lod_chain.h"
 #include "reference/small_meshes.h"
-#include "simplify/indexed_manifold.h"
 
 namespace meshbound::cgal {
 namespace {
@@ -203,6 +203,39 @@ TEST(RegionMesh, IsThatOfTheArrayMeshWholeAndInRegions) {
     EXPECT_TRUE(looking->valid);
     EXPECT_GT(looking->sizes.size(), 2u) << "there are several regions";
   }
+}
+
+/// What CGAL's loop must not be given: edges of no length, which it collapses without asking, and hubs.
+TEST(RegionMesh, TellsOfEdgesOfNoLengthAndOfHubs) {
+  const auto region_of = [](DecimationState& state) {
+    Split split = whole(state);
+    Proposer proposer(state);
+    return RegionMesh(RegionCollapses(state, split, split.regions.front(), proposer, nullptr, {}));
+  };
+  test::StateOf square(reference::unit_square(4));
+  const RegionMesh tidy = region_of(*square);
+  EXPECT_FALSE(tidy.has_edge_of_no_length);
+  EXPECT_EQ(tidy.max_edges_of_vertex, 6u);
+  const Corner edge = 20;
+  square->mesh.move(square->mesh.start(edge), square->mesh.position(square->mesh.end(edge)));
+  EXPECT_TRUE(region_of(*square).has_edge_of_no_length);
+  test::StateOf hub(fan(500));
+  EXPECT_EQ(region_of(*hub).max_edges_of_vertex, 500u);
+}
+
+/// A region with such an edge is decimated all the same.
+TEST(EdgeCollapseDriver, LeavesARegionWithAnEdgeOfNoLengthToTheQueueOfTheCore) {
+  test::StateOf square(reference::unit_square(16));
+  const Corner edge = 200;
+  square->mesh.move(square->mesh.start(edge), square->mesh.position(square->mesh.end(edge)));
+  square->grow_tolerance(0.1);
+  square->set_samples(0.4);
+  Split split = whole(*square);
+  Proposer proposer(*square);
+  RegionCollapses collapses(*square, split, split.regions.front(), proposer, nullptr,
+                            {1, [](std::size_t) { return false; }, nullptr});
+  edge_collapse_driver()->collapse(collapses);
+  EXPECT_GT(split.regions.front().removed_faces, 300u);
 }
 
 }  // namespace
