@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <new>
 #include <utility>
 
 #include "numeric/first_error.h"
@@ -29,6 +30,13 @@ void with_team(int threads, Work&& work) {
   error.rethrow();
 }
 
+/// Throws `std::bad_alloc` where there is no memory for so many tasks of OpenMP, whose runtime would end the process.
+/// What is freed here is what it takes next, unless another thread comes first.
+inline void require_memory_for_tasks(std::size_t tasks) {
+  constexpr std::size_t bytes_of_task = 512;  // 231 in libgomp 12
+  ::operator delete(::operator new(bytes_of_task* tasks + bytes_of_task));
+}
+
 /// Calls work(0) ... work(count - 1) by the team that this is called in, and returns when all are done. Outside any
 /// team they run one after the other. Rethrows the first of what they throw.
 ///
@@ -43,6 +51,7 @@ void for_each_task(std::size_t count, Work&& work) {
     for (std::size_t i = next++; i < count; i = next++) error.guard([&] { work(i); });
   };
   const std::size_t helpers = std::min(count, static_cast<std::size_t>(omp_get_num_threads()));
+  if (helpers > 1) require_memory_for_tasks(helpers);
   for (std::size_t i = 1; i < helpers; ++i) {
 #pragma omp task default(none) shared(take_pieces)
     take_pieces();
