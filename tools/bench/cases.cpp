@@ -74,11 +74,11 @@ double distance_seconds(const TriangleMesh& a, const TriangleMesh& b, double err
 
 /// Of simplifying at 0.1% of the diagonal, the measurement of the result included.
 double simplify_seconds(const TriangleMesh& mesh) {
-  cgal::SimplifyOptions options;
+  SimplifyOptions options;
   options.tolerance = 0.001 * bounding_box_diagonal(mesh);
   options.threads = 1;
   const Stopwatch watch;
-  const cgal::SimplifyResult result = cgal::simplify_with_bound(mesh, options);
+  const SimplifyResult result = cgal::simplify_with_bound(mesh, options);
   const double seconds = watch.elapsed().cpu;
   if (result.last().verdict != Verdict::Within) throw std::runtime_error("the result is undecided");
   return seconds;

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include "cgal_functions.h"
+#include "levels/level_run.h"
 #include "measure.h"
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
@@ -17,6 +18,8 @@ namespace meshbound::bench {
 namespace {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
+
+std::shared_ptr<const CollapseDriver> chosen_driver = cgal::edge_collapse_driver();
 
 void finish(Simplified& result, const Stopwatch& watch) {
   const Times times = watch.elapsed();
@@ -43,18 +46,20 @@ struct FaceCountStop {
 
 }  // namespace
 
-Simplified bounded(const TriangleMesh& mesh, cgal::SimplifyOptions options, std::optional<std::size_t> level) {
-  options.measure = false;
+Simplified bounded(const TriangleMesh& mesh, const SimplifyOptions& options, std::optional<std::size_t> level) {
   Simplified result;
   const Stopwatch watch;
-  cgal::SimplifyResult run = cgal::simplify_with_bound(mesh, options);
+  SimplifyResult run = decimate_levels(mesh, options);
   finish(result, watch);
   result.mesh = std::move(run.levels[level.value_or(run.levels.size() - 1)].mesh);
   return result;
 }
 
-cgal::SimplifyOptions within(double tolerance, cgal::Effort effort, int threads) {
-  cgal::SimplifyOptions options;
+void choose_driver(const std::string& name) { chosen_driver = name == "core" ? nullptr : cgal::edge_collapse_driver(); }
+
+SimplifyOptions within(double tolerance, Effort effort, int threads) {
+  SimplifyOptions options;
+  options.driver = chosen_driver;
   options.tolerance = tolerance;
   options.effort = effort;
   options.threads = threads;

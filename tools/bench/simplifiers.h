@@ -13,12 +13,14 @@ struct Simplified {
 
 /// `simplify_with_bound` with its proof, without the fresh measurement of what comes out (`seconds_of_measuring`).
 /// `mesh` in the result is that of the level of `tolerance`, or of `options.levels[level]` where these ascend.
-[[nodiscard]] Simplified bounded(const TriangleMesh& mesh, cgal::SimplifyOptions options,
+[[nodiscard]] Simplified bounded(const TriangleMesh& mesh, const SimplifyOptions& options,
                                  std::optional<std::size_t> level = std::nullopt);
 
-/// Options for one tolerance.
-[[nodiscard]] cgal::SimplifyOptions within(double tolerance, cgal::Effort effort = cgal::Effort::Normal,
-                                           int threads = 1);
+/// Options for one tolerance, with the driver that was chosen last.
+[[nodiscard]] SimplifyOptions within(double tolerance, Effort effort = Effort::Normal, int threads = 1);
+
+/// "cgal", which it is at first, or "core". Before any thread is started.
+void choose_driver(const std::string& name);
 
 /// Processor seconds of the fresh measurement that decides whether `simplified` is within the tolerance of `mesh`,
 /// trees included.

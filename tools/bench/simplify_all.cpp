@@ -4,6 +4,7 @@
 // memory cost. Every result is measured again by us and by CGAL; exit code 1 when one does not hold.
 #include <CLI/CLI.hpp>
 
+#include "simplifiers.h"
 #include "simplify_parts.h"
 
 namespace {
@@ -27,5 +28,7 @@ int main(int argc, char** argv) {
       [&](CLI::App& app) {
         app.add_option("--percent", percents, "tolerances of all-meshes in percent of the diagonal")
             ->capture_default_str();
+        app.add_option_function<std::string>("--driver", choose_driver, "who makes the collapses: cgal or core")
+            ->check(CLI::IsMember({"cgal", "core"}));
       });
 }

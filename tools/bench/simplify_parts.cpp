@@ -86,7 +86,7 @@ void named_row(Part& part, const std::string& name, const TriangleMesh& mesh, in
   const double tolerance = tolerance_of(mesh, usual_percent);
   Turns normal, high;
   contest(part.options(), {{[&] { return bounded(mesh, within(tolerance)); }, &normal},
-                           {[&] { return bounded(mesh, within(tolerance, cgal::Effort::High)); }, &high}});
+                           {[&] { return bounded(mesh, within(tolerance, Effort::High)); }, &high}});
   const Check of_normal = part.checked(name + " normal", mesh, normal, tolerance);
   const Check of_high = part.checked(name + " high", mesh, high, tolerance);
   const auto target = [](int faces) { return faces == 0 ? std::string("-") : std::to_string(faces); };
@@ -172,8 +172,8 @@ void threads(const SimplifyBench& bench) {
     if (mesh.triangles.size() < min_triangles) continue;
     const double tolerance = tolerance_of(mesh, usual_percent);
     Turns one, two;
-    contest(bench.options, {{[&] { return bounded(mesh, within(tolerance, cgal::Effort::Normal, 1)); }, &one},
-                            {[&] { return bounded(mesh, within(tolerance, cgal::Effort::Normal, 2)); }, &two}});
+    contest(bench.options, {{[&] { return bounded(mesh, within(tolerance, Effort::Normal, 1)); }, &one},
+                            {[&] { return bounded(mesh, within(tolerance, Effort::Normal, 2)); }, &two}});
     (void)part.checked(source.name, mesh, one, tolerance);
     const bool equal = one.mesh.vertices == two.mesh.vertices && one.mesh.triangles == two.mesh.triangles;
     if (one.done() && two.done() && !equal) part.fail(source.name, "differs between one and two threads");
@@ -194,7 +194,7 @@ void levels(const SimplifyBench& bench) {
     if (!part.wants(source.name)) continue;
     const TriangleMesh mesh = source.make();
     const double tolerance = tolerance_of(mesh, usual_percent);
-    cgal::SimplifyOptions with_levels = within(tolerance);
+    SimplifyOptions with_levels = within(tolerance);
     with_levels.levels = {tolerance / 8, tolerance / 4, tolerance / 2};
     Turns last, alone;
     contest(bench.options, {{[&] { return bounded(mesh, with_levels); }, &last},
@@ -229,7 +229,7 @@ void target(const SimplifyBench& bench) {
     const double tolerance = tolerance_of(mesh, loose_percent);
     const CgalInput input = cgal_input(mesh);
     for (const std::size_t share : {2, 10, 50}) {
-      cgal::SimplifyOptions options = within(tolerance);
+      SimplifyOptions options = within(tolerance);
       options.target_faces = mesh.triangles.size() / share;
       Turns ours, cgals;
       contest(bench.options, {{[&] { return bounded(mesh, options); }, &ours},
