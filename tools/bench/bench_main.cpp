@@ -15,11 +15,12 @@ int bench_main(int argc, char** argv, const char* description, const std::functi
   app.add_flag("--quick", options.quick, "fewer pairs, sizes and steps, and a limit of 20 s");
   app.add_option("--out", options.out, "folder of the results")->capture_default_str();
   app.add_option("--cache", options.cache, "folder of the meshes that are made once")->capture_default_str();
-  auto* limit = app.add_option("--limit", options.limit, "CPU seconds after which a run is ended");
+  auto* limit = app.add_option("--limit", options.limit, "CPU seconds after which a run is ended, and a check by CGAL");
   app.add_option("--only", options.only, "measure only what has this in its name");
   if (add_options) add_options(app);
   CLI11_PARSE(app, argc, argv);
   if (options.quick && limit->empty()) options.limit = 20;
+  options.check_limit = options.quick && limit->empty() ? 3 : options.limit;
   try {
     std::filesystem::create_directories(options.out);
     std::filesystem::create_directories(options.cache);

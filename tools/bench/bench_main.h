@@ -17,6 +17,7 @@ struct Options {
   std::filesystem::path out = ".";        ///< tables and data of pictures
   std::filesystem::path cache = "cache";  ///< meshes made once
   double limit = 120;                     ///< seconds of processor time for one run of one function
+  double check_limit = 120;               ///< the same for a check by CGAL that is not timed
   std::string only;                       ///< measures only what has this in its name
   std::string machine;                    ///< one line for every table
 

@@ -120,9 +120,7 @@ Check check(const Options& options, const TriangleMesh& original, const Triangle
   const ChildResult ours = run_in_child(options.limit, [&]() -> std::vector<double> {
     return {share_of_tolerance(original, simplified, tolerance), seconds_of_measuring(original, simplified, tolerance)};
   });
-  constexpr double quick_seconds = 3;
-  const double cgal_limit = options.quick ? std::min(quick_seconds, options.limit) : options.limit;
-  const ChildResult cgals = run_in_child(cgal_limit, [&]() -> std::vector<double> {
+  const ChildResult cgals = run_in_child(options.check_limit, [&]() -> std::vector<double> {
     const auto pair = CgalPair::make(manifold_soup(original), manifold_soup(simplified));
     return {pair ? pair->bounded_error(cgal_error * tolerance) / tolerance : none};
   });
