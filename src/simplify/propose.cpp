@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simplify/minimax_step.h"
+#include "simplify/repair.h"
 
 namespace meshbound {
 namespace {
@@ -60,15 +61,16 @@ Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {}
 void Proposer::gather_samples() {
   gathered_ = true;
   samples_.begin(origin_);
-  for (const std::uint32_t face : star_.removed) samples_.add_face(face);
+  taken_ = star_.removed;
   numbers_.clear();
   beside_.clear();
   for (const Corner c : star_.moved) {
-    samples_.add_face(c / 3);
+    taken_.push_back(c / 3);
     numbers_.push_back(c / 3);
     const Corner across = state_.mesh.twin(next_corner(c));
     if (across != ArrayMesh::none && owns(across / 3)) beside_.push_back(across / 3);
   }
+  for (const std::uint32_t face : taken_) samples_.add_face(face);
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -184,24 +186,17 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double limit) {
   return std::nullopt;
 }
 
+void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point) {
+  state.mesh.collapse(star.edge);
+  state.mesh.move(star.kept, point);
+  state.quadrics[star.kept] += state.quadrics[star.gone];
+  state.locked[star.kept] |= state.locked[star.gone];
+  region.removed_faces += star.removed.size();
+}
+
 void Proposer::collapse(Region& region, Vec3 point) {
-  DecimationState& s = state_;
-  EditLog& log = region.log;
-  const std::uint32_t number = log.last_number() + 1;
-  const std::uint32_t kept = star_.kept, gone = star_.gone;
-  log.edits.push_back({Edit::Kind::Collapse, s.locked[kept] != 0, star_.edge, s.mesh.position(kept),
-                       static_cast<std::uint32_t>(log.stamps.size())});
-  const auto stamp = [&](std::uint32_t face) {
-    log.stamps.push_back({face, s.stamp[face]});
-    s.stamp[face] = number;
-  };
-  for (const std::uint32_t face : star_.removed) stamp(face);
-  for (const Corner c : star_.moved) stamp(c / 3);
-  s.mesh.collapse(star_.edge);
-  s.mesh.move(kept, point);
-  s.quadrics[kept] += s.quadrics[gone];
-  s.locked[kept] |= s.locked[gone];
-  region.removed_faces += star_.removed.size();
+  note_edit(state_, region, Edit::Kind::Collapse, star_.edge, taken_);
+  apply_collapse(state_, region, star_, point);
 }
 
 /// Each sample to the face that was found nearest to it.

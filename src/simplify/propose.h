@@ -30,6 +30,12 @@ struct EdgeStar {
   std::vector<std::uint32_t> around_kept_, around_gone_;  ///< vertices
 };
 
+/// Makes a collapse that has been noted.
+void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point);
+
+/// What a collapse costs by the quadrics of its ends.
+[[nodiscard]] float edge_cost(const DecimationState& state, Corner edge);
+
 /// Tries changes against the samples around them, and makes them. One for each thread.
 class Proposer {
  public:
@@ -76,6 +82,7 @@ class Proposer {
   Vec3 origin_;
   SamplePoints few_;
   std::vector<SampleFace> faces_;       ///< that stay, as they would be
+  std::vector<std::uint32_t> taken_;    ///< all faces of the star
   std::vector<std::uint32_t> numbers_;  ///< of these in the mesh
   std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
   LinearHeights heights_;

@@ -34,11 +34,16 @@ class ChangeProver {
   /// Makes the last change part of what is proven, or takes it back where that fails.
   bool prove_or_undo(const Split& split, Region& region);
 
+  /// Makes all changes of the region that are not proven yet, many around one place, part of what is proven. False
+  /// where that fails; they are as they were then.
+  [[nodiscard]] bool prove_group(const Split& split, Region& region);
+
   std::uint64_t proven = 0, uncovered = 0, too_far = 0;
 
  private:
   DecimationState& state_;
   std::unique_ptr<ProofWorkers> workers_;
+  std::vector<std::uint32_t> changed_;  ///< by a group
 };
 
 /// A proof under way.
