@@ -16,6 +16,11 @@ constexpr int max_minimax_steps = 3;
 /// One sample in this many tells for most edges that there is nothing to gain.
 constexpr std::size_t coarseness = 6;
 
+/// Two faces that stay have three vertices in common: they are the others of a tetrahedron.
+bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
+  return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
+}
+
 /// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
 bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
                     const std::vector<std::uint32_t>& around_gone) {
@@ -52,7 +57,8 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
       return moved.size() <= max_faces;
     });
   };
-  if (!visit(kept, around_kept_) || !visit(gone, around_gone_) || moved.empty()) return false;
+  if (!visit(kept, around_kept_) || !visit(gone, around_gone_) || moved.empty() || is_tetrahedron(mesh, moved))
+    return false;
   return keeps_manifold(mesh, edge, around_kept_, around_gone_);
 }
 

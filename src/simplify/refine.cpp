@@ -235,7 +235,6 @@ void refine(DecimationState& state, const RefinementGoal& goal, int threads) {
   for (int round = 0; round < max_rounds && state.faces > goal.target_faces && !goal.stop(); ++round) {
     const std::size_t before = state.faces;
     refine_round(state, refiners, round, goal);
-    std::fprintf(stderr, "round %d faces %zu at %.2f\n", round, state.faces, double(clock()) / CLOCKS_PER_SEC);
     const auto gain = static_cast<double>(before - state.faces);
     if (round + 1 >= min_rounds && gain < min_gain_of_round * static_cast<double>(before)) break;
   }
