@@ -8,6 +8,8 @@
 
 #include "meshbound/distance.h"
 #include "numeric/first_error.h"
+#include "simplify/refine.h"
+#include "simplify/region_collapses.h"
 #include "simplify/repair.h"
 
 namespace meshbound {
@@ -46,6 +48,7 @@ class Run {
     propose(1);
     prove_and_repair();
     prove_one_by_one();
+    if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip) refine();
     return ended_by_;
   }
 
@@ -57,6 +60,7 @@ class Run {
   void propose(int shift);
   void prove_and_repair();
   void prove_one_by_one();
+  void refine();
   void in_regions(Split split, const Work& work);
   [[nodiscard]] bool is_global() const { return goal_.target_faces > 0 || goal_.on_exceed == OnExceed::Stop; }
   [[nodiscard]] bool has_ended() const { return ended_by_ != EndedBy::NothingFits; }
@@ -197,6 +201,19 @@ void Run::prove_one_by_one() {
     const auto gain = static_cast<double>(before - state_.faces);
     if (gain < min_gain_of_pass * static_cast<double>(before)) return;
   }
+}
+
+/// Moves and flips make room for further collapses.
+void Run::refine() {
+  if (has_ended()) return;
+  RefinementGoal goal;
+  goal.target_faces = goal_.target_faces;
+  goal.stop = [this] {
+    if (!has_ended() && goal_.stop.stopped()) note_stop();
+    return has_ended();
+  };
+  meshbound::refine(state_, goal, threads_);
+  if (!has_ended() && goal_.target_faces > 0 && state_.faces <= goal_.target_faces) ended_by_ = EndedBy::Target;
 }
 
 /// Whether the whole mesh leaves the tolerance by the collapse that was refused last: the local proof may fail where

@@ -7,7 +7,7 @@
 
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
-#include "simplify/region_collapses.h"
+#include "simplify/decimation_threads.h"
 
 namespace meshbound {
 
@@ -20,21 +20,6 @@ struct DecimationGoal {
   StopToken stop;
   std::function<void(std::size_t faces)> progress;  ///< called from the calling thread; may be none
   const CollapseDriver* driver = nullptr;           ///< null: our own
-};
-
-/// Scratch memory of the threads of a decimation, kept from level to level.
-class DecimationThreads {
- public:
-  /// `state` must outlive this.
-  DecimationThreads(DecimationState& state, int threads);
-
-  [[nodiscard]] int count() const { return static_cast<int>(proposers.size()); }
-  [[nodiscard]] CollapseCounts counts() const;
-
-  ProofWorkers workers;
-  std::vector<std::unique_ptr<Proposer>> proposers;    ///< by thread
-  std::vector<std::unique_ptr<ChangeProver>> provers;  ///< by thread
-  CollapseCounts together;                             ///< of what was proven together
 };
 
 /// Decimates until nothing more fits or the goal is reached. The state is proven for the tolerance of the goal, which

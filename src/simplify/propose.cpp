@@ -6,6 +6,7 @@
 
 #include "simplify/faults.h"
 #include "simplify/minimax_step.h"
+#include "simplify/repair.h"
 
 namespace meshbound {
 
@@ -36,6 +37,11 @@ constexpr double good_share = 0.9;
 
 /// Where a place could not be proven, another one is looked for where distances are this share of the limit.
 constexpr double lower_share = 0.7;
+
+/// Two faces that stay have three vertices in common: they are the others of a tetrahedron.
+bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
+  return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
+}
 
 /// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
 bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
@@ -73,7 +79,8 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
       return moved.size() <= max_faces;
     });
   };
-  if (!visit(kept, around_kept_) || !visit(gone, around_gone_) || moved.empty()) return false;
+  if (!visit(kept, around_kept_) || !visit(gone, around_gone_) || moved.empty() || is_tetrahedron(mesh, moved))
+    return false;
   return keeps_manifold(mesh, edge, around_kept_, around_gone_);
 }
 
@@ -89,9 +96,9 @@ void Proposer::gather_samples() {
     if (across != ArrayMesh::none && owns(across / 3)) beside_.push_back(across / 3);
   }
   samples_.begin(origin_);
-  all_faces_ = numbers_;
-  all_faces_.insert(all_faces_.end(), star_.removed.begin(), star_.removed.end());
-  samples_.add_faces(all_faces_);
+  taken_ = numbers_;
+  taken_.insert(taken_.end(), star_.removed.begin(), star_.removed.end());
+  samples_.add_faces(taken_);
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -244,24 +251,17 @@ void Proposer::add_vertex(Vec3 point) {
   heights_.add(static_cast<float>(height), slope(offset.x), slope(offset.y), slope(offset.z));
 }
 
+void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point) {
+  state.mesh.collapse(star.edge);
+  state.mesh.move(star.kept, point);
+  state.quadrics[star.kept] += state.quadrics[star.gone];
+  state.locked[star.kept] |= state.locked[star.gone];
+  region.removed_faces += star.removed.size();
+}
+
 void Proposer::collapse(Region& region, Vec3 point) {
-  DecimationState& s = state_;
-  EditLog& log = region.log;
-  const std::uint32_t number = log.last_number() + 1;
-  const std::uint32_t kept = star_.kept, gone = star_.gone;
-  log.edits.push_back({Edit::Kind::Collapse, s.locked[kept] != 0, star_.edge, s.mesh.position(kept),
-                       static_cast<std::uint32_t>(log.stamps.size())});
-  const auto stamp = [&](std::uint32_t face) {
-    log.stamps.push_back({face, s.stamp[face]});
-    s.stamp[face] = number;
-  };
-  for (const std::uint32_t face : star_.removed) stamp(face);
-  for (const Corner c : star_.moved) stamp(c / 3);
-  s.mesh.collapse(star_.edge);
-  s.mesh.move(kept, point);
-  s.quadrics[kept] += s.quadrics[gone];
-  s.locked[kept] |= s.locked[gone];
-  region.removed_faces += star_.removed.size();
+  note_edit(state_, region, Edit::Kind::Collapse, star_.edge, taken_);
+  apply_collapse(state_, region, star_, point);
 }
 
 /// Each sample to the face that was found nearest to it.
@@ -292,10 +292,10 @@ bool Proposer::is_inside(Corner edge) const {
   return owned_around(state_.mesh.start(edge)) && owned_around(state_.mesh.end(edge));
 }
 
-float Proposer::cost(Corner edge) const {
-  const std::uint32_t a = state_.mesh.start(edge), b = state_.mesh.end(edge);
+float edge_cost(const DecimationState& state, Corner edge) {
+  const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
   return static_cast<float>(
-      best_placement(state_.quadrics[a], state_.quadrics[b], state_.mesh.position(a), state_.mesh.position(b)).cost);
+      best_placement(state.quadrics[a], state.quadrics[b], state.mesh.position(a), state.mesh.position(b)).cost);
 }
 
 }  // namespace meshbound

@@ -28,6 +28,12 @@ struct EdgeStar {
   std::vector<std::uint32_t> around_kept_, around_gone_;  ///< vertices
 };
 
+/// Makes a collapse that has been noted.
+void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point);
+
+/// What a collapse costs by the quadrics of its ends.
+[[nodiscard]] float edge_cost(const DecimationState& state, Corner edge);
+
 /// Tries changes against the samples around them, and makes them. One for each thread.
 class Proposer {
  public:
@@ -40,8 +46,6 @@ class Proposer {
   void enter(const Split& split, const Region& region);
   /// Whether all vertices around an edge belong to the region.
   [[nodiscard]] bool is_inside(Corner edge) const;
-  /// What it costs to collapse an edge: the least sum of the quadrics of its ends.
-  [[nodiscard]] float cost(Corner edge) const;
   /// Whether it was for the bound that the last edge was refused, and where its vertex was to go.
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
@@ -88,10 +92,10 @@ class Proposer {
   Vec3 tried_;             ///< the first place
   Vec3 origin_;
   SamplePoints few_;
-  std::vector<SampleFace> faces_;         ///< that stay, as they would be
-  std::vector<std::uint32_t> numbers_;    ///< of these in the mesh
-  std::vector<std::uint32_t> all_faces_;  ///< of the star, with those that go
-  std::vector<std::uint32_t> beside_;     ///< faces around the star, of the same region
+  std::vector<SampleFace> faces_;       ///< that stay, as they would be
+  std::vector<std::uint32_t> numbers_;  ///< of these in the mesh
+  std::vector<std::uint32_t> taken_;    ///< all faces of the star
+  std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
   LinearHeights heights_;
 };
 

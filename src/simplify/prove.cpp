@@ -120,10 +120,7 @@ class ProofWorkers::Worker {
       for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
         if (affected_marks_.insert(t)) affected_.push_back(t);
     }
-    const auto owned = [&](std::uint32_t face) {
-      const auto corners = state_.mesh.corners(face);
-      return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split.owns(region, v); });
-    };
+    const auto owned = [&](std::uint32_t face) { return owns(split, region, face); };
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_) {
         const auto faces = state_.cover.faces_of(t);
@@ -176,6 +173,30 @@ class ProofWorkers::Worker {
     }
   }
 
+  /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
+  bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
+    affected_.clear();
+    affected_marks_.clear();
+    ids_.clear();
+    ends_.clear();
+    for (const std::uint32_t face : changed)
+      for (const std::uint32_t t : state_.cover.originals_of(face))
+        if (affected_marks_.insert(t)) affected_.push_back(t);
+    const auto owned = [&](std::uint32_t face) { return owns(split, region, face); };
+    for (const std::uint32_t t : affected_) {
+      const auto faces = state_.cover.faces_of(t);
+      if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
+      if (!cover_among(t, changed, owned)) return false;
+      ids_.insert(ids_.end(), drafted_.begin(), drafted_.end());
+      ends_.push_back(ids_.size());
+    }
+    return true;
+  }
+  void assign_group(CoverAssignment& cover) const {
+    for (std::size_t i = 0, begin = 0; i < affected_.size(); begin = ends_[i++])
+      cover.assign(affected_[i], std::span(ids_).subspan(begin, ends_[i] - begin));
+  }
+
  private:
   /// The faces around the first `count` of those found.
   template <class Owned>
@@ -211,17 +232,59 @@ class ProofWorkers::Worker {
                        [&](Vec3 p) { return prepared.triangle.is_within(p, limit * limit); });
   }
 
+  /// Whether a face belongs to a region.
+  [[nodiscard]] bool owns(const Split& split, std::uint32_t region, std::uint32_t face) const {
+    const auto corners = state_.mesh.corners(face);
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split.owns(region, v); });
+  }
+
+  /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
+  template <class Owned>
+  bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
+    drafted_.clear();
+    const auto& v = state_.triangles[t];
+    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return false;
+    for (const std::uint32_t f : state_.cover.faces_of(t)) {
+      if (state_.mesh.is_removed(f) || !holds(f, corners, limit)) continue;
+      drafted_.push_back(f);
+      return true;
+    }
+    const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
+    found_.clear();
+    found_marks_.clear();
+    for (const std::uint32_t f : changed) {
+      if (state_.mesh.is_removed(f) || !box_of(state_.mesh.triangle(f)).intersects(reach)) continue;
+      found_marks_.insert(f);
+      found_.push_back(f);
+    }
+    spread(reach, owned);
+    if (found_.size() <= CandidateFaces::capacity) {
+      enter(found_, limit);
+      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
+    }
+    if (drafted_.empty()) cover_in_parts(corners, limit, drafted_);
+    return !drafted_.empty();
+  }
+
   /// Faces that hang together with those at the corners and whose boxes meet `reach`.
   void find_around(const std::array<std::uint32_t, 3>& at, const Eigen::AlignedBox3d& reach) {
     found_.clear();
     found_marks_.clear();
     for (const std::uint32_t f : at)
       if (f != ArrayMesh::none && found_marks_.insert(f)) found_.push_back(f);
+    spread(reach, [](std::uint32_t) { return true; });
+  }
+  /// Adds the faces that hang together with those found, by faces of which that is true, and whose boxes meet `reach`.
+  template <class Wanted>
+  void spread(const Eigen::AlignedBox3d& reach, const Wanted& is_wanted) {
     for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
       for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
           const std::uint32_t f = d / 3;
-          if (found_marks_.contains(f) || !box_of(state_.mesh.triangle(f)).intersects(reach)) return true;
+          if (found_marks_.contains(f) || !is_wanted(f) || !box_of(state_.mesh.triangle(f)).intersects(reach))
+            return true;
           found_marks_.insert(f);
           found_.push_back(f);
           return true;
@@ -318,7 +381,8 @@ class ProofWorkers::Worker {
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
   MarkedIds found_marks_, affected_marks_;
-  std::vector<std::uint32_t> found_, chosen_, affected_, ids_;
+  std::vector<std::uint32_t> found_, chosen_, affected_, ids_, drafted_;
+  std::vector<std::size_t> ends_;       ///< by place in `affected_`: of its faces in `ids_`
   std::vector<std::size_t> in_pieces_;  ///< places in `affected_`
   std::vector<FaceMask> used_;
   std::vector<Part> parts_;
@@ -380,6 +444,31 @@ void ChangeProver::accept(Region& region) {
   for (const EditLog::Stamp& stamp : region.log.stamps_of(region.log.last_number())) state_.stamp[stamp.face] = 0;
   region.log.edits.clear();
   region.log.stamps.clear();
+}
+
+bool ChangeProver::prove_group(const Split& split, Region& region) {
+  ProofWorkers::Worker& worker = *workers_.workers_[thread_];
+  changed_.clear();
+  for (const EditLog::Stamp& stamp : region.log.stamps)
+    if (stamp.before == 0) changed_.push_back(stamp.face);
+  bool holds = worker.cover_group(changed_, split, region.id);
+  originals_tested += worker.affected();
+  for (const std::uint32_t face : changed_) {
+    if (!holds) break;
+    if (state_.mesh.is_removed(face)) continue;
+    holds = worker.is_near(face, state_.nearest[face]);
+    ++faces_tested;
+  }
+  if (!holds) {
+    ++unproven;
+    return false;
+  }
+  ++proven;
+  worker.assign_group(state_.cover);
+  for (const std::uint32_t face : changed_) state_.stamp[face] = 0;
+  region.log.edits.clear();
+  region.log.stamps.clear();
+  return true;
 }
 
 Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), workers_(workers) {

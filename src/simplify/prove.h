@@ -67,6 +67,9 @@ class ChangeProver {
   /// In two steps: until `accept`, `undo_last` may still take back a change that holds.
   bool prove(const Split& split, Region& region);
   void accept(Region& region);
+  /// Makes all changes of the region that are not proven yet, many around one place, part of what is proven. False
+  /// where that fails; they are as they were then.
+  [[nodiscard]] bool prove_group(const Split& split, Region& region);
 
   std::uint64_t proven = 0, unproven = 0, originals_tested = 0, faces_tested = 0;
 
@@ -74,6 +77,7 @@ class ChangeProver {
   DecimationState& state_;
   ProofWorkers& workers_;
   std::size_t thread_;
+  std::vector<std::uint32_t> changed_;  ///< by a group
 };
 
 /// A proof under way.

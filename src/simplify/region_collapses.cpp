@@ -78,14 +78,14 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
 void RegionCollapses::collapse_all() {
   EdgeQueue queue(state_.place_in_queue);
   for_each_edge([&](Corner e) {
-    if (is_open(e)) queue.put(e, proposer_.cost(e));
+    if (is_open(e)) queue.put(e, edge_cost(state_, e));
   });
   while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_before_) queue.erase(e);
     mesh().for_each_corner(kept(), [&](Corner c) {
       for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))})
-        if (is_owned(e)) queue.put(e, proposer_.cost(e));
+        if (is_owned(e)) queue.put(e, edge_cost(state_, e));
       return true;
     });
   }

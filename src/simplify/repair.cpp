@@ -141,6 +141,18 @@ class Undoing {
 
 }  // namespace
 
+void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
+               std::span<const std::uint32_t> faces) {
+  EditLog& log = region.log;
+  const std::uint32_t number = log.last_number() + 1, at = state.mesh.start(edge);
+  log.edits.push_back(
+      {kind, state.locked[at] != 0, edge, state.mesh.position(at), static_cast<std::uint32_t>(log.stamps.size())});
+  for (const std::uint32_t face : faces) {
+    log.stamps.push_back({face, state.stamp[face]});
+    state.stamp[face] = number;
+  }
+}
+
 void undo_last(DecimationState& state, Region& region) {
   EditLog& log = region.log;
   const Edit edit = log.edits.back();

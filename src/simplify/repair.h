@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <vector>
 
 #include "simplify/prove.h"
@@ -13,6 +14,10 @@ struct Repair {
   std::size_t changes = 0;           ///< taken back
 };
 [[nodiscard]] Repair repair(DecimationState& state, const Unproven& unproven);
+
+/// Notes a change of a region that is about to be made to these faces. `edge` is that of the `Edit`.
+void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
+               std::span<const std::uint32_t> faces);
 
 /// Takes back the last change of a region, whose samples have not been given to other faces yet.
 void undo_last(DecimationState& state, Region& region);

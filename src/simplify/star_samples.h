@@ -17,6 +17,7 @@ class StarSamples {
 
   /// Starts anew, without samples. `points` are relative to `origin`, a point near by.
   void begin(Vec3 origin);
+  void add_face(std::uint32_t face) { add_faces({&face, 1}); }
   void add_faces(std::span<const std::uint32_t> faces);
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] const SamplePoints& points() const { return points_; }

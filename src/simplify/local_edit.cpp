@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/local_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/point_triangle.h"
+#include "simplify/repair.h"
+
+namespace meshbound {
+namespace {
+
+/// Edges are measured at the ends of so many parts: three points between the ends tell which way to go, 15 whether a
+/// proof is worth its time (an edge may leave the original anywhere).
+constexpr int parts_to_guide = 4, parts_to_test = 16;
+
+constexpr std::size_t min_degree = 3;
+
+/// Where the sum is smaller, the worst sample at a tenth of the tolerance, there is nothing to gain by a flip, and one
+/// that lowers it by a smaller share is not worth a proof.
+constexpr double low_deviation = 1e-6, min_flip_gain = 0.05;
+
+}  // namespace
+
+LocalEdit::LocalEdit(DecimationState& state) : state_(state), samples_(state), proximity_(state.tree) {
+  is_of_group_.reserve(state.mesh.face_count());
+}
+
+void LocalEdit::enter(const Split& split, Region& region) {
+  split_ = &split;
+  region_ = &region;
+}
+
+bool LocalEdit::owns_around(std::uint32_t vertex) const {
+  return owns(vertex) && state_.mesh.for_each_corner(
+                             vertex, [&](Corner c) { return owns(state_.mesh.end(c)) && owns(state_.mesh.apex(c)); });
+}
+
+bool LocalEdit::has_edge(std::uint32_t a, std::uint32_t b) const {
+  return !state_.mesh.for_each_corner(a, [&](Corner c) { return state_.mesh.end(c) != b && state_.mesh.apex(c) != b; });
+}
+
+void LocalEdit::clear() {
+  taken_.clear(), numbers_.clear(), beside_.clear(), before_.clear(), corners_.clear(), hints_.clear();
+  samples_.begin(origin_);
+}
+
+void LocalEdit::take_face(std::uint32_t face) {
+  taken_.push_back(face);
+  samples_.add_face(face);
+}
+
+/// The face across an edge of the rim, where it belongs to the region.
+void LocalEdit::take_beside(Corner rim) {
+  const Corner across = state_.mesh.twin(rim);
+  if (across != ArrayMesh::none && owns(state_.mesh.apex(across))) beside_.push_back(across / 3);
+}
+
+bool LocalEdit::gather_move(std::uint32_t vertex) {
+  const ArrayMesh& mesh = state_.mesh;
+  if (!mesh.is_vertex(vertex) || state_.locked[vertex] != 0 || mesh.is_border(vertex) || !owns_around(vertex))
+    return false;
+  kind_ = Edit::Kind::Move;
+  edge_ = mesh.corner_of(vertex);
+  origin_ = mesh.position(vertex);
+  clear();
+  return mesh.for_each_corner(vertex, [&](Corner c) {
+    take_face(c / 3);
+    numbers_.push_back(c / 3);
+    corners_.push_back({origin_, mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))});
+    before_.emplace_back(corners_.back());
+    take_beside(next_corner(c));
+    return numbers_.size() < EdgeStar::max_faces;
+  });
+}
+
+bool LocalEdit::gather_flip(Corner edge) {
+  const ArrayMesh& mesh = state_.mesh;
+  const Corner other = mesh.twin(edge);
+  if (other == ArrayMesh::none) return false;
+  const std::uint32_t a = mesh.start(edge), b = mesh.end(edge), c = mesh.apex(edge), d = mesh.apex(other);
+  if (c == d || state_.locked[a] != 0 || state_.locked[b] != 0) return false;
+  for (const std::uint32_t v : {a, b, c, d})
+    if (!owns(v)) return false;
+  for (const std::uint32_t v : {a, b}) {
+    std::size_t degree = 0;
+    if (mesh.for_each_corner(v, [&](Corner) { return ++degree <= min_degree; })) return false;
+  }
+  if (has_edge(c, d)) return false;
+  kind_ = Edit::Kind::Flip;
+  edge_ = edge;
+  origin_ = mesh.position(a);
+  clear();
+  for (const Corner e : {edge, other}) {
+    take_face(e / 3);
+    numbers_.push_back(e / 3);
+    corners_.push_back({mesh.position(mesh.start(e)), mesh.position(mesh.end(e)), mesh.position(mesh.apex(e))});
+    before_.emplace_back(corners_.back());
+    take_beside(next_corner(e));
+    take_beside(previous_corner(e));
+  }
+  set_faces();
+  return true;
+}
+
+bool LocalEdit::gather_collapse(Corner edge) {
+  const ArrayMesh& mesh = state_.mesh;
+  if (!star_.gather(mesh, edge)) return false;
+  for (const std::uint32_t v : {star_.kept, star_.gone})
+    if (state_.locked[v] != 0 || mesh.is_border(v) || !owns_around(v)) return false;
+  kind_ = Edit::Kind::Collapse;
+  edge_ = edge;
+  origin_ = mesh.position(star_.kept);
+  clear();
+  for (const std::uint32_t face : star_.removed) take_face(face);
+  for (const Corner c : star_.moved) {
+    take_face(c / 3);
+    numbers_.push_back(c / 3);
+    corners_.push_back({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))});
+    before_.emplace_back(corners_.back());
+    take_beside(next_corner(c));
+  }
+  return true;
+}
+
+void LocalEdit::set_faces() {
+  faces_.clear();
+  for (const Corners& c : corners_) faces_.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
+}
+
+bool LocalEdit::place(Vec3 point) {
+  bool allowed = true;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    corners_[i][0] = point;
+    allowed = allowed && before_[i].allows(corners_[i]);
+  }
+  set_faces();
+  return allowed;
+}
+
+/// The corners of (a, b, c) and (b, a, d) become those of (c, d, b) and (d, c, a), as `ArrayMesh::flip` makes them.
+bool LocalEdit::place_flipped() {
+  const Vec3 a = corners_[0][0], b = corners_[0][1], c = corners_[0][2], d = corners_[1][2];
+  corners_ = {{c, d, b}, {d, c, a}};
+  set_faces();
+  return std::all_of(before_.begin(), before_.end(),
+                     [&](const GuardedFace& face) { return face.allows(corners_[0]) && face.allows(corners_[1]); });
+}
+
+bool LocalEdit::flip_lowers_deviation(Corner edge) {
+  if (!gather_flip(edge)) return false;
+  const double now = deviation().sum;
+  return now >= low_deviation && place_flipped() && deviation().sum < (1 - min_flip_gain) * now;
+}
+
+/// A point of an edge moves by `share` of what the vertex does.
+void LocalEdit::add_to_original(Vec3 p, double share, std::size_t which, SlopeSums& sums) {
+  if (which >= hints_.size()) hints_.resize(which + 1, state_.nearest[numbers_[0]]);
+  (void)proximity_.upper_distance({p.x, p.y, p.z}, hints_[which]);
+  const auto& t = state_.triangles[hints_[which]];
+  const Vec3 corner = state_.vertices[t[0]];
+  const CornerTriangle<double> nearest{corner, state_.vertices[t[1]] - corner, state_.vertices[t[2]] - corner};
+  // It is the point of the edge that moves here, not the closest one.
+  sums.add((1 / state_.tolerance) * closest_on_triangle(nearest, p).offset, -share);
+}
+
+SlopeSums LocalEdit::deviation() {
+  SlopeSums sums;
+  kernel_.add_slope(samples_.points(), faces_, static_cast<float>(1 / state_.tolerance), sums);
+  add_to_original(corners_[0][0], 1, 0, sums);
+  const std::size_t edges = kind_ == Edit::Kind::Flip ? 1 : corners_.size();
+  for (std::size_t i = 0; i < edges; ++i) {
+    for (int k = 1; k < parts_to_guide; ++k) {
+      const double share = 1 - static_cast<double>(k) / parts_to_guide;
+      const std::size_t which = i * (parts_to_guide - 1) + static_cast<std::size_t>(k);
+      add_to_original(share * corners_[i][0] + (1 - share) * corners_[i][1], share, which, sums);
+    }
+  }
+  return sums;
+}
+
+/// Points of an edge but its end.
+bool LocalEdit::is_edge_near(Vec3 from, Vec3 to, double limit, std::uint32_t& hint) {
+  for (int k = 0; k < parts_to_test; ++k) {
+    const Vec3 p = from + (static_cast<double>(k) / parts_to_test) * (to - from);
+    if (!(proximity_.upper_distance({p.x, p.y, p.z}, hint, limit) <= limit)) return false;
+  }
+  return true;
+}
+
+bool LocalEdit::fits(double share) {
+  const double limit = share * state_.limit;
+  if (!samples_.hold(faces_, beside_, limit)) return false;
+  std::uint32_t hint = hints_.empty() ? state_.nearest[numbers_[0]] : hints_[0];
+  const std::size_t edges = kind_ == Edit::Kind::Flip ? 1 : corners_.size();
+  return std::all_of(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(edges),
+                     [&](const Corners& c) { return is_edge_near(c[0], c[1], limit, hint); });
+}
+
+void LocalEdit::make() {
+  if (grouped_) join_group();
+  note_edit(state_, *region_, kind_, edge_, taken_);
+  switch (kind_) {
+    case Edit::Kind::Move:
+      state_.mesh.move(state_.mesh.start(edge_), corners_[0][0]);
+      break;
+    case Edit::Kind::Flip:
+      state_.mesh.flip(edge_);
+      break;
+    case Edit::Kind::Collapse:
+      quadric_before_ = state_.quadrics[star_.kept];
+      apply_collapse(state_, *region_, star_, corners_[0][0]);
+      break;
+  }
+}
+
+void LocalEdit::settle() {
+  // The faces of a group share no samples with others, so that these can be given back.
+  if (grouped_) (void)samples_.hold(faces_, {}, HUGE_VAL);
+  for (const std::uint32_t face : taken_) state_.samples.clear(face);
+  samples_.give(numbers_);
+  if (!grouped_) touch(numbers_);
+}
+
+void LocalEdit::touch(std::span<const std::uint32_t> faces) {
+  ++region_->clock;
+  for (const std::uint32_t face : faces) {
+    if (state_.mesh.is_removed(face)) continue;
+    for (const std::uint32_t v : state_.mesh.corners(face)) state_.touched[v] = region_->clock;
+  }
+}
+
+void LocalEdit::begin_group() {
+  grouped_ = true;
+  is_of_group_.clear();
+  group_.clear();
+  owned_before_.clear();
+}
+
+void LocalEdit::join_group() {
+  for (const std::uint32_t face : taken_) {
+    if (!is_of_group_.insert(face)) continue;
+    group_.push_back(face);
+    for (std::uint32_t s = state_.samples.first(face); s != Samples::none; s = state_.samples.following(s))
+      owned_before_.emplace_back(s, face);
+  }
+}
+
+bool LocalEdit::group_fits(double share) {
+  const ArrayMesh& mesh = state_.mesh;
+  const double limit = share * state_.limit;
+  for (const std::uint32_t face : group_) {
+    if (mesh.is_removed(face)) continue;
+    const auto [a, b, c] = mesh.triangle(face);
+    samples_.begin(a);
+    samples_.add_face(face);
+    const SampleFace alone({0, 0, 0}, b - a, c - a);
+    if (!samples_.hold({&alone, 1}, {}, limit)) return false;
+  }
+  for (const std::uint32_t face : group_) {
+    if (mesh.is_removed(face)) continue;
+    const Corners corners = mesh.triangle(face);
+    std::uint32_t hint = state_.nearest[face];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Corner edge = 3 * face + k;
+      const bool is_seen_twice = mesh.twin(edge) != ArrayMesh::none && is_of_group_.contains(mesh.twin(edge) / 3);
+      if (is_seen_twice && mesh.edge(edge) != edge) continue;
+      if (!is_edge_near(corners[k], corners[(k + 1) % 3], limit, hint)) return false;
+    }
+  }
+  return true;
+}
+
+void LocalEdit::keep_group() {
+  grouped_ = false;
+  touch(group_);
+}
+
+void LocalEdit::undo_group() {
+  grouped_ = false;
+  while (!region_->log.edits.empty()) undo_last(state_, *region_);
+  state_.quadrics[star_.kept] = quadric_before_;  // without the rounding of what was added and subtracted
+  for (const std::uint32_t face : group_) state_.samples.clear(face);
+  for (const auto& [sample, face] : owned_before_) state_.samples.give_to(sample, face);
+}
+
+}  // namespace meshbound

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "meshbound/proximity.h"
+#include "simplify/decimation_state.h"
+#include "simplify/marked_ids.h"
+#include "simplify/normal_guard.h"
+#include "simplify/propose.h"
+#include "simplify/regions.h"
+#include "simplify/star_samples.h"
+
+namespace meshbound {
+
+/// One change of a few faces: a vertex moved, an edge flipped or collapsed. It is gathered, placed, measured against
+/// the samples around it, made, and settled, or taken back by whoever could not prove it. One for each thread.
+class LocalEdit {
+ public:
+  using Corners = std::array<Vec3, 3>;
+
+  explicit LocalEdit(DecimationState& state);
+  /// Changes are made in this region from now on. Both arguments must stay where they are until the last change.
+  void enter(const Split& split, Region& region);
+
+  /// Each takes the faces around, as they are. False where borders, locks, the region or the topology forbid the
+  /// change. A collapse takes no border edge either.
+  [[nodiscard]] bool gather_move(std::uint32_t vertex);
+  [[nodiscard]] bool gather_flip(Corner edge);
+  [[nodiscard]] bool gather_collapse(Corner edge);
+
+  /// The faces that stay as they would be with the vertex at `point` or the edge turned. False where one is folded.
+  [[nodiscard]] bool place(Vec3 point);
+  [[nodiscard]] bool place_flipped();
+  /// Gathers and places a flip. False as for these, and where the deviation would not be lower.
+  [[nodiscard]] bool flip_lowers_deviation(Corner edge);
+  /// The vertex that moves comes first in each of these faces.
+  [[nodiscard]] std::span<const Corners> faces() const { return corners_; }
+  /// Where the vertex that moves is now.
+  [[nodiscard]] Vec3 origin() const { return origin_; }
+
+  /// The sum over the samples, and over points on the edges that change, of (distance / tolerance)^6: a high power
+  /// follows the largest distance and stays smooth. A guide, not a bound.
+  [[nodiscard]] SlopeSums deviation();
+  /// Whether samples and points on the edges that change are within `share` of what has to be proven. Looks at far more
+  /// points of the edges than `deviation`: most proofs of an edit that looks good fail between the samples.
+  [[nodiscard]] bool fits(double share);
+
+  /// Makes the change as it was placed last; then, where it is to stay, gives the samples to the faces nearest to them.
+  void make();
+  void settle();
+
+  /// A group is a collapse, gathered and placed, with changes around it that make room for it: they are settled at
+  /// once, and stay or are taken back together.
+  void begin_group();
+  /// As `fits`, for all faces of the group.
+  [[nodiscard]] bool group_fits(double share);
+  void keep_group();
+  void undo_group();
+
+ private:
+  void clear();
+  void take_face(std::uint32_t face);
+  void take_beside(Corner rim);
+  void add_to_original(Vec3 p, double share, std::size_t which, SlopeSums& sums);
+  [[nodiscard]] bool is_edge_near(Vec3 from, Vec3 to, double limit, std::uint32_t& hint);
+  [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
+  [[nodiscard]] bool owns_around(std::uint32_t vertex) const;
+  [[nodiscard]] bool has_edge(std::uint32_t a, std::uint32_t b) const;
+  void set_faces();
+  void touch(std::span<const std::uint32_t> faces);
+  void join_group();
+
+  DecimationState& state_;
+  const Split* split_ = nullptr;
+  Region* region_ = nullptr;
+  StarSamples samples_;
+  Proximity proximity_;
+  SlopeKernel kernel_ = fastest_slope_kernel();
+
+  Edit::Kind kind_ = Edit::Kind::Move;
+  EdgeStar star_;  ///< of a collapse
+  Corner edge_ = 0;
+  Vec3 origin_;
+  std::vector<std::uint32_t> taken_, numbers_, beside_;  ///< faces that change, those of them that stay, and others
+  std::vector<GuardedFace> before_;                      ///< faces that stay
+  std::vector<Corners> corners_;                         ///< of these as they would be
+  std::vector<SampleFace> faces_;                        ///< the same relative to the origin
+  std::vector<std::uint32_t> hints_;                     ///< by point of the edges: an original triangle near it
+
+  bool grouped_ = false;
+  Quadric quadric_before_;  ///< of the vertex that the collapse of the group keeps
+  MarkedIds is_of_group_;
+  std::vector<std::uint32_t> group_;                                   ///< faces
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> owned_before_;  ///< samples and their faces before the group
+};
+
+}  // namespace meshbound

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "simplify/local_edit.h"
+
+namespace meshbound {
+
+struct DeviationSearch {
+  int max_steps = 8;             ///< of Newton's method
+  int max_attempts = 4;          ///< at one step, each shorter than the one before
+  double min_gain = 0.01;        ///< a step that lowers the sum by a smaller share is the last one
+  double enough_squared = 0.01;  ///< the largest squared distance, in tolerances, that needs no lowering
+};
+
+struct LoweredDeviation {
+  Vec3 point;         ///< where the vertex is best; it has been placed there
+  double before = 0;  ///< sum at the start
+  SlopeSums lowest;
+};
+
+/// Looks for the place of a vertex where the sampled deviation around is least, by Newton's method from where `edit`
+/// has placed it, at `start`.
+[[nodiscard]] LoweredDeviation lower_deviation(LocalEdit& edit, Vec3 start, double tolerance,
+                                               const DeviationSearch& search);
+
+}  // namespace meshbound

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/refine.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "numeric/first_error.h"
+#include "simplify/edge_queue.h"
+#include "simplify/lower_deviation.h"
+#include "simplify/region_collapses.h"
+#include "simplify/relaxed_collapse.h"
+
+namespace meshbound {
+namespace {
+
+/// A round that removes a smaller share of the faces is the last one, but for the first rounds: a few hundred faces may
+/// stay the same for one and fall again.
+constexpr double min_gain_of_round = 0.02;
+constexpr int min_rounds = 3, max_rounds = 12;
+
+/// A shaken vertex goes this share of the way to the middle of its neighbours, and up to a share of an edge beside.
+/// Without, the search ends in the next local minimum, with 5 to 8% more faces.
+constexpr double way_to_middle = 0.2, jitter = 0.3;
+/// Where that breaks the bound, a shorter way may do.
+constexpr int max_shakes = 3;
+constexpr double shorter_way = 0.4;
+/// On a crease nearly every way does, but along it: up to a share of a random edge.
+constexpr int max_slides = 2;
+constexpr double max_slide = 0.4;
+
+/// This share of the edges is flipped whatever that gains: on plane faces every triangulation is as good as another,
+/// but not every one has room for the next collapse.
+constexpr double share_of_random_flips = 0.1;
+
+/// A move that lowers the deviation by a smaller share is not worth its proof.
+constexpr double min_move_gain = 0.02;
+
+/// Refines one region after another. One for each thread.
+class Refiner {
+ public:
+  Refiner(DecimationState& state, Proposer& proposer, ChangeProver& prover)
+      : state_(state), proposer_(proposer), prover_(prover), edit_(state), relaxed_(state, edit_, prover_) {}
+
+  struct Task {
+    std::vector<std::uint32_t> vertices;  ///< of the region
+    std::size_t max_removed = 0;          ///< faces
+    std::function<bool()> stop;
+  };
+  void round(const Split& split, Region& region, int round, const Task& task) {
+    split_ = &split, region_ = &region, task_ = &task;
+    edit_.enter(split, region);
+    random_.seed(static_cast<std::uint64_t>(round) << 32 | region.id);
+    shake();
+    flip_at_random();
+    flip();
+    relocate();
+    flip();
+    RegionCollapses(state_, split, region, proposer_, &prover_, {1, [&](std::size_t) { return is_done(); }, nullptr})
+        .collapse_all();
+    collapse_relaxed();
+  }
+
+ private:
+  [[nodiscard]] bool is_done() const { return region_->removed_faces >= task_->max_removed || task_->stop(); }
+  template <class Change>
+  void for_each_vertex(const Change& change) {
+    for (const std::uint32_t v : task_->vertices) {
+      if (is_done()) return;
+      if (state_.mesh.is_vertex(v)) change(v);
+    }
+  }
+  template <class Change>
+  void for_each_edge(const Change& change) {
+    edges_.clear();
+    for (const std::uint32_t v : task_->vertices) {
+      if (!state_.mesh.is_vertex(v)) continue;
+      state_.mesh.for_each_corner(v, [&](Corner c) {
+        if (state_.mesh.edge(c) == c) edges_.push_back(c);
+        return true;
+      });
+    }
+    for (const Corner edge : edges_) {
+      if (is_done()) return;
+      change(edge);
+    }
+  }
+
+  /// Makes the change that has been placed, if it can be proven.
+  bool make() {
+    if (!edit_.fits(1)) return false;
+    edit_.make();
+    if (!prover_.prove_or_undo(*split_, *region_)) return false;
+    edit_.settle();
+    return true;
+  }
+
+  void shake() {
+    for_each_vertex([&](std::uint32_t v) { shake(v); });
+  }
+  void shake(std::uint32_t vertex);
+  void relocate() {
+    for_each_vertex([&](std::uint32_t v) { relocate(v); });
+  }
+  void relocate(std::uint32_t vertex) {
+    if (!edit_.gather_move(vertex)) return;
+    (void)edit_.place(edit_.origin());
+    const LoweredDeviation found = lower_deviation(edit_, edit_.origin(), state_.tolerance, {});
+    if (found.lowest.sum < (1 - min_move_gain) * found.before) (void)make();
+  }
+  void flip_at_random() {
+    for_each_edge([&](Corner edge) {
+      if (std::abs(uniform()) < share_of_random_flips && edit_.gather_flip(edge) && edit_.place_flipped()) (void)make();
+    });
+  }
+  void flip() {
+    for_each_edge([&](Corner edge) {
+      if (edit_.flip_lowers_deviation(edge)) (void)make();
+    });
+  }
+  void collapse_relaxed();
+  void edges_around(Corner edge);
+
+  double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1; }  ///< in -1 to 1
+
+  DecimationState& state_;
+  const Split* split_ = nullptr;
+  Region* region_ = nullptr;
+  const Task* task_ = nullptr;
+  Proposer& proposer_;
+  ChangeProver& prover_;
+  LocalEdit edit_;
+  RelaxedCollapse relaxed_;
+  std::vector<Corner> edges_, around_;
+  std::mt19937_64 random_;  ///< the standard fixes what it yields, so results are the same everywhere
+};
+
+void Refiner::shake(std::uint32_t vertex) {
+  if (!edit_.gather_move(vertex)) return;
+  const Vec3 p = edit_.origin();
+  const std::size_t degree = edit_.faces().size();
+  const double part = 1 / static_cast<double>(degree);
+  Vec3 middle{0, 0, 0}, normal{0, 0, 0};
+  double mean_edge = 0;
+  for (const LocalEdit::Corners& c : edit_.faces()) {
+    middle = middle + part * c[1];
+    normal = normal + cross(c[1] - p, c[2] - p);
+    mean_edge += part * length(c[1] - p);
+  }
+  const double norm = length(normal);
+  if (!(norm > 0)) return;
+  normal = (1 / norm) * normal;
+  const double x = uniform(), y = uniform(), z = uniform();
+  Vec3 way = way_to_middle * (middle - p) + jitter * mean_edge * Vec3{x, y, z};
+  way = way - dot(way, normal) * normal;
+  for (int attempt = 0; attempt < max_shakes; ++attempt, way = shorter_way * way)
+    if (edit_.place(p + way) && make()) return;
+  for (int attempt = 0; attempt < max_slides; ++attempt) {
+    const Vec3 end = edit_.faces()[random_() % degree][1];
+    if (edit_.place(p + max_slide * std::abs(uniform()) * (end - p)) && make()) return;
+  }
+}
+
+/// Of the ends of an edge.
+void Refiner::edges_around(Corner edge) {
+  around_.clear();
+  for (const std::uint32_t v : {state_.mesh.start(edge), state_.mesh.end(edge)}) {
+    state_.mesh.for_each_corner(v, [&](Corner c) {
+      around_.push_back(state_.mesh.edge(c));
+      around_.push_back(state_.mesh.edge(previous_corner(c)));
+      return true;
+    });
+  }
+}
+
+void Refiner::collapse_relaxed() {
+  const ArrayMesh& mesh = state_.mesh;
+  EdgeQueue queue(state_.place_in_queue);
+  for_each_edge([&](Corner edge) {
+    if (split_->owns(region_->id, mesh.end(edge))) queue.put(edge, edge_cost(state_, edge));
+  });
+  while (!queue.empty() && !is_done()) {
+    const Corner edge = queue.pop();
+    if (mesh.is_removed(edge / 3)) continue;  // flips renumber edges
+    const std::uint32_t kept = mesh.start(edge);
+    edges_around(edge);
+    if (!relaxed_.run(*split_, *region_, edge)) continue;
+    for (const Corner e : around_) queue.erase(e);
+    mesh.for_each_corner(kept, [&](Corner c) {
+      for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) queue.put(e, edge_cost(state_, e));
+      return true;
+    });
+  }
+  queue.clear();
+}
+
+std::vector<Refiner::Task> tasks(const DecimationState& state, const Split& regions, const RefinementGoal& goal) {
+  std::vector<Refiner::Task> tasks(regions.regions.size());
+  for (Refiner::Task& task : tasks) {
+    task.max_removed = (state.faces - goal.target_faces + tasks.size() - 1) / tasks.size();
+    task.stop = goal.stop;
+  }
+  for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
+    if (state.mesh.is_vertex(v)) tasks[regions.region_of.empty() ? 0 : regions.region_of[v]].vertices.push_back(v);
+  return tasks;
+}
+
+/// One round over all regions, each by one thread. Those of odd rounds are cut elsewhere.
+void refine_round(DecimationState& state, const std::vector<std::unique_ptr<Refiner>>& refiners, int round,
+                  const RefinementGoal& goal) {
+  Split regions = split(state, round % 2);
+  const std::vector<Refiner::Task> work = tasks(state, regions, goal);
+  FirstError error;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(refiners.size()))
+  for (std::size_t r = 0; r < work.size(); ++r) {
+    error.guard([&] {
+      refiners[static_cast<std::size_t>(omp_get_thread_num())]->round(regions, regions.regions[r], round, work[r]);
+    });
+  }
+  error.rethrow();
+  merge(state, std::move(regions));
+}
+
+}  // namespace
+
+void refine(DecimationState& state, const RefinementGoal& goal, DecimationThreads& threads) {
+  std::vector<std::unique_ptr<Refiner>> refiners;
+  for (std::size_t k = 0; k < threads.proposers.size(); ++k)
+    refiners.push_back(std::make_unique<Refiner>(state, *threads.proposers[k], *threads.provers[k]));
+  for (int round = 0; round < max_rounds && state.faces > goal.target_faces && !goal.stop(); ++round) {
+    const std::size_t before = state.faces;
+    refine_round(state, refiners, round, goal);
+    const auto gain = static_cast<double>(before - state.faces);
+    if (round + 1 >= min_rounds && gain < min_gain_of_round * static_cast<double>(before)) break;
+  }
+}
+
+}  // namespace meshbound

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/relaxed_collapse.h"
+
+#include <algorithm>
+
+#include "simplify/lower_deviation.h"
+
+namespace meshbound {
+namespace {
+
+/// Largest sampled distances in tolerances, squared, beyond which an attempt is given up: with the placement of least
+/// cost, where the vertex itself is best, and after the first sweep over its neighbours. Half as much again costs twice
+/// the time for 1% fewer faces.
+constexpr double hopeless_placement = 3.0 * 3.0, hopeless_vertex = 1.35 * 1.35, hopeless_ring = 1.15 * 1.15;
+
+/// The neighbours and the vertex itself move this often, and edges flip before they do in the first two sweeps.
+constexpr int max_sweeps = 3, sweeps_with_flips = 2;
+
+/// A vertex with distances of 0.7 tolerances at most is not in the way.
+constexpr DeviationSearch search_of_vertex{4, 2, 0.05, 0.5}, search_of_neighbour{2, 2, 0.05, 0.5};
+
+}  // namespace
+
+bool RelaxedCollapse::run(const Split& split, Region& region, Corner edge) {
+  if (!place_collapse(edge)) return false;
+  const std::uint32_t kept = state_.mesh.start(edge);
+  edit_.begin_group();
+  edit_.make();
+  edit_.settle();
+  if (!make_room(kept) || !edit_.group_fits(1) || !prover_.prove_group(split, region)) {
+    edit_.undo_group();
+    return false;
+  }
+  edit_.keep_group();
+  return true;
+}
+
+bool RelaxedCollapse::place_collapse(Corner edge) {
+  if (!edit_.gather_collapse(edge)) return false;
+  const std::uint32_t a = state_.mesh.start(edge), b = state_.mesh.end(edge);
+  const Vec3 p = state_.mesh.position(a), q = state_.mesh.position(b);
+  if (!edit_.place(best_placement(state_.quadrics[a], state_.quadrics[b], p, q).point) && !edit_.place(0.5 * (p + q)))
+    return false;
+  return edit_.deviation().worst_squared <= hopeless_placement;
+}
+
+/// Whether all sampled distances around the vertex get small enough.
+bool RelaxedCollapse::make_room(std::uint32_t kept) {
+  if (relax(kept, search_of_vertex) > hopeless_vertex) return false;
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    if (sweep < sweeps_with_flips) flip_around(kept);
+    const double worst_squared = relax_around(kept);
+    if (worst_squared < 1) return true;
+    if (worst_squared > hopeless_ring) return false;
+  }
+  return false;
+}
+
+void RelaxedCollapse::flip_around(std::uint32_t kept) {
+  edges_.clear();
+  state_.mesh.for_each_corner(kept, [&](Corner c) {
+    edges_.push_back(c);
+    edges_.push_back(next_corner(c));
+    return true;
+  });
+  for (const Corner edge : edges_) {
+    if (!edit_.flip_lowers_deviation(edge)) continue;
+    edit_.make();
+    edit_.settle();
+  }
+}
+
+/// Moves a vertex to where the deviation is least. Returns the largest sampled distance that is left, squared.
+double RelaxedCollapse::relax(std::uint32_t vertex, const DeviationSearch& search) {
+  if (!edit_.gather_move(vertex)) return 0;
+  const Vec3 start = edit_.origin();
+  (void)edit_.place(start);
+  const LoweredDeviation found = lower_deviation(edit_, start, state_.tolerance, search);
+  if (squared_length(found.point - start) > 0) {
+    edit_.make();
+    edit_.settle();
+  }
+  return found.lowest.worst_squared;
+}
+
+double RelaxedCollapse::relax_around(std::uint32_t kept) {
+  ring_.clear();
+  state_.mesh.for_each_corner(kept, [&](Corner c) {
+    ring_.push_back(state_.mesh.end(c));
+    return true;
+  });
+  double worst_squared = 0;
+  for (const std::uint32_t v : ring_) worst_squared = std::max(worst_squared, relax(v, search_of_neighbour));
+  return std::max(worst_squared, relax(kept, search_of_neighbour));
+}
+
+}  // namespace meshbound

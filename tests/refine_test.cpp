@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "datasets/analytic_meshes.h"
+#include "decimation_fixture.h"
+#include "meshbound/distance.h"
+#include "simplify/local_edit.h"
+#include "simplify/region_collapses.h"
+#include "simplify/regions.h"
+#include "simplify/relaxed_collapse.h"
+
+namespace {
+
+using namespace meshbound;
+
+/// Proven collapses until nothing fits.
+void decimate_plainly(DecimationState& state) {
+  DecimationThreads threads(state, 1);
+  for (std::size_t before = 0; before != state.faces;) {
+    before = state.faces;
+    Split all = whole(state);
+    RegionCollapses(state, all, all.regions[0], *threads.proposers[0], threads.provers[0].get(),
+                    {1, [](std::size_t) { return false; }, nullptr})
+        .collapse_all();
+    merge(state, std::move(all));
+  }
+}
+
+void refine_alone(DecimationState& state, const RefinementGoal& goal, int count) {
+  DecimationThreads threads(state, count);
+  refine(state, goal, threads);
+}
+
+void expect_proven(const DecimationState& state) {
+  EXPECT_TRUE(state.logs.empty());
+  EXPECT_EQ(std::count(state.stamp.begin(), state.stamp.end(), 0u), std::ptrdiff_t(state.stamp.size()));
+  std::size_t faces = 0;
+  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f) faces += state.mesh.is_removed(f) ? 0 : 1;
+  EXPECT_EQ(state.faces, faces);
+}
+
+double distance_upper(const TriangleMesh& a, const TriangleMesh& b, double tolerance) {
+  DistanceOptions options;
+  options.error_bound = 1e-6 * tolerance;
+  return symmetric_distance(Bvh(a), Bvh(b), options).bounds.upper;
+}
+
+struct Case {
+  std::string name;
+  TriangleMesh mesh;
+  double tolerance;
+};
+std::vector<Case> cases() {
+  return {{"sphere", datasets::icosphere(1, 3), 0.01},
+          {"torus", datasets::torus(2, 0.7, 40, 20), 0.02},
+          {"open terrain", datasets::terrain(1, 20, 3), 0.01},
+          {"gear", datasets::gear(1, 0.4, 8, 8, 2), 0.01}};
+}
+
+TEST(Refine, LeavesFewerFacesWithinTheTolerance) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    DecimationFixture fixture(c.mesh, c.tolerance);
+    decimate_plainly(fixture.state);
+    const std::size_t before = fixture.state.faces;
+    refine_alone(fixture.state, {}, 1);
+    EXPECT_LT(fixture.state.faces, before);
+    expect_proven(fixture.state);
+    EXPECT_LE(distance_upper(c.mesh, fixture.result(), c.tolerance), c.tolerance);
+  }
+}
+
+TEST(Refine, EndsAtTheTargetAndWhereItIsTold) {
+  const Case c = cases()[1];
+  DecimationFixture fixture(c.mesh, c.tolerance);
+  refine_alone(fixture.state, {.target_faces = 1500, .stop = [] { return false; }}, 1);
+  EXPECT_LE(fixture.state.faces, 1500u);
+  EXPECT_GE(fixture.state.faces, 1498u);
+  expect_proven(fixture.state);
+  const TriangleMesh before = fixture.result();
+  refine_alone(fixture.state, {.target_faces = 0, .stop = [] { return true; }}, 1);
+  EXPECT_EQ(fixture.result().vertices, before.vertices);
+}
+
+TEST(Refine, LeavesLockedVerticesWhereTheyAre) {
+  const Case c = cases()[2];
+  DecimationFixture fixture(c.mesh, c.tolerance);
+  std::vector<std::uint32_t> locked;
+  for (std::uint32_t v = 0; v < fixture.state.mesh.vertex_count(); v += 17) {
+    fixture.state.locked[v] = 1;
+    locked.push_back(v);
+  }
+  refine_alone(fixture.state, {}, 1);
+  const TriangleMesh result = fixture.result();
+  for (const std::uint32_t v : locked) {
+    const Eigen::Vector3d& p = c.mesh.vertices[fixture.state.source_vertex[v]];
+    EXPECT_EQ(std::count(result.vertices.begin(), result.vertices.end(), p), 1);
+  }
+}
+
+/// What undoing a group must give back.
+struct Snapshot {
+  TriangleMesh mesh;
+  std::vector<double> quadrics;
+  std::vector<std::uint32_t> faces_of_samples;
+  std::vector<std::uint8_t> locked;
+
+  explicit Snapshot(const DecimationFixture& fixture) : mesh(fixture.result()), locked(fixture.state.locked) {
+    for (const Quadric& q : fixture.state.quadrics) quadrics.insert(quadrics.end(), {q.xx, q.xy, q.x, q.constant});
+    for (std::uint32_t s = 0; s < fixture.state.samples.size(); ++s)
+      faces_of_samples.push_back(fixture.state.samples.face_of(s));
+  }
+  bool operator==(const Snapshot& other) const {
+    return mesh.vertices == other.mesh.vertices && mesh.triangles == other.mesh.triangles &&
+           quadrics == other.quadrics && faces_of_samples == other.faces_of_samples && locked == other.locked;
+  }
+};
+
+TEST(RelaxedCollapse, LeavesNothingBehindWhereItFails) {
+  const Case c = cases()[1];
+  DecimationFixture fixture(c.mesh, c.tolerance);
+  decimate_plainly(fixture.state);
+  DecimationState& state = fixture.state;
+  Split all = whole(state);
+  LocalEdit edit(state);
+  edit.enter(all, all.regions[0]);
+  DecimationThreads workers(state, 1);
+  ChangeProver& prover = *workers.provers[0];
+  RelaxedCollapse relaxed(state, edit, prover);
+  int refused = 0, made = 0;
+  Snapshot before(fixture);
+  for (Corner edge = 0; edge < 3 * state.mesh.face_count(); ++edge) {
+    if (state.mesh.is_removed(edge / 3) || state.mesh.edge(edge) != edge) continue;
+    const bool collapsed = relaxed.run(all, all.regions[0], edge);
+    ++(collapsed ? made : refused);
+    Snapshot after(fixture);
+    ASSERT_NE(after == before, collapsed);
+    before = std::move(after);
+  }
+  EXPECT_GT(refused, 10);
+  EXPECT_GT(made, 0);
+  EXPECT_EQ(all.regions[0].removed_faces, 2u * static_cast<std::size_t>(made));
+  EXPECT_LE(distance_upper(c.mesh, fixture.result(), c.tolerance), c.tolerance);
+}
+
+/// Large enough for several regions, with a target so near that the first round reaches it.
+TEST(SlowRefine, GivesTheSameForAnyNumberOfThreads) {
+  const TriangleMesh torus = datasets::torus(2, 0.7, 180, 60);
+  const RefinementGoal goal{.target_faces = torus.triangles.size() - 400, .stop = [] { return false; }};
+  std::vector<TriangleMesh> results;
+  for (const int threads : {1, 3}) {
+    DecimationFixture fixture(torus, 2e-3);
+    ASSERT_GT(split(fixture.state, 0).regions.size(), 1u);
+    refine_alone(fixture.state, goal, threads);
+    expect_proven(fixture.state);
+    results.push_back(fixture.result());
+  }
+  EXPECT_LE(results[0].triangles.size(), goal.target_faces);
+  for (const TriangleMesh& result : results) {
+    EXPECT_EQ(result.vertices, results[0].vertices);
+    EXPECT_EQ(result.triangles, results[0].triangles);
+  }
+  EXPECT_LE(distance_upper(torus, results[0], 2e-3), 2e-3);
+}
+
+}  // namespace
