@@ -47,9 +47,9 @@ bool make_levels(const Buffers<Index>& model) {
   const auto tolerances = meshbound::screen_space_tolerances(screen, 1, distances);
   meshbound::build_lod_chain(model.view(), tolerances, options, [&](std::size_t i, meshbound::LodLevel&& level) {
     const Buffers<Index> lod(level.mesh);
-    std::printf("from distance %.6g: %zu of %zu faces, %zu vertices of %zu bytes, H <= %.6g of %.6g\n", distances[i],
-                lod.indices.size() / 3, model.indices.size() / 3, lod.vertices.size(), sizeof(Vertex),
-                level.distance->bounds.upper, level.tolerance);
+    std::printf("from distance %.6g: %zu of %zu faces, %zu-byte indices, H <= %.6g of %.6g\n", distances[i],
+                lod.indices.size() / 3, model.indices.size() / 3, sizeof(Index), level.distance->bounds.upper,
+                level.tolerance);
     all_hold = all_hold && level.verdict == meshbound::Verdict::Within;
     return all_hold && level.faces() > 16;  // coarser ones would show nothing: they are not computed
   });

@@ -28,6 +28,7 @@ TEST(Examples, EdgeCollapseWithOwnCostAndPlacementKeepsTheBound) {
   EXPECT_LT(result.triangles.size(), torus.triangles.size() / 4);
   EXPECT_EQ(check_symmetric(Bvh(torus), Bvh(result), 0.02).verdict, Verdict::Within);
 }
+#endif
 
 /// 16-bit indices for the small model, 32-bit ones for the large.
 TEST(Examples, EngineBuffersGetLevelsThatHold) {
@@ -42,7 +43,6 @@ TEST(Examples, EngineBuffersGetLevelsThatHold) {
   EXPECT_EQ(large.exit_code, 0) << large.out << large.err;
   EXPECT_NE(large.out.find("4-byte indices"), std::string::npos) << large.out;
 }
-#endif
 
 #ifdef CHECK_OTHER_SIMPLIFIER
 TEST(Examples, LevelsOfAnotherSimplifierAreTightenedUntilTheyHold) {

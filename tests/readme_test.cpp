@@ -26,7 +26,7 @@ std::string text_of(const fs::path& path) {
 }
 
 TEST(Readme, ShowsTheProgramsThatTheTestsCompile) {
-  for (const char* name : {"measure_two_meshes.cpp", "check_levels.cpp", "deform.cpp"}) {
+  for (const char* name : {"measure_two_meshes.cpp", "simplify_in_memory.cpp", "check_levels.cpp", "deform.cpp"}) {
     std::string program = text_of(root / "examples" / name);
     ASSERT_EQ(program.rfind("// SPDX", 0), 0U);
     program.erase(0, program.find('\n') + 1);
@@ -68,9 +68,19 @@ TEST(Readme, ProgramsForLevelsAndMovingMeshesRun) {
   fs::remove_all(folder);
 }
 
+TEST(Readme, ProgramSimplifiesACube) {
+  const fs::path folder = fs::temp_directory_path() / ("meshbound_simplify_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  meshbound::write_mesh(folder / "cube.off", meshbound::datasets::cube(1, 8));
+  const std::string files = " " + (folder / "cube.off").string() + " " + (folder / "small.off").string();
+  EXPECT_EQ(std::system((SIMPLIFY_IN_MEMORY + files + " >/dev/null").c_str()), 0);
+  EXPECT_EQ(meshbound::read_mesh(folder / "small.off").mesh.triangles.size(), 12u);
+  fs::remove_all(folder);
+}
+
 TEST(Readme, NamesOnlyFilesThatExist) {
   const std::string readme = text_of(root / "README.md");
-  const std::regex path(R"(`((?:tools|tests|datasets|src|include|examples|cmake|LICENSES)/[\w./-]*)[^`]*`)");
+  const std::regex path(R"(`((?:tools|tests|datasets|src|include|examples|cmake|docs|LICENSES)/[\w./-]*)[^`]*`)");
   std::size_t found = 0;
   for (std::sregex_iterator it(readme.begin(), readme.end(), path), end; it != end; ++it) {
     EXPECT_TRUE(fs::exists(root / (*it)[1].str())) << (*it)[1];

@@ -14,9 +14,9 @@ TEST(SimplifyWithBound, GivesEachLevelItsCertificate) {
   SimplifyOptions options;
   options.tolerance = 0.05;
   options.levels = {0.01};
-  EXPECT_FALSE(meshbound::cgal::simplify_with_bound(original, options).last().certificate);
+  EXPECT_FALSE(meshbound::simplify_with_bound(original, options).last().certificate);
   options.certificate = true;
-  const SimplifyResult result = meshbound::cgal::simplify_with_bound(original, options);
+  const SimplifyResult result = meshbound::simplify_with_bound(original, options);
   EXPECT_EQ(result.levels.size(), 2U);
   for (const SimplifiedLevel& level : result.levels) {
     ASSERT_TRUE(level.certificate);

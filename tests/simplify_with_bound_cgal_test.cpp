@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What simplify_with_bound returns holds by the measure of CGAL too, whose function shares no code with ours, with
 // every driver and cost; and it takes the graphs of CGAL.
+#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <gtest/gtest.h>
 
