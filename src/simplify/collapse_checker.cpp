@@ -11,6 +11,7 @@
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
+#include "simplify/change_prover.h"
 #include "simplify/indexed_manifold.h"
 #include "simplify/propose.h"
 #include "simplify/prove.h"

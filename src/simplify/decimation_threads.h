@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "meshbound/simplify.h"
+#include "simplify/change_prover.h"
 #include "simplify/propose.h"
 #include "simplify/prove.h"
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "simplify/change_prover.h"
 #include "simplify/propose.h"
 #include "simplify/prove.h"
 

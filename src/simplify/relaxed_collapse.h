@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "simplify/change_prover.h"
 #include "simplify/local_edit.h"
 #include "simplify/lower_deviation.h"
 #include "simplify/prove.h"

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "meshbound/proximity.h"
+#include "simplify/degree_cover.h"
+#include "simplify/face_box.h"
+#include "simplify/forward_cover.h"
+#include "simplify/marked_ids.h"
+#include "simplify/proof_workers.h"
+#include "simplify/regions.h"
+
+namespace meshbound {
+
+/// What one thread needs to prove single triangles and faces, with its scratch memory.
+class ProofWorkers::Worker {
+ public:
+  using Corners = std::array<Vec3, 3>;
+
+  explicit Worker(const DecimationState& state)
+      : state_(state),
+        cover_(state.vertices, state.triangles),
+        degree_(state.vertices, state.triangles),
+        proximity_(state.tree) {
+    found_marks_.reserve(state.mesh.face_count());
+    affected_marks_.reserve(state.triangles.size());
+  }
+
+  /// The face that covers an original triangle alone, or else those that do so together. Neither where none were found.
+  void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
+    only = ArrayMesh::none;
+    faces.clear();
+    const auto& v = state_.triangles[t];
+    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return;
+    std::array<std::uint32_t, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = state_.samples.face_of(v[k]);
+      if (at[k] != ArrayMesh::none && state_.mesh.is_removed(at[k])) at[k] = ArrayMesh::none;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (at[k] == ArrayMesh::none || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
+      if (!holds(at[k], corners, limit)) continue;
+      only = at[k];
+      return;
+    }
+    find_around(at, grown(box_of(corners), state_.tolerance));
+    if (found_.size() <= CandidateFaces::capacity) {
+      enter(found_, limit);
+      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), faces);
+    }
+    if (faces.empty()) cover_in_parts(corners, limit, faces);
+  }
+
+  /// The same where the samples do not know which faces are near.
+  void cover_anywhere(std::uint32_t t, const FaceBoxes& boxes, std::vector<std::uint32_t>& faces) {
+    faces.clear();
+    const auto& v = state_.triangles[t];
+    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return;
+    found_.clear();
+    boxes.find(grown(box_of(corners), state_.tolerance), found_);
+    std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
+    cover_in_parts(corners, limit, faces);
+  }
+
+  /// Whether a face is near the original.
+  bool is_near(std::uint32_t face, std::uint32_t& near) {
+    const Corners corners = state_.mesh.triangle(face);
+    for (const Vec3 p : corners)
+      if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= state_.magnitude + state_.tolerance))
+        return false;
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return false;
+    near = triangle_near(face, middle_of(corners), near);
+    if (degree_.covers(corners, limit, state_.magnitude, near)) return true;
+    return proximity_.triangle_within({to_eigen(corners[0]), to_eigen(corners[1]), to_eigen(corners[2])}, limit,
+                                      near) == Verdict::Within;
+  }
+
+  /// Covers of the originals that relied on these faces, which have just been changed, by place in `affected`. False
+  /// where one was not found.
+  bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
+    affected_.clear();
+    affected_marks_.clear();
+    for (const EditLog::Stamp& stamp : changed) {
+      for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
+        if (affected_marks_.insert(t)) affected_.push_back(t);
+    }
+    const auto owned = [&](std::uint32_t face) { return owns(split, region, face); };
+    if (!split.region_of.empty()) {
+      for (const std::uint32_t t : affected_) {
+        const auto faces = state_.cover.faces_of(t);
+        if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
+      }
+    }
+    if (affected_.empty()) return true;
+    Eigen::AlignedBox3d box;
+    if (state_.local) {
+      for (const std::uint32_t t : affected_)
+        for (const std::uint32_t v : state_.triangles[t]) box.extend(to_eigen(state_.vertices[v]));
+      for (const EditLog::Stamp& stamp : changed)
+        if (!state_.mesh.is_removed(stamp.face)) box.extend(box_of(state_.mesh.triangle(stamp.face)));
+    }
+    const double limit = state_.local ? state_.limit_in(box) : state_.limit;
+    if (!(limit > 0)) return false;
+    cover_.begin(limit);
+    found_marks_.clear();
+    found_.clear();
+    for (const EditLog::Stamp& stamp : changed) {
+      found_marks_.insert(stamp.face);
+      if (!state_.mesh.is_removed(stamp.face)) enter_face(stamp.face);
+    }
+    const FaceMask added = ForwardCover::first(cover_.size());
+    const std::size_t added_count = found_.size();
+    used_.assign(affected_.size(), 0);
+    in_pieces_.clear();
+    for (std::size_t i = 0; i < affected_.size(); ++i) {
+      used_[i] = cover_.cover_whole(affected_[i], added, 0);
+      if (used_[i] == 0) in_pieces_.push_back(i);
+    }
+    if (in_pieces_.empty()) return true;
+    enter_ring(added_count, owned);
+    // What is cheap and likely to fail comes first.
+    const FaceMask all = ForwardCover::first(cover_.size());
+    for (const std::size_t i : in_pieces_)
+      if (cover_.corner_out_of_reach(affected_[i], all)) return false;
+    for (const std::size_t i : in_pieces_) {
+      used_[i] = cover_.cover(affected_[i], all, added);
+      if (used_[i] == 0) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] std::size_t affected() const { return affected_.size(); }
+  void assign_covers(CoverAssignment& cover) {
+    for (std::size_t i = 0; i < affected_.size(); ++i) {
+      ids_.clear();
+      take(used_[i], ids_);
+      cover.assign(affected_[i], ids_);
+    }
+  }
+
+  /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
+  bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
+    affected_.clear();
+    affected_marks_.clear();
+    ids_.clear();
+    ends_.clear();
+    for (const std::uint32_t face : changed)
+      for (const std::uint32_t t : state_.cover.originals_of(face))
+        if (affected_marks_.insert(t)) affected_.push_back(t);
+    const auto owned = [&](std::uint32_t face) { return owns(split, region, face); };
+    for (const std::uint32_t t : affected_) {
+      const auto faces = state_.cover.faces_of(t);
+      if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
+      if (!cover_among(t, changed, owned)) return false;
+      ids_.insert(ids_.end(), drafted_.begin(), drafted_.end());
+      ends_.push_back(ids_.size());
+    }
+    return true;
+  }
+  void assign_group(CoverAssignment& cover) const {
+    for (std::size_t i = 0, begin = 0; i < affected_.size(); begin = ends_[i++])
+      cover.assign(affected_[i], std::span(ids_).subspan(begin, ends_[i] - begin));
+  }
+
+ private:
+  /// The faces around the first `count` of those found.
+  template <class Owned>
+  void enter_ring(std::size_t count, const Owned& owned) {
+    for (std::size_t k = 0; k < count; ++k) {
+      for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
+        state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
+          if (found_marks_.insert(d / 3) && owned(d / 3)) enter_face(d / 3);
+          return found_.size() < CandidateFaces::capacity;
+        });
+      }
+    }
+  }
+  void enter_face(std::uint32_t face) {
+    found_.push_back(face);
+    cover_.add(state_.mesh.triangle(face), face);
+  }
+  struct Part {
+    Corners corners;
+    int halvings = 0;
+  };
+
+  /// Like `CandidateFaces::holds`, for faces that are asked for once.
+  bool holds(std::uint32_t face, const Corners& points, double limit) {
+    Prepared& prepared = prepared_[face % prepared_.size()];
+    const Corners c = state_.mesh.triangle(face);
+    const auto same = [](Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+    if (prepared.face != face || !std::equal(c.begin(), c.end(), prepared.corners.begin(), same)) {
+      prepared.face = face, prepared.corners = c;
+      prepared.triangle = PreparedTriangle({c[0], c[1] - c[0], c[2] - c[0]});
+    }
+    return std::all_of(points.begin(), points.end(),
+                       [&](Vec3 p) { return prepared.triangle.is_within(p, limit * limit); });
+  }
+
+  /// Whether a face belongs to a region.
+  [[nodiscard]] bool owns(const Split& split, std::uint32_t region, std::uint32_t face) const {
+    const auto corners = state_.mesh.corners(face);
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split.owns(region, v); });
+  }
+
+  /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
+  template <class Owned>
+  bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
+    drafted_.clear();
+    const auto& v = state_.triangles[t];
+    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const double limit = state_.limit_around(corners);
+    if (!(limit > 0)) return false;
+    for (const std::uint32_t f : state_.cover.faces_of(t)) {
+      if (state_.mesh.is_removed(f) || !holds(f, corners, limit)) continue;
+      drafted_.push_back(f);
+      return true;
+    }
+    const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
+    found_.clear();
+    found_marks_.clear();
+    for (const std::uint32_t f : changed) {
+      if (state_.mesh.is_removed(f) || !box_of(state_.mesh.triangle(f)).intersects(reach)) continue;
+      found_marks_.insert(f);
+      found_.push_back(f);
+    }
+    spread(reach, owned);
+    if (found_.size() <= CandidateFaces::capacity) {
+      enter(found_, limit);
+      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
+    }
+    if (drafted_.empty()) cover_in_parts(corners, limit, drafted_);
+    return !drafted_.empty();
+  }
+
+  /// Faces that hang together with those at the corners and whose boxes meet `reach`.
+  void find_around(const std::array<std::uint32_t, 3>& at, const Eigen::AlignedBox3d& reach) {
+    found_.clear();
+    found_marks_.clear();
+    for (const std::uint32_t f : at)
+      if (f != ArrayMesh::none && found_marks_.insert(f)) found_.push_back(f);
+    spread(reach, [](std::uint32_t) { return true; });
+  }
+  /// Adds the faces that hang together with those found, by faces of which that is true, and whose boxes meet `reach`.
+  template <class Wanted>
+  void spread(const Eigen::AlignedBox3d& reach, const Wanted& is_wanted) {
+    for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
+      for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
+        state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
+          const std::uint32_t f = d / 3;
+          if (found_marks_.contains(f) || !is_wanted(f) || !box_of(state_.mesh.triangle(f)).intersects(reach))
+            return true;
+          found_marks_.insert(f);
+          found_.push_back(f);
+          return true;
+        });
+      }
+    }
+  }
+
+  void enter(const std::vector<std::uint32_t>& faces, double limit) {
+    cover_.begin(limit);
+    for (const std::uint32_t f : faces) cover_.add(state_.mesh.triangle(f), f);
+  }
+  void take(FaceMask used, std::vector<std::uint32_t>& faces) const {
+    for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
+  }
+
+  void cover_in_parts(const Corners& corners, double limit, std::vector<std::uint32_t>& faces) {
+    parts_.assign(1, {corners, 0});
+    for (std::size_t count = 1; !parts_.empty();) {
+      const Part part = parts_.back();
+      parts_.pop_back();
+      choose_candidates(part.corners);
+      enter(chosen_, limit);
+      const std::optional<FaceMask> used = cover_.cover_part(part.corners, ForwardCover::deepest_cut - part.halvings);
+      if (!used || (*used == 0 && (part.halvings == max_halvings || ++count > max_parts))) {
+        faces.clear();
+        return;
+      }
+      if (*used == 0) halve(part);
+      take(*used, faces);
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  }
+
+  void halve(const Part& part) {
+    std::size_t from = 0;
+    double longest = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double edge = squared_length(part.corners[(i + 1) % 3] - part.corners[i]);
+      if (edge > longest) longest = edge, from = i;
+    }
+    const std::size_t to = (from + 1) % 3;
+    const Vec3 middle = 0.5 * (part.corners[from] + part.corners[to]);
+    for (const std::size_t end : {from, to}) {
+      Part& half = parts_.emplace_back(part);
+      half.corners[end] = middle;
+      ++half.halvings;
+    }
+  }
+
+  /// Of the faces around, those that hold most of the corners, then those nearest to the middle.
+  void choose_candidates(const Corners& corners) {
+    const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
+    chosen_.clear();
+    for (const std::uint32_t f : found_)
+      if (box_of(state_.mesh.triangle(f)).intersects(reach)) chosen_.push_back(f);
+    if (chosen_.size() <= CandidateFaces::capacity) return;
+    const double squared_tolerance = state_.tolerance * state_.tolerance;
+    std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
+    for (const std::uint32_t f : chosen_) {
+      const Corners c = state_.mesh.triangle(f);
+      const CornerTriangle<double> triangle{c[0], c[1] - c[0], c[2] - c[0]};
+      const auto squared_distance = [&](Vec3 p) { return closest_on_triangle(triangle, p).squared_distance; };
+      const auto lost = std::count_if(corners.begin(), corners.end(),
+                                      [&](Vec3 p) { return squared_distance(p) > squared_tolerance; });
+      ranked.emplace_back(lost, squared_distance(middle_of(corners)), f);
+    }
+    std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
+    std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
+    chosen_.clear();
+    for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) chosen_.push_back(std::get<2>(ranked[k]));
+  }
+
+  /// An original triangle at the sample nearest to the middle of a face: one that lies above it, if any does.
+  [[nodiscard]] std::uint32_t triangle_near(std::uint32_t face, Vec3 middle, std::uint32_t best) {
+    double least = HUGE_VAL;
+    for (std::uint32_t s = state_.samples.first(face); s != Samples::none; s = state_.samples.following(s)) {
+      const double squared = squared_length(state_.samples.at(s) - middle);
+      if (squared < least) least = squared, best = state_.samples.triangle_near(s);
+    }
+    (void)proximity_.upper_distance(to_eigen(middle), best);
+    return best;
+  }
+
+  struct Prepared {
+    std::uint32_t face = ArrayMesh::none;
+    Corners corners;
+    PreparedTriangle triangle;
+  };
+  const DecimationState& state_;
+  ForwardCover cover_;
+  DegreeCover degree_;
+  Proximity proximity_;
+  std::array<Prepared, 64> prepared_;
+  MarkedIds found_marks_, affected_marks_;
+  std::vector<std::uint32_t> found_, chosen_, affected_, ids_, drafted_;
+  std::vector<std::size_t> ends_;       ///< by place in `affected_`: of its faces in `ids_`
+  std::vector<std::size_t> in_pieces_;  ///< places in `affected_`
+  std::vector<FaceMask> used_;
+  std::vector<Part> parts_;
+
+  /// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most
+  /// so many parts, each with candidates of its own. The cuts of parts and of covers count together.
+  static constexpr int max_halvings = 16;
+  static constexpr std::size_t max_parts = 4096;
+
+  /// Faces that are looked at around an original triangle.
+  static constexpr std::size_t max_found = 4096;
+
+  static Vec3 middle_of(const Corners& c) { return (1.0 / 3) * (c[0] + c[1] + c[2]); }
+};
+
+}  // namespace meshbound

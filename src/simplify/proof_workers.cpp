@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/proof_workers.h"
+
+#include "simplify/proof_worker.h"
+
+namespace meshbound {
+
+ProofWorkers::ProofWorkers(const DecimationState& state, int threads) {
+  for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<Worker>(state));
+}
+ProofWorkers::~ProofWorkers() = default;
+
+bool ProofWorkers::cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
+                                  std::vector<std::vector<std::uint32_t>>& covers) {
+  covers.resize(originals.size());
+  for (std::size_t i = 0; i < originals.size(); ++i) {
+    workers_.front()->cover_anywhere(originals[i], boxes, covers[i]);
+    if (covers[i].empty()) return false;
+  }
+  return true;
+}
+
+FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.is_removed(f)) continue;
+    faces_.push_back(f);
+    boxes.push_back(box_of(mesh.triangle(f)));
+  }
+  tree_.emplace(std::move(boxes));
+}
+
+void FaceBoxes::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
+  const std::size_t before = found.size();
+  tree_->find(box, found);
+  for (std::size_t i = before; i < found.size(); ++i) found[i] = faces_[found[i]];
+}
+
+}  // namespace meshbound

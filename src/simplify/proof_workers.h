@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simplify/box_tree.h"
+#include "simplify/decimation_state.h"
+
+namespace meshbound {
+
+/// The boxes of all faces of a mesh as it was, to find those near something from scratch.
+class FaceBoxes {
+ public:
+  /// O(n log n).
+  explicit FaceBoxes(const ArrayMesh& mesh);
+  /// Those that meet `box`.
+  void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
+
+ private:
+  std::vector<std::uint32_t> faces_;
+  std::optional<BoxTree> tree_;
+};
+
+/// Scratch memory of the threads that prove, kept from proof to proof.
+class ProofWorkers {
+ public:
+  /// `state` must outlive this.
+  ProofWorkers(const DecimationState& state, int threads);
+  ~ProofWorkers();
+
+  /// Covers of originals by faces that are there, found by their boxes. False where one has none.
+  [[nodiscard]] bool cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
+                                    std::vector<std::vector<std::uint32_t>>& covers);
+
+  class Worker;
+  [[nodiscard]] std::size_t count() const { return workers_.size(); }
+  [[nodiscard]] Worker& of_thread(std::size_t thread) { return *workers_[thread]; }
+
+ private:
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+}  // namespace meshbound
