@@ -103,12 +103,13 @@ TEST_F(LodChainTool, TakesItsTolerancesFromPixelsAndDistances) {
 }
 
 TEST_F(LodChainTool, KeepsToTheOptionsThatAllToolsHave) {
-  EXPECT_EQ(run({"--levels", "0.01", "--quiet", "--threads", "1", "--cost", "lindstrom-turk"}).out, "");
+  EXPECT_EQ(run({"--levels", "0.01", "--quiet", "--threads", "1", "--driver", "core"}).out, "");
   expect_levels_hold(checked_document(content_of(in("chain/chain.json"))));
   EXPECT_EQ(testing_tools::run_tool(LOD_CHAIN, {"--version"}).exit_code, 0);
   const std::string help = testing_tools::run_tool(LOD_CHAIN, {"--help"}).out;
-  for (const char* option : {"--levels", "--pixels", "--screen-height", "--fov", "--distances", "--format", "--json",
-                             "--quiet", "--threads", "--cost", "--preserve-boundary", "--time-limit", "Exit codes: 0 "})
+  for (const char* option :
+       {"--levels", "--pixels", "--screen-height", "--fov", "--distances", "--format", "--json", "--quiet", "--threads",
+        "--driver", "--cost", "--preserve-boundary", "--time-limit", "Exit codes: 0 "})
     EXPECT_NE(help.find(option), std::string::npos) << option;
 }
 
