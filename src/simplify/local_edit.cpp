@@ -14,6 +14,10 @@ namespace {
 /// proof is worth its time (an edge may leave the original anywhere).
 constexpr int parts_to_guide = 4, parts_to_test = 16;
 
+/// Points of edges nearer than this share of the tolerance hardly count: any original triangle as near as this is as
+/// good as the nearest one.
+constexpr double low_distance = 0.5;
+
 constexpr std::size_t min_degree = 3;
 
 /// Where the sum is smaller, the worst sample at a tenth of the tolerance, there is nothing to gain by a flip, and one
@@ -153,27 +157,33 @@ bool LocalEdit::flip_lowers_deviation(Corner edge) {
   return now >= low_deviation && place_flipped() && deviation().sum < (1 - min_flip_gain) * now;
 }
 
-/// A point of an edge moves by `share` of what the vertex does.
-void LocalEdit::add_to_original(Vec3 p, double share, std::size_t which, SlopeSums& sums) {
-  if (which >= hints_.size()) hints_.resize(which + 1, state_.nearest[numbers_[0]]);
-  (void)proximity_.upper_distance({p.x, p.y, p.z}, hints_[which]);
-  const auto& t = state_.triangles[hints_[which]];
+/// A point of an edge, which moves by `share` of what the vertex does. `hint` is an original triangle near it.
+void LocalEdit::add_to_original(Vec3 p, double share, std::uint32_t& hint, SlopeSums& sums) {
+  (void)proximity_.upper_distance({p.x, p.y, p.z}, hint, low_distance * state_.tolerance);
+  const auto& t = state_.triangles[hint];
   const Vec3 corner = state_.vertices[t[0]];
   const CornerTriangle<double> nearest{corner, state_.vertices[t[1]] - corner, state_.vertices[t[2]] - corner};
   // It is the point of the edge that moves here, not the closest one.
   sums.add((1 / state_.tolerance) * closest_on_triangle(nearest, p).offset, -share);
 }
 
-SlopeSums LocalEdit::deviation() {
+SlopeSums LocalEdit::sampled_deviation() const {
   SlopeSums sums;
   kernel_.add_slope(samples_.points(), faces_, static_cast<float>(1 / state_.tolerance), sums);
-  add_to_original(corners_[0][0], 1, 0, sums);
+  return sums;
+}
+
+SlopeSums LocalEdit::deviation() {
+  SlopeSums sums = sampled_deviation();
   const std::size_t edges = kind_ == Edit::Kind::Flip ? 1 : corners_.size();
-  for (std::size_t i = 0; i < edges; ++i) {
-    for (int k = 1; k < parts_to_guide; ++k) {
+  const bool is_first = hints_.empty();
+  if (is_first) hints_.assign(1 + edges * (parts_to_guide - 1), state_.nearest[numbers_[0]]);
+  add_to_original(corners_[0][0], 1, hints_[0], sums);
+  for (std::size_t i = 0, which = 1; i < edges; ++i) {
+    for (int k = 1; k < parts_to_guide; ++k, ++which) {
       const double share = 1 - static_cast<double>(k) / parts_to_guide;
-      const std::size_t which = i * (parts_to_guide - 1) + static_cast<std::size_t>(k);
-      add_to_original(share * corners_[i][0] + (1 - share) * corners_[i][1], share, which, sums);
+      if (is_first) hints_[which] = hints_[k == 1 ? 0 : which - 1];
+      add_to_original(share * corners_[i][0] + (1 - share) * corners_[i][1], share, hints_[which], sums);
     }
   }
   return sums;

@@ -45,6 +45,8 @@ class LocalEdit {
   /// The sum over the samples, and over points on the edges that change, of (distance / tolerance)^6: a high power
   /// follows the largest distance and stays smooth. A guide, not a bound.
   [[nodiscard]] SlopeSums deviation();
+  /// The part of the samples alone.
+  [[nodiscard]] SlopeSums sampled_deviation() const;
   /// Whether samples and points on the edges that change are within `share` of what has to be proven. Looks at far more
   /// points of the edges than `deviation`: most proofs of an edit that looks good fail between the samples.
   [[nodiscard]] bool fits(double share);
@@ -65,7 +67,7 @@ class LocalEdit {
   void clear();
   void take_face(std::uint32_t face);
   void take_beside(Corner rim);
-  void add_to_original(Vec3 p, double share, std::size_t which, SlopeSums& sums);
+  void add_to_original(Vec3 p, double share, std::uint32_t& hint, SlopeSums& sums);
   [[nodiscard]] bool is_edge_near(Vec3 from, Vec3 to, double limit, std::uint32_t& hint);
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
   [[nodiscard]] bool owns_around(std::uint32_t vertex) const;

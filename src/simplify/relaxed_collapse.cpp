@@ -41,7 +41,7 @@ bool RelaxedCollapse::place_collapse(Corner edge) {
   const Vec3 p = state_.mesh.position(a), q = state_.mesh.position(b);
   if (!edit_.place(best_placement(state_.quadrics[a], state_.quadrics[b], p, q).point) && !edit_.place(0.5 * (p + q)))
     return false;
-  return edit_.deviation().worst_squared <= hopeless_placement;
+  return edit_.sampled_deviation().worst_squared <= hopeless_placement;
 }
 
 /// Whether all sampled distances around the vertex get small enough.
