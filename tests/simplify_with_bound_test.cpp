@@ -356,6 +356,8 @@ TEST_P(SimplifyWithBound, RefusesOptionsAndInputThatMakeNoSense) {
   options.levels = {0.2};
   EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput);
   options.levels.clear();
+  options.precision = Precision::Single;
+  EXPECT_THROW((void)simplify_with_bound(reference::scaled(sphere, 1e100), options), InvalidInput);
   options.target_ratio = 1.5;
   EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput);
   EXPECT_THROW((void)simplify_with_bound(TriangleMesh(), within(0.1)), InvalidInput);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -59,6 +60,8 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
     vertices_.push_back(to_vec3(frame_.to_frame(p)));
     largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
   }
+  if (options.precision == Precision::Single && largest_ > std::numeric_limits<float>::max() / 2)
+    throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
   stop.check();
   sort_start_points();
   make_state(stop);
