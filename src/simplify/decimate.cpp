@@ -22,6 +22,11 @@ constexpr double share_together = 0.7;
 /// Passes over the edges that something has changed around end where one removes a smaller share of the faces.
 constexpr double min_gain_of_pass = 0.01;
 
+/// Where proofs have failed, what was taken back is proposed again, with less of the tolerance, as long as it is more
+/// than this share: proofs of single collapses cost many times more.
+constexpr int max_rounds = 4;
+constexpr double min_share_taken_back = 0.05;
+
 /// The time is looked at once in this many edges, and progress is told.
 constexpr std::uint32_t edges_between_looks = 32;
 
@@ -44,9 +49,14 @@ class Run {
   EndedBy operator()() {
     state_.grow_tolerance(goal_.tolerance);
     keep_what_has_no_face();
-    propose(0);
-    propose(1);
-    prove_and_repair();
+    for (int round = 0; round < max_rounds; ++round) {
+      propose(0);
+      propose(1);
+      std::size_t proposed = 0;
+      for (const EditLog& log : state_.logs) proposed += log.edits.size();
+      const std::size_t taken_back = prove_and_repair();
+      if (static_cast<double>(taken_back) < min_share_taken_back * static_cast<double>(proposed)) break;
+    }
     prove_one_by_one();
     if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip) refine();
     return ended_by_;
@@ -58,7 +68,7 @@ class Run {
   void try_the_others_again();
   void keep_what_has_no_face();
   void propose(int shift);
-  void prove_and_repair();
+  std::size_t prove_and_repair();
   void prove_one_by_one();
   void refine();
   void in_regions(Split split, const Work& work);
@@ -138,17 +148,18 @@ StopToken Run::stop_of_proof() const {
 }
 
 /// Proves what the proposals left, and takes back what cannot be proven until all is. Where the time ends before, all
-/// of them are taken back.
-void Run::prove_and_repair() {
-  if (state_.logs.empty()) return;
+/// of them are taken back. Returns how many were.
+std::size_t Run::prove_and_repair() {
+  if (state_.logs.empty()) return 0;
   std::uint64_t left = 0;  // of what was proposed
   for (const EditLog& log : state_.logs) left += log.edits.size();
+  std::size_t taken_back = 0;
   const std::size_t faces = state_.faces;
   Proof proof(state_, threads_.workers);
   try {
     for (proof.run(stop_of_proof()); !proof.unproven().empty(); proof.run(stop_of_proof())) {
       const Repair repaired = repair(state_, proof.unproven());
-      threads_.together.taken_back += repaired.changes;
+      taken_back += repaired.changes;
       left -= repaired.changes;
       proof.reopen(repaired.faces);
     }
@@ -156,13 +167,15 @@ void Run::prove_and_repair() {
   } catch (const Stopped&) {
     undo_all(state_);
     note_stop();
-    threads_.together.taken_back += std::exchange(left, 0);
+    taken_back += std::exchange(left, 0);
   }
+  threads_.together.taken_back += taken_back;
   threads_.together.proven_together += left;
   threads_.together.originals_tested += proof.originals_tested;
   threads_.together.faces_tested += proof.faces_tested;
   if (ended_by_ == EndedBy::Target && state_.faces > goal_.target_faces && state_.faces > faces)
     ended_by_ = EndedBy::NothingFits;  // what was taken back is to be removed elsewhere
+  return taken_back;
 }
 
 /// What was refused for a smaller share of the tolerance may fit now.

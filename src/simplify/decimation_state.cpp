@@ -22,10 +22,24 @@ constexpr double max_between = 7;
 /// the last digit: it accepts an upper bound of the whole tolerance.
 constexpr double proven_share = 1 - 1e-4;
 
+/// Faces whose normals are further apart meet in a crease: 20 degrees.
+constexpr double max_cosine_of_crease = 0.94;
+
+bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
+  if (mesh.twin(edge) == ArrayMesh::none) return true;
+  const auto normal = [&](std::uint32_t face) {
+    const auto [a, b, c] = mesh.triangle(face);
+    return cross(b - a, c - a);
+  };
+  const Vec3 m = normal(edge / 3), n = normal(mesh.twin(edge) / 3);
+  return dot(m, n) < max_cosine_of_crease * std::sqrt(squared_length(m) * squared_length(n));
+}
+
 }  // namespace
 
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                 const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face, double spacing)
+                 const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
+                 const std::vector<std::uint32_t>& vertex_of_vertex, double spacing)
     : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), none) {
   for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
@@ -37,11 +51,13 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
   }
   for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
     if (mesh.edge(c) != c) continue;
+    const std::uint32_t mark = is_border_or_crease(mesh, c) ? at_edge : 0;
+    for (const std::uint32_t v : {mesh.start(c), mesh.end(c)}) triangle_near_[vertex_of_vertex[v]] |= mark;
     const Vec3 p = mesh.position(mesh.start(c)), q = mesh.position(mesh.end(c));
     const double count = std::min(std::floor(length(q - p) / spacing), max_between);
     for (int k = 1; k <= count; ++k) {
       samples_.push_back({p + (k / (count + 1)) * (q - p), none, none});
-      triangle_near_.push_back(triangle_of_face[c / 3]);
+      triangle_near_.push_back(triangle_of_face[c / 3] | mark);
       give_to(static_cast<std::uint32_t>(samples_.size() - 1), c / 3);
     }
   }

@@ -25,11 +25,14 @@ class Samples {
   Samples() = default;
   /// Vertices of the original, and points on edges longer than `spacing`, between them.
   Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-          const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face, double spacing);
+          const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
+          const std::vector<std::uint32_t>& vertex_of_vertex, double spacing);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
-  [[nodiscard]] std::uint32_t triangle_near(std::uint32_t sample) const { return triangle_near_[sample]; }
+  [[nodiscard]] std::uint32_t triangle_near(std::uint32_t sample) const { return triangle_near_[sample] & ~at_edge; }
+  /// Whether it lies on a border or a crease, where distances are largest: no other one can stand for it.
+  [[nodiscard]] bool is_at_edge(std::uint32_t sample) const { return (triangle_near_[sample] & at_edge) != 0; }
   /// None where no face is known.
   [[nodiscard]] std::uint32_t face_of(std::uint32_t sample) const {
     while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != none)
@@ -57,7 +60,7 @@ class Samples {
   }
 
  private:
-  static constexpr std::uint32_t goes_with = 0x80000000;
+  static constexpr std::uint32_t goes_with = 0x80000000, at_edge = 0x80000000;
   struct alignas(32) Sample {
     Vec3 at;
     std::uint32_t face = none, following = none;
@@ -114,7 +117,9 @@ struct DecimationState {
                   ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face);
   /// Takes samples at most `spacing` apart on edges.
-  void set_samples(double spacing) { samples = Samples(vertices, triangles, mesh, source_triangle, spacing); }
+  void set_samples(double spacing) {
+    samples = Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing);
+  }
 
   const std::vector<Vec3>& vertices;                           ///< of the original
   const std::vector<std::array<std::uint32_t, 3>>& triangles;  ///< of the original

@@ -28,6 +28,7 @@ class ProofWorkers::Worker {
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
     affected_marks_.reserve(state.triangles.size());
+    vertex_marks_.reserve(state.mesh.vertex_count());
   }
 
   /// The face that covers an original triangle alone, or else those that do so together. Neither where none were found.
@@ -174,8 +175,10 @@ class ProofWorkers::Worker {
   /// The faces around the first `count` of those found.
   template <class Owned>
   void enter_ring(std::size_t count, const Owned& owned) {
+    vertex_marks_.clear();
     for (std::size_t k = 0; k < count; ++k) {
       for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
+        if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
           if (found_marks_.insert(d / 3) && owned(d / 3)) enter_face(d / 3);
           return found_.size() < CandidateFaces::capacity;
@@ -252,8 +255,10 @@ class ProofWorkers::Worker {
   /// Adds the faces that hang together with those found, by faces of which that is true, and whose boxes meet `reach`.
   template <class Wanted>
   void spread(const Eigen::AlignedBox3d& reach, const Wanted& is_wanted) {
+    vertex_marks_.clear();
     for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
       for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
+        if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
           const std::uint32_t f = d / 3;
           if (found_marks_.contains(f) || !is_wanted(f) || !box_of(state_.mesh.triangle(f)).intersects(reach))
@@ -353,7 +358,7 @@ class ProofWorkers::Worker {
   DegreeCover degree_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
-  MarkedIds found_marks_, affected_marks_;
+  MarkedIds found_marks_, affected_marks_, vertex_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, ids_, drafted_;
   std::vector<std::size_t> ends_;       ///< by place in `affected_`: of its faces in `ids_`
   std::vector<std::size_t> in_pieces_;  ///< places in `affected_`

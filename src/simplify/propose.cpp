@@ -43,6 +43,9 @@ bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
   return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
 }
 
+/// Points on a border edge, in tolerances apart, that must be near the original, and how many at most.
+constexpr double spacing_on_borders = 2, max_on_borders = 15;
+
 /// The link condition: what the ends have in common are the apexes of their faces, and the surface stays a manifold.
 bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::uint32_t>& around_kept,
                     const std::vector<std::uint32_t>& around_gone) {
@@ -131,12 +134,36 @@ bool Proposer::owns(std::uint32_t face) const {
 }
 
 bool Proposer::fits(Vec3 point) {
-  if (!set_faces(point)) {
-    return false;
-  }
+  if (!set_faces(point)) return false;
   if (!gathered_) gather_samples();
   by_bound_ = true;
-  return samples_.hold(faces_, beside_, limit_) && samples_.is_near_original(point, limit_);
+  return samples_.hold(faces_, beside_, limit_) && samples_.is_near_original(point, limit_) && are_borders_near(point);
+}
+
+/// Ends of border edges that the vertex of the collapse will have.
+void Proposer::find_borders() {
+  const ArrayMesh& mesh = state_.mesh;
+  borders_.clear();
+  for (const Corner c : star_.moved) {
+    if (mesh.twin(c) == ArrayMesh::none) borders_.push_back(mesh.position(mesh.end(c)));
+    if (mesh.twin(previous_corner(c)) == ArrayMesh::none) borders_.push_back(mesh.position(mesh.apex(c)));
+  }
+  for (const Corner edge : {star_.edge, mesh.twin(star_.edge)}) {
+    if (edge == ArrayMesh::none) continue;
+    const bool is_border =
+        mesh.twin(next_corner(edge)) == ArrayMesh::none || mesh.twin(previous_corner(edge)) == ArrayMesh::none;
+    if (is_border) borders_.push_back(mesh.position(mesh.apex(edge)));
+  }
+}
+
+/// A border that cuts across a bay of the original is far from it, though every sample is near a face.
+bool Proposer::are_borders_near(Vec3 point) {
+  for (const Vec3 end : borders_) {
+    const double steps = std::min(std::floor(length(end - point) / (spacing_on_borders * full_limit_)), max_on_borders);
+    for (int k = 1; k <= steps; ++k)
+      if (!samples_.is_near_original(point + (k / (steps + 1)) * (end - point), limit_)) return false;
+  }
+  return true;
 }
 
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
@@ -180,6 +207,7 @@ void Proposer::begin_star(double share) {
   full_limit_ = limit_around() * internal::sample_fault;
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
   lowered_ = gathered_ = false;
+  find_borders();
   max_steps_ = share < 1 ? max_minimax_steps_together : max_minimax_steps;
 }
 

@@ -74,6 +74,8 @@ class Proposer {
   void take_few();
   void add_vertex(Vec3 point);
   [[nodiscard]] bool fits(Vec3 point);
+  void find_borders();
+  [[nodiscard]] bool are_borders_near(Vec3 point);
   [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double low);
 
   DecimationState& state_;
@@ -91,6 +93,7 @@ class Proposer {
   bool by_bound_ = false;  ///< samples were asked
   Vec3 tried_;             ///< the first place
   Vec3 origin_;
+  std::vector<Vec3> borders_;  ///< other ends of border edges
   SamplePoints few_;
   std::vector<SampleFace> faces_;       ///< that stay, as they would be
   std::vector<std::uint32_t> numbers_;  ///< of these in the mesh

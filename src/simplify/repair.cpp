@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <span>
 
 #include "geometry/point_triangle.h"
+#include "simplify/face_box.h"
 
 namespace meshbound {
 namespace {
@@ -139,6 +141,45 @@ class Undoing {
   std::vector<std::uint32_t> at_fault_, changed_, samples_;
 };
 
+/// The face nearest to a vertex of the original.
+class NearestFaces {
+ public:
+  explicit NearestFaces(const DecimationState& state) : state_(state) {}
+
+  std::uint32_t to(std::uint32_t vertex) {
+    const std::uint32_t known = state_.samples.face_of(vertex);
+    const double squared_reach = state_.tolerance * state_.tolerance;
+    if (known != Samples::none && !state_.mesh.is_removed(known) && squared_distance(known, vertex) <= squared_reach)
+      return known;
+    return search(vertex);
+  }
+
+ private:
+  [[nodiscard]] double squared_distance(std::uint32_t face, std::uint32_t vertex) const {
+    const auto [a, b, c] = state_.mesh.triangle(face);
+    return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, state_.vertices[vertex]).squared_distance;
+  }
+  /// Where samples do not know: in boxes that grow until they meet a face that is nearer than what they reach.
+  std::uint32_t search(std::uint32_t vertex) {
+    if (!boxes_) boxes_.emplace(state_.mesh);
+    const Eigen::Vector3d p = to_eigen(state_.vertices[vertex]);
+    for (double reach = state_.tolerance;; reach *= growth_of_reach) {
+      found_.clear();
+      boxes_->find(grown(Eigen::AlignedBox3d(p, p), reach), found_);
+      double least = HUGE_VAL;
+      std::uint32_t best = 0;
+      for (const std::uint32_t f : found_)
+        if (const double squared = squared_distance(f, vertex); squared < least) least = squared, best = f;
+      if (least <= reach * reach || reach > 4 * state_.magnitude) return best;
+    }
+  }
+  static constexpr double growth_of_reach = 4;
+
+  const DecimationState& state_;
+  std::optional<FaceBoxes> boxes_;
+  std::vector<std::uint32_t> found_;
+};
+
 }  // namespace
 
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
@@ -165,14 +206,14 @@ void undo_last(DecimationState& state, Region& region) {
 
 Repair repair(DecimationState& state, const Unproven& unproven) {
   Undoing undoing(state);
+  NearestFaces nearest(state);
   for (const std::uint32_t f : unproven.faces) undoing.blame(state.stamp[f]);
   for (const std::uint32_t t : unproven.originals) {
     bool found = false;
     for (const std::uint32_t v : state.triangles[t]) {
-      const std::uint32_t f = state.samples.face_of(v);
-      if (f == Samples::none || state.stamp[f] == 0) continue;
-      undoing.blame(state.stamp[f]);
-      found = true;
+      const std::uint32_t number = state.stamp[nearest.to(v)];
+      undoing.blame(number);
+      found = found || number != 0;
     }
     if (found) continue;
     for (const std::uint32_t f : state.cover.faces_of(t)) undoing.blame(state.stamp[f]);

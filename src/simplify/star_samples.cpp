@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/star_samples.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
 
 namespace meshbound {
@@ -14,8 +16,10 @@ constexpr std::size_t max_outside = 8;
 
 /// A star with more is thinned out.
 constexpr std::size_t max_samples = 384;
-/// So many samples that follow are looked at for one near by.
-constexpr std::size_t window = 8;
+/// Two of them may stand for each other where the original rises by no more between them, in tolerances.
+constexpr double max_height_of_pair = 0.1;
+/// Cells along the curve that pairs them, as a power of two: a few thousand to an axis.
+constexpr int curve_bits = 12;
 
 constexpr std::size_t lanes = 8;
 
@@ -125,23 +129,56 @@ void StarSamples::give(std::span<const std::uint32_t> numbers) {
   }
 }
 
-/// Of two samples that lie near each other the one that is farther from the mesh stands for both.
+/// The places of points in the order of a space-filling curve through their box: neighbours in it lie near each other.
+void StarSamples::sort_along_curve() {
+  Eigen::AlignedBox3f box;
+  for (const SamplePoints::Block& block : points_.blocks)
+    for (std::size_t k = 0; k < lanes; ++k) box.extend(Eigen::Vector3f(block.x[k], block.y[k], block.z[k]));
+  const float extent = box.sizes().maxCoeff();
+  const float scale = extent > 0 ? static_cast<float>((1 << curve_bits) - 1) / extent : 0;
+  order_.clear();
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const Vec3 p = points_.at(i);
+    const auto cell = [&](double x, int axis) {
+      return static_cast<std::uint32_t>((static_cast<float>(x) - box.min()[axis]) * scale);
+    };
+    order_.emplace_back(hilbert_index(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2), curve_bits),
+                        static_cast<std::uint32_t>(i));
+  }
+  std::sort(order_.begin(), order_.end());
+}
+
+/// Whether either sample lies in the plane of the original at the other: then a face near one is near the other too,
+/// unless it ends between them.
+bool StarSamples::are_alike(std::size_t i, std::size_t j) const {
+  const Samples& samples = state_.samples;
+  if (samples.is_at_edge(ids_[i]) || samples.is_at_edge(ids_[j])) return false;
+  const Vec3 way = samples.at(ids_[j]) - samples.at(ids_[i]);
+  const double max_height = max_height_of_pair * state_.tolerance;
+  const auto is_in_plane = [&](std::uint32_t sample) {
+    const auto& v = state_.triangles[samples.triangle_near(sample)];
+    const Vec3 a = state_.vertices[v[0]];
+    const Vec3 normal = cross(state_.vertices[v[1]] - a, state_.vertices[v[2]] - a);
+    const double height = dot(normal, way);
+    return height * height <= max_height * max_height * squared_length(normal);
+  };
+  return is_in_plane(ids_[i]) && is_in_plane(ids_[j]);
+}
+
+/// Of two samples that lie near each other, in one plane, the one that is farther from the mesh stands for both.
 void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
   const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
-  is_given_.assign(ids_.size(), 0);
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    if (is_given_[i] != 0) continue;
-    std::size_t other = i;
-    double least = HUGE_VAL;
-    const Vec3 p = state_.samples.at(ids_[i]);
-    for (std::size_t k = i + 1; k < std::min(i + 1 + window, ids_.size()); ++k) {
-      const double squared_way = squared_length(state_.samples.at(ids_[k]) - p);
-      if (is_given_[k] == 0 && squared_way < least) least = squared_way, other = k;
+  sort_along_curve();
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const std::size_t i = order_[k].second, j = order_[std::min(k + 1, order_.size() - 1)].second;
+    if (i == j || !are_alike(i, j)) {
+      state_.samples.give_to(ids_[i], numbers[nearest(i)]);
+      continue;
     }
-    const std::size_t farther = squared(other) > squared(i) ? other : i;
+    const std::size_t farther = squared(j) > squared(i) ? j : i;
     state_.samples.give_to(ids_[farther], numbers[nearest(farther)]);
-    if (other != i) state_.samples.go_with(ids_[i + other - farther], ids_[farther]);
-    is_given_[other] = 1;
+    state_.samples.go_with(ids_[i + j - farther], ids_[farther]);
+    ++k;
   }
 }
 

@@ -38,6 +38,8 @@ class StarSamples {
   [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
                                           float squared_limit) const;
   [[nodiscard]] std::size_t nearest(std::size_t i) const;
+  void sort_along_curve();
+  [[nodiscard]] bool are_alike(std::size_t i, std::size_t j) const;
   void thin_out(std::span<const std::uint32_t> numbers);
 
   DecimationState& state_;
@@ -50,7 +52,7 @@ class StarSamples {
   SamplePoints points_;
   std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces
   std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< points that only a face beside is near
-  std::vector<std::uint8_t> is_given_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  ///< along a curve: point
 };
 
 }  // namespace meshbound
