@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linked with the source of simplify_with_bound: the tool as it is, with samples that admit too much, or with proofs that
-// prove too little, as the environment says.
+// Linked with the source of simplify_with_bound: the tool as it is, with samples that admit too much, or with proofs
+// that prove too little, as the environment says.
 #include <cstdlib>
 
 #include "simplify/faults.h"

@@ -42,8 +42,8 @@ class CollapseChecker {
   /// ends. With a locked end, that one. None: the edge is refused, and again until something near has changed.
   [[nodiscard]] std::optional<Eigen::Vector3d> admitted_placement(std::uint32_t u, std::uint32_t v,
                                                                   const Eigen::Vector3d& wanted);
-  /// Makes the collapse that was admitted by the call before. Returns the number that its vertex has from now on: u, but
-  /// for some edges at a border v. Throws `Error` where nothing was admitted.
+  /// Makes the collapse that was admitted by the call before. Returns the number that its vertex has from now on: u,
+  /// but for some edges at a border v. Throws `Error` where nothing was admitted.
   std::uint32_t commit();
 
   /// The vertex stays where it is: collapses of its edges go to its place.

@@ -109,12 +109,12 @@ struct SimplifiedLevel {
 
 /// How the collapses of a run came about, for those who tune it.
 struct CollapseCounts {
-  std::uint64_t tried = 0;           ///< edges, against samples of the original
-  std::uint64_t refused = 0;         ///< of these
+  std::uint64_t tried = 0;            ///< edges, against samples of the original
+  std::uint64_t refused = 0;          ///< of these
   std::uint64_t proven_together = 0;  ///< collapses that samples admitted, and one proof of all of them held
-  std::uint64_t taken_back = 0;      ///< of those that samples admitted, since that proof failed there
-  std::uint64_t proven_alone = 0;    ///< collapses, and other changes, that were proven one by one
-  std::uint64_t unproven = 0;        ///< of those tried in this way: taken back
+  std::uint64_t taken_back = 0;       ///< of those that samples admitted, since that proof failed there
+  std::uint64_t proven_alone = 0;     ///< collapses, and other changes, that were proven one by one
+  std::uint64_t unproven = 0;         ///< of those tried in this way: taken back
   std::uint64_t originals_tested = 0, faces_tested = 0;  ///< by proofs
 
   CollapseCounts& operator+=(const CollapseCounts& other);

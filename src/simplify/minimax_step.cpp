@@ -9,13 +9,13 @@ namespace meshbound {
 namespace {
 
 /// Two steps for each p = 4, 8, 16, 32, 64 and two more: then the p-norm is within a few percent of the maximum.
-constexpr int most_steps = 12;
-constexpr int most_doublings = 5;
+constexpr int max_steps = 12;
+constexpr int max_doublings = 5;
 /// Where all slopes are parallel nothing is known across them; this share of the mean curvature is added to all.
 constexpr float damping = 1e-3F;
 /// Of p - 1 for the p above: Newton's step on the p-norm is 1 / (p - 1) of the one that solves the weighted equations,
 /// and shares between the two are tried in equal ratios.
-constexpr std::array<float, most_doublings> sixth_roots = {1.20094F, 1.38309F, 1.57042F, 1.77250F, 1.99477F};
+constexpr std::array<float, max_doublings> sixth_roots = {1.20094F, 1.38309F, 1.57042F, 1.77250F, 1.99477F};
 
 std::array<float, HeightKernel::shares> shares_of_step(int doublings) {
   const float ratio = sixth_roots[static_cast<std::size_t>(doublings - 1)];
@@ -40,24 +40,24 @@ MinimaxStep minimax_step(const LinearHeights& heights, const HeightKernel& kerne
   HeightKernel::Move move = {};
   float largest = kernel.largest_along(heights, move, {}, {})[0];
   MinimaxStep result{largest, largest, {}};
-  for (int k = 0; k < most_steps && largest > low_height; ++k) {
-    const int doublings = std::min(1 + k / 2, most_doublings);
+  for (int k = 0; k < max_steps && largest > low_height; ++k) {
+    const int doublings = std::min(1 + k / 2, max_doublings);
     const WeightedSums sums = kernel.weighted_sums(heights, move, 1 / largest, doublings);
     const float mean = (sums.matrix[0] + sums.matrix[1] + sums.matrix[2]) / 3;
     if (!(mean > 0)) break;
     const HeightKernel::Move step = solve(sums, mean);
     // A weighted mean of squares is no larger than the largest one, wherever the vertex is: Lawson's bound.
-    const float least_mean =
+    const float min_mean =
         (sums.square - step[0] * sums.right[0] - step[1] * sums.right[1] - step[2] * sums.right[2]) / sums.weight;
-    if (least_mean > hopeless_height * hopeless_height) {
-      result.there = std::sqrt(least_mean);
+    if (min_mean > hopeless_height * hopeless_height) {
+      result.there = std::sqrt(min_mean);
       return result;
     }
     const auto shares = shares_of_step(doublings);
     const auto after = kernel.largest_along(heights, move, step, shares);
     const auto least = std::min_element(after.begin(), after.end());
     if (!(*least < largest)) {
-      if (doublings == most_doublings) break;
+      if (doublings == max_doublings) break;
       continue;
     }
     largest = *least;
