@@ -97,7 +97,7 @@ struct SimplifiedLevel {
   /// along. A vertex may have moved from where it was there, a triangle stands for others besides.
   std::vector<std::uint32_t> source_vertex, source_triangle;
   EndedBy ended_by = EndedBy::NothingFits;
-  /// Of the original (a) and `mesh` (b), with the verdict on `tolerance`.
+  /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.
   std::optional<SymmetricDistance> distance;
   Verdict verdict = Verdict::Undecided;
   std::optional<Certificate> certificate;  ///< of the original and `mesh`, when it was asked for

@@ -68,6 +68,14 @@ class ArrayMesh {
     return true;
   }
   [[nodiscard]] bool is_border(std::uint32_t v) const;
+  /// The edges at a vertex, those between two faces twice.
+  void append_edges_around(std::uint32_t v, std::vector<Corner>& edges) const {
+    for_each_corner(v, [&](Corner c) {
+      edges.push_back(edge(c));
+      edges.push_back(edge(previous_corner(c)));
+      return true;
+    });
+  }
 
   void move(std::uint32_t v, Vec3 to) { positions_[v] = to; }
   /// The end of the edge becomes its start. The edge must satisfy the link condition (`EdgeStar`).

@@ -52,10 +52,9 @@ class Run {
     for (int round = 0; round < max_rounds; ++round) {
       propose(0);
       propose(1);
-      std::size_t proposed = 0;
-      for (const EditLog& log : state_.logs) proposed += log.edits.size();
+      const std::size_t changes = proposed();
       const std::size_t taken_back = prove_and_repair();
-      if (static_cast<double>(taken_back) < min_share_taken_back * static_cast<double>(proposed)) break;
+      if (static_cast<double>(taken_back) < min_share_taken_back * static_cast<double>(changes)) break;
     }
     prove_one_by_one();
     if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip) refine();
@@ -68,6 +67,7 @@ class Run {
   void try_the_others_again();
   void keep_what_has_no_face();
   void propose(int shift);
+  [[nodiscard]] std::size_t proposed() const;
   std::size_t prove_and_repair();
   void prove_one_by_one();
   void refine();
@@ -142,6 +142,13 @@ void Run::propose(int shift) {
              });
 }
 
+/// How many changes have not been proven yet.
+std::size_t Run::proposed() const {
+  std::size_t changes = 0;
+  for (const EditLog& log : state_.logs) changes += log.edits.size();
+  return changes;
+}
+
 StopToken Run::stop_of_proof() const {
   if (!goal_.stop.cancelled()) return stop_of_proof_;
   return StopToken().until(StopToken::Clock::now(), seconds_of_last_proof);
@@ -151,8 +158,7 @@ StopToken Run::stop_of_proof() const {
 /// of them are taken back. Returns how many were.
 std::size_t Run::prove_and_repair() {
   if (state_.logs.empty()) return 0;
-  std::uint64_t left = 0;  // of what was proposed
-  for (const EditLog& log : state_.logs) left += log.edits.size();
+  std::size_t left = proposed();
   std::size_t taken_back = 0;
   const std::size_t faces = state_.faces;
   Proof proof(state_, threads_.workers);
@@ -254,28 +260,6 @@ bool Run::truly_exceeds(Region& region, Proposer& proposer) {
 }
 
 }  // namespace
-
-DecimationThreads::DecimationThreads(DecimationState& state, int threads) : workers(state, threads) {
-  for (int i = 0; i < threads; ++i) {
-    proposers.push_back(std::make_unique<Proposer>(state));
-    provers.push_back(std::make_unique<ChangeProver>(state, workers, static_cast<std::size_t>(i)));
-  }
-}
-
-CollapseCounts DecimationThreads::counts() const {
-  CollapseCounts counts = together;
-  for (const auto& proposer : proposers) {
-    counts.tried += proposer->counts.tried;
-    counts.refused += proposer->counts.refused;
-  }
-  for (const auto& prover : provers) {
-    counts.proven_alone += prover->proven;
-    counts.unproven += prover->unproven;
-    counts.originals_tested += prover->originals_tested;
-    counts.faces_tested += prover->faces_tested;
-  }
-  return counts;
-}
 
 EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads) {
   return Run(state, goal, threads)();

@@ -13,8 +13,8 @@ constexpr int max_steps = 12;
 constexpr int max_doublings = 5;
 /// Where all slopes are parallel nothing is known across them; this share of the mean curvature is added to all.
 constexpr float damping = 1e-3F;
-/// Of p - 1 for the p above: Newton's step on the p-norm is 1 / (p - 1) of the one that solves the weighted equations,
-/// and shares between the two are tried in equal ratios.
+/// Sixth roots of p - 1 for the p above: Newton's step on the p-norm is 1 / (p - 1) of the one that solves the weighted
+/// equations, and shares between the two are tried in equal ratios.
 constexpr std::array<float, max_doublings> sixth_roots = {1.20094F, 1.38309F, 1.57042F, 1.77250F, 1.99477F};
 
 std::array<float, HeightKernel::shares> shares_of_step(int doublings) {

@@ -58,7 +58,7 @@ class ProofWorkers::Worker {
     if (faces.empty()) cover_in_parts(corners, limit, faces);
   }
 
-  /// The same where the samples do not know which faces are near.
+  /// The faces that cover an original triangle, found by boxes where the samples do not know which faces are near.
   void cover_anywhere(std::uint32_t t, const FaceBoxes& boxes, std::vector<std::uint32_t>& faces) {
     faces.clear();
     const auto& v = state_.triangles[t];
@@ -94,7 +94,7 @@ class ProofWorkers::Worker {
       for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
         if (affected_marks_.insert(t)) affected_.push_back(t);
     }
-    const auto owned = [&](std::uint32_t face) { return owns(split, region, face); };
+    const auto owned = [&](std::uint32_t face) { return split.owns(region, state_.mesh.corners(face)); };
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_) {
         const auto faces = state_.cover.faces_of(t);
@@ -156,7 +156,7 @@ class ProofWorkers::Worker {
     for (const std::uint32_t face : changed)
       for (const std::uint32_t t : state_.cover.originals_of(face))
         if (affected_marks_.insert(t)) affected_.push_back(t);
-    const auto owned = [&](std::uint32_t face) { return owns(split, region, face); };
+    const auto owned = [&](std::uint32_t face) { return split.owns(region, state_.mesh.corners(face)); };
     for (const std::uint32_t t : affected_) {
       const auto faces = state_.cover.faces_of(t);
       if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
@@ -206,12 +206,6 @@ class ProofWorkers::Worker {
     }
     return std::all_of(points.begin(), points.end(),
                        [&](Vec3 p) { return prepared.triangle.is_within(p, limit * limit); });
-  }
-
-  /// Whether a face belongs to a region.
-  [[nodiscard]] bool owns(const Split& split, std::uint32_t region, std::uint32_t face) const {
-    const auto corners = state_.mesh.corners(face);
-    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split.owns(region, v); });
   }
 
   /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
@@ -314,7 +308,7 @@ class ProofWorkers::Worker {
     }
   }
 
-  /// Of the faces around, those that hold most of the corners, then those nearest to the middle.
+  /// Chooses, of the faces around, those that hold most of the corners, then those nearest to the middle.
   void choose_candidates(const Corners& corners) {
     const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
     chosen_.clear();

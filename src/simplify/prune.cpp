@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "simplify/box_tree.h"
-#include "simplify/marked_ids.h"
-
 namespace meshbound {
 namespace {
 

@@ -6,7 +6,7 @@
 namespace meshbound {
 namespace {
 
-/// Of a plane through a border edge against those of the faces: CGAL's default.
+/// Weight of a plane through a border edge, where that of a face is 1: CGAL's default.
 constexpr double border_weight = 100;
 
 /// Where the surface is flat the quadric is singular but for rounding, and its minimum may be anywhere: it is believed

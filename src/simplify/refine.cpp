@@ -126,7 +126,6 @@ class Refiner {
     });
   }
   void collapse_relaxed();
-  void edges_around(Corner edge);
 
   double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1; }  ///< in -1 to 1
 
@@ -168,18 +167,6 @@ void Refiner::shake(std::uint32_t vertex) {
   }
 }
 
-/// Of the ends of an edge.
-void Refiner::edges_around(Corner edge) {
-  around_.clear();
-  for (const std::uint32_t v : {state_.mesh.start(edge), state_.mesh.end(edge)}) {
-    state_.mesh.for_each_corner(v, [&](Corner c) {
-      around_.push_back(state_.mesh.edge(c));
-      around_.push_back(state_.mesh.edge(previous_corner(c)));
-      return true;
-    });
-  }
-}
-
 void Refiner::collapse_relaxed() {
   const ArrayMesh& mesh = state_.mesh;
   EdgeQueue queue(state_.place_in_queue);
@@ -190,7 +177,8 @@ void Refiner::collapse_relaxed() {
     const Corner edge = queue.pop();
     if (mesh.is_removed(edge / 3)) continue;  // flips renumber edges
     const std::uint32_t kept = mesh.start(edge);
-    edges_around(edge);
+    around_.clear();
+    for (const std::uint32_t v : {kept, mesh.end(edge)}) mesh.append_edges_around(v, around_);
     if (!relaxed_.run(*split_, *region_, edge)) continue;
     for (const Corner e : around_) queue.erase(e);
     mesh.for_each_corner(kept, [&](Corner c) {

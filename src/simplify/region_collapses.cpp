@@ -24,10 +24,7 @@ bool RegionCollapses::is_owned(Corner edge) const {
   return split_.owns(region_.id, mesh().start(edge)) && split_.owns(region_.id, mesh().end(edge));
 }
 
-bool RegionCollapses::owns_face(std::uint32_t face) const {
-  const auto corners = mesh().corners(face);
-  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return split_.owns(region_.id, v); });
-}
+bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns(region_.id, mesh().corners(face)); }
 
 bool RegionCollapses::is_open(Corner edge) const {
   return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >=
@@ -49,13 +46,8 @@ bool RegionCollapses::make(Vec3 point) {
 
 void RegionCollapses::list_edges() {
   edges_before_.clear();
-  for (const std::uint32_t v : {proposer_.star().kept, proposer_.star().gone}) {
-    mesh().for_each_corner(v, [&](Corner c) {
-      edges_before_.push_back(mesh().edge(c));
-      edges_before_.push_back(mesh().edge(previous_corner(c)));
-      return true;
-    });
-  }
+  for (const std::uint32_t v : {proposer_.star().kept, proposer_.star().gone})
+    mesh().append_edges_around(v, edges_before_);
 }
 
 bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {

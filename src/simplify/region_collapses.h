@@ -54,7 +54,7 @@ class RegionCollapses {
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the
   /// largest distance is least. False: it is refused, and the mesh is as it was.
   bool collapse(Corner edge, std::optional<Vec3> wanted = std::nullopt);
-  /// Of the last collapse: the vertex that is left, and the edges there were around both ends.
+  /// The vertex that the last collapse left, and the edges that there were around both ends before it.
   [[nodiscard]] std::uint32_t kept() const { return proposer_.star().kept; }
   [[nodiscard]] const std::vector<Corner>& edges_before() const { return edges_before_; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct Split {
 
   [[nodiscard]] bool owns(std::uint32_t region, std::uint32_t vertex) const {
     return region_of.empty() || region_of[vertex] == region;
+  }
+  /// Whether all three vertices belong to the region.
+  [[nodiscard]] bool owns(std::uint32_t region, const std::array<std::uint32_t, 3>& corners) const {
+    return owns(region, corners[0]) && owns(region, corners[1]) && owns(region, corners[2]);
   }
 };
 

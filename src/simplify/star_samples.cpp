@@ -165,7 +165,7 @@ bool StarSamples::are_alike(std::size_t i, std::size_t j) const {
   return is_in_plane(ids_[i]) && is_in_plane(ids_[j]);
 }
 
-/// Of two samples that lie near each other, in one plane, the one that is farther from the mesh stands for both.
+/// Lets one sample stand for two that lie near each other in one plane: the one that is farther from the mesh.
 void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
   const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
   sort_along_curve();
