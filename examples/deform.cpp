@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     for (Eigen::Vector3d& v : mesh.vertices) v.z() += 0.01 * size * std::sin(frame + 10 * v.x() / size);
     moving.refit(mesh);
     if (moving.growth() > 2) moving = meshbound::Bvh(mesh);
-    const auto distance = meshbound::symmetric_distance(at_rest, moving);
+    const auto distance = meshbound::hausdorff_distance(at_rest, moving);
     std::printf("%.17g <= H <= %.17g\n", distance.bounds.lower, distance.bounds.upper);
   }
   return 0;

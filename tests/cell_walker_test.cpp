@@ -7,7 +7,7 @@
 #include <random>
 
 #include "distance/piece.h"
-#include "distance/searcher.h"
+#include "distance/search_kernel.h"
 #include "distance/subdivision.h"
 #include "meshbound/distance.h"
 #include "reference/brute_force.h"
@@ -91,7 +91,7 @@ DistanceStats measured(const TriangleMesh& a, const TriangleMesh& b, double erro
   DistanceOptions options;
   options.error_bound = error_bound;
   options.threads = 1;
-  const OneSidedDistance result = one_sided_distance(Bvh(a), Bvh(b), options);
+  const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(a), Bvh(b), options);
   EXPECT_EQ(result.outcome, Outcome::Converged);
   EXPECT_LE(result.bounds.upper - result.bounds.lower, error_bound);
   expect_witness(a, b, result);

@@ -39,7 +39,7 @@ struct Case {
 Case make_case(const TriangleMesh& a, const TriangleMesh& b) {
   DistanceOptions options;
   options.error_bound = 1e-10;  // far below the 1e-6 by which the tolerance below is changed
-  Case made{a, b, symmetric_distance(Bvh(a), Bvh(b), options).bounds, 0, {}};
+  Case made{a, b, hausdorff_distance(Bvh(a), Bvh(b), options).bounds, 0, {}};
   made.tolerance = 1.001 * made.distance.upper;
   made.bytes = build_certificate(a, b, made.tolerance)->bytes;
   return made;
@@ -334,7 +334,7 @@ TEST(CertificateMutation, MadeOutToAMeshThatIsTooFarItIsRejected) {
       TriangleMesh& mesh = i % 2 == 0 ? a : b;
       Eigen::Vector3d& p = mesh.vertices[below(random, mesh.vertices.size())];
       p += (1 + 0.02 * i) * of.tolerance * Eigen::Vector3d(p.x() + 0.1, p.y(), p.z() + 0.2).normalized();
-      if (symmetric_distance(Bvh(a), Bvh(b)).bounds.lower <= of.tolerance) continue;  // it still holds
+      if (hausdorff_distance(Bvh(a), Bvh(b)).bounds.lower <= of.tolerance) continue;  // it still holds
       EXPECT_NE(rejection(a, b, made_out_to(of.bytes, a, b)), "");
       ++tried;
     }

@@ -68,7 +68,7 @@ std::vector<Pair> pairs() {
       {"BelowTheNormalRange", reference::scaled(icosphere(1, 2), 1e-300), reference::scaled(icosphere(1, 1), 1e-300)}};
 }
 
-double distance_of(const Pair& pair) { return symmetric_distance(Bvh(pair.a), Bvh(pair.b)).bounds.upper; }
+double distance_of(const Pair& pair) { return hausdorff_distance(Bvh(pair.a), Bvh(pair.b)).bounds.upper; }
 
 verify::Proof proof_of(const Pair& pair, double tolerance) {
   const auto certificate = build_certificate(pair.a, pair.b, tolerance);
@@ -95,7 +95,7 @@ TEST_P(CertificateOfPair, HoldsFarAboveTheDistance) {
 }
 
 TEST_P(CertificateOfPair, IsNotMadeBelowTheDistance) {
-  const double lower = symmetric_distance(Bvh(GetParam().a), Bvh(GetParam().b)).bounds.lower;
+  const double lower = hausdorff_distance(Bvh(GetParam().a), Bvh(GetParam().b)).bounds.lower;
   try {
     (void)build_certificate(GetParam().a, GetParam().b, lower * (1 - 1e-9));
     FAIL() << "a certificate of what is not so";
@@ -163,7 +163,7 @@ TEST(Certificate, OfALargeFlatFaceIsSmall) {
   const TriangleMesh plain = reference::unit_square(300);
   const auto certificate = build_certificate(plain, reference::unit_square(1), 1e-4);
   EXPECT_NO_THROW((void)verify::check_certificate(plain, reference::unit_square(1), certificate->bytes));
-  EXPECT_GT(certificate->simplified_to_original.by_degree, 2U);
+  EXPECT_GT(certificate->simplified_to_original.by_parity, 2U);
   EXPECT_LT(certificate->simplified_to_original.bytes, 20000U);
 }
 
@@ -181,12 +181,12 @@ TEST(Certificate, OfAStackOverAFineSheetAsksForLittleWorkAByte) {
   ASSERT_TRUE(certificate);
   const verify::Proof::Direction proof =
       verify::check_certificate(stack, sheet, certificate->bytes).original_to_simplified;
-  EXPECT_LT(proof.degree_work, 512 * proof.bytes);
+  EXPECT_LT(proof.parity_work, 512 * proof.bytes);
   const auto single = build_certificate(reference::unit_square(1), sheet, 0.01);
   ASSERT_TRUE(single);
   const verify::Proof::Direction whole =
       verify::check_certificate(reference::unit_square(1), sheet, single->bytes).original_to_simplified;
-  EXPECT_GT(whole.degree_work, 512 * whole.bytes) << "what is rare may still be proven by few bytes";
+  EXPECT_GT(whole.parity_work, 512 * whole.bytes) << "what is rare may still be proven by few bytes";
 }
 
 TEST(Certificate, EndsWhenItIsTold) {
@@ -198,7 +198,7 @@ TEST(Certificate, EndsWhenItIsTold) {
   short_of_steps.steps_per_triangle = 1;
   EXPECT_FALSE(build_certificate(fine, coarse, 1, cancelled));
   EXPECT_FALSE(build_certificate(fine, coarse, 1, late));
-  const double distance = symmetric_distance(Bvh(fine), Bvh(coarse)).bounds.upper;
+  const double distance = hausdorff_distance(Bvh(fine), Bvh(coarse)).bounds.upper;
   EXPECT_THROW((void)build_certificate(fine, coarse, 1.00001 * distance, short_of_steps), Error);
 }
 

@@ -46,7 +46,7 @@ SurfaceMesh decimated(SurfaceMesh mesh, double ratio) {
 
 void expect_agreement(const SurfaceMesh& a, const SurfaceMesh& b, double diagonal) {
   const Bvh tree_a(cgal::to_triangle_mesh(a)), tree_b(cgal::to_triangle_mesh(b));
-  const Bounds ours = one_sided_distance(tree_a, tree_b).bounds;
+  const Bounds ours = one_sided_hausdorff_distance(tree_a, tree_b).bounds;
   EXPECT_LE(ours.upper - ours.lower, 2e-6 * diagonal);
 
   const double sampled = PMP::approximate_Hausdorff_distance<CGAL::Sequential_tag>(

@@ -44,7 +44,7 @@ class CheckedMesh {
       if (alive_[f]) result.triangles.push_back(mesh_.triangles[f]);
     return result;
   }
-  [[nodiscard]] Bounds distance() const { return symmetric_distance(Bvh(original_), Bvh(current())).bounds; }
+  [[nodiscard]] Bounds distance() const { return hausdorff_distance(Bvh(original_), Bvh(current())).bounds; }
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] bool alive(std::size_t f) const { return alive_[f]; }
 

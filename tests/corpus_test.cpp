@@ -45,7 +45,7 @@ int replay_all(const fs::path& corpus) {
 
 TEST(Corpus, HasASeedThatIsACertificate) {
   const auto [original, simplified] = fuzz::certificate_pair();
-  const double tolerance = 1.01 * symmetric_distance(Bvh(original), Bvh(simplified)).bounds.upper;
+  const double tolerance = 1.01 * hausdorff_distance(Bvh(original), Bvh(simplified)).bounds.upper;
   const auto certificate = build_certificate(original, simplified, tolerance);
   ASSERT_TRUE(certificate);
   std::vector<std::uint8_t> seed = {0};

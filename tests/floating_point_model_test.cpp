@@ -94,7 +94,7 @@ TEST(CoordinateRange, BoundsHoldAtItsEnds) {
     for (const Method method : {Method::CellWalking, Method::CrossCulling}) {
       DistanceOptions options;
       options.method = method;
-      const SymmetricDistance result = symmetric_distance(Bvh(a), Bvh(b), options);
+      const HausdorffDistance result = hausdorff_distance(Bvh(a), Bvh(b), options);
       // Furthest is a corner of the larger cube; the distance to one triangle is largest at a corner.
       const ExactLength truth = exact_distance(b.vertices[0], a);
       EXPECT_GE(truth.compare(result.bounds.lower), 0);
@@ -107,7 +107,7 @@ TEST(CoordinateRange, BoundsHoldAtItsEnds) {
 TEST(CoordinateRange, BoundsHoldBetweenMeshesFromBothEnds) {
   const TriangleMesh small = scaled(cube(1), 1e-310), large = scaled(cube(1), 1e300);
   for (const auto& [a, b] : {std::pair(small, large), std::pair(large, small)}) {
-    const OneSidedDistance result = one_sided_distance(Bvh(a), Bvh(b));
+    const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(a), Bvh(b));
     ExactLength least = exact_distance(a.vertices[0], b);
     for (const Eigen::Vector3d& v : a.vertices) least = std::max(least, exact_distance(v, b));
     EXPECT_LE(least.compare(result.bounds.upper), 0);
@@ -123,7 +123,7 @@ TEST(CoordinateRange, MeshesThatDifferByWhatUnderflowsAreNotIdentical) {
                      b = single_triangle({0, 0, 0}, far, {0, 0x1p900, 0});
   const TriangleMesh flat = single_triangle({0, 0, 1e-318}, far, far), line = single_triangle({0, 0, 0}, far, far);
   for (const auto& [x, y] : {std::pair(a, b), std::pair(flat, line)}) {
-    const SymmetricDistance result = symmetric_distance(Bvh(x), Bvh(y));
+    const HausdorffDistance result = hausdorff_distance(Bvh(x), Bvh(y));
     EXPECT_LE(exact_distance(x.vertices[0], y).compare(result.a_to_b.bounds.upper), 0);
     EXPECT_LE(exact_distance(y.vertices[0], x).compare(result.b_to_a.bounds.upper), 0);
   }

@@ -55,7 +55,7 @@ TEST_F(HausdorffTool, SaysWhatTheLibrarySays) {
   EXPECT_EQ(result.err, "");
   const json document = parsed(result);
   const TriangleMesh a = read_mesh(sphere_).mesh, b = read_mesh(soup_).mesh;
-  const SymmetricDistance expected = symmetric_distance(Bvh(a), Bvh(b));
+  const HausdorffDistance expected = hausdorff_distance(Bvh(a), Bvh(b));
   EXPECT_EQ(document["schema"], "meshbound/distance/1");
   EXPECT_EQ(document["verdict"], "done");
   EXPECT_EQ(document["distance"]["lower"], expected.bounds.lower);

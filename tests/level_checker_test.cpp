@@ -131,14 +131,14 @@ TEST_P(AlteredLevels, AreAnsweredAsByAFreshCheck) {
     options.threads = 1 + static_cast<int>(random.below(2));
     const ToleranceCheck answer = levels.check(level, tolerance, options);
     const Bvh level_tree(level);
-    expect_same_answer(answer, check_symmetric(tree, level_tree, tolerance, options));
-    const SymmetricDistance truth = symmetric_distance(tree, level_tree, options);
+    expect_same_answer(answer, check_tolerance(tree, level_tree, tolerance, options));
+    const HausdorffDistance truth = hausdorff_distance(tree, level_tree, options);
     expect_compatible(answer.bounds, truth.bounds);
     within += answer.verdict == Verdict::Within ? 1 : 0;
     exceeds += answer.verdict == Verdict::Exceeds ? 1 : 0;
     if (random.below(3) == 0) {
       options.error_bound = 1e-3;
-      const SymmetricDistance measured = levels.measure(level, options);
+      const HausdorffDistance measured = levels.measure(level, options);
       expect_compatible(measured.bounds, truth.bounds);
       EXPECT_LE(measured.bounds.upper - measured.bounds.lower, 1e-3);
     }
@@ -154,7 +154,7 @@ TEST(LevelChecker, CheckOfTheSameLevelAgainChecksNothing) {
   const TriangleMesh original = icosphere(3), level = jittered(original, 0.01, random);
   LevelChecker levels(original);
   const Bvh level_tree(level);
-  const Bounds truth = symmetric_distance(levels.original(), level_tree).bounds;
+  const Bounds truth = hausdorff_distance(levels.original(), level_tree).bounds;
   const ToleranceCheck first = levels.check(level, 0.1);
   EXPECT_EQ(first.verdict, Verdict::Within);
   EXPECT_EQ(kept_triangles(first), 0U);
@@ -211,7 +211,7 @@ TEST(LevelChecker, OneLargeTriangleRestsOnAllFacesItLiesOn) {
     (void)levels.measure(level);
     TriangleMesh holed = level;
     holed.triangles.erase(holed.triangles.begin() + static_cast<std::ptrdiff_t>(gone));
-    const SymmetricDistance measured = levels.measure(holed);
+    const HausdorffDistance measured = levels.measure(holed);
     exceeding += measured.a_to_b.bounds.upper > 0.015 ? 1U : 0U;
     inside += gone % 2 == 0 ? 1U : 0U;
   }
@@ -298,7 +298,7 @@ TEST(LevelChecker, MeasuresLevelsOfAnyScaleAndPlace) {
   for (const double scale : {1.0, 1e-30, 1e20, 1.0, 1e-300, 1e300, 0.0, 1.0}) {
     const TriangleMesh level = scaled(original, scale);
     const Bvh tree(level);
-    expect_compatible(levels.measure(level).bounds, symmetric_distance(levels.original(), tree).bounds);
+    expect_compatible(levels.measure(level).bounds, hausdorff_distance(levels.original(), tree).bounds);
   }
 }
 

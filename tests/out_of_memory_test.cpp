@@ -47,7 +47,7 @@ Bounds distance_between(const TriangleMesh& a, const TriangleMesh& b, const Tria
   tree_b.refit(moved_b, {threads});
   DistanceOptions options;
   options.threads = threads;
-  return symmetric_distance(tree_a, tree_b, options).bounds;
+  return hausdorff_distance(tree_a, tree_b, options).bounds;
 }
 
 TEST(OutOfMemory, InAnyThreadReachesTheCaller) {

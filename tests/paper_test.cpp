@@ -42,7 +42,7 @@ double squared_distance(const Bvh::Data& data, std::uint32_t slot, const Vec3& p
   return closest_on_triangle(triangle_at(data, slot), p).squared_distance;
 }
 
-double least_squared_distance(const Bvh::Data& data, const Vec3& p) {
+double min_squared_distance(const Bvh::Data& data, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
     least = std::min(least, squared_distance(data, slot, p));
@@ -97,9 +97,9 @@ TEST(Paper, Lemma1_more_of_A_raises_and_more_of_B_lowers_the_distance) {
   const Bvh tree_a(a), tree_b(b), more_a(both(a, random_soup(3, 15, 0.3))), more_b(both(b, random_soup(4, 15, 0.3)));
   for (const Method method : methods) {
     const DistanceOptions options = with(method, 1e-9);
-    const Bounds plain = one_sided_distance(tree_a, tree_b, options).bounds;
-    const Bounds larger_b = one_sided_distance(tree_a, more_b, options).bounds;
-    const Bounds larger_a = one_sided_distance(more_a, tree_b, options).bounds;
+    const Bounds plain = one_sided_hausdorff_distance(tree_a, tree_b, options).bounds;
+    const Bounds larger_b = one_sided_hausdorff_distance(tree_a, more_b, options).bounds;
+    const Bounds larger_a = one_sided_hausdorff_distance(more_a, tree_b, options).bounds;
     EXPECT_LE(larger_b.lower, plain.upper);
     EXPECT_GE(larger_a.upper, plain.lower);
     EXPECT_LT(larger_b.upper, plain.lower) << "this pair gets nearer";
@@ -131,10 +131,10 @@ TEST(Paper, Theorem1_the_distance_of_a_model_is_the_largest_of_its_triangles) {
     Bounds largest{0, 0};
     for (const Triangle& t : a.triangles) {
       const Bvh alone(reference::single_triangle(a.vertices[t[0]], a.vertices[t[1]], a.vertices[t[2]]));
-      const Bounds one = one_sided_distance(alone, tree_b, options).bounds;
+      const Bounds one = one_sided_hausdorff_distance(alone, tree_b, options).bounds;
       largest = {std::max(largest.lower, one.lower), std::max(largest.upper, one.upper)};
     }
-    expect_overlap(largest, one_sided_distance(tree_a, tree_b, options).bounds);
+    expect_overlap(largest, one_sided_hausdorff_distance(tree_a, tree_b, options).bounds);
     EXPECT_LE(largest.upper - largest.lower, 1e-9);
   }
 }
@@ -184,7 +184,7 @@ TEST(Paper, Eq8_Eq9_the_corners_of_a_box_bound_all_that_is_inside_never_looser_t
     const auto [first, last] = slots_below(from, 0, block);
     for (std::uint32_t slot = first; slot < last; ++slot)
       for (const std::uint32_t v : from.corners[slot])
-        EXPECT_LE(std::sqrt(least_squared_distance(to, map(from.vertices[v]))), bound + rounding);
+        EXPECT_LE(std::sqrt(min_squared_distance(to, map(from.vertices[v]))), bound + rounding);
   }
 }
 
@@ -194,7 +194,7 @@ TEST(Paper, Eq10_to_Eq13_group_traversal_equals_separate_queries) {
   for (int i = 0; i < 200; ++i) {
     const TriangleCorners t = random.triangle(i % 2 == 0 ? 0.05 : 0.8);
     const GroupBounds bounds = bounds_of(b.data(), t);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(bounds.nearest[k].squared, least_squared_distance(b.data(), t[k]));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(bounds.nearest[k].squared, min_squared_distance(b.data(), t[k]));
     double upper = std::numeric_limits<double>::infinity();
     for (std::uint32_t slot = 0; slot < b.triangle_count(); ++slot) {
       double farthest = 0;
@@ -231,7 +231,7 @@ std::size_t expect_complete_candidates(const Bvh& b, const TriangleCorners& t, R
     const Vec3 p = random.point_in(t);
     double least = std::numeric_limits<double>::infinity();
     for (const Candidate& c : candidates) least = std::min(least, squared_distance(b.data(), c.slot, p));
-    EXPECT_EQ(least, least_squared_distance(b.data(), p));
+    EXPECT_EQ(least, min_squared_distance(b.data(), p));
   }
   for (const Candidate& c : candidates)
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(c.squared[k], squared_distance(b.data(), c.slot, t[k]));
@@ -303,7 +303,7 @@ TEST(Paper, Lemma4_as_printed_fails_for_a_triangle_that_is_partly_inside) {
   EXPECT_FALSE(crosses_surface(tree.data(), t, in_frame(tree, image), all_slots(tree)));
   const TriangleMesh a = reference::single_triangle(triangle[0], triangle[1], triangle[2]);
   const Bounds truth = brute_force_one_sided(a, b, 0.05);
-  const Bounds ours = one_sided_distance(Bvh(a), tree, with(Method::CrossCulling, 0.01)).bounds;
+  const Bounds ours = one_sided_hausdorff_distance(Bvh(a), tree, with(Method::CrossCulling, 0.01)).bounds;
   expect_overlap(ours, truth);
   EXPECT_GT(ours.lower, 2);
 }
@@ -318,16 +318,16 @@ TEST(Paper, Lemma4_is_off_where_the_model_is_not_closed) {
   fan.triangles.push_back({fan.triangles[0][0], fan.triangles[0][1], 8});
   EXPECT_FALSE(is_closed(Bvh(fan).data()));
   const Bvh sphere(datasets::icosphere(1, 4)), open_box(open);
-  EXPECT_EQ(one_sided_distance(sphere, open_box, with(Method::CrossCulling, 1e-4)).stats.enclosed, 0U);
+  EXPECT_EQ(one_sided_hausdorff_distance(sphere, open_box, with(Method::CrossCulling, 1e-4)).stats.enclosed, 0U);
 }
 
 TEST(Paper, Lemma4_ends_subdivision_on_closed_models_and_keeps_the_truth) {
   const TriangleMesh a = scaled(reference::icosphere(1), 1.02), b = reference::icosphere(2);
-  const OneSidedDistance ours = one_sided_distance(Bvh(a), Bvh(b), with(Method::CrossCulling, 1e-4));
+  const OneSidedDistance ours = one_sided_hausdorff_distance(Bvh(a), Bvh(b), with(Method::CrossCulling, 1e-4));
   EXPECT_GT(ours.stats.enclosed, 0U);
   expect_overlap(ours.bounds, brute_force_one_sided(a, b, 1e-2));
   EXPECT_LE(ours.bounds.upper - ours.bounds.lower, 1e-4);
-  expect_overlap(ours.bounds, one_sided_distance(Bvh(a), Bvh(b), with(Method::CellWalking, 1e-6)).bounds);
+  expect_overlap(ours.bounds, one_sided_hausdorff_distance(Bvh(a), Bvh(b), with(Method::CellWalking, 1e-6)).bounds);
 }
 
 TEST(Paper, Section5_2_the_Voronoi_point_is_equidistant_from_the_supporting_planes) {
@@ -358,8 +358,9 @@ TEST(Paper, Section6_seeding_and_cached_pairs_leave_the_two_sided_distance_as_it
     const Bvh a(random_soup(seed, 60, 0.3)), b(random_soup(seed + 100, 60, 0.3));
     for (const Method method : methods) {
       const DistanceOptions options = with(method, 1e-7);
-      const Bounds ab = one_sided_distance(a, b, options).bounds, ba = one_sided_distance(b, a, options).bounds;
-      const Bounds both_ways = symmetric_distance(a, b, options).bounds;
+      const Bounds ab = one_sided_hausdorff_distance(a, b, options).bounds,
+                   ba = one_sided_hausdorff_distance(b, a, options).bounds;
+      const Bounds both_ways = hausdorff_distance(a, b, options).bounds;
       expect_overlap(both_ways, {std::max(ab.lower, ba.lower), std::max(ab.upper, ba.upper)});
       EXPECT_LE(both_ways.upper - both_ways.lower, 1e-7);
     }
@@ -391,9 +392,9 @@ TEST(Paper, BothMethods_contain_the_distance_and_each_other) {
     SCOPED_TRACE(pair.name);
     const Bvh a(pair.a), b(pair.b);
     const Bounds truth = brute_force_symmetric(pair.a, pair.b, pair.width);
-    const SymmetricDistance walked = symmetric_distance(a, b, with(Method::CellWalking, 1e-5));
-    const SymmetricDistance culled = symmetric_distance(a, b, with(Method::CrossCulling, 1e-5));
-    for (const SymmetricDistance* ours : {&walked, &culled}) {
+    const HausdorffDistance walked = hausdorff_distance(a, b, with(Method::CellWalking, 1e-5));
+    const HausdorffDistance culled = hausdorff_distance(a, b, with(Method::CrossCulling, 1e-5));
+    for (const HausdorffDistance* ours : {&walked, &culled}) {
       expect_overlap(ours->bounds, truth);
       EXPECT_LE(ours->bounds.upper - ours->bounds.lower, 1e-5);
       for (const OneSidedDistance* way : {&ours->a_to_b, &ours->b_to_a}) EXPECT_EQ(way->outcome, Outcome::Converged);
@@ -415,14 +416,14 @@ TEST(Paper, BothMethods_give_for_rigid_poses_what_moved_vertices_give) {
     const Bvh a(pair.a), b(pair.b), moved_a(applied(pair.a)), moved_b(applied(pair.b));
     for (const Method method : methods) {
       const DistanceOptions options = with(method, 1e-5);
-      const Bounds of_a = symmetric_distance({a, pose}, b, options).bounds;
-      const Bounds of_b = symmetric_distance(a, {b, pose}, options).bounds;
-      expect_overlap(of_a, symmetric_distance(moved_a, b, options).bounds);
-      expect_overlap(of_b, symmetric_distance(a, moved_b, options).bounds);
+      const Bounds of_a = hausdorff_distance({a, pose}, b, options).bounds;
+      const Bounds of_b = hausdorff_distance(a, {b, pose}, options).bounds;
+      expect_overlap(of_a, hausdorff_distance(moved_a, b, options).bounds);
+      expect_overlap(of_b, hausdorff_distance(a, moved_b, options).bounds);
       EXPECT_LE(of_a.upper - of_a.lower, 1e-5);
       EXPECT_LE(of_b.upper - of_b.lower, 1e-5);
-      expect_overlap(symmetric_distance({a, pose}, {b, pose}, options).bounds,
-                     symmetric_distance(a, b, options).bounds);
+      expect_overlap(hausdorff_distance({a, pose}, {b, pose}, options).bounds,
+                     hausdorff_distance(a, b, options).bounds);
     }
   }
 }
@@ -431,10 +432,10 @@ TEST(Paper, BothMethods_give_the_same_bits_for_any_number_of_threads) {
   const Bvh a(datasets::icosphere(1, 3)), b(datasets::torus(0.9, 0.3, 20, 10));
   for (const Method method : methods) {
     DistanceOptions options = with(method, 1e-6);
-    const SymmetricDistance one = symmetric_distance(a, b, options);
+    const HausdorffDistance one = hausdorff_distance(a, b, options);
     for (const int threads : {2, 3}) {
       options.threads = threads;
-      const SymmetricDistance more = symmetric_distance(a, b, options);
+      const HausdorffDistance more = hausdorff_distance(a, b, options);
       EXPECT_EQ(one.bounds.lower, more.bounds.lower);
       EXPECT_EQ(one.bounds.upper, more.bounds.upper);
       EXPECT_EQ(one.a_to_b.stats.subdivisions, more.a_to_b.stats.subdivisions);
@@ -450,7 +451,7 @@ TEST(Paper, CrossCulling_keeps_its_promise_when_a_budget_ends_it) {
   DistanceOptions options = with(Method::CrossCulling, 1e-9);
   for (const std::uint64_t subdivisions : {0, 1, 2}) {
     options.budget.subdivisions = subdivisions;
-    const OneSidedDistance early = one_sided_distance(a, b, options);
+    const OneSidedDistance early = one_sided_hausdorff_distance(a, b, options);
     expect_overlap(early.bounds, truth);
     EXPECT_TRUE(std::isfinite(early.bounds.upper));
     EXPECT_EQ(early.outcome, Outcome::BudgetExhausted);
@@ -458,17 +459,17 @@ TEST(Paper, CrossCulling_keeps_its_promise_when_a_budget_ends_it) {
   const std::atomic<bool> cancelled{true};
   options.budget = {};
   options.cancel = &cancelled;
-  const OneSidedDistance at_once = one_sided_distance(a, b, options);
+  const OneSidedDistance at_once = one_sided_hausdorff_distance(a, b, options);
   expect_overlap(at_once.bounds, truth);
   EXPECT_EQ(at_once.outcome, Outcome::BudgetExhausted);
 }
 
 TEST(Paper, CrossCulling_decides_a_tolerance_as_cell_walking_does) {
   const Bvh a(datasets::icosphere(1, 3)), b(datasets::icosphere(1, 2));
-  const double distance = symmetric_distance(a, b, with(Method::CellWalking, 1e-9)).bounds.upper;
+  const double distance = hausdorff_distance(a, b, with(Method::CellWalking, 1e-9)).bounds.upper;
   for (const Method method : methods) {
-    EXPECT_EQ(check_symmetric(a, b, 1.01 * distance, with(method, 0)).verdict, Verdict::Within);
-    const ToleranceCheck above = check_symmetric(a, b, 0.99 * distance, with(method, 0));
+    EXPECT_EQ(check_tolerance(a, b, 1.01 * distance, with(method, 0)).verdict, Verdict::Within);
+    const ToleranceCheck above = check_tolerance(a, b, 0.99 * distance, with(method, 0));
     EXPECT_EQ(above.verdict, Verdict::Exceeds);
     EXPECT_GT(above.bounds.lower, 0.99 * distance);
   }
@@ -478,7 +479,7 @@ TEST(Paper, Table2_culling_rates_and_Fig9_phases_are_reported) {
   const Bvh a(datasets::icosphere(1, 5));
   const Bvh b(moved(reference::icosphere(4), {3, 0, 0}));
   for (const Method method : methods) {
-    const DistanceStats stats = one_sided_distance(a, b, with(method, 1e-4)).stats;
+    const DistanceStats stats = one_sided_hausdorff_distance(a, b, with(method, 1e-4)).stats;
     EXPECT_GT(stats.culled_on_a_percent, 97);
     EXPECT_GT(stats.culled_on_b_percent, 97);
     const PhaseSeconds& phases = stats.phases;

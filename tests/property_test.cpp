@@ -107,10 +107,10 @@ DistanceOptions quick() {
 }
 
 Bounds symmetric(const TriangleMesh& a, const TriangleMesh& b) {
-  return symmetric_distance(Bvh(a, {1}), Bvh(b, {1}), quick()).bounds;
+  return hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), quick()).bounds;
 }
 Bounds one_sided(const TriangleMesh& a, const TriangleMesh& b) {
-  return one_sided_distance(Bvh(a, {1}), Bvh(b, {1}), quick()).bounds;
+  return one_sided_hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), quick()).bounds;
 }
 
 /// A random part of the triangles, at least one.
@@ -172,7 +172,7 @@ TEST(Property, RigidMotionOfBothChangesNothingButRounding) {
     // The matrix is a rotation up to rounding, which the larger coordinates feel.
     const double rounding = moved_a.displacement_bound + moved_b.displacement_bound + 1e-14 * 4;
     expect_meets(widened(symmetric(moved_a.mesh, moved_b.mesh), rounding), symmetric(a, b));
-    expect_meets(widened(symmetric_distance({Bvh(a, {1}), pose}, {Bvh(b, {1}), pose}, quick()).bounds, rounding),
+    expect_meets(widened(hausdorff_distance({Bvh(a, {1}), pose}, {Bvh(b, {1}), pose}, quick()).bounds, rounding),
                  symmetric(a, b));
   });
 }
@@ -184,9 +184,9 @@ TEST(Property, ScalingByAPowerOfTwoScalesTheBoundsExactly) {
     const double factor = std::ldexp(1.0, random.below(400) - 200);
     DistanceOptions options = quick();
     options.error_bound = 1e-6 * bounding_box_diagonal(a);
-    const Bounds plain = symmetric_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
+    const Bounds plain = hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
     *options.error_bound *= factor;
-    const Bounds large = symmetric_distance(Bvh(scaled(a, factor), {1}), Bvh(scaled(b, factor), {1}), options).bounds;
+    const Bounds large = hausdorff_distance(Bvh(scaled(a, factor), {1}), Bvh(scaled(b, factor), {1}), options).bounds;
     EXPECT_EQ(large.lower, plain.lower * factor);
     EXPECT_EQ(large.upper, plain.upper * factor);
   });
@@ -209,7 +209,7 @@ TEST(Property, BothMethodsProveTheSameDistance) {
     const auto [a, b] = random_pair(seed);
     DistanceOptions paper = quick();
     paper.method = Method::CrossCulling;
-    expect_meets(one_sided(a, b), one_sided_distance(Bvh(a, {1}), Bvh(b, {1}), paper).bounds);
+    expect_meets(one_sided(a, b), one_sided_hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), paper).bounds);
   });
 }
 
@@ -221,12 +221,12 @@ TEST(Property, ABudgetThatRanOutIsSaid) {
     DistanceOptions options = quick();
     options.error_bound = 1e-9 * bounding_box_diagonal(a);
     const Bvh tree_a(a, {1}), tree_b(b, {1});
-    if (one_sided_distance(tree_a, tree_b, options).outcome != Outcome::Converged) return;
+    if (one_sided_hausdorff_distance(tree_a, tree_b, options).outcome != Outcome::Converged) return;
     for (const Method method : {Method::CellWalking, Method::CrossCulling}) {
       options.method = method;
       for (const std::uint64_t subdivisions : {0, 1, 5}) {
         options.budget.subdivisions = subdivisions;
-        const OneSidedDistance early = one_sided_distance(tree_a, tree_b, options);
+        const OneSidedDistance early = one_sided_hausdorff_distance(tree_a, tree_b, options);
         const bool narrow = early.bounds.upper - early.bounds.lower <= *options.error_bound;
         EXPECT_EQ(early.outcome, narrow ? Outcome::Converged : Outcome::BudgetExhausted) << subdivisions;
         cut_short += narrow ? 0 : 1;
@@ -254,7 +254,7 @@ TEST(Property, ThreadsDoNotMatter) {
     const auto [a, b] = random_pair(seed);
     DistanceOptions two = quick();
     two.threads = 2;
-    const Bounds one = symmetric(a, b), both_threads = symmetric_distance(Bvh(a, {2}), Bvh(b, {2}), two).bounds;
+    const Bounds one = symmetric(a, b), both_threads = hausdorff_distance(Bvh(a, {2}), Bvh(b, {2}), two).bounds;
     EXPECT_EQ(one.lower, both_threads.lower);
     EXPECT_EQ(one.upper, both_threads.upper);
   });

@@ -80,7 +80,7 @@ std::vector<Pair> pairs() {
 TEST(Proof, ProvesWhatHoldsWithALittleRoom) {
   for (const Pair& pair : pairs()) {
     SCOPED_TRACE(pair.name);
-    const double distance = symmetric_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.upper;
+    const double distance = hausdorff_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.upper;
     const Unproven unproven = prove(pair.original, pair.mesh, 1.1 * distance);
     EXPECT_EQ(unproven.originals, std::vector<std::uint32_t>());
     EXPECT_EQ(unproven.faces, std::vector<std::uint32_t>());
@@ -90,14 +90,14 @@ TEST(Proof, ProvesWhatHoldsWithALittleRoom) {
 TEST(Proof, NeverProvesWhatDoesNotHold) {
   for (const Pair& pair : pairs()) {
     SCOPED_TRACE(pair.name);
-    const double distance = symmetric_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.lower;
+    const double distance = hausdorff_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.lower;
     EXPECT_FALSE(prove(pair.original, pair.mesh, 0.999 * distance).empty());
   }
 }
 
 TEST(Proof, IsTheSameForAnyNumberOfThreads) {
   for (const Pair& pair : pairs()) {
-    const double distance = symmetric_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.upper;
+    const double distance = hausdorff_distance(Bvh(pair.original), Bvh(pair.mesh)).bounds.upper;
     const Unproven one = prove(pair.original, pair.mesh, 0.6 * distance);
     const Unproven three = prove(pair.original, pair.mesh, 0.6 * distance, {}, 3);
     EXPECT_FALSE(one.empty());

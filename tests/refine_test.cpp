@@ -46,7 +46,7 @@ void expect_proven(const DecimationState& state) {
 double distance_upper(const TriangleMesh& a, const TriangleMesh& b, double tolerance) {
   DistanceOptions options;
   options.error_bound = 1e-6 * tolerance;
-  return symmetric_distance(Bvh(a), Bvh(b), options).bounds.upper;
+  return hausdorff_distance(Bvh(a), Bvh(b), options).bounds.upper;
 }
 
 struct Case {

@@ -83,10 +83,10 @@ TEST_P(Deformations, AreAnsweredAsByATreeBuiltAnew) {
     EXPECT_EQ(tree.bounding_box_diagonal(), anew.bounding_box_diagonal());
     EXPECT_EQ(tree.bounding_box().min(), anew.bounding_box().min());
     EXPECT_EQ(tree.bounding_box().max(), anew.bounding_box().max());
-    expect_overlap(symmetric_distance(tree, other).bounds, symmetric_distance(anew, other).bounds);
-    expect_overlap(symmetric_distance(other, tree).bounds, symmetric_distance(other, anew).bounds);
+    expect_overlap(hausdorff_distance(tree, other).bounds, hausdorff_distance(anew, other).bounds);
+    expect_overlap(hausdorff_distance(other, tree).bounds, hausdorff_distance(other, anew).bounds);
     const double size = anew.bounding_box_diagonal();
-    const SymmetricDistance self = symmetric_distance(tree, anew);
+    const HausdorffDistance self = hausdorff_distance(tree, anew);
     EXPECT_LE(self.bounds.upper, 1e-9 * size) << step;
     for (int i = 0; i < 20; ++i) {
       const Vector3d query = anew.bounding_box().center() + random_offset(random, size + 1e-3);

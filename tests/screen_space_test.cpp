@@ -38,9 +38,9 @@ TEST(ScreenSpace, KeepsTheOrderOfTheDistancesAndInverts) {
   ASSERT_EQ(tolerances.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(tolerances[i], screen_space_tolerance(screen, 1, distances[i]));
-    EXPECT_NEAR(least_view_distance(screen, 1, tolerances[i]), distances[i], 1e-12 * distances[i]);
+    EXPECT_NEAR(min_view_distance(screen, 1, tolerances[i]), distances[i], 1e-12 * distances[i]);
   }
-  EXPECT_EQ(least_view_distance(screen, 1, 0), 0);
+  EXPECT_EQ(min_view_distance(screen, 1, 0), 0);
 }
 
 TEST(ScreenSpace, RefusesWhatIsNoView) {
@@ -52,8 +52,8 @@ TEST(ScreenSpace, RefusesWhatIsNoView) {
     EXPECT_THROW((void)screen_space_tolerance({1080, wrong}, 1, 1), InvalidInput);
   }
   EXPECT_THROW((void)screen_space_tolerance({1080, std::numbers::pi}, 1, 1), InvalidInput);
-  EXPECT_THROW((void)least_view_distance({1080, 1}, 1, -1), InvalidInput);
-  EXPECT_THROW((void)least_view_distance({1080, 1}, 1, nan), InvalidInput);
+  EXPECT_THROW((void)min_view_distance({1080, 1}, 1, -1), InvalidInput);
+  EXPECT_THROW((void)min_view_distance({1080, 1}, 1, nan), InvalidInput);
 }
 
 }  // namespace

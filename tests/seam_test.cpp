@@ -139,7 +139,7 @@ TEST(Seams, AWalkCrossesTheSeamOfTwoTriangles) {
   DistanceOptions options;
   options.error_bound = 1e-9;
   options.budget.subdivisions = 1000;
-  const OneSidedDistance result = one_sided_distance(Bvh(one), Bvh(two), options);
+  const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(one), Bvh(two), options);
   EXPECT_LE(result.bounds.upper, 1e-9);
   EXPECT_LE(result.stats.pieces, 20U);
 }
@@ -153,8 +153,8 @@ Work work_between(const TriangleMesh& a, const TriangleMesh& b) {
   options.error_bound = 1e-7;
   options.budget.subdivisions = 100000;
   const Bvh tree_a(a), tree_b(b);
-  const OneSidedDistance there = one_sided_distance(tree_a, tree_b, options),
-                         back = one_sided_distance(tree_b, tree_a, options);
+  const OneSidedDistance there = one_sided_hausdorff_distance(tree_a, tree_b, options),
+                         back = one_sided_hausdorff_distance(tree_b, tree_a, options);
   EXPECT_EQ(there.outcome, Outcome::Converged);
   EXPECT_EQ(back.outcome, Outcome::Converged);
   return {there.stats.pieces + back.stats.pieces, there.stats.closest_point_queries + back.stats.closest_point_queries};
@@ -179,7 +179,7 @@ TEST(Seams, RefitMayTearThemApart) {
   Bvh tree(square);
   tree.refit(apart);
   const Bvh anew(apart), other(probe);
-  const SymmetricDistance refitted = symmetric_distance(tree, other), built = symmetric_distance(anew, other);
+  const HausdorffDistance refitted = hausdorff_distance(tree, other), built = hausdorff_distance(anew, other);
   EXPECT_LE(refitted.bounds.lower, built.bounds.upper);
   EXPECT_LE(built.bounds.lower, refitted.bounds.upper);
   tree.refit(square);

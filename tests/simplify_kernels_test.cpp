@@ -14,9 +14,9 @@
 #include "reference/small_meshes.h"
 #include "simplify/candidate_faces.h"
 #include "simplify/cover_assignment.h"
-#include "simplify/degree_cover.h"
-#include "simplify/linear_heights.h"
-#include "simplify/sampled_slope.h"
+#include "simplify/linear_deviations.h"
+#include "simplify/parity_proof.h"
+#include "simplify/sample_kernel.h"
 
 namespace meshbound {
 namespace {
@@ -38,7 +38,7 @@ std::vector<Shape> shapes() {
            reference::both(datasets::icosphere(1, 2), reference::moved(datasets::icosphere(1, 2), {0.5, 0, 0})), 0.1}};
 }
 
-TEST(SlopeKernel, IsTheSameOnEveryProcessor) {
+TEST(SampleKernel, IsTheSameOnEveryProcessor) {
   SamplePoints points;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -47,21 +47,21 @@ TEST(SlopeKernel, IsTheSameOnEveryProcessor) {
                                              SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
                                              SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   std::vector<SampleOffsets> portable, fastest;
-  portable_slope_kernel().offsets(points, triangles, portable);
-  fastest_slope_kernel().offsets(points, triangles, fastest);
+  portable_sample_kernel().offsets(points, triangles, portable);
+  fastest_sample_kernel().offsets(points, triangles, fastest);
   EXPECT_EQ(portable.size(), 5U);
   EXPECT_TRUE(portable == fastest);
-  SlopeSums one, two;
+  DeviationSums one, two;
   SamplePoints near = points, nearby = points;
-  portable_slope_kernel().drop_far(near, triangles, 0.5F);
-  fastest_slope_kernel().drop_far(nearby, triangles, 0.5F);
+  portable_sample_kernel().drop_far(near, triangles, 0.5F);
+  fastest_sample_kernel().drop_far(nearby, triangles, 0.5F);
   EXPECT_TRUE(near.blocks == nearby.blocks);
   std::ptrdiff_t far = 0;
   for (const SamplePoints::Block& block : near.blocks) far += std::ranges::count(block.weight, 0.0F);
   EXPECT_GT(far, 0);
   EXPECT_LT(far, 40);
-  portable_slope_kernel().add_slope(near, triangles, 2, one);
-  fastest_slope_kernel().add_slope(near, triangles, 2, two);
+  portable_sample_kernel().add_deviations(near, triangles, 2, one);
+  fastest_sample_kernel().add_deviations(near, triangles, 2, two);
   EXPECT_EQ(one.sum, two.sum);
   EXPECT_EQ(one.worst_squared, two.worst_squared);
   EXPECT_LE(one.worst_squared, 1);
@@ -69,7 +69,7 @@ TEST(SlopeKernel, IsTheSameOnEveryProcessor) {
   for (int k = 0; k < 6; ++k) EXPECT_EQ(one.curvature[k], two.curvature[k]);
 }
 
-TEST(HeightKernel, IsTheSameOnEveryProcessor) {
+TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
   SamplePoints points;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -77,13 +77,13 @@ TEST(HeightKernel, IsTheSameOnEveryProcessor) {
   const std::vector<SampleFace> faces = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
                                          SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
                                          SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
-  const HeightKernel one = portable_height_kernel(), two = fastest_height_kernel();
-  LinearHeights a, b;
+  const DeviationKernel one = portable_deviation_kernel(), two = fastest_deviation_kernel();
+  LinearDeviations a, b;
   one.linearise(points, faces, 2, a);
   two.linearise(points, faces, 2, b);
   EXPECT_EQ(a.blocks.size(), 5U);
   EXPECT_TRUE(a.blocks == b.blocks);
-  const HeightKernel::Move move = {0.1F, 0.2F, -0.1F}, step = {0.3F, -0.1F, 0.2F};
+  const DeviationKernel::Move move = {0.1F, 0.2F, -0.1F}, step = {0.3F, -0.1F, 0.2F};
   const WeightedSums sums = one.weighted_sums(a, move, 0.3F, 3), same = two.weighted_sums(a, move, 0.3F, 3);
   EXPECT_GT(sums.square, 0);
   EXPECT_EQ(sums.weight, same.weight);
@@ -95,9 +95,9 @@ TEST(HeightKernel, IsTheSameOnEveryProcessor) {
   EXPECT_EQ(largest, two.largest_along(a, move, step, shares));
   for (std::size_t k = 0; k < shares.size(); ++k) {
     float expected = 0;
-    for (const LinearHeights::Block& block : a.blocks) {
+    for (const LinearDeviations::Block& block : a.blocks) {
       for (std::size_t i = 0; i < 8; ++i)
-        expected = std::max(expected, std::abs(block.height[i] - block.x[i] * (move[0] + shares[k] * step[0]) -
+        expected = std::max(expected, std::abs(block.deviation[i] - block.x[i] * (move[0] + shares[k] * step[0]) -
                                                block.y[i] * (move[1] + shares[k] * step[1]) -
                                                block.z[i] * (move[2] + shares[k] * step[2])));
     }
@@ -192,12 +192,12 @@ TEST(PlaneKernel, IsTheSameOnEveryProcessor) {
 }
 
 /// Random triangles near rough surfaces: the parity proof may fail where the bound holds, never the other way.
-TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {
+TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
   for (const Shape& shape : shapes()) {
     SCOPED_TRACE(shape.name);
     std::vector<Vec3> vertices;
     for (const Vector3d& p : shape.mesh.vertices) vertices.push_back({p.x(), p.y(), p.z()});
-    DegreeCover degree(vertices, shape.mesh.triangles);
+    ParityProof degree(vertices, shape.mesh.triangles);
     const Bvh original(shape.mesh);
     std::mt19937 random(11);
     std::normal_distribution<double> noise(0, 0.5 * shape.tolerance);
@@ -216,7 +216,7 @@ TEST(DegreeCover, NeverCoversAFaceThatTheEngineFindsTooFar) {
         corners[k] = {face.vertices[k].x(), face.vertices[k].y(), face.vertices[k].z()};
       if (!degree.covers(corners, shape.tolerance, 2, t)) continue;
       ++covered;
-      EXPECT_NE(check_one_sided(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
+      EXPECT_NE(check_one_sided_tolerance(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
     }
     EXPECT_GT(covered, 100);
   }

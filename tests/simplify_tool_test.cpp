@@ -70,7 +70,7 @@ class SimplifyTool : public testing::Test {
 };
 
 Verdict check(const fs::path& original, const fs::path& simplified, double tolerance) {
-  return check_symmetric(Bvh(read_mesh(original).mesh), Bvh(read_mesh(simplified).mesh), tolerance).verdict;
+  return check_tolerance(Bvh(read_mesh(original).mesh), Bvh(read_mesh(simplified).mesh), tolerance).verdict;
 }
 
 TEST_F(SimplifyTool, WritesAMeshWithinTheToleranceInEveryFormat) {
@@ -313,7 +313,7 @@ TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
   proven.measure(tree, options);
   ASSERT_EQ(proven.verdict(), Verdict::Within);
   const TriangleMesh coarse = datasets::icosphere(1, 2);
-  options.tolerance = symmetric_distance(tree, Bvh(coarse)).bounds.upper;
+  options.tolerance = hausdorff_distance(tree, Bvh(coarse)).bounds.upper;
   options.budget.seconds = 0;
   late.write(coarse);
   late.measure(tree, options);
@@ -375,7 +375,7 @@ TEST_F(SimplifyTool, CatchesAFaultyProofAndSavesAReproducer) {
   EXPECT_EQ(options.at("effort"), "normal");
   EXPECT_EQ(options.at("driver"), "core");
   const TriangleMesh rejected = read_mesh(folder / "rejected.ply").mesh;
-  EXPECT_EQ(check_symmetric(Bvh(read_mesh(in("sphere.off")).mesh), Bvh(rejected), 0.02).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_tolerance(Bvh(read_mesh(in("sphere.off")).mesh), Bvh(rejected), 0.02).verdict, Verdict::Exceeds);
 
   EXPECT_EQ(run(arguments).exit_code, 0);
   EXPECT_TRUE(fs::exists(in("out.ply")));

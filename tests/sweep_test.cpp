@@ -71,7 +71,7 @@ DistanceOptions measurement(const Subject& subject, double tolerance) {
 bool is_decided(const Subject& subject, double tolerance, const fs::path& format, const test::NamedDriver& driver) {
   const SimplifiedLevel level = simplify_with_bound(subject.mesh, options_for(tolerance, format, driver)).last();
   const TriangleMesh written = rounded_for(format, level.mesh);
-  const SymmetricDistance distance = symmetric_distance(subject.mesh, written, measurement(subject, tolerance));
+  const HausdorffDistance distance = hausdorff_distance(subject.mesh, written, measurement(subject, tolerance));
   const bool is_within = level.verdict == Verdict::Within && distance.bounds.upper <= tolerance;
   if (!is_within)
     std::printf(

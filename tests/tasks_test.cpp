@@ -18,19 +18,19 @@ TEST(Tasks, VisitEachNumberOnceByThreadsOfTheTeam) {
   for (const int threads : {1, 2, 5}) {
     for (const std::size_t n : {0U, 1U, 2U, 99U, 100U, 101U, 1000U}) {
       std::vector<int> visits(n, 0);
-      std::atomic<int> most_thread{0}, ranges{0};
+      std::atomic<int> max_thread{0}, ranges{0};
       with_team(threads, [&] {
         for_each_range(n, 100, [&](std::size_t begin, std::size_t end) {
           EXPECT_LT(begin, end);
           EXPECT_LE(end, n);
           for (std::size_t i = begin; i < end; ++i) ++visits[i];
           ++ranges;
-          if (omp_get_thread_num() >= threads) most_thread = omp_get_thread_num();
+          if (omp_get_thread_num() >= threads) max_thread = omp_get_thread_num();
         });
         EXPECT_EQ(ranges, (n + 99) / 100) << "not all were done when the loop returned";
       });
       EXPECT_EQ(visits, std::vector<int>(n, 1));
-      EXPECT_EQ(most_thread, 0);
+      EXPECT_EQ(max_thread, 0);
     }
   }
 }

@@ -13,8 +13,8 @@
 #include "reference/exact_distance.h"
 #include "reference/small_meshes.h"
 #include "verify/checksum.h"
-#include "verify/degree_proof.h"
 #include "verify/near_triangle.h"
+#include "verify/parity_check.h"
 
 namespace meshbound::verify {
 namespace {
@@ -127,7 +127,7 @@ TEST(PieceCorners, PartsOfRandomCutsHaveTheAreaOfTheWhole) {
       const Piece piece = pieces[at];
       const auto i = static_cast<std::uint32_t>(random() % piece.size()),
                  j = static_cast<std::uint32_t>(random() % piece.size());
-      if (i == j || piece.size() + 1 > most_corners) continue;
+      if (i == j || piece.size() + 1 > max_corners) continue;
       const auto parts = corners.cut(piece, chord(std::min(i, j), random() % 256, std::max(i, j), random() % 4 * 64));
       pieces[at] = parts.first;
       pieces.push_back(parts.second);
@@ -159,7 +159,7 @@ TEST(PieceCorners, RefuseChordsThatTheirPieceDoesNotHave) {
 bool proves(const TriangleMesh& mesh, double tolerance, std::uint32_t seed, const Corners& face) {
   PieceCorners corners;
   corners.start(face);
-  DegreeProof proof(mesh, tolerance);
+  ParityCheck proof(mesh, tolerance);
   return proof.proves(face, corners, {0, 1, 2}, seed);
 }
 
@@ -174,7 +174,7 @@ std::uint32_t below_middle(const TriangleMesh& mesh) {
   return 0;
 }
 
-TEST(DegreeProof, HoldsOverASheetAndNotForATighterTolerance) {
+TEST(ParityCheck, HoldsOverASheetAndNotForATighterTolerance) {
   const TriangleMesh sheet = reference::unit_square(7);
   const std::uint32_t seed = below_middle(sheet);
   EXPECT_TRUE(proves(sheet, 0.021, seed, face));
@@ -185,7 +185,7 @@ TEST(DegreeProof, HoldsOverASheetAndNotForATighterTolerance) {
   EXPECT_FALSE(proves(sheet, 0.021, 0, face)) << "a seed that is not below the face";
 }
 
-TEST(DegreeProof, SeesAHole) {
+TEST(ParityCheck, SeesAHole) {
   const TriangleMesh sheet = reference::unit_square(7);
   const std::uint32_t seed = below_middle(sheet);
   for (std::uint32_t hole = 0; hole < sheet.triangles.size(); ++hole) {
@@ -204,7 +204,7 @@ TEST(DegreeProof, SeesAHole) {
 
 /// A sheet folded back over itself below the middle of the face: no distance to the plane is too large, and each edge
 /// has two triangles, but half of the face has no layer below it and half has two.
-TEST(DegreeProof, CountsLayersModulo2) {
+TEST(ParityCheck, CountsLayersModulo2) {
   TriangleMesh sheet = reference::unit_square(6);
   for (Eigen::Vector3d& p : sheet.vertices) p = {6 * p.x() - 2, 2 * p.y() - 0.5, 0};
   TriangleMesh folded = sheet;
@@ -217,7 +217,7 @@ TEST(DegreeProof, CountsLayersModulo2) {
 }
 
 /// A wall beside the face is out of the prism, one inside it is too high.
-TEST(DegreeProof, LooksOnlyAtWhatIsStraightAboveAndBelow) {
+TEST(ParityCheck, LooksOnlyAtWhatIsStraightAboveAndBelow) {
   const TriangleMesh sheet = reference::unit_square(10);
   TriangleMesh beside = sheet, inside = sheet;
   for (Eigen::Vector3d& p : beside.vertices)
@@ -228,14 +228,14 @@ TEST(DegreeProof, LooksOnlyAtWhatIsStraightAboveAndBelow) {
   EXPECT_FALSE(proves(inside, 0.05, below_middle(inside), face));
 }
 
-TEST(DegreeProof, NeedsATriangleWithArea) {
+TEST(ParityCheck, NeedsATriangleWithArea) {
   const TriangleMesh sheet = reference::unit_square(7);
   EXPECT_FALSE(proves(sheet, 0.05, below_middle(sheet), {face[0], face[1], face[1]}));
   EXPECT_FALSE(proves(sheet, 0.05, below_middle(sheet), {face[0], face[0], face[0]}));
 }
 
 /// Where intervals of doubles are at a loss: at sizes beyond their range, the rationals decide the same.
-TEST(DegreeProof, HoldsAtAnySize) {
+TEST(ParityCheck, HoldsAtAnySize) {
   for (const double size : {1e-200, 1e-100, 1e100, 1e140}) {
     const TriangleMesh sheet = reference::scaled(reference::unit_square(7), size);
     Corners scaled = face;
@@ -247,13 +247,13 @@ TEST(DegreeProof, HoldsAtAnySize) {
 }
 
 /// What a few bytes can ask for is bounded.
-TEST(DegreeProof, EndsWhereItCostsTooMuch) {
+TEST(ParityCheck, EndsWhereItCostsTooMuch) {
   const TriangleMesh sheet = reference::unit_square(7);
   const std::uint32_t seed = below_middle(sheet);
   PieceCorners corners;
   corners.start(face);
-  const auto cost = [&](std::uint64_t most_work, int times) {
-    DegreeProof proof(sheet, 0.021, most_work);
+  const auto cost = [&](std::uint64_t max_work, int times) {
+    ParityCheck proof(sheet, 0.021, max_work);
     for (int i = 0; i < times; ++i)
       if (!proof.proves(face, corners, {0, 1, 2}, seed)) return std::uint64_t{0};
     return proof.work();

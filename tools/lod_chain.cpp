@@ -181,7 +181,7 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   entry.tolerance = level.tolerance;
   entry.decided_by = decided_by;
   if (report_.view)
-    entry.view_distance = least_view_distance(report_.view->screen, report_.view->pixels, level.tolerance);
+    entry.view_distance = min_view_distance(report_.view->screen, report_.view->pixels, level.tolerance);
   entry.path = output.path().string();
   entry.file = output.path().filename().string();
   entry.vertices = output.summary().vertices;

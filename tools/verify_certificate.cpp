@@ -69,7 +69,7 @@ void require_tolerance(const verify::Proof& proof, const Options& options, const
 
 Json to_json(const verify::Proof::Direction& direction) {
   return {{"pieces", direction.pieces},
-          {"by_degree", direction.by_degree},
+          {"by_degree", direction.by_parity},
           {"cuts", direction.cuts},
           {"bytes", direction.bytes},
           {"exact_decisions", direction.exact_decisions}};
@@ -104,7 +104,7 @@ void print(const Options& options, const Inputs& inputs, const Outcome& outcome)
               options.simplified.c_str(), exact_number(outcome.proof->tolerance).c_str());
   std::printf("pieces     %llu of the original, %llu of the simplified mesh; %llu of them proven by parity\n",
               static_cast<unsigned long long>(forward.pieces), static_cast<unsigned long long>(backward.pieces),
-              static_cast<unsigned long long>(forward.by_degree + backward.by_degree));
+              static_cast<unsigned long long>(forward.by_parity + backward.by_parity));
   std::printf("bytes      %zu, %s for each original triangle\n", inputs.certificate.size(),
               short_number(static_cast<double>(inputs.certificate.size()) /
                            static_cast<double>(inputs.original.triangles.size()))

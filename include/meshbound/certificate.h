@@ -26,7 +26,7 @@ struct Certificate {
   std::vector<std::uint8_t> bytes;
   struct Direction {
     std::uint64_t pieces = 0;     ///< that the triangles were cut into
-    std::uint64_t by_degree = 0;  ///< those of them proven by the degree of a projection
+    std::uint64_t by_parity = 0;  ///< those of them proven by the degree of a projection
     std::uint64_t cuts = 0;
     std::uint64_t bytes = 0;
   };

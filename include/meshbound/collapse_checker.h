@@ -23,7 +23,7 @@ namespace meshbound {
 /// Vertices are the numbers of the mesh at the start. A collapse is also refused where it would leave no 2-manifold
 /// (link condition), turn a face by more than a right angle or make one that is next to nothing, move a locked vertex,
 /// or change more than 48 faces. The state is a proof, rounding included, for the points as they were given; measure
-/// the result all the same (`check_symmetric`) where it matters. Not thread-safe. Memory: O(original); a collapse takes
+/// the result all the same (`check_tolerance`) where it matters. Not thread-safe. Memory: O(original); a collapse takes
 /// time by the number of original triangles near it.
 class CollapseChecker {
  public:

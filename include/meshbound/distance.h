@@ -89,7 +89,7 @@ struct OneSidedDistance {
 /// The direction that is searched second, from B unless a few points show that it is clearly further, is refined only
 /// as far as the lower bound of the first leaves the maximum open (paper, section 6): converged means of it that its
 /// upper bound is within the error bound of the larger of both lower bounds.
-struct SymmetricDistance {
+struct HausdorffDistance {
   Bounds bounds;  ///< the maximum of both directions
   OneSidedDistance a_to_b;
   OneSidedDistance b_to_a;
@@ -105,9 +105,9 @@ struct ToleranceCheck {
 
 /// Throws `InvalidInput` for an error bound or tolerance that is negative or not a number, and for a pose that is not a
 /// rigid motion.
-[[nodiscard]] OneSidedDistance one_sided_distance(const PlacedModel& a, const PlacedModel& b,
-                                                  const DistanceOptions& options = {});
-[[nodiscard]] SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
+[[nodiscard]] OneSidedDistance one_sided_hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
+                                                            const DistanceOptions& options = {});
+[[nodiscard]] HausdorffDistance hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
                                                    const DistanceOptions& options = {});
 
 /// What needs no tree: meshes of the same triangles (`same_surface`), at distance 0; and meshes whose triangles
@@ -116,13 +116,13 @@ struct ToleranceCheck {
 /// longer than a look. The upper bound is at most `limit`, model units; statistics are of what was looked at. Throws as
 /// `Bvh`, except that it does not look at meshes of different numbers of triangles. O(n). Any number of threads may
 /// call it.
-[[nodiscard]] std::optional<SymmetricDistance> distance_without_trees(const MeshView& a, const MeshView& b,
+[[nodiscard]] std::optional<HausdorffDistance> distance_without_trees(const MeshView& a, const MeshView& b,
                                                                       double limit);
 
 /// The same as above for two meshes where they are: builds their trees only where `distance_without_trees` does not
 /// tell the distance to the error bound (and the tolerance, if any). Throws as `Bvh` and as above. O(n log n) for the
 /// trees. Any number of threads may call it.
-[[nodiscard]] SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b,
+[[nodiscard]] HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b,
                                                    const DistanceOptions& options = {});
 
 /// Whether two meshes have the same triangles, bit for bit, however they number, order, turn and repeat them; -0 and 0
@@ -130,11 +130,11 @@ struct ToleranceCheck {
 [[nodiscard]] bool same_surface(const MeshView& a, const MeshView& b);
 
 /// Decides H(A,B) <= tolerance: stops at the first point known to be further, refines nothing below it.
-[[nodiscard]] ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
+[[nodiscard]] ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                              const DistanceOptions& options = {});
-[[nodiscard]] ToleranceCheck check_symmetric(const MeshView& a, const MeshView& b, double tolerance,
+[[nodiscard]] ToleranceCheck check_tolerance(const MeshView& a, const MeshView& b, double tolerance,
                                              const DistanceOptions& options = {});
-[[nodiscard]] ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
-                                             const DistanceOptions& options = {});
+[[nodiscard]] ToleranceCheck check_one_sided_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                                                       const DistanceOptions& options = {});
 
 }  // namespace meshbound

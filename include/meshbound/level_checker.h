@@ -15,10 +15,10 @@ namespace meshbound {
 ///     original -> level    a triangle keeps its bound while the level's triangles that it was covered by are there
 ///
 /// Levels may come in any order, of any size and numbering; an unrelated one only gains nothing. Answers carry the same
-/// guarantees as those of `check_symmetric` and `symmetric_distance`; as other points and pieces are looked at, bounds
+/// guarantees as those of `check_tolerance` and `hausdorff_distance`; as other points and pieces are looked at, bounds
 /// may differ inside these guarantees. `DistanceStats::proven_before` counts the triangles that were not checked.
 /// Not thread-safe: use one per thread. Memory: 30 to 50 bytes per triangle of the original and of one level. Where
-/// nothing can be kept, writing proofs down makes a check 3 to 10% slower than `check_symmetric` (measured).
+/// nothing can be kept, writing proofs down makes a check 3 to 10% slower than `check_tolerance` (measured).
 class LevelChecker {
  public:
   /// Builds a tree of its own. Throws as `Bvh`.
@@ -30,12 +30,12 @@ class LevelChecker {
   LevelChecker& operator=(LevelChecker&&) noexcept;
   ~LevelChecker();
 
-  /// Decides H(original, level) <= tolerance; `a` of the result is the original. Throws as `Bvh` and `check_symmetric`;
+  /// Decides H(original, level) <= tolerance; `a` of the result is the original. Throws as `Bvh` and `check_tolerance`;
   /// then what was kept stays as it was. O(n log n) for the level's tree, and the search for what changed.
   [[nodiscard]] ToleranceCheck check(const MeshView& level, double tolerance, const DistanceOptions& options = {});
 
   /// Measures H(original, level). The kept bounds save work where they lie below the distance plus the error bound.
-  [[nodiscard]] SymmetricDistance measure(const MeshView& level, const DistanceOptions& options = {});
+  [[nodiscard]] HausdorffDistance measure(const MeshView& level, const DistanceOptions& options = {});
 
   [[nodiscard]] const Bvh& original() const;
   [[nodiscard]] std::size_t memory_bytes() const;  ///< of what is kept, without the original's tree

@@ -81,7 +81,7 @@ struct LevelReport {
   DecidedBy decided_by = DecidedBy::Measurement;
   std::string path;
   std::size_t faces = 0;
-  SymmetricDistance distance;  ///< a: the original, b: the level as written
+  HausdorffDistance distance;  ///< a: the original, b: the level as written
 };
 
 /// A proof that was written for `verify_certificate`.
@@ -97,7 +97,7 @@ struct SimplifyReport {
   double tolerance = 0;
   MeshReport original;
   MeshReport simplified;       ///< as written
-  SymmetricDistance distance;  ///< a: the original, b: the simplified mesh as written
+  HausdorffDistance distance;  ///< a: the original, b: the simplified mesh as written
   std::string stopped_by;      ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   struct Pruned {
     std::size_t components = 0, faces = 0;  ///< as of when they were dropped

@@ -29,6 +29,6 @@ struct Screen {
 
 /// The inverse: the distance from which on a level of this tolerance may be shown. Throws as above; a tolerance of 0
 /// may be shown from anywhere: 0.
-[[nodiscard]] double least_view_distance(const Screen& screen, double pixels, double tolerance);
+[[nodiscard]] double min_view_distance(const Screen& screen, double pixels, double tolerance);
 
 }  // namespace meshbound

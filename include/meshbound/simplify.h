@@ -98,7 +98,7 @@ struct SimplifiedLevel {
   std::vector<std::uint32_t> source_vertex, source_triangle;
   EndedBy ended_by = EndedBy::NothingFits;
   /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.
-  std::optional<SymmetricDistance> distance;
+  std::optional<HausdorffDistance> distance;
   Verdict verdict = Verdict::Undecided;
   std::optional<Certificate> certificate;  ///< of the original and `mesh`, when it was asked for
   std::uint64_t collapses_performed = 0;   ///< since the beginning of the run

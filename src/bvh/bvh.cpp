@@ -22,12 +22,12 @@ namespace meshbound {
 namespace {
 
 /// Slots are 30-bit numbers in the adjacency.
-constexpr std::size_t most_triangles = std::size_t{1} << 30;
+constexpr std::size_t max_triangles = std::size_t{1} << 30;
 
 Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 void check_size(const MeshView& mesh) {
-  if (mesh.triangle_count() >= most_triangles)
+  if (mesh.triangle_count() >= max_triangles)
     throw InvalidInput("the mesh has " + std::to_string(mesh.triangle_count()) +
                        " triangles; a tree holds fewer than 2^30, split the mesh");
 }
@@ -98,8 +98,8 @@ unsigned used_extremes(const MeshView& mesh, const Extremes& all, std::size_t ve
 /// As `used_bounding_box` after `validate`, by tasks: the box of all vertices is that of the used ones if those at its
 /// sides are used, so that no two threads write to one table.
 Eigen::AlignedBox3d checked_box(const MeshView& mesh) {
-  constexpr std::size_t most_indexed = std::size_t{1} << 32;
-  const std::size_t vertices = std::min(mesh.vertex_count(), most_indexed);
+  constexpr std::size_t max_indexed = std::size_t{1} << 32;
+  const std::size_t vertices = std::min(mesh.vertex_count(), max_indexed);
   std::atomic<bool> sound = mesh.triangle_count() > 0;
   const Extremes all = extremes_of(mesh, vertices, sound);
   const unsigned used = used_extremes(mesh, all, vertices, sound);
@@ -112,9 +112,7 @@ Eigen::AlignedBox3d checked_box(const MeshView& mesh) {
   return {box.min() + Eigen::Vector3d::Zero(), box.max() + Eigen::Vector3d::Zero()};
 }
 
-std::size_t most_used_vertices(const MeshView& mesh) {
-  return std::min(mesh.vertex_count(), 3 * mesh.triangle_count());
-}
+std::size_t max_used_vertices(const MeshView& mesh) { return std::min(mesh.vertex_count(), 3 * mesh.triangle_count()); }
 
 /// The arrays of `Bvh::Data`. Above the lowest level there are 1/8 + 1/64 + ... = 1/7 of its nodes.
 std::size_t tree_bytes(const MeshView& mesh) {
@@ -122,14 +120,14 @@ std::size_t tree_bytes(const MeshView& mesh) {
                                       sizeof(std::array<float, 3>) + sizeof(std::uint32_t),
                         by_vertex = sizeof(Vec3) + sizeof(std::uint32_t), rounding = 4096;
   const std::size_t lowest_nodes = mesh.triangle_count() / (block_width * node_width);
-  return by_triangle * mesh.triangle_count() + by_vertex * most_used_vertices(mesh) +
+  return by_triangle * mesh.triangle_count() + by_vertex * max_used_vertices(mesh) +
          sizeof(BvhNode) * (lowest_nodes + lowest_nodes / 7) + rounding;
 }
 
 /// The step that takes most: `build_adjacency`, with three half-edges of a triangle.
 std::size_t scratch_bytes(const MeshView& mesh) {
   constexpr std::size_t half_edges = 3 * (2 * sizeof(std::uint32_t) + 1), rounding = 4096;
-  return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * most_used_vertices(mesh) + rounding;
+  return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * max_used_vertices(mesh) + rounding;
 }
 
 std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {

@@ -15,7 +15,7 @@ constexpr std::uint32_t unused = 0xffffffff;
 constexpr std::uint32_t of_earlier_run = 0xffffffff;
 
 /// More would not pay: every run has a table of all vertices.
-constexpr std::size_t most_runs = 16;
+constexpr std::size_t max_runs = 16;
 
 /// Triangles of a batch: what they need fits into the first-level cache.
 constexpr std::uint32_t batch = 64;
@@ -40,7 +40,7 @@ class Renumbering {
   Renumbering(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs)
       : data_(data),
         mesh_(mesh),
-        runs_(static_cast<std::uint32_t>(std::min(runs, most_runs))),
+        runs_(static_cast<std::uint32_t>(std::min(runs, max_runs))),
         run_(runs_, Run(scratch)),
         to_working_(data.frame) {}
 

@@ -40,7 +40,7 @@ inline double outward_slack(const Bvh::Data& b, const Piece& piece, double accep
   const auto& n = b.normals[piece.slot];
   const Vec3 a = triangle_at(b, piece.slot).a;
   const PlaneSides heights = sides_of(piece, {n[0], n[1], n[2]}, n[0] * a.x + n[1] * a.y + n[2] * a.z);
-  const double highest = std::max(heights.most, -heights.least), room = accepted_squared - highest * highest;
+  const double highest = std::max(heights.max, -heights.min), room = accepted_squared - highest * highest;
   return room > 0 ? 0.5 * std::sqrt(room) : 0;
 }
 

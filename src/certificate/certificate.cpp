@@ -11,7 +11,7 @@
 #include "certificate/cut_search.h"
 #include "certificate/encoder.h"
 #include "distance/point_like.h"
-#include "distance/searcher.h"
+#include "distance/search_kernel.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "numeric/first_error.h"
@@ -23,7 +23,7 @@ constexpr std::size_t triangles_per_chunk = 256;  ///< hints are handed on insid
 
 /// Where the proofs by degree together would cost a reader more than this for each triangle of both meshes, as in
 /// stacks of large triangles over fine ones, they are made small. It may refuse what costs 1024 times as many.
-constexpr std::uint64_t degree_work_per_triangle = 16;
+constexpr std::uint64_t parity_work_per_triangle = 16;
 constexpr std::size_t largest_small_patch = 256;
 
 double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
@@ -132,9 +132,9 @@ Failure DirectionProof::prove_chunk(std::size_t chunk, CutSearch& search) {
 }
 
 std::optional<EncodedSection> DirectionProof::run(double progress_from) {
-  const std::uint64_t enough = degree_work_per_triangle * (source_.triangle_count() + target_.triangle_count());
-  std::optional<std::uint64_t> work = prove(DegreeSearch::largest_patch, progress_from);
-  if (work && *work > enough + DegreeSearch::largest_patch) work = prove(largest_small_patch, progress_from);
+  const std::uint64_t enough = parity_work_per_triangle * (source_.triangle_count() + target_.triangle_count());
+  std::optional<std::uint64_t> work = prove(ParitySearch::largest_patch, progress_from);
+  if (work && *work > enough + ParitySearch::largest_patch) work = prove(largest_small_patch, progress_from);
   if (!work) return std::nullopt;
   return encode(source_, chunks_);
 }
@@ -145,7 +145,7 @@ std::optional<std::uint64_t> DirectionProof::prove(std::size_t largest_patch, do
   const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
   std::vector<Failure> failures(count);
   std::size_t done = 0;
-  std::uint64_t degree_work = 0;
+  std::uint64_t parity_work = 0;
   std::atomic<bool> stop = false;
   FirstError error;
 #pragma omp parallel num_threads(threads)
@@ -162,15 +162,15 @@ std::optional<std::uint64_t> DirectionProof::prove(std::size_t largest_patch, do
       if (options_.progress && omp_get_thread_num() == 0)
         options_.progress(progress_from + 0.5 * static_cast<double>(done) / static_cast<double>(count));
     }
-    const std::uint64_t own_work = search ? search->degree_work() : 0;
+    const std::uint64_t own_work = search ? search->parity_work() : 0;
 #pragma omp atomic
-    degree_work += own_work;
+    parity_work += own_work;
   }
   error.rethrow();
   for (const Failure& failure : failures)
     if (failure.outcome != CutSearch::Outcome::Proven) fail(failure);
   if (done < count) return std::nullopt;
-  return degree_work;
+  return parity_work;
 }
 
 void DirectionProof::fail(const Failure& failure) const {
@@ -183,7 +183,7 @@ void DirectionProof::fail(const Failure& failure) const {
 }
 
 Certificate::Direction counts_of(const EncodedSection& section) {
-  return {section.pieces, section.by_degree, section.cuts, section.bytes.size()};
+  return {section.pieces, section.by_parity, section.cuts, section.bytes.size()};
 }
 
 }  // namespace

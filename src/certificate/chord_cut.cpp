@@ -73,12 +73,12 @@ std::optional<ChordCut> parts_of(const Piece& piece, const Chord& chord) {
 
 }  // namespace
 
-std::optional<ChordCut> cut_by_chord(const Piece& piece, const PlaneSides& sides, double most_moved) {
+std::optional<ChordCut> cut_by_chord(const Piece& piece, const PlaneSides& sides, double max_shift) {
   const auto ends = crossings(piece, sides);
   if (!ends) return std::nullopt;
   const double longest = std::max((*ends)[0].length, (*ends)[1].length);
   for (const int bits : sizes_of_ends) {
-    if (bits < sizes_of_ends.back() && std::ldexp(longest, -bits - 1) > most_moved) continue;
+    if (bits < sizes_of_ends.back() && std::ldexp(longest, -bits - 1) > max_shift) continue;
     Chord chord{snapped((*ends)[0], bits, piece.count), snapped((*ends)[1], bits, piece.count), bits};
     if (chord.from.edge > chord.to.edge) std::swap(chord.from, chord.to);
     if (chord.from.edge == chord.to.edge) continue;

@@ -50,7 +50,7 @@ CutSearch::CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours,
 }
 
 /// How far the ends of a cut may be moved to say them in few bits. Where that goes wrong, the next cuts are finer.
-double CutSearch::most_moved(const Piece& piece) const {
+double CutSearch::max_shift(const Piece& piece) const {
   const double share = piece.depth < 8 ? 0x1p-4 : piece.depth < 24 ? 0x1p-8 : piece.depth < 48 ? 0x1p-16 : 0x1p-32;
   return share * tolerance_;
 }
@@ -93,9 +93,9 @@ bool CutSearch::try_candidates(const Piece& piece) {
 }
 
 CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint,
-                                    std::vector<ProofNode>& nodes, std::uint64_t most_steps) {
+                                    std::vector<ProofNode>& nodes, std::uint64_t max_steps) {
   nodes_ = &nodes;
-  steps_left_ = most_steps;
+  steps_left_ = max_steps;
   too_far_ = false;
   const std::size_t before = nodes.size();
   Piece whole = whole_triangle(triangle[0], triangle[1], triangle[2], hint);
@@ -104,7 +104,7 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
   if (!proven && !too_far_) {
     whole.slot = nearest_to_middle_;
     proven =
-        try_degree(whole) || (degree_.patch_was_too_large() ? halve_by_degree(whole) : cover_interior_by_degree(whole));
+        try_parity(whole) || (degree_.patch_was_too_large() ? halve_by_parity(whole) : cover_interior_by_parity(whole));
     if (!proven) {
       nodes.resize(before);
       too_far_ = false;  // perhaps only by the rounding of these cuts
@@ -117,7 +117,7 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
   return too_far_ ? Outcome::TooFar : Outcome::GaveUp;
 }
 
-bool CutSearch::try_degree(const Piece& piece) {
+bool CutSearch::try_parity(const Piece& piece) {
   const std::uint32_t seed = nearest(middle_of(piece), piece, piece.slot).slot;
   if (too_far_ || !degree_.proves(triangle_, piece, seed)) return false;
   emit(seed, ProofNode::Kind::Degree);
@@ -126,7 +126,7 @@ bool CutSearch::try_degree(const Piece& piece) {
 
 /// A face that meets a crease a little beside it sticks out there, by up to the tolerance, and is no proof by degree;
 /// cut off along some of its sides it often is, and only the strips need pieces.
-bool CutSearch::cover_interior_by_degree(const Piece& piece) {
+bool CutSearch::cover_interior_by_parity(const Piece& piece) {
   constexpr std::array<unsigned, 7> subsets_of_sides = {1, 2, 4, 3, 5, 6, 7};  // few strips first
   for (const double width : {1.25, 4.0})
     for (const unsigned sides : subsets_of_sides) {
@@ -149,8 +149,8 @@ bool CutSearch::try_trimmed(const Piece& piece, unsigned sides, double width) {
     if (!(norm > 0)) return false;
     const Vec3 unit = (1 / norm) * outward;
     const PlaneSides distances = sides_of(rest, unit, dot(unit, from) - width);
-    if (!(distances.least < 0 && distances.most > 0)) return false;
-    auto cut = cut_by_chord(rest, distances, most_moved(rest));
+    if (!(distances.min < 0 && distances.max > 0)) return false;
+    auto cut = cut_by_chord(rest, distances, max_shift(rest));
     if (!cut) return false;
     trims.push_back({*cut, first_is_inside(rest, distances, cut->chord)});
     rest = trims.back().rest();
@@ -171,7 +171,7 @@ bool CutSearch::emit_trimmed(const std::vector<Trim>& trims, std::size_t from, s
 }
 
 /// A patch of too many triangles is several small enough.
-bool CutSearch::halve_by_degree(const Piece& piece) {
+bool CutSearch::halve_by_parity(const Piece& piece) {
   const auto cut = halves_of(piece);
   if (!cut) return false;
   emit_cut(cut->chord);
@@ -182,7 +182,7 @@ bool CutSearch::cover_part(Piece part) {
   if (try_candidates(part)) return true;
   part.slot = nearest(middle_of(part), part, part.slot).slot;
   if (too_far_) return false;
-  return try_degree(part) || (degree_.patch_was_too_large() ? halve_by_degree(part) : cover(part));
+  return try_parity(part) || (degree_.patch_was_too_large() ? halve_by_parity(part) : cover(part));
 }
 
 bool CutSearch::cover(Piece piece) {
@@ -238,7 +238,7 @@ CutSearch::Walked CutSearch::walk(Piece& piece) {
   const CornerTriangle<double> t = triangle_at(piece.slot);
   const double outward = outward_slack(b_, piece, accepted_squared_[piece.depth]);
   // Moved by more than there is room beside the triangle, the ends of a cut would leave parts that are not near enough.
-  const double shift = outward > 0 ? std::min(most_moved(piece), outward / 4) : most_moved(piece);
+  const double shift = outward > 0 ? std::min(max_shift(piece), outward / 4) : max_shift(piece);
   const double margin = std::max(noise, 2 * shift);
   for (const double push : {outward, 0.0}) {
     for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -246,8 +246,8 @@ CutSearch::Walked CutSearch::walk(Piece& piece) {
       if (across == no_slot) continue;
       const CellPlane plane = cell_plane(b_, piece.slot, t, edge);
       const PlaneSides sides = sides_of(piece, plane.normal, plane.offset + push);
-      if (sides.most <= (push > 0 ? margin : noise)) continue;
-      if (sides.least >= -margin) {
+      if (sides.max <= (push > 0 ? margin : noise)) continue;
+      if (sides.min >= -margin) {
         piece.slot = across;
         ++piece.age;
         return {.moved = true};
@@ -289,7 +289,7 @@ bool CutSearch::resolve(const Piece& piece, std::uint32_t worst) {
   if (other == piece.slot) return halve(piece);
   const Vec3 normal = there - here;
   const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (here + there)));
-  auto cut = sides.least < 0 && sides.most > 0 ? cut_by_chord(piece, sides, most_moved(piece)) : std::nullopt;
+  auto cut = sides.min < 0 && sides.max > 0 ? cut_by_chord(piece, sides, max_shift(piece)) : std::nullopt;
   if (!cut) return halve(piece);
   const bool inside_first = first_is_inside(piece, sides, cut->chord);
   (inside_first ? cut->second : cut->first).slot = other;
@@ -318,7 +318,7 @@ std::optional<ChordCut> CutSearch::halves_of(const Piece& piece) const {
   }
   const Vec3 normal = to - from;
   const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
-  return cut_by_chord(piece, sides, most_moved(piece));
+  return cut_by_chord(piece, sides, max_shift(piece));
 }
 
 }  // namespace meshbound

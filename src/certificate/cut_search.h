@@ -6,7 +6,7 @@
 
 #include "bvh/nearest.h"
 #include "certificate/chord_cut.h"
-#include "certificate/degree_search.h"
+#include "certificate/parity_search.h"
 #include "certificate/proof_node.h"
 #include "distance/goal.h"
 #include "distance/piece.h"
@@ -26,16 +26,16 @@ class CutSearch {
   enum class Outcome {
     Proven,
     TooFar,  ///< a point is further than the tolerance, but for the slack
-    GaveUp   ///< not within the depth of the format or `most_steps`
+    GaveUp   ///< not within the depth of the format or `max_steps`
   };
 
   /// Appends the tree for a triangle given in B's working frame; on failure leaves `nodes` as they were. Starts with
   /// the triangle of B at `hint`, and leaves there the one that served last.
   [[nodiscard]] Outcome prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
-                              std::uint64_t most_steps);
+                              std::uint64_t max_steps);
 
-  /// See `DegreeSearch::work`; of all triangles so far.
-  [[nodiscard]] std::uint64_t degree_work() const { return degree_.work(); }
+  /// See `ParitySearch::work`; of all triangles so far.
+  [[nodiscard]] std::uint64_t parity_work() const { return degree_.work(); }
 
   /// The triangle of B nearest to the middle of the triangle that `prove` was called for last.
   [[nodiscard]] std::uint32_t nearest_to_middle() const { return nearest_to_middle_; }
@@ -58,11 +58,11 @@ class CutSearch {
   }
   [[nodiscard]] bool try_near(const Piece& piece, std::uint32_t slot);
   [[nodiscard]] bool try_candidates(const Piece& piece);
-  [[nodiscard]] bool try_degree(const Piece& piece);
-  [[nodiscard]] bool cover_interior_by_degree(const Piece& piece);
+  [[nodiscard]] bool try_parity(const Piece& piece);
+  [[nodiscard]] bool cover_interior_by_parity(const Piece& piece);
   [[nodiscard]] bool try_trimmed(const Piece& piece, unsigned sides, double width);
   [[nodiscard]] bool emit_trimmed(const std::vector<Trim>& trims, std::size_t from, std::uint32_t seed);
-  [[nodiscard]] bool halve_by_degree(const Piece& piece);
+  [[nodiscard]] bool halve_by_parity(const Piece& piece);
   [[nodiscard]] bool cover_part(Piece part);
   [[nodiscard]] bool cover(Piece piece);
   [[nodiscard]] bool cover_parts(const ChordCut& cut);
@@ -72,7 +72,7 @@ class CutSearch {
   [[nodiscard]] bool halve(const Piece& piece);
   [[nodiscard]] std::optional<ChordCut> halves_of(const Piece& piece) const;
   [[nodiscard]] Nearest nearest(const Vec3& p, const Piece& piece, std::uint32_t hint);
-  [[nodiscard]] double most_moved(const Piece& piece) const;
+  [[nodiscard]] double max_shift(const Piece& piece) const;
   void emit_cut(const Chord& chord);
   void emit(std::uint32_t slot, ProofNode::Kind kind = ProofNode::Kind::Near);
 
@@ -80,7 +80,7 @@ class CutSearch {
   double tolerance_ = 0;
   /// By the cuts behind a piece: squared distances that prove as computed; negative where none does.
   std::array<double, deepest_cut + 1> accepted_squared_{};
-  DegreeSearch degree_;
+  ParitySearch degree_;
   QueryCounters counters_;
   std::vector<ProofNode>* nodes_ = nullptr;
   std::array<Vec3, 3> triangle_;

@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-enum TokenKind : std::uint64_t { NearToken = 0, CutToken = 1, DegreeToken = 2, RecallToken = 3 };
+enum TokenKind : std::uint64_t { NearToken = 0, CutToken = 1, ParityToken = 2, RecallToken = 3 };
 
 void put(Bytes& bytes, std::uint64_t value, int size) {
   for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
@@ -69,13 +69,13 @@ class SectionEncoder {
     const std::uint64_t step = zigzag(static_cast<std::int64_t>(node.target) - static_cast<std::int64_t>(last_));
     last_ = node.target;
     if (node.kind == ProofNode::Kind::Degree) {
-      ++result_.by_degree;
-      return put_token(result_.bytes, DegreeToken, step);
+      ++result_.by_parity;
+      return put_token(result_.bytes, ParityToken, step);
     }
     const auto at = std::find_if(corners_.begin(), corners_.end(),
                                  [&](std::uint32_t vertex) { return last_at_[vertex] == node.target; });
-    constexpr std::uint64_t most_in_one_byte = 31;
-    if (step > most_in_one_byte && at != corners_.end())
+    constexpr std::uint64_t max_in_one_byte = 31;
+    if (step > max_in_one_byte && at != corners_.end())
       put_token(result_.bytes, RecallToken, static_cast<std::uint64_t>(at - corners_.begin()));
     else
       put_token(result_.bytes, NearToken, step);

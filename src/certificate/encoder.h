@@ -13,7 +13,7 @@ namespace meshbound {
 /// The proof of one direction: a tree for each source triangle, one after the other.
 struct EncodedSection {
   std::vector<std::uint8_t> bytes;
-  std::uint64_t pieces = 0, by_degree = 0, cuts = 0;
+  std::uint64_t pieces = 0, by_parity = 0, cuts = 0;
 };
 
 /// `trees` holds the nodes of all source triangles in their order, in any number of runs.

@@ -204,7 +204,7 @@ class CellWalker : public ProvenBounds {
   [[nodiscard]] double outward_slack(const Piece& piece, const CornerTriangle<double>& t) const {
     const auto& n = b_.normals[piece.slot];
     const PlaneSides heights = sides_of(piece, {n[0], n[1], n[2]}, n[0] * t.a.x + n[1] * t.a.y + n[2] * t.a.z);
-    const double highest = std::max(heights.most, -heights.least), room = accepted_squared_ - highest * highest;
+    const double highest = std::max(heights.max, -heights.min), room = accepted_squared_ - highest * highest;
     return room > 0 ? 0.25 * std::sqrt(room) : 0;
   }
 
@@ -226,8 +226,8 @@ class CellWalker : public ProvenBounds {
       if (across == no_slot) continue;
       const Vec3 normal{planes.normal.x[edge], planes.normal.y[edge], planes.normal.z[edge]};
       const PlaneSides sides = sides_of(rest, normal, planes.offset[edge] + outward);
-      if (sides.most <= noise) continue;
-      if (sides.least >= -noise) {
+      if (sides.max <= noise) continue;
+      if (sides.min >= -noise) {
         push(rest, across, piece.age + 1);
         return true;
       }
@@ -371,7 +371,7 @@ class CellWalker : public ProvenBounds {
     const Vec3 normal = lead(t, u, *point).gradient;
     const PlaneSides sides = sides_of(piece, normal, dot(normal, *point));
     Piece near, far;
-    if (!(sides.least < 0 && sides.most > 0) || !cut_and_count(piece, sides, near, far)) return false;
+    if (!(sides.min < 0 && sides.max > 0) || !cut_and_count(piece, sides, near, far)) return false;
     push_split(near, far, piece, third);
     return true;
   }
@@ -392,7 +392,7 @@ class CellWalker : public ProvenBounds {
     }
     const Vec3 normal = to - from;
     const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
-    if (!(sides.least < 0 && sides.most > 0) || !cut_and_count(piece, sides, near, far)) return false;
+    if (!(sides.min < 0 && sides.max > 0) || !cut_and_count(piece, sides, near, far)) return false;
     near.rounds = far.rounds = near.splits = far.splits = 0;
     return true;
   }

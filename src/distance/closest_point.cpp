@@ -10,7 +10,7 @@
 #include "bvh/bvh_data.h"
 #include "distance/point_like.h"
 #include "distance/point_query.h"
-#include "distance/searcher.h"
+#include "distance/search_kernel.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"

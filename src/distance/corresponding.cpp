@@ -11,9 +11,9 @@ namespace meshbound {
 namespace {
 
 /// Squared lengths that neither underflow nor overflow on the way.
-constexpr double least_squared = 0x1p-960, most_squared = 0x1p960;
+constexpr double min_squared = 0x1p-960, max_squared = 0x1p960;
 
-bool is_exact_enough(double squared) { return squared > least_squared && squared < most_squared; }
+bool is_exact_enough(double squared) { return squared > min_squared && squared < max_squared; }
 
 /// An upper bound of the length of a difference of two points, exact for 0. The coordinates carry u each, the sum of
 /// their squares 3u more, its root half of that and u: less than 8u. Where squares do not serve the sum of the
@@ -29,7 +29,7 @@ constexpr std::array<Pairing, 6> pairings{{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 
 
 /// The corners that are furthest apart so far.
 struct Furthest {
-  double squared = least_squared;  ///< as computed, of those that are exact enough
+  double squared = min_squared;  ///< as computed, of those that are exact enough
   double distance = 0;
   std::uint32_t triangle = 0, corner_a = 0, corner_b = 0;
 };
@@ -94,7 +94,7 @@ OneSidedDistance from_corner(const MeshView& from, const MeshView& to, const Fur
   DistanceOptions options;
   options.error_bound = 0;
   options.threads = 1;
-  OneSidedDistance result = one_sided_distance(here, there, options);
+  OneSidedDistance result = one_sided_hausdorff_distance(here, there, options);
   result.bounds.lower = std::min(result.bounds.lower, furthest.distance);
   result.bounds.upper = furthest.distance;
   result.outcome = Outcome::Converged;
@@ -108,12 +108,12 @@ OneSidedDistance from_corner(const MeshView& from, const MeshView& to, const Fur
 
 }  // namespace
 
-std::optional<SymmetricDistance> distance_of_corresponding(const MeshView& a, const MeshView& b, double limit) {
+std::optional<HausdorffDistance> distance_of_corresponding(const MeshView& a, const MeshView& b, double limit) {
   if (a.triangle_count() != b.triangle_count()) return std::nullopt;
   Furthest furthest;
   for (std::uint32_t i = 0; i < a.triangle_count(); ++i)
     if (!include(a, b, i, limit, furthest)) return std::nullopt;
-  SymmetricDistance result;
+  HausdorffDistance result;
   result.a_to_b = from_corner(a, b, furthest, furthest.corner_a);
   result.b_to_a = from_corner(b, a, furthest, furthest.corner_b);
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower), furthest.distance};

@@ -12,7 +12,7 @@ namespace meshbound {
 /// triangle is as near to the point of the same barycentric coordinates in the other as the corners are, so the largest
 /// distance of corners bounds H; what the mesh with the furthest corner misses of it is measured there. Both meshes
 /// must be sound (`validate`). O(n).
-[[nodiscard]] std::optional<SymmetricDistance> distance_of_corresponding(const MeshView& a, const MeshView& b,
+[[nodiscard]] std::optional<HausdorffDistance> distance_of_corresponding(const MeshView& a, const MeshView& b,
                                                                          double limit);
 
 }  // namespace meshbound

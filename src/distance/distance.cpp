@@ -57,15 +57,16 @@ ToleranceCheck checked_one_sided(const OneSidedTask& task) {
 
 }  // namespace
 
-OneSidedDistance one_sided_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
+OneSidedDistance one_sided_hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
+                                              const DistanceOptions& options) {
   OneSidedTask task{.a = a, .b = b, .options = options};
   task.error_bound = error_bound_of(a, options);
   task.tolerance = tolerance_of(options);
   return search_one_sided(task);
 }
 
-SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options,
-                                     const SymmetricMemory& memory) {
+HausdorffDistance hausdorff_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options,
+                                     const HausdorffMemory& memory) {
   OneSidedTask task{.a = a, .b = b, .options = options, .memory = memory.a_to_b};
   task.error_bound = error_bound_of(a, options);
   task.tolerance = tolerance_of(options);
@@ -81,17 +82,17 @@ SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b,
     task.found_pairs = &pairs;
     back.known_pairs = &pairs;
   }
-  SymmetricDistance result;
+  HausdorffDistance result;
   std::tie(result.a_to_b, result.b_to_a) = search_both(task, back);
   result.bounds = larger(result.a_to_b.bounds, result.b_to_a.bounds);
   return result;
 }
 
-SymmetricDistance symmetric_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
-  return symmetric_distance(a, b, options, {});
+HausdorffDistance hausdorff_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
+  return hausdorff_distance(a, b, options, {});
 }
 
-SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
+HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
   const double tolerance = tolerance_of(options);
   if (options.error_bound) checked(*options.error_bound, "the error bound");
   if (options.method == Method::CellWalking && a.triangle_count() == b.triangle_count()) {
@@ -101,16 +102,16 @@ SymmetricDistance symmetric_distance(const MeshView& a, const MeshView& b, const
     if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
   }
   const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});
-  return symmetric_distance(tree_a, tree_b, options);
+  return hausdorff_distance(tree_a, tree_b, options);
 }
 
-ToleranceCheck check_one_sided(const PlacedModel& a, const PlacedModel& b, double tolerance,
-                               const DistanceOptions& options) {
+ToleranceCheck check_one_sided_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                                         const DistanceOptions& options) {
   return checked_one_sided(decision(a, b, tolerance, options));
 }
 
-ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
-                               const DistanceOptions& options, const SymmetricMemory& memory) {
+ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
+                               const DistanceOptions& options, const HausdorffMemory& memory) {
   OneSidedTask task = decision(a, b, tolerance, options);
   task.memory = memory.a_to_b;
   ToleranceCheck check = checked_one_sided(task);
@@ -126,19 +127,19 @@ ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, doubl
   return check;
 }
 
-ToleranceCheck check_symmetric(const PlacedModel& a, const PlacedModel& b, double tolerance,
+ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                const DistanceOptions& options) {
-  return check_symmetric(a, b, tolerance, options, {});
+  return check_tolerance(a, b, tolerance, options, {});
 }
 
-ToleranceCheck check_symmetric(const MeshView& a, const MeshView& b, double tolerance, const DistanceOptions& options) {
+ToleranceCheck check_tolerance(const MeshView& a, const MeshView& b, double tolerance, const DistanceOptions& options) {
   checked(tolerance, "the tolerance");
   if (options.method == Method::CellWalking) {
     if (const auto distance = distance_without_trees(a, b, tolerance))
       return {Verdict::Within, tolerance, distance->bounds, distance->a_to_b, distance->b_to_a};
   }
   const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});
-  return check_symmetric(tree_a, tree_b, tolerance, options);
+  return check_tolerance(tree_a, tree_b, tolerance, options);
 }
 
 }  // namespace meshbound

@@ -54,7 +54,7 @@ struct LevelChecker::Impl {
   auto with_level(const MeshView& level, int threads, Search&& search) {
     const Bvh tree(level, {.threads = threads});
     Known next = inherit(tree.data(), level);
-    auto result = search(tree, SymmetricMemory{&next.from_original, &next.from_level});
+    auto result = search(tree, HausdorffMemory{&next.from_original, &next.from_level});
     known = std::move(next);
     return result;
   }
@@ -72,14 +72,14 @@ LevelChecker& LevelChecker::operator=(LevelChecker&&) noexcept = default;
 LevelChecker::~LevelChecker() = default;
 
 ToleranceCheck LevelChecker::check(const MeshView& level, double tolerance, const DistanceOptions& options) {
-  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const SymmetricMemory& memory) {
-    return check_symmetric(*impl_->original, tree, tolerance, options, memory);
+  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const HausdorffMemory& memory) {
+    return check_tolerance(*impl_->original, tree, tolerance, options, memory);
   });
 }
 
-SymmetricDistance LevelChecker::measure(const MeshView& level, const DistanceOptions& options) {
-  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const SymmetricMemory& memory) {
-    return symmetric_distance(*impl_->original, tree, options, memory);
+HausdorffDistance LevelChecker::measure(const MeshView& level, const DistanceOptions& options) {
+  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const HausdorffMemory& memory) {
+    return hausdorff_distance(*impl_->original, tree, options, memory);
   });
 }
 

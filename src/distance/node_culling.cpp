@@ -56,18 +56,18 @@ class NodeTest {
   /// triangle that bounds the node above: d(., t) is convex, so they bound the box, and where that is enough no query
   /// is spent. Then by the triangle nearest to the centre, and by the ball around the box. Infinite where the ball is
   /// larger than the target, which a query would hardly meet.
-  double bound_squared(Searcher& searcher, std::uint32_t level, std::uint32_t index, std::uint32_t& slot) const {
+  double bound_squared(SearchKernel& kernel, std::uint32_t level, std::uint32_t index, std::uint32_t& slot) const {
     const Box box = node_box(a_, level, index);
     const std::array<Vec3, 8> corners = corners_of(box);
-    const double by_hint = searcher.farthest_squared(corners, slot);
+    const double by_hint = kernel.farthest_squared(corners, slot);
     if (by_hint <= accepted_squared_) return by_hint;
     const Ball ball = ball_around(box);
     const double reach = scale_ * ball.radius;
     if (reach * reach >= accepted_squared_) return std::numeric_limits<double>::infinity();
-    const Nearest nearest = searcher.nearest(map_(ball.centre), slot, 0);
+    const Nearest nearest = kernel.nearest(map_(ball.centre), slot, 0);
     slot = nearest.slot;
     const double by_ball = std::sqrt(nearest.squared) + reach;
-    return std::min(by_ball * by_ball * (1 + 0x1p-40), searcher.farthest_squared(corners, slot));
+    return std::min(by_ball * by_ball * (1 + 0x1p-40), kernel.farthest_squared(corners, slot));
   }
 
  private:
@@ -98,9 +98,9 @@ double OneSidedSearch::sampled_block_radius() const {
 
 void OneSidedSearch::cull_nodes() {
   if (decided() || stats_.matched == stats_.triangles) return;
-  Searcher& searcher = *searchers_.front();
-  searcher.begin(lower_);
-  if (sampled_block_radius() > largest_block * std::sqrt(searcher.accepted_squared())) return;
+  SearchKernel& kernel = *kernels_.front();
+  kernel.begin(lower_);
+  if (sampled_block_radius() > largest_block * std::sqrt(kernel.accepted_squared())) return;
   std::priority_queue<NodeOfA> queue;
   queue.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
   std::vector<NodeQuestion> questions;
@@ -108,27 +108,27 @@ void OneSidedSearch::cull_nodes() {
     questions.clear();
     for (std::size_t opened = 0; opened < opened_at_once && !queue.empty(); queue.pop()) {
       const NodeOfA node = queue.top();
-      if (node.bound_squared <= searcher.accepted_squared()) {
-        searcher.accept(node.bound_squared);
+      if (node.bound_squared <= kernel.accepted_squared()) {
+        kernel.accept(node.bound_squared);
         remember_node(node.level, node.index, node.bound_squared, node.slot);
         continue;
       }
       open_node(node.level, node.index, node.slot, questions);
       ++opened;
     }
-    answer(questions, searcher.accepted_squared());
+    answer(questions, kernel.accepted_squared());
     for (const NodeQuestion& question : questions) {
       if (question.vertex == NodeQuestion::no_vertex) {
         queue.push({question.squared, question.level, question.index, question.slot});
-      } else if (question.squared > searcher.accepted_squared()) {
-        const double upper = searcher.upper_squared();
+      } else if (question.squared > kernel.accepted_squared()) {
+        const double upper = kernel.upper_squared();
         offer_vertex(question.vertex, {question.squared, question.slot});
-        searcher.begin(lower_);
-        searcher.accept(upper);
+        kernel.begin(lower_);
+        kernel.accept(upper);
       }
     }
   }
-  upper_squared_ = std::max(upper_squared_, searcher.upper_squared());
+  upper_squared_ = std::max(upper_squared_, kernel.upper_squared());
   for (; !queue.empty(); queue.pop()) keep_slots_below(queue.top().level, queue.top().index);
   std::sort(left_.begin(), left_.end());
   culled_ = true;
@@ -159,13 +159,13 @@ void OneSidedSearch::open_node(std::uint32_t level, std::uint32_t index, std::ui
 void OneSidedSearch::answer(std::vector<NodeQuestion>& questions, double accepted_squared) {
   const NodeTest test(a_, map_, accepted_squared);
   for_each_range(questions.size(), questions_per_task, [&](std::size_t begin, std::size_t end) {
-    Searcher& searcher = own_searcher();
+    SearchKernel& kernel = own_kernel();
     for (std::size_t i = begin; i < end; ++i) {
       NodeQuestion& question = questions[i];
       if (question.vertex == NodeQuestion::no_vertex) {
-        question.squared = test.bound_squared(searcher, question.level, question.index, question.slot);
+        question.squared = test.bound_squared(kernel, question.level, question.index, question.slot);
       } else {
-        const Nearest nearest = searcher.nearest(vertex(question.vertex), question.slot, accepted_squared);
+        const Nearest nearest = kernel.nearest(vertex(question.vertex), question.slot, accepted_squared);
         question.squared = nearest.squared;
         question.slot = nearest.slot;
       }

@@ -28,10 +28,10 @@ void OneSidedSearch::probe_start() {
   const Vec3 a = vertex(t[0]);
   const Vec3 p = a + start.v * (vertex(t[1]) - a) + start.w * (vertex(t[2]) - a);
   const std::uint32_t hint = task_.memory->hints[t[0]];
-  Searcher& searcher = *searchers_.front();
-  searcher.begin(lower_);
-  searcher.offer(p, searcher.nearest(p, hint != no_slot ? hint : 0, 0), start.slot);
-  if (searcher.lower().lower > lower_.lower) lower_ = own_lower_ = searcher.lower();
+  SearchKernel& kernel = *kernels_.front();
+  kernel.begin(lower_);
+  kernel.offer(p, kernel.nearest(p, hint != no_slot ? hint : 0, 0), start.slot);
+  if (kernel.lower().lower > lower_.lower) lower_ = own_lower_ = kernel.lower();
 }
 
 void OneSidedSearch::drop_proven() {
@@ -54,13 +54,14 @@ void OneSidedSearch::remember(std::uint32_t slot, double squared, std::uint32_t 
   if (task_.memory != nullptr) task_.memory->improve(slot, proven_model_length(squared, 0), face);
 }
 
-void OneSidedSearch::cover_and_record(Searcher& searcher, std::uint32_t slot, std::uint32_t start, Found& found) const {
+void OneSidedSearch::cover_and_record(SearchKernel& kernel, std::uint32_t slot, std::uint32_t start,
+                                      Found& found) const {
   const Triangle& t = a_.corners[slot];
   CoverRecord record;
   record.names_all = task_.memory->names_faces;
-  searcher.record_in(&record);
-  searcher.cover(vertex(t[0]), vertex(t[1]), vertex(t[2]), slot, start, cuts_left_);
-  searcher.record_in(nullptr);
+  kernel.record_in(&record);
+  kernel.cover(vertex(t[0]), vertex(t[1]), vertex(t[2]), slot, start, cuts_left_);
+  kernel.record_in(nullptr);
   remember_cover(slot, record, found);
 }
 

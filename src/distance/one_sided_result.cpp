@@ -26,13 +26,13 @@ LowerBound OneSidedSearch::proven_witness() {
     found.nearest_slot = farthest_nearest_.squared < 0 ? 0 : farthest_nearest_.slot;
     found.from_slot = slot_using_vertex(a_, farthest_vertex_);
   }
-  Searcher& searcher = *searchers_.front();
-  const Nearest nearest = searcher.nearest(found.point, found.nearest_slot, 0);
+  SearchKernel& kernel = *kernels_.front();
+  const Nearest nearest = kernel.nearest(found.point, found.nearest_slot, 0);
   found.nearest_slot = nearest.slot;
   if (found.lower > 0) return found;
-  searcher.begin({});
-  searcher.offer(found.point, nearest, found.from_slot);
-  found.lower = searcher.lower().lower;
+  kernel.begin({});
+  kernel.offer(found.point, nearest, found.from_slot);
+  found.lower = kernel.lower().lower;
   return found;
 }
 
@@ -49,8 +49,8 @@ Witness OneSidedSearch::witness_at(const LowerBound& lower) const {
 
 void OneSidedSearch::fill_stats() {
   std::uint64_t tested = 0;
-  for (const auto& searcher : searchers_) {
-    const WalkCounters& counters = searcher->counters();
+  for (const auto& kernel : kernels_) {
+    const WalkCounters& counters = kernel->counters();
     stats_.closest_point_queries += counters.queries.queries;
     stats_.nodes_visited += counters.queries.nodes;
     tested += counters.queries.triangles;
@@ -83,7 +83,7 @@ OneSidedDistance OneSidedSearch::result() {
   OneSidedDistance result;
   const LowerBound lower = proven_witness();
   std::uint32_t deepest = 0;
-  for (const auto& searcher : searchers_) deepest = std::max(deepest, searcher->counters().deepest);
+  for (const auto& kernel : kernels_) deepest = std::max(deepest, kernel->counters().deepest);
   double upper = 0;
   if (decided())
     upper = farthest_apart();

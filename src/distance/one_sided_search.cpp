@@ -70,7 +70,7 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
       known_lower_(0),
       cuts_left_(task.options.budget.subdivisions),
       last_progress_(task.start) {
-  for (int i = 0; i < thread_count(task); ++i) searchers_.push_back(make_searcher(b_, goal_));
+  for (int i = 0; i < thread_count(task); ++i) kernels_.push_back(make_search_kernel(b_, goal_));
   raise_known_lower(task.known_lower);
   stats_.triangles = a_.triangle_count();
 }
@@ -90,7 +90,7 @@ void OneSidedSearch::run(void (OneSidedSearch::*step)(), double PhaseSeconds::*p
   stats_.phases.*phase += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Searcher& OneSidedSearch::own_searcher() const { return *searchers_[static_cast<std::size_t>(omp_get_thread_num())]; }
+SearchKernel& OneSidedSearch::own_kernel() const { return *kernels_[static_cast<std::size_t>(omp_get_thread_num())]; }
 
 bool OneSidedSearch::out_of_budget() {
   if (exhausted_) return true;
@@ -100,7 +100,7 @@ bool OneSidedSearch::out_of_budget() {
 
 void OneSidedSearch::spend_cuts() {
   std::uint64_t cuts = 0;
-  for (const auto& searcher : searchers_) cuts += searcher->counters().cuts;
+  for (const auto& kernel : kernels_) cuts += kernel->counters().cuts;
   const std::uint64_t budget = task_.options.budget.subdivisions;
   cuts_left_ = cuts < budget ? budget - cuts : 0;
 }
@@ -119,7 +119,7 @@ void OneSidedSearch::merge(const Found& found) {
   upper_squared_ = std::max(upper_squared_, found.upper_squared);
 }
 
-/// Runs work(searcher, chunk, found) for chunks 0 ... count - 1, in batches that grow from `batch` to `largest_batch`:
+/// Runs work(kernel, chunk, found) for chunks 0 ... count - 1, in batches that grow from `batch` to `largest_batch`:
 /// the lower bound that a batch starts from is the one of all batches before it.
 template <class Work>
 void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::uint32_t largest_batch, double from,
@@ -130,11 +130,11 @@ void OneSidedSearch::run_chunks(std::uint32_t count, std::uint32_t batch, std::u
     found.assign(size, {});
     out_of_budget();
     for_each_task(size, [&](std::size_t i) {
-      Searcher& searcher = own_searcher();
-      searcher.begin(lower_);
-      work(searcher, begin + static_cast<std::uint32_t>(i), found[i]);
-      found[i].lower = searcher.lower();
-      found[i].upper_squared = searcher.upper_squared();
+      SearchKernel& kernel = own_kernel();
+      kernel.begin(lower_);
+      work(kernel, begin + static_cast<std::uint32_t>(i), found[i]);
+      found[i].lower = kernel.lower();
+      found[i].upper_squared = kernel.upper_squared();
     });
     std::uint32_t farthest = 0;
     for (std::uint32_t i = 0; i < size; ++i) {
@@ -160,11 +160,11 @@ void OneSidedSearch::offer_vertex(std::uint32_t v, const Nearest& nearest) {
     farthest_nearest_ = nearest;
     farthest_vertex_ = v;
   }
-  Searcher& searcher = *searchers_.front();
-  searcher.begin(lower_);
-  searcher.offer(vertex(v), nearest, no_slot);
-  if (searcher.lower().lower > lower_.lower) {
-    lower_ = own_lower_ = searcher.lower();
+  SearchKernel& kernel = *kernels_.front();
+  kernel.begin(lower_);
+  kernel.offer(vertex(v), nearest, no_slot);
+  if (kernel.lower().lower > lower_.lower) {
+    lower_ = own_lower_ = kernel.lower();
     lower_.from_slot = own_lower_.from_slot = slot_using_vertex(a_, v);
   }
 }
@@ -172,11 +172,11 @@ void OneSidedSearch::offer_vertex(std::uint32_t v, const Nearest& nearest) {
 /// Whether B has one of a few triangles of A: comparing all costs as much as bounding them.
 bool OneSidedSearch::sample_is_identical() {
   const std::uint32_t n = a_.triangle_count(), samples = std::min(probes, n);
-  Searcher& searcher = *searchers_.front();
+  SearchKernel& kernel = *kernels_.front();
   std::uint32_t hint = 0;
   for (std::uint32_t i = 0; i < samples; ++i) {
     const auto slot = static_cast<std::uint32_t>(std::uint64_t{i} * n / samples);
-    hint = searcher.nearest(centroid(slot), hint, 0).slot;
+    hint = kernel.nearest(centroid(slot), hint, 0).slot;
     if (same_triangle(a_, a_.corners[slot], b_, b_.corners[hint])) return true;
   }
   return false;
@@ -197,7 +197,7 @@ void OneSidedSearch::probe() {
   for_each_range(count, probes_per_chunk, [&](std::size_t begin, std::size_t end) {
     std::uint32_t hint = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      nearest[i] = own_searcher().nearest(vertex(probed(i)), hint, 0);
+      nearest[i] = own_kernel().nearest(vertex(probed(i)), hint, 0);
       hint = nearest[i].slot;
     }
   });
@@ -214,26 +214,26 @@ void OneSidedSearch::probe() {
 void OneSidedSearch::probe_centroids() {
   const std::uint32_t n = a_.triangle_count(), count = probed_centroids;
   if (n < count) return;  // a search of them all costs no more
-  Searcher& searcher = *searchers_.front();
-  searcher.begin(lower_);
+  SearchKernel& kernel = *kernels_.front();
+  kernel.begin(lower_);
   std::uint32_t hint = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto slot = static_cast<std::uint32_t>(std::uint64_t{i} * n / count);
     const Vec3 p = centroid(slot);
-    const Nearest nearest = searcher.nearest(p, hint, 0);
+    const Nearest nearest = kernel.nearest(p, hint, 0);
     hint = nearest.slot;
-    searcher.offer(p, nearest, slot);
+    kernel.offer(p, nearest, slot);
   }
-  if (searcher.lower().lower > lower_.lower) lower_ = own_lower_ = searcher.lower();
+  if (kernel.lower().lower > lower_.lower) lower_ = own_lower_ = kernel.lower();
 }
 
-void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+void OneSidedSearch::sweep_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found) {
   // Tries that fail cost about as much as a query does, so they end where most of them fail.
   int worth_testing = 32, worth_walking = 16, queries = 4;
   std::uint32_t hint = no_slot;
   CoverRecord record;
   record.names_all = task_.memory != nullptr && task_.memory->names_faces;
-  searcher.record_in(task_.memory != nullptr ? &record : nullptr);
+  kernel.record_in(task_.memory != nullptr ? &record : nullptr);
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t slot = culled_ ? left_[i] : i;
     if (!is_alive(slot)) continue;
@@ -246,15 +246,15 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
     const TriangleCorners corners{vertex(t[0]), vertex(t[1]), vertex(t[2])};
     const auto ask = [&] {
       --queries;
-      hint = searcher.nearest((1.0 / 3) * (corners[0] + corners[1] + corners[2]), hint == no_slot ? 0 : hint, 0).slot;
+      hint = kernel.nearest((1.0 / 3) * (corners[0] + corners[1] + corners[2]), hint == no_slot ? 0 : hint, 0).slot;
     };
     if (hint == no_slot) ask();
     record.clear();
     const std::uint64_t cuts = worth_walking > 0 ? cuts_left_ : 0;
-    Swept swept = searcher.sweep(corners, hint, cuts);
+    Swept swept = kernel.sweep(corners, hint, cuts);
     if (swept == Swept::NotNear && queries > 0) {
       ask();
-      swept = searcher.sweep(corners, hint, cuts);
+      swept = kernel.sweep(corners, hint, cuts);
     }
     if (swept == Swept::ByOneTriangle || swept == Swept::ByWalk) {
       worth_testing += 2;
@@ -266,16 +266,16 @@ void OneSidedSearch::sweep_chunk(Searcher& searcher, std::uint32_t begin, std::u
     if (swept == Swept::NotAtAll) worth_walking -= 2;
     found.open.push_back({0, slot, no_slot});
   }
-  searcher.record_in(nullptr);
+  kernel.record_in(nullptr);
 }
 
 void OneSidedSearch::sweep() {
   if (decided() || culled_ || exhausted_) return;
   const std::uint32_t n = a_.triangle_count();
   const std::uint32_t chunks = (n + swept_per_chunk - 1) / swept_per_chunk;
-  run_chunks(chunks, 256, 256, 0.0, 0.1, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+  run_chunks(chunks, 256, 256, 0.0, 0.1, [&](SearchKernel& kernel, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * swept_per_chunk;
-    sweep_chunk(searcher, begin, std::min(n, begin + swept_per_chunk), found);
+    sweep_chunk(kernel, begin, std::min(n, begin + swept_per_chunk), found);
   });
   left_.reserve(open_.size());
   for (const Open& open : open_) left_.push_back(open.slot);
@@ -306,15 +306,15 @@ void OneSidedSearch::list_wanted_vertices() {
   wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
 }
 
-void OneSidedSearch::query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+void OneSidedSearch::query_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found) {
   std::uint32_t hint = 0;
   bool hurried = exhausted_;
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t v = culled_ ? wanted_[i] : i;
     if (i % steps_between_looks == 0) hurried = hurried || goal_.out_of_time();
     if (const std::uint32_t before = hint_before(task_.memory, v); before != no_slot) hint = before;
-    const double enough = hurried ? std::numeric_limits<double>::infinity() : searcher.accepted_squared();
-    const Nearest nearest = searcher.nearest(vertex(v), hint, enough);
+    const double enough = hurried ? std::numeric_limits<double>::infinity() : kernel.accepted_squared();
+    const Nearest nearest = kernel.nearest(vertex(v), hint, enough);
     nearest_[v] = {nearest.squared, nearest.slot};
     hint = nearest.slot;
     if (!hurried && nearest.squared > found.farthest_squared) {
@@ -331,13 +331,13 @@ void OneSidedSearch::query_vertices() {
   nearest_ = std::make_unique_for_overwrite<VertexNearest[]>(all);
   const std::uint32_t n = culled_ ? static_cast<std::uint32_t>(wanted_.size()) : all;
   const std::uint32_t chunks = (n + vertices_per_chunk - 1) / vertices_per_chunk;
-  run_chunks(chunks, 4, 256, 0.0, 0.2, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+  run_chunks(chunks, 4, 256, 0.0, 0.2, [&](SearchKernel& kernel, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * vertices_per_chunk;
-    query_chunk(searcher, begin, std::min(n, begin + vertices_per_chunk), found);
+    query_chunk(kernel, begin, std::min(n, begin + vertices_per_chunk), found);
   });
 }
 
-void OneSidedSearch::bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+void OneSidedSearch::bound_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t slot = culled_ ? left_[i] : i;
     const Triangle& t = a_.corners[slot];
@@ -345,19 +345,19 @@ void OneSidedSearch::bound_chunk(Searcher& searcher, std::uint32_t begin, std::u
     double bound = std::numeric_limits<double>::infinity();
     int worst = 0;
     std::uint32_t nearest_to_all = 0;
-    for (int k = 0; k < 3 && bound > searcher.accepted_squared(); ++k) {
+    for (int k = 0; k < 3 && bound > kernel.accepted_squared(); ++k) {
       if (nearest_[t[k]].squared > nearest_[t[worst]].squared) worst = k;
       const std::uint32_t candidate = nearest_[t[k]].slot;
       if (k > 0 && (candidate == nearest_[t[0]].slot || (k == 2 && candidate == nearest_[t[1]].slot))) continue;
-      const double squared = searcher.farthest_squared(corner[0], corner[1], corner[2], candidate);
+      const double squared = kernel.farthest_squared(corner[0], corner[1], corner[2], candidate);
       if (squared < bound) {
         bound = squared;
         nearest_to_all = candidate;
       }
     }
     remember(slot, bound, nearest_to_all);
-    if (bound <= searcher.accepted_squared() || exhausted_)
-      searcher.accept(bound);
+    if (bound <= kernel.accepted_squared() || exhausted_)
+      kernel.accept(bound);
     else
       found.open.push_back({bound, slot, nearest_[t[worst]].slot});
   }
@@ -367,31 +367,31 @@ void OneSidedSearch::bound_triangles() {
   if (decided()) return;
   const std::uint32_t n = culled_ ? static_cast<std::uint32_t>(left_.size()) : a_.triangle_count();
   const std::uint32_t chunks = (n + triangles_per_chunk - 1) / triangles_per_chunk;
-  run_chunks(chunks, 256, 256, 0.2, 0.3, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+  run_chunks(chunks, 256, 256, 0.2, 0.3, [&](SearchKernel& kernel, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * triangles_per_chunk;
-    bound_chunk(searcher, begin, std::min(n, begin + triangles_per_chunk), found);
+    bound_chunk(kernel, begin, std::min(n, begin + triangles_per_chunk), found);
   });
 }
 
-void OneSidedSearch::refine_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found) {
+void OneSidedSearch::refine_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const Open& open = open_[i];
-    if (open.bound_squared <= searcher.accepted_squared() || exhausted_ || goal_.out_of_time()) {
-      searcher.accept(open.bound_squared);
+    if (open.bound_squared <= kernel.accepted_squared() || exhausted_ || goal_.out_of_time()) {
+      kernel.accept(open.bound_squared);
       continue;
     }
     const Triangle& t = a_.corners[open.slot];
     const Vec3 a = vertex(t[0]), b = vertex(t[1]), c = vertex(t[2]);
     if (task_.options.method == Method::CrossCulling) {
-      searcher.subdivide({a, b, c}, open.slot, open.bound_squared, cuts_left_);
+      kernel.subdivide({a, b, c}, open.slot, open.bound_squared, cuts_left_);
       continue;
     }
     // The centroid breaks the ties of corners, which many triangles of B share.
-    const Nearest start = searcher.nearest((1.0 / 3) * (a + b + c), open.start, searcher.accepted_squared());
+    const Nearest start = kernel.nearest((1.0 / 3) * (a + b + c), open.start, kernel.accepted_squared());
     if (task_.memory == nullptr)
-      searcher.cover(a, b, c, open.slot, start.slot, cuts_left_);
+      kernel.cover(a, b, c, open.slot, start.slot, cuts_left_);
     else
-      cover_and_record(searcher, open.slot, start.slot, found);
+      cover_and_record(kernel, open.slot, start.slot, found);
   }
 }
 
@@ -412,9 +412,9 @@ void OneSidedSearch::refine_rest() {
   const auto n = static_cast<std::uint32_t>(open_.size());
   stats_.walked += n;
   const std::uint32_t chunks = (n + walks_per_chunk - 1) / walks_per_chunk;
-  run_chunks(chunks, 1, 512, 0.3, 1.0, [&](Searcher& searcher, std::uint32_t chunk, Found& found) {
+  run_chunks(chunks, 1, 512, 0.3, 1.0, [&](SearchKernel& kernel, std::uint32_t chunk, Found& found) {
     const std::uint32_t begin = chunk * walks_per_chunk;
-    refine_chunk(searcher, begin, std::min(n, begin + walks_per_chunk), found);
+    refine_chunk(kernel, begin, std::min(n, begin + walks_per_chunk), found);
   });
 }
 

@@ -5,8 +5,8 @@
 
 #include "distance/goal.h"
 #include "distance/one_sided.h"
+#include "distance/search_kernel.h"
 #include "distance/search_memory.h"
-#include "distance/searcher.h"
 #include "geometry/mapping.h"
 
 namespace meshbound {
@@ -17,7 +17,7 @@ namespace meshbound {
 class OneSidedSearch {
  public:
   OneSidedSearch(const OneSidedTask& task, const Mapping& map);
-  [[nodiscard]] int threads() const { return static_cast<int>(searchers_.size()); }
+  [[nodiscard]] int threads() const { return static_cast<int>(kernels_.size()); }
 
   /// A lower bound already known of the quantity that is wanted, model units (`OneSidedTask::known_lower`).
   void raise_known_lower(double lower);
@@ -79,7 +79,7 @@ class OneSidedSearch {
   }
   [[nodiscard]] bool decided() const { return goal_.decide_only && own_lower_.lower > goal_.tolerance; }
   /// That of the thread which asks.
-  [[nodiscard]] Searcher& own_searcher() const;
+  [[nodiscard]] SearchKernel& own_kernel() const;
   bool out_of_budget();
   void spend_cuts();
   template <class Work>
@@ -89,13 +89,13 @@ class OneSidedSearch {
   void offer_vertex(std::uint32_t v, const Nearest& nearest);
   void probe_centroids();
   bool sample_is_identical();
-  void sweep_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
-  void query_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
-  void bound_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
-  [[nodiscard]] double node_bound_squared(Searcher& searcher, std::uint32_t level, std::uint32_t index,
+  void sweep_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found);
+  void query_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found);
+  void bound_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found);
+  [[nodiscard]] double node_bound_squared(SearchKernel& kernel, std::uint32_t level, std::uint32_t index,
                                           std::uint32_t& hint) const;
-  void cull_leaf_on_b(Searcher& searcher, std::uint32_t block, std::uint32_t& hint);
-  void refine_chunk(Searcher& searcher, std::uint32_t begin, std::uint32_t end, Found& found);
+  void cull_leaf_on_b(SearchKernel& kernel, std::uint32_t block, std::uint32_t& hint);
+  void refine_chunk(SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found);
   void sort_open();
   [[nodiscard]] double sampled_block_radius() const;
   [[nodiscard]] bool is_alive(std::uint32_t slot) const { return alive_.empty() || alive_[slot] != 0; }
@@ -109,7 +109,7 @@ class OneSidedSearch {
   [[nodiscard]] double proven_model_length(double squared, std::uint32_t cuts) const;
   void remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face);
   void remember(std::uint32_t slot, double squared, std::uint32_t face);
-  void cover_and_record(Searcher& searcher, std::uint32_t slot, std::uint32_t start, Found& found) const;
+  void cover_and_record(SearchKernel& kernel, std::uint32_t slot, std::uint32_t start, Found& found) const;
   void remember_cover(std::uint32_t slot, const CoverRecord& record, Found& found) const;
   void remember_walk(const Found& found);
   void remember_start(const LowerBound& lower);
@@ -124,13 +124,13 @@ class OneSidedSearch {
   const Bvh::Data& b_;
   Mapping map_;
   Goal goal_;
-  double scale_to_model_;                             ///< of lengths
-  std::vector<std::unique_ptr<Searcher>> searchers_;  ///< one per thread
-  std::vector<std::uint8_t> alive_;                   ///< by A's slot, before nodes are culled; empty: all are
-  bool culled_ = false;                               ///< `left_` and `wanted_` list what is left
-  std::vector<std::uint32_t> left_;                   ///< slots of A
-  std::vector<std::uint32_t> wanted_;                 ///< vertices of A
-  std::unique_ptr<VertexNearest[]> nearest_;          ///< by A's vertex; set for wanted ones only
+  double scale_to_model_;                               ///< of lengths
+  std::vector<std::unique_ptr<SearchKernel>> kernels_;  ///< one per thread
+  std::vector<std::uint8_t> alive_;                     ///< by A's slot, before nodes are culled; empty: all are
+  bool culled_ = false;                                 ///< `left_` and `wanted_` list what is left
+  std::vector<std::uint32_t> left_;                     ///< slots of A
+  std::vector<std::uint32_t> wanted_;                   ///< vertices of A
+  std::unique_ptr<VertexNearest[]> nearest_;            ///< by A's vertex; set for wanted ones only
   std::vector<Open> open_;
   double known_lower_;                 ///< model units
   LowerBound lower_;                   ///< never below `known_lower_`

@@ -105,40 +105,40 @@ inline Farthest farthest_corner(const Piece& piece, const CornerTriangle<double>
 /// As `farthest_corner`, without saying which.
 inline double largest_squared_distance(const Piece& piece, const CornerTriangle<double>& triangle) {
   const CornerTriangle<Double4> t = broadcast4(triangle);
-  Double4 most{};
+  Double4 max{};
   for (std::uint32_t first = 0; first < piece.count; first += 4)
-    most = maximum(most, closest_on_triangle(t, corners4(piece, first)).squared_distance);
-  return horizontal_maximum(most);
+    max = maximum(max, closest_on_triangle(t, corners4(piece, first)).squared_distance);
+  return horizontal_maximum(max);
 }
 
 /// A bound of the squared distances of all corners at half the cost of `farthest_corner`: the first of the points that
 /// `closest_on_triangle` tries lies on the triangle, whether it is the closest or not.
 [[gnu::always_inline]] inline double quick_bound(const Piece& piece, const CornerTriangle<double>& triangle) {
   const CornerTriangle<Double4> t = broadcast4(triangle);
-  Double4 most{};
+  Double4 max{};
   for (std::uint32_t first = 0; first < piece.count; first += 4)
-    most = maximum(most, squared_length(offset_from_inside(t, corners4(piece, first))));
-  return horizontal_maximum(most);
+    max = maximum(max, squared_length(offset_from_inside(t, corners4(piece, first))));
+  return horizontal_maximum(max);
 }
 
 /// Signed distances of the corners to the plane {x : normal . x = offset}, times the length of the normal.
 struct PlaneSides {
   alignas(32) double value[Piece::capacity];
-  double least = 0, most = 0;
+  double min = 0, max = 0;
 };
 
 inline PlaneSides sides_of(const Piece& piece, const Vec3& normal, double offset) {
   PlaneSides sides;
   const Vec<Double4> n{broadcast4(normal.x), broadcast4(normal.y), broadcast4(normal.z)};
-  Double4 least = broadcast4(std::numeric_limits<double>::infinity()), most = -least;
+  Double4 min = broadcast4(std::numeric_limits<double>::infinity()), max = -min;
   for (std::uint32_t first = 0; first < piece.count; first += 4) {
     const Double4 value = dot(n, corners4(piece, first)) - broadcast4(offset);
     *reinterpret_cast<Double4*>(sides.value + first) = value;
-    least = minimum(least, value);  // lanes beyond the count repeat a corner
-    most = maximum(most, value);
+    min = minimum(min, value);  // lanes beyond the count repeat a corner
+    max = maximum(max, value);
   }
-  sides.least = -horizontal_maximum(-least);
-  sides.most = horizontal_maximum(most);
+  sides.min = -horizontal_maximum(-min);
+  sides.max = horizontal_maximum(max);
   return sides;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "distance/point_like.h"
-#include "distance/searcher.h"
+#include "distance/search_kernel.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
@@ -34,25 +34,25 @@ struct Proximity::Impl {
     return working;
   }
 
-  /// Reuses the searcher as long as the goal stays the same: its scratch memory is what makes this class worth keeping.
-  Searcher& searcher_for(double tolerance, double magnitude, double error) {
+  /// Reuses the kernel as long as the goal stays the same: its scratch memory is what makes this class worth keeping.
+  SearchKernel& kernel_for(double tolerance, double magnitude, double error) {
     Goal goal;
     goal.decide_only = true;
     goal.tolerance = data.frame.working_length_down(tolerance);
     // Powers of two, so that neighbouring triangles share one goal.
     set_slack(goal, std::exp2(std::ceil(std::log2(magnitude))), data.frame.error + error);
-    if (!searcher || goal.tolerance != current.tolerance || goal.slack != current.slack) {
-      searcher = make_searcher(data, goal);
+    if (!kernel || goal.tolerance != current.tolerance || goal.slack != current.slack) {
+      kernel = make_search_kernel(data, goal);
       current = goal;
     }
-    searcher->begin({});
-    return *searcher;
+    kernel->begin({});
+    return *kernel;
   }
 
   const Bvh& bvh;
   const Bvh::Data& data;
   std::vector<std::uint32_t> slot_of_triangle;
-  std::unique_ptr<Searcher> searcher;
+  std::unique_ptr<SearchKernel> kernel;
   Goal current;
 };
 
@@ -71,22 +71,22 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
     const Bvh single(TriangleMesh{{triangle.begin(), triangle.end()}, {{0, 1, 2}}}, {.threads = 1});
     DistanceOptions options;
     options.threads = 1;
-    return check_one_sided(single, impl_->bvh, tolerance, options).verdict;
+    return check_one_sided_tolerance(single, impl_->bvh, tolerance, options).verdict;
   }
-  Searcher& searcher = impl_->searcher_for(tolerance, magnitude, error);
+  SearchKernel& kernel = impl_->kernel_for(tolerance, magnitude, error);
   std::uint32_t slot = impl_->slot_of_triangle[hint];
   for (const Vec3& corner : p) {
-    const Nearest nearest = searcher.nearest(corner, slot, searcher.accepted_squared());
+    const Nearest nearest = kernel.nearest(corner, slot, kernel.accepted_squared());
     slot = nearest.slot;
     hint = impl_->data.triangle_of_slot[slot];
-    if (nearest.squared <= searcher.accepted_squared()) continue;
-    searcher.offer(corner, nearest, 0);
-    return searcher.lower().lower > impl_->current.tolerance ? Verdict::Exceeds : Verdict::Undecided;
+    if (nearest.squared <= kernel.accepted_squared()) continue;
+    kernel.offer(corner, nearest, 0);
+    return kernel.lower().lower > impl_->current.tolerance ? Verdict::Exceeds : Verdict::Undecided;
   }
-  searcher.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
-  if (searcher.lower().lower > impl_->current.tolerance) return Verdict::Exceeds;
+  kernel.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
+  if (kernel.lower().lower > impl_->current.tolerance) return Verdict::Exceeds;
   const double upper =
-      next_up(std::sqrt(searcher.upper_squared()) * (1 + 4 * unit_roundoff)) + impl_->current.largest_slack();
+      next_up(std::sqrt(kernel.upper_squared()) * (1 + 4 * unit_roundoff)) + impl_->current.largest_slack();
   return upper <= impl_->current.tolerance ? Verdict::Within : Verdict::Undecided;
 }
 
@@ -94,11 +94,11 @@ double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hi
   double magnitude = 1, error = 0;
   const Vec3 p = impl_->load(point, magnitude, error);
   if (!(magnitude <= largest_magnitude)) return closest_point(impl_->bvh, point).distance.upper;
-  Searcher& searcher = impl_->searcher_for(impl_->data.frame.length_down(impl_->current.tolerance), magnitude, error);
+  SearchKernel& kernel = impl_->kernel_for(impl_->data.frame.length_down(impl_->current.tolerance), magnitude, error);
   // Less by the slack, and by the roundings below.
   const double accepted =
       std::max(0.0, impl_->data.frame.working_length_down(enough) * (1 - 16 * unit_roundoff) - impl_->current.slack);
-  const Nearest nearest = searcher.nearest(p, impl_->slot_of_triangle[hint], accepted * accepted);
+  const Nearest nearest = kernel.nearest(p, impl_->slot_of_triangle[hint], accepted * accepted);
   hint = impl_->data.triangle_of_slot[nearest.slot];
   const double upper = next_up(std::sqrt(nearest.squared) * (1 + 4 * unit_roundoff)) + impl_->current.slack;
   return impl_->data.frame.length_up(upper);

@@ -104,14 +104,14 @@ bool same_surface(const MeshView& a, const MeshView& b) {
   return a.triangle_count() == b.triangle_count() && (same_arrays(a, b) || same_sets(a, b));
 }
 
-std::optional<SymmetricDistance> distance_without_trees(const MeshView& a, const MeshView& b, double limit) {
+std::optional<HausdorffDistance> distance_without_trees(const MeshView& a, const MeshView& b, double limit) {
   if (a.triangle_count() != b.triangle_count()) return std::nullopt;  // without a look, which would take long
   validate(a);
   validate(b);
-  if (same_arrays(a, b)) return SymmetricDistance{{0, 0}, zero_distance(a, b), zero_distance(b, a)};
+  if (same_arrays(a, b)) return HausdorffDistance{{0, 0}, zero_distance(a, b), zero_distance(b, a)};
   if (auto distance = distance_of_corresponding(a, b, limit)) return distance;
   if (!same_sets(a, b)) return std::nullopt;
-  return SymmetricDistance{{0, 0}, zero_distance(a, b), zero_distance(b, a)};
+  return HausdorffDistance{{0, 0}, zero_distance(a, b), zero_distance(b, a)};
 }
 
 }  // namespace meshbound

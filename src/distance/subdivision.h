@@ -23,11 +23,11 @@ namespace meshbound {
 
 /// A Voronoi point nearer than this to an end of its edge gives way to the middle: it would leave slivers. Measured at
 /// 1e-4 on bunny against its 10% decimation: 128,000 subdivisions for 1/16, 58,000 when edges are only halved.
-inline constexpr double least_share = 1.0 / 4;
+inline constexpr double min_share = 1.0 / 4;
 /// Subdivisions after which edges are only halved, so that parts shrink by half each time. The paper saw under ten.
 inline constexpr std::uint32_t halve_edges_from_depth = 24;
 /// Candidates up to which the rule for closed models is tried: it tests each of them twice.
-inline constexpr std::size_t most_candidates_to_cross = 32;
+inline constexpr std::size_t max_candidates_to_cross = 32;
 
 inline namespace MESHBOUND_ISA {
 
@@ -138,7 +138,7 @@ class Subdivision {
   /// Rule 3, tried with a translation by the target towards the closest point of the worst corner.
   bool crosses(const Part& part, const std::array<std::size_t, 3>& nearest) {
     const std::size_t count = part.last_candidate - part.first_candidate;
-    if (!target_is_closed_ || count > most_candidates_to_cross) return false;
+    if (!target_is_closed_ || count > max_candidates_to_cross) return false;
     std::size_t worst = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (candidates_[nearest[k]].squared[k] > candidates_[nearest[worst]].squared[worst]) worst = k;
@@ -154,7 +154,7 @@ class Subdivision {
       longest_squared = std::max(longest_squared, squared_length(image[k] - part.corners[k]));
     }
     if (!bounds_.accepts(longest_squared)) return false;
-    std::array<std::uint32_t, most_candidates_to_cross> slots;
+    std::array<std::uint32_t, max_candidates_to_cross> slots;
     for (std::size_t i = 0; i < count; ++i) slots[i] = candidates_[part.first_candidate + i].slot;
     if (!crosses_surface(b_, part.corners, image, {slots.data(), count})) return false;
     ++bounds_.counters().enclosed;
@@ -170,7 +170,7 @@ class Subdivision {
       const auto voronoi =
           equidistant_parameter(part.corners[k], part.corners[next], triangle_at(b_, candidates_[nearest[k]].slot),
                                 triangle_at(b_, candidates_[nearest[next]].slot));
-      if (voronoi && *voronoi >= least_share && *voronoi <= 1 - least_share) share = *voronoi;
+      if (voronoi && *voronoi >= min_share && *voronoi <= 1 - min_share) share = *voronoi;
     }
     return part.corners[k] + share * (part.corners[next] - part.corners[k]);
   }

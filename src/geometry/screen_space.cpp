@@ -38,7 +38,7 @@ std::vector<double> screen_space_tolerances(const Screen& screen, double pixels,
   return tolerances;
 }
 
-double least_view_distance(const Screen& screen, double pixels, double tolerance) {
+double min_view_distance(const Screen& screen, double pixels, double tolerance) {
   const double size = pixel_size(screen, pixels);
   if (!(tolerance >= 0) || !std::isfinite(tolerance)) throw InvalidInput("the tolerance must be a length, 0 or more");
   return tolerance / size;

@@ -45,7 +45,7 @@ void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLeve
   for (const Method method : {Method::CellWalking, Method::CrossCulling}) {
     if (level.distance && (level.verdict != Verdict::Undecided || is_stopped)) break;
     distance.method = method;
-    level.distance = symmetric_distance(tree, mesh, distance);
+    level.distance = hausdorff_distance(tree, mesh, distance);
     level.verdict = verdict_of(level.distance->bounds, level.tolerance);
   }
   if (!options.face_tolerances.empty() && level.verdict == Verdict::Within)

@@ -69,7 +69,7 @@ Json worst(const WorstSpot& spot, const char* from_a, const char* from_b) {
           {"distance", bounds(spot.distance)}};
 }
 
-Json symmetric(const SymmetricDistance& distance) {
+Json symmetric(const HausdorffDistance& distance) {
   Json json = bounds(distance.bounds);
   json["original_to_simplified"] = one_sided(distance.a_to_b);
   json["simplified_to_original"] = one_sided(distance.b_to_a);

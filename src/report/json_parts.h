@@ -34,7 +34,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json worst(const WorstSpot& spot, const char* from_a, const char* from_b);
 
 /// Bounds of both directions and their maximum; a is the original, b the simplified mesh.
-[[nodiscard]] Json symmetric(const SymmetricDistance& distance);
+[[nodiscard]] Json symmetric(const HausdorffDistance& distance);
 
 /// Statistics over the directions that were searched: sums, and means weighted by what they count.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);

@@ -11,7 +11,7 @@ std::string to_json(const SimplifyReport& from) {
   json["simplified"] = mesh(from.simplified);
   json["distance"] = symmetric(from.distance);
   json["decided_by"] = to_string(from.decided_by);
-  const SymmetricDistance& distance = from.distance;
+  const HausdorffDistance& distance = from.distance;
   if (const auto spot = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a))
     json["worst"] = worst(*spot, "original_to_simplified", "simplified_to_original");
   json["stopped_by"] = from.stopped_by;

@@ -256,7 +256,7 @@ bool Run::truly_exceeds(Region& region, Proposer& proposer) {
   options.threads = threads_.count();
   options.cancel = goal_.stop.cancel;
   options.budget.seconds = goal_.stop.seconds_left();
-  return check_symmetric(state_.tree, Bvh(soup), goal_.tolerance, options).verdict != Verdict::Within;
+  return check_tolerance(state_.tree, Bvh(soup), goal_.tolerance, options).verdict != Verdict::Within;
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed,
   return cover_in_pieces(whole, allowed, asked, deepest_cut);
 }
 
-std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corners, int most_cuts) {
+std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corners, int max_cuts) {
   const FaceMask all = first(size());
   Piece whole;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,10 +108,10 @@ std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corn
     whole.masks[i] = candidates_.holding(corners[i], all);
     if (whole.masks[i] == 0) return std::nullopt;
   }
-  return cover_in_pieces(whole, all, Asked::All, most_cuts);
+  return cover_in_pieces(whole, all, Asked::All, max_cuts);
 }
 
-FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int most_cuts) {
+FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int max_cuts) {
   ++splits;
   open_.assign(1, whole);
   FaceMask used = 0;
@@ -123,7 +123,7 @@ FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Ask
       if ((common & used) == 0) used |= lowest(common);
       continue;
     }
-    if (++spent > most_cuts || !cut(piece, allowed, asked)) return 0;
+    if (++spent > max_cuts || !cut(piece, allowed, asked)) return 0;
   }
   return used;
 }

@@ -47,8 +47,8 @@ class ForwardCover {
   /// The same where nothing is known: by the candidate nearest to the middle of the triangle of those that hold it, or
   /// in pieces, small candidates too.
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
-  /// The same for a part of a triangle, in at most `most_cuts`. None where no candidate holds some corner of it.
-  [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int most_cuts);
+  /// The same for a part of a triangle, in at most `max_cuts`. None where no candidate holds some corner of it.
+  [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int max_cuts);
   /// A corner of the triangle that no candidate of `allowed` holds.
   [[nodiscard]] std::optional<std::uint32_t> corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
   /// True when some candidate of `allowed` is within the tolerance of the vertex.
@@ -64,7 +64,7 @@ class ForwardCover {
   [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, FaceMask allowed);
   enum class Asked { LikelyOnes, All };  ///< whether a point of a cut is near candidates that hold no corner, too
   [[nodiscard]] FaceMask cover_in_pieces(std::uint32_t triangle, FaceMask allowed, Asked asked);
-  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int most_cuts);
+  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int max_cuts);
   [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
 
   struct CachedMask {

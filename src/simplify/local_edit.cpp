@@ -158,7 +158,7 @@ bool LocalEdit::flip_lowers_deviation(Corner edge) {
 }
 
 /// A point of an edge, which moves by `share` of what the vertex does. `hint` is an original triangle near it.
-void LocalEdit::add_to_original(Vec3 p, double share, std::uint32_t& hint, SlopeSums& sums) {
+void LocalEdit::add_to_original(Vec3 p, double share, std::uint32_t& hint, DeviationSums& sums) {
   (void)proximity_.upper_distance({p.x, p.y, p.z}, hint, low_distance * state_.tolerance);
   const auto& t = state_.triangles[hint];
   const Vec3 corner = state_.vertices[t[0]];
@@ -167,14 +167,14 @@ void LocalEdit::add_to_original(Vec3 p, double share, std::uint32_t& hint, Slope
   sums.add((1 / state_.tolerance) * closest_on_triangle(nearest, p).offset, -share);
 }
 
-SlopeSums LocalEdit::sampled_deviation() const {
-  SlopeSums sums;
-  kernel_.add_slope(samples_.points(), faces_, static_cast<float>(1 / state_.tolerance), sums);
+DeviationSums LocalEdit::sampled_deviation() const {
+  DeviationSums sums;
+  kernel_.add_deviations(samples_.points(), faces_, static_cast<float>(1 / state_.tolerance), sums);
   return sums;
 }
 
-SlopeSums LocalEdit::deviation() {
-  SlopeSums sums = sampled_deviation();
+DeviationSums LocalEdit::deviation() {
+  DeviationSums sums = sampled_deviation();
   const std::size_t edges = kind_ == Edit::Kind::Flip ? 1 : corners_.size();
   const bool is_first = hints_.empty();
   if (is_first) hints_.assign(1 + edges * (parts_to_guide - 1), state_.nearest[numbers_[0]]);

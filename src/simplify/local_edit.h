@@ -44,9 +44,9 @@ class LocalEdit {
 
   /// The sum over the samples, and over points on the edges that change, of (distance / tolerance)^6: a high power
   /// follows the largest distance and stays smooth. A guide, not a bound.
-  [[nodiscard]] SlopeSums deviation();
+  [[nodiscard]] DeviationSums deviation();
   /// The part of the samples alone.
-  [[nodiscard]] SlopeSums sampled_deviation() const;
+  [[nodiscard]] DeviationSums sampled_deviation() const;
   /// Whether samples and points on the edges that change are within `share` of what has to be proven. Looks at far more
   /// points of the edges than `deviation`: most proofs of an edit that looks good fail between the samples.
   [[nodiscard]] bool fits(double share);
@@ -67,7 +67,7 @@ class LocalEdit {
   void clear();
   void take_face(std::uint32_t face);
   void take_beside(Corner rim);
-  void add_to_original(Vec3 p, double share, std::uint32_t& hint, SlopeSums& sums);
+  void add_to_original(Vec3 p, double share, std::uint32_t& hint, DeviationSums& sums);
   [[nodiscard]] bool is_edge_near(Vec3 from, Vec3 to, double limit, std::uint32_t& hint);
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
   [[nodiscard]] bool owns_around(std::uint32_t vertex) const;
@@ -81,7 +81,7 @@ class LocalEdit {
   Region* region_ = nullptr;
   StarSamples samples_;
   Proximity proximity_;
-  SlopeKernel kernel_ = fastest_slope_kernel();
+  SampleKernel kernel_ = fastest_sample_kernel();
 
   Edit::Kind kind_ = Edit::Kind::Move;
   EdgeStar star_;  ///< of a collapse

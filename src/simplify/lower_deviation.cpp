@@ -19,7 +19,7 @@ double mean_edge(std::span<const LocalEdit::Corners> faces) {
 }
 
 /// In tolerances; zero where the sums tell nothing.
-Vec3 newton_step(const SlopeSums& sums) {
+Vec3 newton_step(const DeviationSums& sums) {
   const double* c = sums.curvature;
   Eigen::Matrix3d curvature;
   curvature << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2];
@@ -46,7 +46,7 @@ LoweredDeviation lower_deviation(LocalEdit& edit, Vec3 start, double tolerance, 
     if (way > reach) step = (reach / way) * step;
     for (int attempt = 0; attempt < search.max_attempts; ++attempt, step = shorter_step * step) {
       if (!edit.place(result.point + step)) continue;
-      const SlopeSums there = edit.deviation();
+      const DeviationSums there = edit.deviation();
       if (!(there.sum < result.lowest.sum)) continue;
       gains = there.sum < (1 - search.min_gain) * result.lowest.sum;
       result.point = result.point + step;

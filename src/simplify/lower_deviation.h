@@ -14,7 +14,7 @@ struct DeviationSearch {
 struct LoweredDeviation {
   Vec3 point;         ///< where the vertex is best; it has been placed there
   double before = 0;  ///< sum at the start
-  SlopeSums lowest;
+  DeviationSums lowest;
 };
 
 /// Looks for the place of a vertex where the sampled deviation around is least, by Newton's method from where `edit`

@@ -17,15 +17,15 @@ constexpr float damping = 1e-3F;
 /// equations, and shares between the two are tried in equal ratios.
 constexpr std::array<float, max_doublings> sixth_roots = {1.20094F, 1.38309F, 1.57042F, 1.77250F, 1.99477F};
 
-std::array<float, HeightKernel::shares> shares_of_step(int doublings) {
+std::array<float, DeviationKernel::shares> shares_of_step(int doublings) {
   const float ratio = sixth_roots[static_cast<std::size_t>(doublings - 1)];
-  std::array<float, HeightKernel::shares> shares = {};
+  std::array<float, DeviationKernel::shares> shares = {};
   shares[0] = 1 / (static_cast<float>((2 << doublings) - 1) * ratio);
   for (std::size_t k = 1; k < shares.size(); ++k) shares[k] = shares[k - 1] * ratio;
   return shares;
 }
 
-HeightKernel::Move solve(const WeightedSums& sums, float mean_curvature) {
+DeviationKernel::Move solve(const WeightedSums& sums, float mean_curvature) {
   const auto& m = sums.matrix;
   Eigen::Matrix3f matrix;
   matrix << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
@@ -36,25 +36,25 @@ HeightKernel::Move solve(const WeightedSums& sums, float mean_curvature) {
 
 }  // namespace
 
-MinimaxStep minimax_step(const LinearHeights& heights, const HeightKernel& kernel, float low_height) {
-  HeightKernel::Move move = {};
-  float largest = kernel.largest_along(heights, move, {}, {})[0];
+MinimaxStep minimax_step(const LinearDeviations& deviations, const DeviationKernel& kernel, float low_deviation) {
+  DeviationKernel::Move move = {};
+  float largest = kernel.largest_along(deviations, move, {}, {})[0];
   MinimaxStep result{largest, largest, {}};
-  for (int k = 0; k < max_steps && largest > low_height; ++k) {
+  for (int k = 0; k < max_steps && largest > low_deviation; ++k) {
     const int doublings = std::min(1 + k / 2, max_doublings);
-    const WeightedSums sums = kernel.weighted_sums(heights, move, 1 / largest, doublings);
+    const WeightedSums sums = kernel.weighted_sums(deviations, move, 1 / largest, doublings);
     const float mean = (sums.matrix[0] + sums.matrix[1] + sums.matrix[2]) / 3;
     if (!(mean > 0)) break;
-    const HeightKernel::Move step = solve(sums, mean);
+    const DeviationKernel::Move step = solve(sums, mean);
     // A weighted mean of squares is no larger than the largest one, wherever the vertex is: Lawson's bound.
     const float min_mean =
         (sums.square - step[0] * sums.right[0] - step[1] * sums.right[1] - step[2] * sums.right[2]) / sums.weight;
-    if (min_mean > hopeless_height * hopeless_height) {
+    if (min_mean > hopeless_deviation * hopeless_deviation) {
       result.there = std::sqrt(min_mean);
       return result;
     }
     const auto shares = shares_of_step(doublings);
-    const auto after = kernel.largest_along(heights, move, step, shares);
+    const auto after = kernel.largest_along(deviations, move, step, shares);
     const auto least = std::min_element(after.begin(), after.end());
     if (!(*least < largest)) {
       if (doublings == max_doublings) break;

@@ -7,10 +7,10 @@
 #include <tuple>
 
 #include "meshbound/proximity.h"
-#include "simplify/degree_cover.h"
 #include "simplify/face_box.h"
 #include "simplify/forward_cover.h"
 #include "simplify/marked_ids.h"
+#include "simplify/parity_proof.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
 
@@ -349,7 +349,7 @@ class ProofWorkers::Worker {
   };
   const DecimationState& state_;
   ForwardCover cover_;
-  DegreeCover degree_;
+  ParityProof degree_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
   MarkedIds found_marks_, affected_marks_, vertex_marks_;

@@ -23,14 +23,14 @@ constexpr std::size_t few_samples = 24;
 
 /// Root mean square of the distances from the planes that an edge stands for, in tolerances, beyond which it is refused
 /// at once: one in a hundred of the collapses that are accepted lies beyond, or fewer.
-constexpr double max_height_of_planes = 2;
+constexpr double max_deviation_from_planes = 2;
 /// And up to which the place where it is least is likely to do.
-constexpr double likely_height_of_planes = 0.6;
+constexpr double likely_deviation_from_planes = 0.6;
 /// Where proofs are still to come, edges beyond are left for later: they are near the limit.
-constexpr double max_height_together = 1.2;
+constexpr double max_deviation_together = 1.2;
 
-/// Beyond this height, in limits, a first step is hardly ever followed by one that ends below 1.
-constexpr double hopeful_height = 1.05;
+/// Beyond this deviation, in limits, a first step is hardly ever followed by one that ends below 1.
+constexpr double hopeful_deviation = 1.05;
 
 /// A place is good enough where distances are this share of the limit: closest points move with it.
 constexpr double good_share = 0.9;
@@ -180,11 +180,11 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   tried_ = wanted ? *wanted : best.point;
   by_bound_ = true;
   const double planes = state_.quadrics[kept].planes() + state_.quadrics[gone].planes();
-  const double height = std::sqrt(std::max(0.0, best.cost) / planes);
-  if (!wanted && height > max_height_of_planes * full_limit_) return std::nullopt;
+  const double deviation = std::sqrt(std::max(0.0, best.cost) / planes);
+  if (!wanted && deviation > max_deviation_from_planes * full_limit_) return std::nullopt;
   hopeless_ = false;
-  if (share < 1 && height > max_height_together * limit_) return std::nullopt;
-  if (height < likely_height_of_planes * limit_ && fits(tried_)) return tried_;
+  if (share < 1 && deviation > max_deviation_together * limit_) return std::nullopt;
+  if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
   if (const auto lower = minimax(tried_, good_share * limit_)) return lower;
   for (const Vec3 end : {p, q}) {
     if (!hopeless_ && fits(end)) return end;
@@ -230,13 +230,13 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   if (!gathered_) gather_samples();
   const SamplePoints& points = samples_.points();
   if (points.blocks.empty()) return fits(point) ? std::optional(point) : std::nullopt;
-  const auto by_limit = static_cast<float>(1 / full_limit_), low_height = static_cast<float>(low / full_limit_);
-  const float max_height = hopeless_height * static_cast<float>(limit_ / full_limit_);
+  const auto by_limit = static_cast<float>(1 / full_limit_), low_deviation = static_cast<float>(low / full_limit_);
+  const float max_height = hopeless_deviation * static_cast<float>(limit_ / full_limit_);
   if (points.size() > 2 * few_samples) {
     take_few();
-    height_kernel_.linearise(few_, faces_, by_limit, heights_);
-    const MinimaxStep step = minimax_step(heights_, height_kernel_, low_height);
-    hopeless_ = step.there > hopeless_height;
+    deviation_kernel_.linearise(few_, faces_, by_limit, deviations_);
+    const MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
+    hopeless_ = step.there > hopeless_deviation;
     if (step.there > max_height) return std::nullopt;
     const Vec3 moved = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
     if (set_faces(moved))
@@ -246,33 +246,33 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   }
   bool is_stray = false;
   for (int k = 0; k < max_steps_; ++k) {
-    height_kernel_.linearise(points, faces_, by_limit, heights_);
+    deviation_kernel_.linearise(points, faces_, by_limit, deviations_);
     if (is_stray) add_vertex(point);
-    MinimaxStep step = minimax_step(heights_, height_kernel_, low_height);
+    MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     if (full_limit_ * step.here <= limit_) {
       if (fits(point)) return point;
       if (!is_stray) {
         is_stray = true;
         add_vertex(point);
-        step = minimax_step(heights_, height_kernel_, low_height);
+        step = minimax_step(deviations_, deviation_kernel_, low_deviation);
       }
     }
-    hopeless_ = step.there > hopeless_height;
-    if (full_limit_ * step.there > (k == 0 ? hopeful_height : 1) * limit_) return std::nullopt;
+    hopeless_ = step.there > hopeless_deviation;
+    if (full_limit_ * step.there > (k == 0 ? hopeful_deviation : 1) * limit_) return std::nullopt;
     point = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
     if (!set_faces(point)) return std::nullopt;
   }
   return fits(point) ? std::optional(point) : std::nullopt;
 }
 
-/// The distance of the vertex from the original is a height like those of samples from the faces.
+/// The distance of the vertex from the original is a deviation like those of samples from the faces.
 void Proposer::add_vertex(Vec3 point) {
   const Vec3 offset = (1 / full_limit_) * samples_.offset_from_original(point);
-  const double height = length(offset);
-  if (!(height > 0)) return;
+  const double deviation = length(offset);
+  if (!(deviation > 0)) return;
   // It is the vertex that moves, not its closest point.
-  const auto slope = [&](double component) { return static_cast<float>(-component / height); };
-  heights_.add(static_cast<float>(height), slope(offset.x), slope(offset.y), slope(offset.z));
+  const auto slope = [&](double component) { return static_cast<float>(-component / deviation); };
+  deviations_.add(static_cast<float>(deviation), slope(offset.x), slope(offset.y), slope(offset.z));
 }
 
 void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point) {

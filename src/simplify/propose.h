@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simplify/decimation_state.h"
-#include "simplify/linear_heights.h"
+#include "simplify/linear_deviations.h"
 #include "simplify/normal_guard.h"
 #include "simplify/regions.h"
 #include "simplify/star_samples.h"
@@ -82,7 +82,7 @@ class Proposer {
   const Split* split_ = nullptr;  ///< of the last edge
   std::uint32_t region_ = 0;
   StarSamples samples_;
-  HeightKernel height_kernel_ = fastest_height_kernel();
+  DeviationKernel deviation_kernel_ = fastest_deviation_kernel();
   EdgeStar star_;
   std::vector<GuardedFace> before_;    ///< the faces that move
   double limit_ = 0, full_limit_ = 0;  ///< of samples, with the share that they may reach, and of the tolerance
@@ -99,7 +99,7 @@ class Proposer {
   std::vector<std::uint32_t> numbers_;  ///< of these in the mesh
   std::vector<std::uint32_t> taken_;    ///< all faces of the star
   std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
-  LinearHeights heights_;
+  LinearDeviations deviations_;
 };
 
 }  // namespace meshbound

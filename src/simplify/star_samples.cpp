@@ -17,7 +17,7 @@ constexpr std::size_t max_outside = 8;
 /// A star with more is thinned out.
 constexpr std::size_t max_samples = 384;
 /// Two of them may stand for each other where the original rises by no more between them, in tolerances.
-constexpr double max_height_of_pair = 0.1;
+constexpr double max_deviation_of_pair = 0.1;
 /// Cells along the curve that pairs them, as a power of two: a few thousand to an axis.
 constexpr int curve_bits = 12;
 
@@ -154,7 +154,7 @@ bool StarSamples::are_alike(std::size_t i, std::size_t j) const {
   const Samples& samples = state_.samples;
   if (samples.is_at_edge(ids_[i]) || samples.is_at_edge(ids_[j])) return false;
   const Vec3 way = samples.at(ids_[j]) - samples.at(ids_[i]);
-  const double max_height = max_height_of_pair * state_.tolerance;
+  const double max_height = max_deviation_of_pair * state_.tolerance;
   const auto is_in_plane = [&](std::uint32_t sample) {
     const auto& v = state_.triangles[samples.triangle_near(sample)];
     const Vec3 a = state_.vertices[v[0]];

@@ -6,7 +6,7 @@
 
 #include "meshbound/proximity.h"
 #include "simplify/decimation_state.h"
-#include "simplify/sampled_slope.h"
+#include "simplify/sample_kernel.h"
 
 namespace meshbound {
 
@@ -44,7 +44,7 @@ class StarSamples {
 
   DecimationState& state_;
   Proximity proximity_;
-  SlopeKernel kernel_ = fastest_slope_kernel();
+  SampleKernel kernel_ = fastest_sample_kernel();
   std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;
   std::vector<std::uint32_t> next_;  ///< samples of each face that is being added

@@ -29,7 +29,7 @@ int main() {
   const meshbound::MeshView view(positions, 3, 3 * sizeof(float), indices, 1);
   const meshbound::MeshSummary summary = meshbound::summarise(view);
   const meshbound::Bvh bvh(view);
-  const meshbound::SymmetricDistance distance = meshbound::symmetric_distance(bvh, bvh);
+  const meshbound::HausdorffDistance distance = meshbound::hausdorff_distance(bvh, bvh);
   const bool is_measured = summary.faces == 1 && !summary.closed && distance.bounds.lower == 0;
   return is_measured && simplifies() ? 0 : 1;
 }

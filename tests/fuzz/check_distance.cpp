@@ -196,9 +196,9 @@ void check_same(const Bounds& one, const Bounds& many) {
 void check_threads(const TriangleMesh& a, const TriangleMesh& b, DistanceOptions options, int threads,
                    const Enclosure& forward, const Enclosure& backward) {
   const auto [tree_a, tree_b] = build_trees(repeated(a, threads), repeated(b, threads), {threads});
-  const SymmetricDistance one = symmetric_distance(tree_a, tree_b, options);
+  const HausdorffDistance one = hausdorff_distance(tree_a, tree_b, options);
   options.threads = threads;
-  const SymmetricDistance many = symmetric_distance(tree_a, tree_b, options);
+  const HausdorffDistance many = hausdorff_distance(tree_a, tree_b, options);
   check_same(one.a_to_b.bounds, many.a_to_b.bounds);
   check_same(one.b_to_a.bounds, many.b_to_a.bounds);
   check_bounds(many.a_to_b.bounds, forward);
@@ -233,17 +233,17 @@ void check_distance(Bytes content) {
   options.method = how % 2 == 0 ? Method::CellWalking : Method::CrossCulling;
   options.error_bound = std::ldexp(tree_a->bounding_box_diagonal(), -(static_cast<int>(how) / 2 % 64));
   const Enclosure forward = enclosure(a, b), backward = enclosure(b, a);
-  const SymmetricDistance distance = symmetric_distance(*tree_a, *tree_b, options);
+  const HausdorffDistance distance = hausdorff_distance(*tree_a, *tree_b, options);
   check_bounds(distance.a_to_b.bounds, forward);
   check_bounds(distance.b_to_a.bounds, backward);
-  check_bounds(one_sided_distance(*tree_b, *tree_a, options).bounds, backward);
+  check_bounds(one_sided_hausdorff_distance(*tree_b, *tree_a, options).bounds, backward);
   for (const double tolerance : {distance.bounds.upper, distance.bounds.lower, 0.5 * distance.bounds.lower}) {
     if (!std::isfinite(tolerance)) continue;
-    check_verdict(check_symmetric(*tree_a, *tree_b, tolerance, options), forward, backward);
+    check_verdict(check_tolerance(*tree_a, *tree_b, tolerance, options), forward, backward);
   }
   DistanceOptions other_options = options;
   other_options.method = options.method == Method::CellWalking ? Method::CrossCulling : Method::CellWalking;
-  const SymmetricDistance other = symmetric_distance(*tree_a, *tree_b, other_options);
+  const HausdorffDistance other = hausdorff_distance(*tree_a, *tree_b, other_options);
   check_bounds(other.a_to_b.bounds, forward);
   check_bounds(other.b_to_a.bounds, backward);
   check_meet(distance.a_to_b.bounds, other.a_to_b.bounds);

@@ -26,9 +26,9 @@ Vector3d inside(Random& random, const Corners& t) {
 }
 
 /// Near the surface of the triangle, at any distance from it down to rounding.
-Case near_surface(Random& random, const Corners& t, double least_exponent, double largest_exponent) {
+Case near_surface(Random& random, const Corners& t, double min_exponent, double largest_exponent) {
   const Vector3d on = inside(random, t);
-  return {t, on + random.power_of_ten(least_exponent, largest_exponent) * random.in_cube()};
+  return {t, on + random.power_of_ten(min_exponent, largest_exponent) * random.in_cube()};
 }
 
 Case near(Random& random) { return near_surface(random, triangle(random), -20, -1); }

@@ -63,8 +63,8 @@ double distance_seconds(const TriangleMesh& a, const TriangleMesh& b, double err
   options.threads = 1;
   options.error_bound = error_bound;
   const Stopwatch watch;
-  const Bounds bounds = sides == Sides::Both ? symmetric_distance(a, b, options).bounds
-                                             : one_sided_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
+  const Bounds bounds = sides == Sides::Both ? hausdorff_distance(a, b, options).bounds
+                                             : one_sided_hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
   const double seconds = watch.elapsed().cpu;
   if (bounds.upper - bounds.lower > error_bound)
     throw std::runtime_error("the interval [" + format(bounds.lower, 9) + ", " + format(bounds.upper, 9) +

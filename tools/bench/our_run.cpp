@@ -10,10 +10,10 @@ namespace {
 Bounds measure(const Bvh& a, const Bvh& b, const OurTask& task) {
   DistanceOptions options;
   options.threads = task.threads;
-  if (task.tolerance >= 0) return check_symmetric(a, b, task.tolerance, options).bounds;
+  if (task.tolerance >= 0) return check_tolerance(a, b, task.tolerance, options).bounds;
   options.error_bound = task.error_bound;
-  if (task.one_sided) return one_sided_distance(a, b, options).bounds;
-  return symmetric_distance(a, b, options).bounds;
+  if (task.one_sided) return one_sided_hausdorff_distance(a, b, options).bounds;
+  return hausdorff_distance(a, b, options).bounds;
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ Bounds measure(const Bvh& a, const Bvh& b, const OurTask& task) {
 OurRun run_ours(const TriangleMesh& a, const TriangleMesh& b, const OurTask& task) {
   const ChildResult child = run_in_child(task.limit, [&] {
     const Stopwatch watch;
-    // What `symmetric_distance` and `check_symmetric` of two meshes do, with the time of building apart.
+    // What `hausdorff_distance` and `check_tolerance` of two meshes do, with the time of building apart.
     const double limit = task.tolerance < 0 ? task.error_bound : task.tolerance;
     if (const auto known = task.one_sided ? std::nullopt : distance_without_trees(a, b, limit)) {
       const Times all = watch.elapsed();

@@ -7,8 +7,8 @@
 
 namespace meshbound::bench {
 
-/// One measurement of `symmetric_distance`, of `one_sided_distance` from a to b or, where a tolerance is given, of
-/// `check_symmetric`.
+/// One measurement of `hausdorff_distance`, of `one_sided_hausdorff_distance` from a to b or, where a tolerance is
+/// given, of `check_tolerance`.
 struct OurRun {
   ChildResult::Status status = ChildResult::Status::Failed;
   std::string error;

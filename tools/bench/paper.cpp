@@ -119,7 +119,7 @@ Step measure_step(const Bvh& a, const Bvh& b, double separation) {
   options.threads = 1;
   options.error_bound = 1e-4;
   const Stopwatch watch;
-  const SymmetricDistance distance = symmetric_distance(a, {b, pose}, options);
+  const HausdorffDistance distance = hausdorff_distance(a, {b, pose}, options);
   Step step{separation, 1000 * watch.elapsed().cpu, distance.bounds.upper};
   for (const OneSidedDistance* side : {&distance.a_to_b, &distance.b_to_a}) {
     const DistanceStats& stats = side->stats;

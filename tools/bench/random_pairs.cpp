@@ -65,7 +65,7 @@ Compared compare_functions(const MeshPair& pair, const CgalPair& cgal, double li
     DistanceOptions options;
     options.threads = 1;
     options.error_bound = error_bound;
-    (void)symmetric_distance(pair.a, pair.b, options);
+    (void)hausdorff_distance(pair.a, pair.b, options);
   };
   return compare(
       rounds, [&] { return seconds_of_calls(limit, calls, ours); },

@@ -85,7 +85,7 @@ std::vector<double> run_once(const fs::path& path_a, const fs::path& path_b, int
   DistanceOptions options;
   options.threads = threads;
   options.error_bound = relative_error_bound * tree_a.bounding_box_diagonal();
-  const SymmetricDistance distance = symmetric_distance(tree_a, tree_b, options);
+  const HausdorffDistance distance = hausdorff_distance(tree_a, tree_b, options);
   const Times total = watch.elapsed();
   return {static_cast<double>(a.triangles.size() + b.triangles.size()),
           built.cpu,

@@ -32,7 +32,7 @@ Bounds measured(const TriangleMesh& a, const TriangleMesh& b, double tolerance, 
   options.tolerance = tolerance;
   options.threads = threads;
   const auto [tree_a, tree_b] = build_trees(a, b, {threads});
-  return symmetric_distance(tree_a, tree_b, options).bounds;
+  return hausdorff_distance(tree_a, tree_b, options).bounds;
 }
 
 /// `Count_stop_predicate` counts edges, of which a mesh with borders has more than three for two faces.
@@ -131,7 +131,7 @@ double share_of_tolerance(const TriangleMesh& mesh, const TriangleMesh& simplifi
   DistanceOptions options;
   options.error_bound = 1e-4 * tolerance;
   options.threads = 1;
-  const double upper = symmetric_distance(Bvh(mesh), Bvh(simplified), options).bounds.upper;
+  const double upper = hausdorff_distance(Bvh(mesh), Bvh(simplified), options).bounds.upper;
   return upper / tolerance;
 }
 

@@ -35,10 +35,10 @@ TriangleMesh GatedOutput::written_mesh() const {
   return parse_mesh(path_, bytes.bytes(), {&cancel_}).mesh;
 }
 
-const SymmetricDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
+const HausdorffDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
   const TriangleMesh mesh = written_mesh();
   summary_ = summarise(mesh);
-  distance_ = symmetric_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
+  distance_ = hausdorff_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
   verdict_ = distance_.bounds.upper <= *options.tolerance  ? Verdict::Within
              : distance_.bounds.lower > *options.tolerance ? Verdict::Exceeds
                                                            : Verdict::Undecided;

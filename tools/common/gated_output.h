@@ -33,9 +33,9 @@ class GatedOutput {
   [[nodiscard]] TriangleMesh written_mesh() const;
 
   /// Distance of the original (a) and the file as it reads (b). `options.tolerance` must be set.
-  const SymmetricDistance& measure(const Bvh& original, const DistanceOptions& options);
+  const HausdorffDistance& measure(const Bvh& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
-  [[nodiscard]] const SymmetricDistance& distance() const { return distance_; }
+  [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
   [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
 
   /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
@@ -56,7 +56,7 @@ class GatedOutput {
   const std::atomic<bool>& cancel_;
   std::unique_ptr<AtomicFile> file_;
   Verdict verdict_ = Verdict::Undecided;
-  SymmetricDistance distance_;
+  HausdorffDistance distance_;
   MeshSummary summary_;
 };
 

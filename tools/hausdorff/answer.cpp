@@ -29,7 +29,8 @@ Answer answer_of(const Bounds& bounds, const OneSidedDistance& a_to_b, const One
 
 ToleranceCheck check(const Bvh& a, const Bvh& b, double tolerance, const Question& question,
                      const DistanceOptions& options) {
-  return question.one_sided ? check_one_sided(a, b, tolerance, options) : check_symmetric(a, b, tolerance, options);
+  return question.one_sided ? check_one_sided_tolerance(a, b, tolerance, options)
+                            : check_tolerance(a, b, tolerance, options);
 }
 
 /// The options with what is left of their time at `now` when they were valid at `start`.
@@ -55,10 +56,10 @@ Answer measure(const Bvh& a, const Bvh& b, const Question& question, DistanceOpt
   options.error_bound = question.error_bound_of_image();
   if (question.tolerance) options.tolerance = question.tolerance_of_image();
   if (question.one_sided) {
-    const OneSidedDistance result = one_sided_distance(a, b, options);
+    const OneSidedDistance result = one_sided_hausdorff_distance(a, b, options);
     return answer_of(result.bounds, result, {}, question);
   }
-  const SymmetricDistance result = symmetric_distance(a, b, options);
+  const HausdorffDistance result = hausdorff_distance(a, b, options);
   return answer_of(result.bounds, result.a_to_b, result.b_to_a, question);
 }
 
@@ -122,7 +123,7 @@ std::optional<Answer> answer_without_trees(const Question& question, const Trian
   double limit = std::numeric_limits<double>::infinity();
   if (question.error_bound) limit = question.error_bound_of_image();
   if (question.tolerance) limit = std::min(limit, question.tolerance_of_image());
-  const std::optional<SymmetricDistance> distance = distance_without_trees(a, b, limit);
+  const std::optional<HausdorffDistance> distance = distance_without_trees(a, b, limit);
   if (!distance) return std::nullopt;
   return answer_of(distance->bounds, distance->a_to_b, distance->b_to_a, question);
 }

@@ -93,10 +93,10 @@ Token TokenReader::next() {
       const std::size_t size = bytes_of_end[payload & 3];
       std::uint64_t pair = payload >> 2, to = 1;
       for (; pair >= to; ++to) {
-        if (to == most_corners) throw Rejected("a chord ends on an edge that no piece has");
+        if (to == max_corners) throw Rejected("a chord ends on an edge that no piece has");
         pair -= to;
       }
-      if (to >= most_corners) throw Rejected("a chord ends on an edge that no piece has");
+      if (to >= max_corners) throw Rejected("a chord ends on an edge that no piece has");
       token.bits = static_cast<int>(8 * size);
       token.from = {static_cast<std::uint32_t>(pair), little_endian(size)};
       token.to = {static_cast<std::uint32_t>(to), little_endian(size)};

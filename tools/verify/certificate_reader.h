@@ -56,12 +56,12 @@ struct Token {
   Kind kind = Kind::Near;
   std::int64_t step = 0;     ///< Near, Degree: triangle less the one before
   std::uint32_t corner = 0;  ///< Recall
-  End from, to;              ///< Cut: from.edge < to.edge < `most_corners`
+  End from, to;              ///< Cut: from.edge < to.edge < `max_corners`
   int bits = 0;
 };
 
 /// Corners that a piece may have. Each cut adds at most one.
-inline constexpr std::uint32_t most_corners = 16;
+inline constexpr std::uint32_t max_corners = 16;
 
 class TokenReader {
  public:

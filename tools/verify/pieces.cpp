@@ -45,7 +45,7 @@ std::pair<Piece, Piece> PieceCorners::cut(const Piece& piece, const Token& chord
   for (std::size_t i = chord.to.edge + 1; i < piece.size(); ++i) second.push_back(piece[i]);
   for (std::uint32_t i = 0; i <= chord.from.edge; ++i) second.push_back(piece[i]);
   if (chord.from.numerator != 0) second.push_back(from);
-  if (first.size() > most_corners || second.size() > most_corners) throw Rejected("a piece has too many corners");
+  if (first.size() > max_corners || second.size() > max_corners) throw Rejected("a piece has too many corners");
   return {std::move(first), std::move(second)};
 }
 

@@ -34,7 +34,7 @@ class PieceCorners {
   /// Cuts a piece along a chord. The two parts share the chord and together are the piece, whatever its shape: the
   /// corners of a piece are the image, under the affine map from a standard triangle, of a convex polygon there, and a
   /// chord between two points of the outline of a convex polygon makes two of it. Throws `Rejected` when an end of the
-  /// chord lies on an edge that the piece does not have, or a part would have more than `most_corners`.
+  /// chord lies on an edge that the piece does not have, or a part would have more than `max_corners`.
   [[nodiscard]] std::pair<Piece, Piece> cut(const Piece& piece, const Token& chord);
 
  private:

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "verify/checksum.h"
-#include "verify/degree_proof.h"
 #include "verify/near_triangle.h"
+#include "verify/parity_check.h"
 #include "verify/pieces.h"
 
 namespace meshbound::verify {
@@ -20,7 +20,7 @@ constexpr int deepest_cut = 128;
 
 /// What proofs by degree may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
 /// again and again. Real proofs need less than one for each byte and triangle.
-constexpr std::uint64_t degree_work_at_least = 65536, degree_work_per_unit = 1024;
+constexpr std::uint64_t parity_work_at_least = 65536, parity_work_per_unit = 1024;
 
 Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
   const Triangle& t = mesh.triangles[triangle];
@@ -71,13 +71,13 @@ class DirectionCheck {
     ++result_.pieces;
     last_ = target_of(token);
     if (token.kind == Token::Kind::Degree) {
-      ++result_.by_degree;
-      if (!degree_) degree_ = std::make_unique<DegreeProof>(target_, tolerance_, most_degree_work());
+      ++result_.by_parity;
+      if (!degree_) degree_ = std::make_unique<ParityCheck>(target_, tolerance_, max_parity_work());
       const bool holds = degree_->proves(shape_, corners_, piece, last_);
-      result_.degree_work = degree_->work();
+      result_.parity_work = degree_->work();
       if (!holds)
-        fail(result_.degree_work > most_degree_work() ? "is proven by degree at too great a cost"
-                                                      : "has a piece whose proof by degree does not hold");
+        fail(result_.parity_work > max_parity_work() ? "is proven by degree at too great a cost"
+                                                     : "has a piece whose proof by degree does not hold");
       return;
     }
     const Corners near = corners_of(target_, last_);
@@ -85,9 +85,9 @@ class DirectionCheck {
       if (!corner_is_near(corner, near)) fail("has a piece that is not within the tolerance of its triangle");
   }
 
-  [[nodiscard]] std::uint64_t most_degree_work() const {
-    return degree_work_at_least +
-           degree_work_per_unit * (section_.tokens.size() + source_.triangles.size() + target_.triangles.size());
+  [[nodiscard]] std::uint64_t max_parity_work() const {
+    return parity_work_at_least +
+           parity_work_per_unit * (section_.tokens.size() + source_.triangles.size() + target_.triangles.size());
   }
 
   std::uint32_t target_of(const Token& token) const {
@@ -121,7 +121,7 @@ class DirectionCheck {
   std::size_t triangle_ = 0;
   Corners shape_;
   PieceCorners corners_;
-  std::unique_ptr<DegreeProof> degree_;
+  std::unique_ptr<ParityCheck> degree_;
   Proof::Direction result_;
 };
 

@@ -15,8 +15,8 @@ namespace meshbound::verify {
 struct Proof {
   double tolerance = 0;  ///< model units
   struct Direction {
-    std::uint64_t pieces = 0, by_degree = 0, cuts = 0, bytes = 0;
-    std::uint64_t degree_work = 0;      ///< see `DegreeProof::work`
+    std::uint64_t pieces = 0, by_parity = 0, cuts = 0, bytes = 0;
+    std::uint64_t parity_work = 0;      ///< see `ParityCheck::work`
     std::uint64_t exact_decisions = 0;  ///< distances that intervals of doubles could not decide
   };
   Direction original_to_simplified, simplified_to_original;

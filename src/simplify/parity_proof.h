@@ -21,14 +21,14 @@ namespace meshbound {
 /// the bit and the argument above is exact for them; it is the heights that carry the error of the projection, and
 /// tests against T' keep a rim that is wider than theirs (`covers`). The crossings counted for the parity take each
 /// edge in the same direction from both its triangles, so interior edges cancel whatever rounding does.
-class DegreeCover {
+class ParityProof {
  public:
   /// Shrinking the face costs this share of the tolerance. It keeps walls that stand on an edge of the face, as at the
   /// creases of machined parts, out of the prism.
   static constexpr double shrink_share = 1e-3;
 
   /// O(n log n). The arguments must outlive this.
-  DegreeCover(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
+  ParityProof(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
   /// True proves that `face` lies within `tolerance` of the original (but for CandidateFaces::rounding_slack of the
   /// largest coordinate); false says nothing. P grows from `seed` over the edges that project onto the face.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "numeric/simd.h"
-#include "simplify/sampled_slope.h"
+#include "simplify/sample_kernel.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
@@ -95,8 +95,8 @@ inline void drop_far(SamplePoints& points, std::span<const SampleFace> faces, fl
   }
 }
 
-inline void add_slope(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
-                      SlopeSums& sums) {
+inline void add_deviations(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
+                           DeviationSums& sums) {
   Float8 sum{}, worst{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
   for (const SamplePoints::Block& block : points.blocks) {
     const Offset8 at = closest_of(block, faces).offset;

@@ -30,7 +30,7 @@ Bounds exactly(double value) { return {value, value}; }
 /// Measures, checks interval, width and witness, then asks for a decision on either side of the truth.
 void expect_distance(const TriangleMesh& a, const TriangleMesh& b, const Bounds& truth) {
   const Bvh tree_a(a), tree_b(b);
-  const OneSidedDistance result = one_sided_distance(tree_a, tree_b);
+  const OneSidedDistance result = one_sided_hausdorff_distance(tree_a, tree_b);
   expect_meets(result.bounds, truth);
   expect_witness(a, b, result);
   const double size = std::max(bounding_box_diagonal(both(a, b)), truth.upper);
@@ -38,13 +38,13 @@ void expect_distance(const TriangleMesh& a, const TriangleMesh& b, const Bounds&
   EXPECT_LE(result.bounds.upper - result.bounds.lower, std::max(error_bound, 4e-12 * size));
 
   const double step = 1e-7 * size;
-  EXPECT_EQ(check_one_sided(tree_a, tree_b, truth.upper + step).verdict, Verdict::Within);
+  EXPECT_EQ(check_one_sided_tolerance(tree_a, tree_b, truth.upper + step).verdict, Verdict::Within);
   if (truth.lower > step) {
-    EXPECT_EQ(check_one_sided(tree_a, tree_b, truth.lower - step).verdict, Verdict::Exceeds);
+    EXPECT_EQ(check_one_sided_tolerance(tree_a, tree_b, truth.lower - step).verdict, Verdict::Exceeds);
   }
   DistanceOptions at_most;
   at_most.budget.subdivisions = 20000;
-  const Verdict at_equality = check_one_sided(tree_a, tree_b, truth.upper, at_most).verdict;
+  const Verdict at_equality = check_one_sided_tolerance(tree_a, tree_b, truth.upper, at_most).verdict;
   EXPECT_NE(at_equality, Verdict::Exceeds) << "no point is further than the distance";
 }
 
@@ -65,7 +65,7 @@ TEST(OneSidedDistance, OfConcentricSpheresIsTheGapUpToFaceting) {
   expect_distance(scaled(sphere, 2), sphere, {1 - 1e-14, 2 - inscribed});
   // Where the inner mesh dips to its inscribed radius, the outer one is at least 2 * inscribed from the centre.
   const Bounds inner_to_outer = {inscribed, 2 - inscribed};
-  const OneSidedDistance result = one_sided_distance(Bvh(sphere), Bvh(scaled(sphere, 2)));
+  const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(sphere), Bvh(scaled(sphere, 2)));
   expect_meets(result.bounds, inner_to_outer);
   expect_witness(sphere, scaled(sphere, 2), result);
 }
@@ -89,11 +89,13 @@ TEST(OneSidedDistance, OfVeryFarModels) {
   for (const double far : {0x1p30, 1e12, 0x1p70, 0x1p300}) {
     const Bounds truth = {far - 2, far + 2};
     // Without a budget: the default error bound is out of reach here, and the search has to see that by itself.
-    const OneSidedDistance result = one_sided_distance(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})));
+    const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})));
     expect_meets(result.bounds, truth);
     EXPECT_LE(result.bounds.upper - result.bounds.lower, 1e-6 + 4e-12 * far);
-    EXPECT_EQ(check_one_sided(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})), far / 2).verdict, Verdict::Exceeds);
-    EXPECT_EQ(check_one_sided(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})), far * 2).verdict, Verdict::Within);
+    EXPECT_EQ(check_one_sided_tolerance(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})), far / 2).verdict,
+              Verdict::Exceeds);
+    EXPECT_EQ(check_one_sided_tolerance(Bvh(cube(1)), Bvh(moved(cube(1), {far, 0, 0})), far * 2).verdict,
+              Verdict::Within);
   }
 }
 
@@ -140,10 +142,10 @@ TEST(OneSidedDistance, OfIdenticalMeshesIsExactlyZero) {
     std::reverse(shuffled.triangles.begin(), shuffled.triangles.end());
     for (Triangle& t : shuffled.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
     for (const TriangleMesh& copy : {mesh, shuffled}) {
-      const OneSidedDistance result = one_sided_distance(Bvh(mesh), Bvh(copy));
+      const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(mesh), Bvh(copy));
       EXPECT_EQ(result.bounds.lower, 0);
       EXPECT_EQ(result.bounds.upper, 0);
-      EXPECT_EQ(check_one_sided(Bvh(mesh), Bvh(copy), 0).verdict, Verdict::Within);
+      EXPECT_EQ(check_one_sided_tolerance(Bvh(mesh), Bvh(copy), 0).verdict, Verdict::Within);
     }
   }
 }
@@ -151,7 +153,7 @@ TEST(OneSidedDistance, OfIdenticalMeshesIsExactlyZero) {
 TEST(OneSidedDistance, OfASubdividedCopyIsRounding) {
   for (const TriangleMesh& mesh : {cube(1), icosphere(2), random_soup(5, 50, 0.3)}) {
     for (const auto& [a, b] : {std::pair(mesh, subdivided(mesh)), std::pair(subdivided(subdivided(mesh)), mesh)}) {
-      const OneSidedDistance result = one_sided_distance(Bvh(a), Bvh(b));
+      const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(a), Bvh(b));
       EXPECT_LE(result.bounds.lower, 1e-15);
       EXPECT_LE(result.bounds.upper, 2e-6 * bounding_box_diagonal(a));
     }
@@ -173,7 +175,7 @@ TEST(OneSidedDistance, HoldsAtLargeOffsets) {
     SCOPED_TRACE(offset);
     const Vector3d by(offset, -offset, offset / 2);
     expect_distance(moved(cube(1), by), moved(cube(2), by), exactly(1));
-    const OneSidedDistance result = one_sided_distance(Bvh(moved(cube(2), by)), Bvh(moved(cube(1), by)));
+    const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(moved(cube(2), by)), Bvh(moved(cube(1), by)));
     EXPECT_LE(result.bounds.lower, std::numbers::sqrt3 * (1 + 1e-15));
     EXPECT_GE(result.bounds.upper, std::numbers::sqrt3 * (1 - 1e-15));
     EXPECT_LE(result.bounds.upper - result.bounds.lower, 1e-5) << "coordinates must be centred";
@@ -226,7 +228,7 @@ TEST(OneSidedDistance, HoldsToTheLastBit) {
     DistanceOptions options;
     options.error_bound = seed % 2 == 0 ? 0 : 1e-3;
     options.threads = 1;
-    const Bounds bounds = one_sided_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
+    const Bounds bounds = one_sided_hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), options).bounds;
     ExactLength truth = exact_distance(a.vertices[0], b);
     for (const Vector3d& v : a.vertices) truth = std::max(truth, exact_distance(v, b));
     EXPECT_LE(truth.compare(bounds.upper), 0) << seed;
@@ -259,7 +261,7 @@ TEST(OneSidedDistance, HonoursTheErrorBound) {
       SCOPED_TRACE(digits);
       DistanceOptions options;
       options.error_bound = std::pow(10.0, -digits) * tree_a.bounding_box_diagonal();
-      const OneSidedDistance result = one_sided_distance(tree_a, tree_b, options);
+      const OneSidedDistance result = one_sided_hausdorff_distance(tree_a, tree_b, options);
       EXPECT_EQ(result.outcome, Outcome::Converged);
       EXPECT_LE(result.bounds.upper - result.bounds.lower, *options.error_bound);
       expect_meets(result.bounds, tightest);
@@ -272,24 +274,24 @@ TEST(OneSidedDistance, WithAZeroErrorBoundEndsAtThePrecisionOfDoubles) {
   DistanceOptions options;
   options.error_bound = 0;
   options.budget.subdivisions = 1000000;
-  const OneSidedDistance result = one_sided_distance(Bvh(cube(2)), Bvh(cube(1)), options);
+  const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(cube(2)), Bvh(cube(1)), options);
   expect_meets(result.bounds, about(std::numbers::sqrt3));
   EXPECT_LE(result.bounds.upper - result.bounds.lower, 1e-11);
 }
 
-TEST(CheckOneSided, DecidesOnBothSidesOfTheDistance) {
+TEST(CheckOneSidedTolerance, DecidesOnBothSidesOfTheDistance) {
   const TriangleMesh a = random_soup(21, 30, 0.3), b = random_soup(22, 30, 0.3);
   const Bvh tree_a(a), tree_b(b);
   DistanceOptions tight;
   tight.error_bound = 1e-10;
-  const Bounds truth = one_sided_distance(tree_a, tree_b, tight).bounds;
+  const Bounds truth = one_sided_hausdorff_distance(tree_a, tree_b, tight).bounds;
   expect_meets(truth, brute_force_one_sided(a, b, 1e-3));
   for (const double factor : {1e-9, 1e-6, 1e-3, 0.1, 0.9}) {
-    const ToleranceCheck within = check_one_sided(tree_a, tree_b, truth.upper * (1 + factor));
+    const ToleranceCheck within = check_one_sided_tolerance(tree_a, tree_b, truth.upper * (1 + factor));
     EXPECT_EQ(within.verdict, Verdict::Within) << factor;
     EXPECT_LE(within.bounds.upper, truth.upper * (1 + factor));
     EXPECT_GE(within.bounds.upper, truth.lower);
-    const ToleranceCheck exceeds = check_one_sided(tree_a, tree_b, truth.lower * (1 - factor));
+    const ToleranceCheck exceeds = check_one_sided_tolerance(tree_a, tree_b, truth.lower * (1 - factor));
     EXPECT_EQ(exceeds.verdict, Verdict::Exceeds) << factor;
     EXPECT_EQ(exceeds.a_to_b.outcome, Outcome::ExceedsTolerance);
     EXPECT_GT(exceeds.bounds.lower, truth.lower * (1 - factor));
@@ -298,9 +300,9 @@ TEST(CheckOneSided, DecidesOnBothSidesOfTheDistance) {
   }
 }
 
-TEST(CheckOneSided, EndsAtEqualityWithoutABudget) {
+TEST(CheckOneSidedTolerance, EndsAtEqualityWithoutABudget) {
   const TriangleMesh square = unit_square(5);
-  const ToleranceCheck check = check_one_sided(Bvh(square), Bvh(moved(square, {0, 0, 0.25})), 0.25);
+  const ToleranceCheck check = check_one_sided_tolerance(Bvh(square), Bvh(moved(square, {0, 0, 0.25})), 0.25);
   EXPECT_NE(check.verdict, Verdict::Exceeds);
   EXPECT_LE(check.bounds.lower, 0.25);
   EXPECT_GE(check.bounds.upper, 0.25);
@@ -310,7 +312,7 @@ TEST(CheckOneSided, EndsAtEqualityWithoutABudget) {
 TEST(Budgets, LeaveValidBounds) {
   const TriangleMesh a = icosphere(3), b = random_soup(31, 60, 0.5);
   const Bvh tree_a(a), tree_b(b);
-  const Bounds truth = one_sided_distance(tree_a, tree_b).bounds;
+  const Bounds truth = one_sided_hausdorff_distance(tree_a, tree_b).bounds;
   std::atomic<bool> cancelled = true;
   DistanceOptions no_time, no_subdivisions, cancel;
   no_time.budget.seconds = 0;
@@ -318,22 +320,22 @@ TEST(Budgets, LeaveValidBounds) {
   cancel.cancel = &cancelled;
   for (DistanceOptions options : {no_time, no_subdivisions, cancel}) {
     options.error_bound = 1e-9;
-    const OneSidedDistance result = one_sided_distance(tree_a, tree_b, options);
+    const OneSidedDistance result = one_sided_hausdorff_distance(tree_a, tree_b, options);
     EXPECT_EQ(result.outcome, Outcome::BudgetExhausted);
     expect_meets(result.bounds, truth);
     EXPECT_GT(result.bounds.upper - result.bounds.lower, 1e-9);
-    EXPECT_EQ(check_one_sided(tree_a, tree_b, truth.upper, options).verdict, Verdict::Undecided);
+    EXPECT_EQ(check_one_sided_tolerance(tree_a, tree_b, truth.upper, options).verdict, Verdict::Undecided);
   }
 }
 
 TEST(Budgets, OfFewSubdivisionsNarrowTheInterval) {
   const Bvh a(icosphere(3)), b(random_soup(32, 60, 0.5));
-  const Bounds truth = one_sided_distance(a, b).bounds;
+  const Bounds truth = one_sided_hausdorff_distance(a, b).bounds;
   for (const std::uint64_t subdivisions : {1, 10, 100, 1000}) {
     DistanceOptions options;
     options.error_bound = 1e-12;
     options.budget.subdivisions = subdivisions;
-    expect_meets(one_sided_distance(a, b, options).bounds, truth);
+    expect_meets(one_sided_hausdorff_distance(a, b, options).bounds, truth);
   }
 }
 
@@ -356,11 +358,11 @@ TEST(Threads, DoNotChangeTheResult) {
     DistanceOptions one, two;
     one.threads = 1;
     two.threads = 2;
-    const OneSidedDistance serial = one_sided_distance(Bvh(a, {1}), Bvh(b, {1}), one);
-    expect_same(serial, one_sided_distance(Bvh(a, {2}), Bvh(b, {2}), two));
-    expect_same(serial, one_sided_distance(Bvh(a), Bvh(b)));
+    const OneSidedDistance serial = one_sided_hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), one);
+    expect_same(serial, one_sided_hausdorff_distance(Bvh(a, {2}), Bvh(b, {2}), two));
+    expect_same(serial, one_sided_hausdorff_distance(Bvh(a), Bvh(b)));
     one.tolerance = two.tolerance = serial.bounds.lower / 2;
-    expect_same(one_sided_distance(Bvh(a), Bvh(b), one), one_sided_distance(Bvh(a), Bvh(b), two));
+    expect_same(one_sided_hausdorff_distance(Bvh(a), Bvh(b), one), one_sided_hausdorff_distance(Bvh(a), Bvh(b), two));
   }
 }
 
@@ -371,11 +373,11 @@ TEST(Threads, DoNotChangeWhichNodesAreCulled) {
     const Bvh tree_a(a), tree_b(random_soup(50, 3000, 0.3));
     DistanceOptions options;
     options.threads = 1;
-    const OneSidedDistance serial = one_sided_distance(tree_a, tree_b, options);
+    const OneSidedDistance serial = one_sided_hausdorff_distance(tree_a, tree_b, options);
     EXPECT_GT(serial.stats.culled_by_node, 0U);
     for (const int threads : {2, 3}) {
       options.threads = threads;
-      const OneSidedDistance parallel = one_sided_distance(tree_a, tree_b, options);
+      const OneSidedDistance parallel = one_sided_hausdorff_distance(tree_a, tree_b, options);
       expect_same(serial, parallel);
       EXPECT_EQ(serial.stats.culled_by_node, parallel.stats.culled_by_node);
     }
@@ -393,14 +395,14 @@ TEST(Poses, GiveTheDistanceOfTheTransformedMesh) {
     const TransformedMesh moved_b = transformed(b, Eigen::Affine3d(pose));
     // The matrix of a pose is rounded, so a posed tree may differ from the mapped vertices by that as well.
     const double slack = 1e-14 * (1 + pose.translation().norm());
-    const OneSidedDistance posed_a = one_sided_distance({tree_a, pose}, tree_b);
-    const OneSidedDistance posed_b = one_sided_distance(tree_a, {tree_b, pose});
-    expect_meets(posed_a.bounds, widened(one_sided_distance(Bvh(moved_a.mesh), tree_b).bounds, slack));
-    expect_meets(posed_b.bounds, widened(one_sided_distance(tree_a, Bvh(moved_b.mesh)).bounds, slack));
+    const OneSidedDistance posed_a = one_sided_hausdorff_distance({tree_a, pose}, tree_b);
+    const OneSidedDistance posed_b = one_sided_hausdorff_distance(tree_a, {tree_b, pose});
+    expect_meets(posed_a.bounds, widened(one_sided_hausdorff_distance(Bvh(moved_a.mesh), tree_b).bounds, slack));
+    expect_meets(posed_b.bounds, widened(one_sided_hausdorff_distance(tree_a, Bvh(moved_b.mesh)).bounds, slack));
     expect_witness(moved_a.mesh, b, posed_a);
     expect_witness(a, moved_b.mesh, posed_b);
-    const OneSidedDistance together = one_sided_distance({tree_a, pose}, {tree_b, pose});
-    expect_meets(together.bounds, widened(one_sided_distance(tree_a, tree_b).bounds, slack));
+    const OneSidedDistance together = one_sided_hausdorff_distance({tree_a, pose}, {tree_b, pose});
+    expect_meets(together.bounds, widened(one_sided_hausdorff_distance(tree_a, tree_b).bounds, slack));
   }
 }
 
@@ -409,18 +411,18 @@ TEST(InvalidArguments, AreRefused) {
   for (const double bad : {-1.0, -1e-300, std::nan("")}) {
     DistanceOptions options;
     options.error_bound = bad;
-    EXPECT_THROW((void)one_sided_distance(a, b, options), InvalidInput);
-    EXPECT_THROW((void)check_one_sided(a, b, bad), InvalidInput);
+    EXPECT_THROW((void)one_sided_hausdorff_distance(a, b, options), InvalidInput);
+    EXPECT_THROW((void)check_one_sided_tolerance(a, b, bad), InvalidInput);
     DistanceOptions with_tolerance;
     with_tolerance.tolerance = bad;
-    EXPECT_THROW((void)one_sided_distance(a, b, with_tolerance), InvalidInput);
+    EXPECT_THROW((void)one_sided_hausdorff_distance(a, b, with_tolerance), InvalidInput);
   }
   Eigen::Isometry3d scaling = Eigen::Isometry3d::Identity();
   scaling.matrix()(0, 0) = 2;
-  EXPECT_THROW((void)one_sided_distance({a, scaling}, b), InvalidInput);
+  EXPECT_THROW((void)one_sided_hausdorff_distance({a, scaling}, b), InvalidInput);
   Eigen::Isometry3d undefined = Eigen::Isometry3d::Identity();
   undefined.matrix()(1, 3) = std::nan("");
-  EXPECT_THROW((void)one_sided_distance(a, {b, undefined}), InvalidInput);
+  EXPECT_THROW((void)one_sided_hausdorff_distance(a, {b, undefined}), InvalidInput);
 }
 
 TEST(InvalidMeshes, AreRefused) {
@@ -447,7 +449,7 @@ TEST(Progress, IsAFraction) {
     EXPECT_LE(fraction, 1);
     last = fraction;
   };
-  (void)one_sided_distance(Bvh(icosphere(4)), Bvh(random_soup(61, 200, 0.4)), options);
+  (void)one_sided_hausdorff_distance(Bvh(icosphere(4)), Bvh(random_soup(61, 200, 0.4)), options);
   EXPECT_GE(last, 0);
 }
 
@@ -460,7 +462,8 @@ TEST(Proximity, AgreesWithTheDistanceOfTheTriangle) {
     std::uint32_t hint = 0;
     for (std::size_t i = 0; i < probes.triangles.size(); ++i) {
       const Corners triangle = corners(probes, i);
-      const Bounds truth = one_sided_distance(Bvh(single_triangle(triangle[0], triangle[1], triangle[2])), tree).bounds;
+      const Bounds truth =
+          one_sided_hausdorff_distance(Bvh(single_triangle(triangle[0], triangle[1], triangle[2])), tree).bounds;
       EXPECT_EQ(proximity.triangle_within(triangle, truth.upper * (1 + 1e-5) + 1e-5, hint), Verdict::Within);
       EXPECT_LT(hint, target.triangles.size());
       EXPECT_EQ(proximity.triangle_within(triangle, truth.lower * (1 - 1e-5), hint), Verdict::Exceeds);
@@ -483,12 +486,12 @@ TEST(OneSidedDistance, ToAPointFarAwayIsConvergedOnlyWhereItIsNarrowEnough) {
   const Bvh from(far), to(tiny);
   DistanceOptions options;
   options.error_bound = 0;
-  const OneSidedDistance exact = one_sided_distance(from, to, options);
+  const OneSidedDistance exact = one_sided_hausdorff_distance(from, to, options);
   EXPECT_LT(exact.bounds.lower, exact.bounds.upper);
   EXPECT_EQ(exact.outcome, Outcome::PrecisionReached);
   options.error_bound = 2 * (exact.bounds.upper - exact.bounds.lower);
-  EXPECT_EQ(one_sided_distance(from, to, options).outcome, Outcome::Converged);
-  EXPECT_EQ(check_one_sided(from, to, 2e9).a_to_b.outcome, Outcome::Converged);
+  EXPECT_EQ(one_sided_hausdorff_distance(from, to, options).outcome, Outcome::Converged);
+  EXPECT_EQ(check_one_sided_tolerance(from, to, 2e9).a_to_b.outcome, Outcome::Converged);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "certificate/degree_search.h"
+#include "certificate/parity_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double rim_share = 0x1p-20;
 constexpr double view_error = 0x1p-46;
 
 /// A triangle clipped by the sides of a piece.
-constexpr std::size_t most_clipped = Piece::capacity + 4;
+constexpr std::size_t max_clipped = Piece::capacity + 4;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ PatchNeighbours::PatchNeighbours(const Bvh::Data& target) {
   }
 }
 
-DegreeSearch::DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal,
+ParitySearch::ParitySearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal,
                            double magnitude, std::size_t patch_limit)
     : b_(target),
       neighbours_(neighbours),
@@ -71,13 +71,13 @@ DegreeSearch::DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neigh
       visited_(target.triangle_count(), 0),
       patch_limit_(patch_limit) {}
 
-DegreeSearch::Seen DegreeSearch::see(const Vec3& p) const {
+ParitySearch::Seen ParitySearch::see(const Vec3& p) const {
   const Vec3 q = p - origin_;
   return {dot(q, x_axis_), dot(q, y_axis_), dot(q, z_axis_)};
 }
 
 /// False where the triangle is too thin, or the tolerance too small, for doubles to tell.
-bool DegreeSearch::set_view(const std::array<Vec3, 3>& triangle, const Piece& piece) {
+bool ParitySearch::set_view(const std::array<Vec3, 3>& triangle, const Piece& piece) {
   origin_ = triangle[0];
   const Vec3 ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0], bc = triangle[2] - triangle[1];
   const Vec3 normal = cross(ab, ac);
@@ -97,7 +97,7 @@ bool DegreeSearch::set_view(const std::array<Vec3, 3>& triangle, const Piece& pi
 }
 
 /// The piece as it is seen, drawn in as a reader does it, and its sides.
-bool DegreeSearch::set_window(const Piece& piece) {
+bool ParitySearch::set_window(const Piece& piece) {
   sides_ = piece.count;
   const Vec3 middle = 0.5 * piece.corner(0) + 0.25 * (piece.corner(piece.count / 2) + piece.corner(piece.count - 1));
   double reach = 0;
@@ -120,11 +120,11 @@ bool DegreeSearch::set_window(const Piece& piece) {
 }
 
 /// Clips the triangle to the prism over the window, a rim wider.
-bool DegreeSearch::heights_hold(const SeenTriangle& t) const {
+bool ParitySearch::heights_hold(const SeenTriangle& t) const {
   const double highest = std::max({std::abs(t[0].h), std::abs(t[1].h), std::abs(t[2].h)});
   if (highest <= height_limit_) return true;
   const double margin = rim_ + tilt_ * highest;
-  std::array<Seen, most_clipped> polygon{t[0], t[1], t[2]}, kept;
+  std::array<Seen, max_clipped> polygon{t[0], t[1], t[2]}, kept;
   std::size_t count = 3;
   for (std::size_t side = 0; side < sides_; ++side) {
     std::size_t kept_count = 0;
@@ -144,7 +144,7 @@ bool DegreeSearch::heights_hold(const SeenTriangle& t) const {
 }
 
 /// Whether a line separates the edge from the window by more than `margin`.
-bool DegreeSearch::is_clear(const Seen& p, const Seen& q, double margin) const {
+bool ParitySearch::is_clear(const Seen& p, const Seen& q, double margin) const {
   for (std::size_t side = 0; side < sides_; ++side)
     if (outside(side, p) > margin && outside(side, q) > margin) return true;
   const double dx = q.x - p.x, dy = q.y - p.y, room = margin * std::hypot(dx, dy);
@@ -157,7 +157,7 @@ bool DegreeSearch::is_clear(const Seen& p, const Seen& q, double margin) const {
   return all_left || all_right;
 }
 
-DegreeSearch::Passage DegreeSearch::passage(const Seen& p, const Seen& q) const {
+ParitySearch::Passage ParitySearch::passage(const Seen& p, const Seen& q) const {
   const double margin = std::max(rim(p), rim(q));
   if (is_clear(p, q, margin)) return Passage::Clear;
   return is_clear(p, q, -margin) ? Passage::Unclear : Passage::Across;
@@ -165,14 +165,14 @@ DegreeSearch::Passage DegreeSearch::passage(const Seen& p, const Seen& q) const 
 
 /// Whether the edge crosses the ray from the first corner of the window in the direction of x. Edges meet in the same
 /// projected vertices, so neighbours agree; edges of the patch's outline are clear of the corner.
-bool DegreeSearch::crosses_ray(const Seen& p, const Seen& q) const {
+bool ParitySearch::crosses_ray(const Seen& p, const Seen& q) const {
   const Seen& from = window_[0];
   if ((p.y > from.y) == (q.y > from.y)) return false;
   const Seen &low = p.y < q.y ? p : q, &high = p.y < q.y ? q : p;
   return (high.x - low.x) * (from.y - low.y) - (high.y - low.y) * (from.x - low.x) > 0;
 }
 
-bool DegreeSearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed) {
+bool ParitySearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed) {
   patch_.clear();
   if (!set_view(triangle, piece)) return false;
   ++round_;

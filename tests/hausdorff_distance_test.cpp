@@ -22,14 +22,14 @@ namespace {
 using Eigen::Vector3d;
 using namespace reference;
 
-void expect_is_maximum(const SymmetricDistance& result) {
+void expect_is_maximum(const HausdorffDistance& result) {
   EXPECT_EQ(result.bounds.lower, std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower));
   EXPECT_EQ(result.bounds.upper, std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper));
 }
 
 void expect_distance(const TriangleMesh& a, const TriangleMesh& b, const Bounds& truth) {
   const Bvh tree_a(a), tree_b(b);
-  const SymmetricDistance result = symmetric_distance(tree_a, tree_b);
+  const HausdorffDistance result = hausdorff_distance(tree_a, tree_b);
   expect_meets(result.bounds, truth);
   expect_is_maximum(result);
   // A direction stops where it is known to be below the other; what it has found by then is realised all the same.
@@ -39,29 +39,29 @@ void expect_distance(const TriangleMesh& a, const TriangleMesh& b, const Bounds&
   EXPECT_LE(result.bounds.upper - result.bounds.lower, std::max(1e-6 * bounding_box_diagonal(a), 4e-12 * size));
 
   const double step = 1e-7 * size;
-  EXPECT_EQ(check_symmetric(tree_a, tree_b, truth.upper + step).verdict, Verdict::Within);
+  EXPECT_EQ(check_tolerance(tree_a, tree_b, truth.upper + step).verdict, Verdict::Within);
   if (truth.lower > step) {
-    EXPECT_EQ(check_symmetric(tree_a, tree_b, truth.lower - step).verdict, Verdict::Exceeds);
+    EXPECT_EQ(check_tolerance(tree_a, tree_b, truth.lower - step).verdict, Verdict::Exceeds);
   }
   DistanceOptions at_most;
   at_most.budget.subdivisions = 20000;
-  EXPECT_NE(check_symmetric(tree_a, tree_b, truth.upper, at_most).verdict, Verdict::Exceeds);
+  EXPECT_NE(check_tolerance(tree_a, tree_b, truth.upper, at_most).verdict, Verdict::Exceeds);
 }
 
 Bounds about(double value) { return {value * (1 - 1e-15), value * (1 + 1e-15)}; }
 
 /// A mesh that is near everywhere in one direction, far in the other: the far one comes first and bounds the rest.
-TEST(SymmetricDistance, SearchesFirstWhereVerticesAreFarther) {
+TEST(HausdorffDistance, SearchesFirstWhereVerticesAreFarther) {
   const TriangleMesh triangle = single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), large = random_soup(3, 2000, 3);
   const Bvh tree_a(triangle), tree_b(large);
-  for (const SymmetricDistance& result : {symmetric_distance(tree_a, tree_b), symmetric_distance(tree_b, tree_a)}) {
+  for (const HausdorffDistance& result : {hausdorff_distance(tree_a, tree_b), hausdorff_distance(tree_b, tree_a)}) {
     EXPECT_LT(result.a_to_b.stats.closest_point_queries + result.b_to_a.stats.closest_point_queries, 1000u);
     EXPECT_EQ(result.a_to_b.outcome, Outcome::Converged);
     EXPECT_EQ(result.b_to_a.outcome, Outcome::Converged);
   }
 }
 
-TEST(SymmetricDistance, IsTheLargerDirection) {
+TEST(HausdorffDistance, IsTheLargerDirection) {
   expect_distance(cube(1), cube(2), about(std::numbers::sqrt3));
   expect_distance(cube(2), cube(1), about(std::numbers::sqrt3));
   const TriangleMesh plane = unit_square(4);
@@ -79,12 +79,12 @@ TriangleMesh renumbered(const TriangleMesh& mesh) {
   return result;
 }
 
-TEST(SymmetricDistance, OfMeshesOfTheSameTrianglesIsZeroWithoutTrees) {
+TEST(HausdorffDistance, OfMeshesOfTheSameTrianglesIsZeroWithoutTrees) {
   const TriangleMesh soup = random_soup(5, 300, 0.4);
   for (const TriangleMesh& mesh : {icosphere(3), soup, both(soup, cube(1))}) {
     for (const TriangleMesh& twin : {mesh, renumbered(mesh)}) {
       EXPECT_TRUE(same_surface(mesh, twin));
-      const SymmetricDistance result = symmetric_distance(mesh, twin);
+      const HausdorffDistance result = hausdorff_distance(mesh, twin);
       EXPECT_EQ(result.bounds.upper, 0);
       EXPECT_EQ(result.a_to_b.stats.nodes_visited, 0U);
       expect_witness(mesh, twin, result.a_to_b);
@@ -93,7 +93,7 @@ TEST(SymmetricDistance, OfMeshesOfTheSameTrianglesIsZeroWithoutTrees) {
   }
 }
 
-TEST(SymmetricDistance, OfMeshesWithOneOtherTriangleIsThatOfTheirTrees) {
+TEST(HausdorffDistance, OfMeshesWithOneOtherTriangleIsThatOfTheirTrees) {
   const TriangleMesh mesh = icosphere(3);
   TriangleMesh nudged = renumbered(mesh), repeated = mesh, doubled = both(mesh, mesh), missing = doubled;
   nudged.vertices[7].x() = std::nextafter(nudged.vertices[7].x(), 2.0);
@@ -105,14 +105,14 @@ TEST(SymmetricDistance, OfMeshesWithOneOtherTriangleIsThatOfTheirTrees) {
   EXPECT_FALSE(same_surface(mesh, repeated));
   EXPECT_FALSE(same_surface(repeated, mesh));
   EXPECT_TRUE(same_surface(doubled, missing));
-  const SymmetricDistance whole = symmetric_distance(mesh, repeated),
-                          trees = symmetric_distance(Bvh(mesh), Bvh(repeated));
+  const HausdorffDistance whole = hausdorff_distance(mesh, repeated),
+                          trees = hausdorff_distance(Bvh(mesh), Bvh(repeated));
   EXPECT_GT(whole.bounds.lower, 0);
   EXPECT_EQ(whole.bounds.lower, trees.bounds.lower);
   EXPECT_EQ(whole.bounds.upper, trees.bounds.upper);
   DistanceOptions negative;
   negative.error_bound = -1;
-  EXPECT_THROW((void)symmetric_distance(mesh, mesh, negative), InvalidInput);
+  EXPECT_THROW((void)hausdorff_distance(mesh, mesh, negative), InvalidInput);
   EXPECT_THROW((void)same_surface(mesh, TriangleMesh{}), InvalidInput);
 }
 
@@ -155,7 +155,7 @@ TEST(WithoutTrees, MovedCornersBoundTheDistance) {
         EXPECT_GE(result->bounds.upper, move);
         EXPECT_LE(result->bounds.upper, move * (1 + 1e-12));
         expect_is_maximum(*result);
-        const Bounds trees = symmetric_distance(Bvh(mesh), Bvh(other)).bounds;
+        const Bounds trees = hausdorff_distance(Bvh(mesh), Bvh(other)).bounds;
         EXPECT_LE(trees.lower, result->bounds.upper);
         EXPECT_GE(trees.upper, result->bounds.lower);
         expect_witness(mesh, other, result->a_to_b);
@@ -172,7 +172,7 @@ TEST(WithoutTrees, OneCornerFurtherThanTheLimitIsNotOverlooked) {
     TriangleMesh other = with_own_vertices(jittered(mesh, 1e-9));
     other.vertices[moved] *= 1.01;
     EXPECT_FALSE(distance_without_trees(mesh, other, 1e-6));
-    EXPECT_NEAR(symmetric_distance(mesh, other).bounds.upper, 0.01, 1e-5);
+    EXPECT_NEAR(hausdorff_distance(mesh, other).bounds.upper, 0.01, 1e-5);
   }
   EXPECT_FALSE(distance_without_trees(mesh, both(mesh, mesh), 1));
 }
@@ -191,43 +191,43 @@ TEST(WithoutTrees, BoundsHoldAtAnyScale) {
 
 TEST(WithoutTrees, DecisionOfMeshesIsThatOfTheirTrees) {
   const TriangleMesh mesh = icosphere(3), near = jittered(mesh, 1e-9), far = moved(mesh, {0, 0, 0.5});
-  EXPECT_EQ(check_symmetric(mesh, mesh, 0).verdict, Verdict::Within);
-  const ToleranceCheck within = check_symmetric(mesh, near, 1e-8);
+  EXPECT_EQ(check_tolerance(mesh, mesh, 0).verdict, Verdict::Within);
+  const ToleranceCheck within = check_tolerance(mesh, near, 1e-8);
   EXPECT_EQ(within.verdict, Verdict::Within);
   EXPECT_LE(within.bounds.upper, 2e-9);
-  EXPECT_EQ(check_symmetric(mesh, near, 1e-11).verdict, Verdict::Exceeds);
-  EXPECT_EQ(check_symmetric(mesh, far, 0.4).verdict, check_symmetric(Bvh(mesh), Bvh(far), 0.4).verdict);
-  EXPECT_THROW((void)check_symmetric(mesh, near, -1), InvalidInput);
+  EXPECT_EQ(check_tolerance(mesh, near, 1e-11).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_tolerance(mesh, far, 0.4).verdict, check_tolerance(Bvh(mesh), Bvh(far), 0.4).verdict);
+  EXPECT_THROW((void)check_tolerance(mesh, near, -1), InvalidInput);
   EXPECT_THROW((void)distance_without_trees(TriangleMesh{}, TriangleMesh{}, 1), InvalidInput);
-  EXPECT_THROW((void)check_symmetric(mesh, TriangleMesh{}, 1), InvalidInput);
+  EXPECT_THROW((void)check_tolerance(mesh, TriangleMesh{}, 1), InvalidInput);
   TriangleMesh astray = mesh;
   astray.triangles[3][1] = 1000000000;
-  EXPECT_THROW((void)symmetric_distance(astray, mesh), InvalidInput);
-  EXPECT_THROW((void)symmetric_distance(mesh, astray), InvalidInput);
+  EXPECT_THROW((void)hausdorff_distance(astray, mesh), InvalidInput);
+  EXPECT_THROW((void)hausdorff_distance(mesh, astray), InvalidInput);
 }
 
-TEST(SymmetricDistance, OfConcentricSpheresIsTheGapUpToFaceting) {
+TEST(HausdorffDistance, OfConcentricSpheresIsTheGapUpToFaceting) {
   const TriangleMesh sphere = icosphere(3);
   expect_distance(sphere, scaled(sphere, 2), {1 - 1e-14, 2 - inscribed_radius(sphere) * (1 - 1e-14)});
 }
 
-TEST(SymmetricDistance, OfIdenticalMeshesIsExactlyZero) {
+TEST(HausdorffDistance, OfIdenticalMeshesIsExactlyZero) {
   for (const TriangleMesh& mesh : {cube(1), icosphere(4), random_soup(3, 300, 0.2)}) {
-    const SymmetricDistance result = symmetric_distance(Bvh(mesh), Bvh(mesh));
+    const HausdorffDistance result = hausdorff_distance(Bvh(mesh), Bvh(mesh));
     EXPECT_EQ(result.bounds.lower, 0);
     EXPECT_EQ(result.bounds.upper, 0);
-    EXPECT_EQ(check_symmetric(Bvh(mesh), Bvh(mesh), 0).verdict, Verdict::Within);
+    EXPECT_EQ(check_tolerance(Bvh(mesh), Bvh(mesh), 0).verdict, Verdict::Within);
   }
 }
 
-TEST(SymmetricDistance, SeesAMissingPart) {
+TEST(HausdorffDistance, SeesAMissingPart) {
   const TriangleMesh whole = both(cube(1), moved(cube(0.125), {0, 0, 4}));
   const double furthest = std::sqrt(3.125 * 3.125);
   expect_distance(whole, cube(1), about(furthest));
   expect_distance(cube(1), whole, about(furthest));
 }
 
-TEST(SymmetricDistance, OfRandomSoupsAgreesWithBruteForce) {
+TEST(HausdorffDistance, OfRandomSoupsAgreesWithBruteForce) {
   for (std::uint32_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     const TriangleMesh a = random_soup(seed + 2000, 1 + static_cast<int>(seed % 11), 0.4);
@@ -236,30 +236,30 @@ TEST(SymmetricDistance, OfRandomSoupsAgreesWithBruteForce) {
   }
 }
 
-TEST(SymmetricDistance, DoesNotDependOnTheOrderOfTheModels) {
+TEST(HausdorffDistance, DoesNotDependOnTheOrderOfTheModels) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     const Bvh a(random_soup(seed, 200, 0.3)), b(random_soup(seed + 99, 150, 0.3));
-    expect_meets(symmetric_distance(a, b).bounds, symmetric_distance(b, a).bounds);
+    expect_meets(hausdorff_distance(a, b).bounds, hausdorff_distance(b, a).bounds);
   }
 }
 
-TEST(SymmetricDistance, HonoursTheErrorBound) {
+TEST(HausdorffDistance, HonoursTheErrorBound) {
   const Bvh a(random_soup(11, 60, 0.3)), b(random_soup(12, 80, 0.3));
   for (int digits = 2; digits <= 9; ++digits) {
     DistanceOptions options;
     options.error_bound = std::pow(10.0, -digits) * a.bounding_box_diagonal();
-    const SymmetricDistance result = symmetric_distance(a, b, options);
+    const HausdorffDistance result = hausdorff_distance(a, b, options);
     EXPECT_LE(result.bounds.upper - result.bounds.lower, *options.error_bound);
   }
 }
 
-TEST(SymmetricDistance, IsTheSameForAnyNumberOfThreads) {
+TEST(HausdorffDistance, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh a = icosphere(4), b = random_soup(13, 500, 0.3);
   DistanceOptions one, two;
   one.threads = 1;
   two.threads = 2;
-  const SymmetricDistance x = symmetric_distance(Bvh(a, {1}), Bvh(b, {1}), one);
-  const SymmetricDistance y = symmetric_distance(Bvh(a, {2}), Bvh(b, {2}), two);
+  const HausdorffDistance x = hausdorff_distance(Bvh(a, {1}), Bvh(b, {1}), one);
+  const HausdorffDistance y = hausdorff_distance(Bvh(a, {2}), Bvh(b, {2}), two);
   EXPECT_EQ(x.bounds.lower, y.bounds.lower);
   EXPECT_EQ(x.bounds.upper, y.bounds.upper);
   EXPECT_EQ(x.a_to_b.witness.from.position, y.a_to_b.witness.from.position);
@@ -267,24 +267,24 @@ TEST(SymmetricDistance, IsTheSameForAnyNumberOfThreads) {
 }
 
 /// Builds and searches form teams of their own, whatever the caller's threads do meanwhile.
-TEST(SymmetricDistance, IsTheSameOnThreadsOfTheCallersOwn) {
+TEST(HausdorffDistance, IsTheSameOnThreadsOfTheCallersOwn) {
   const TriangleMesh a = icosphere(5), b = random_soup(13, 5000, 0.3);
   DistanceOptions options;
   options.threads = 2;
-  const SymmetricDistance alone = symmetric_distance(a, b, options);
+  const HausdorffDistance alone = hausdorff_distance(a, b, options);
   std::atomic<int> same{0};
 #pragma omp parallel num_threads(3)
   {
 #pragma omp for
     for (int i = 0; i < 6; ++i) {
-      const SymmetricDistance here = symmetric_distance(a, b, options);
+      const HausdorffDistance here = hausdorff_distance(a, b, options);
       if (here.bounds.lower == alone.bounds.lower && here.bounds.upper == alone.bounds.upper) ++same;
     }
 #pragma omp single
     for (int i = 0; i < 6; ++i) {
 #pragma omp task shared(a, b, options, alone, same)
       {
-        const SymmetricDistance here = symmetric_distance(a, b, options);
+        const HausdorffDistance here = hausdorff_distance(a, b, options);
         if (here.bounds.lower == alone.bounds.lower && here.bounds.upper == alone.bounds.upper) ++same;
       }
     }
@@ -292,18 +292,18 @@ TEST(SymmetricDistance, IsTheSameOnThreadsOfTheCallersOwn) {
   EXPECT_EQ(same, 12);
 }
 
-TEST(CheckSymmetric, DecidesOnBothSidesOfTheDistance) {
+TEST(CheckTolerance, DecidesOnBothSidesOfTheDistance) {
   const TriangleMesh a = random_soup(23, 40, 0.3), b = random_soup(24, 40, 0.3);
   const Bvh tree_a(a), tree_b(b);
   DistanceOptions tight;
   tight.error_bound = 1e-10;
-  const Bounds truth = symmetric_distance(tree_a, tree_b, tight).bounds;
+  const Bounds truth = hausdorff_distance(tree_a, tree_b, tight).bounds;
   for (const double factor : {1e-8, 1e-5, 1e-2, 0.5}) {
-    const ToleranceCheck within = check_symmetric(tree_a, tree_b, truth.upper * (1 + factor));
+    const ToleranceCheck within = check_tolerance(tree_a, tree_b, truth.upper * (1 + factor));
     EXPECT_EQ(within.verdict, Verdict::Within);
     EXPECT_LE(within.bounds.upper, within.tolerance);
     EXPECT_GE(within.bounds.upper, truth.lower);
-    const ToleranceCheck exceeds = check_symmetric(tree_a, tree_b, truth.lower * (1 - factor));
+    const ToleranceCheck exceeds = check_tolerance(tree_a, tree_b, truth.lower * (1 - factor));
     EXPECT_EQ(exceeds.verdict, Verdict::Exceeds);
     EXPECT_GT(exceeds.bounds.lower, exceeds.tolerance);
     EXPECT_LE(exceeds.bounds.lower, truth.upper);
@@ -311,40 +311,40 @@ TEST(CheckSymmetric, DecidesOnBothSidesOfTheDistance) {
   }
 }
 
-TEST(CheckSymmetric, LooksAtBothDirections) {
+TEST(CheckTolerance, LooksAtBothDirections) {
   const TriangleMesh part = unit_square(2);
   const TriangleMesh whole = both(part, moved(part, {0, 0, 1}));
-  EXPECT_EQ(check_symmetric(Bvh(part), Bvh(whole), 0.5).verdict, Verdict::Exceeds);
-  EXPECT_EQ(check_symmetric(Bvh(whole), Bvh(part), 0.5).verdict, Verdict::Exceeds);
-  EXPECT_EQ(check_one_sided(Bvh(part), Bvh(whole), 0.5).verdict, Verdict::Within);
+  EXPECT_EQ(check_tolerance(Bvh(part), Bvh(whole), 0.5).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_tolerance(Bvh(whole), Bvh(part), 0.5).verdict, Verdict::Exceeds);
+  EXPECT_EQ(check_one_sided_tolerance(Bvh(part), Bvh(whole), 0.5).verdict, Verdict::Within);
 }
 
-TEST(CheckSymmetric, DoesNotSearchBackWhenForwardExceeds) {
-  const ToleranceCheck result = check_symmetric(Bvh(cube(2)), Bvh(cube(1)), 0.5);
+TEST(CheckTolerance, DoesNotSearchBackWhenForwardExceeds) {
+  const ToleranceCheck result = check_tolerance(Bvh(cube(2)), Bvh(cube(1)), 0.5);
   EXPECT_EQ(result.verdict, Verdict::Exceeds);
   EXPECT_EQ(result.b_to_a.bounds.lower, 0);
   EXPECT_EQ(result.b_to_a.bounds.upper, std::numeric_limits<double>::infinity());
 }
 
-TEST(CheckSymmetric, IsUndecidedWhenABudgetRunsOut) {
+TEST(CheckTolerance, IsUndecidedWhenABudgetRunsOut) {
   const Bvh a(icosphere(3)), b(random_soup(31, 60, 0.5));
-  const Bounds truth = symmetric_distance(a, b).bounds;
+  const Bounds truth = hausdorff_distance(a, b).bounds;
   std::atomic<bool> cancelled = true;
   DistanceOptions no_time, cancel;
   no_time.budget.seconds = 0;
   cancel.cancel = &cancelled;
   for (const DistanceOptions& options : {no_time, cancel}) {
-    const ToleranceCheck result = check_symmetric(a, b, truth.upper, options);
+    const ToleranceCheck result = check_tolerance(a, b, truth.upper, options);
     EXPECT_EQ(result.verdict, Verdict::Undecided);
     expect_meets(result.bounds, truth);
-    expect_meets(symmetric_distance(a, b, options).bounds, truth);
+    expect_meets(hausdorff_distance(a, b, options).bounds, truth);
   }
 }
 
 /// Early or late, before the first step or in the middle of one: several threads are at work.
-TEST(SymmetricDistance, HoldsWhenAnotherThreadCancelsIt) {
+TEST(HausdorffDistance, HoldsWhenAnotherThreadCancelsIt) {
   const Bvh a(icosphere(5)), b(random_soup(37, 5000, 0.3));
-  const Bounds truth = symmetric_distance(a, b).bounds;
+  const Bounds truth = hausdorff_distance(a, b).bounds;
   for (int microseconds = 1; microseconds < 50000; microseconds *= 2) {
     std::atomic<bool> cancelled = false;
     DistanceOptions options;
@@ -355,15 +355,15 @@ TEST(SymmetricDistance, HoldsWhenAnotherThreadCancelsIt) {
       std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
       cancelled = true;
     });
-    const SymmetricDistance result = symmetric_distance(a, b, options);
+    const HausdorffDistance result = hausdorff_distance(a, b, options);
     other.join();
     expect_meets(result.bounds, truth);
   }
 }
 
-TEST(CheckSymmetric, RefusesAToleranceThatIsNotOne) {
-  EXPECT_THROW((void)check_symmetric(Bvh(cube(1)), Bvh(cube(1)), -1.0), InvalidInput);
-  EXPECT_THROW((void)check_symmetric(Bvh(cube(1)), Bvh(cube(1)), std::nan("")), InvalidInput);
+TEST(CheckTolerance, RefusesAToleranceThatIsNotOne) {
+  EXPECT_THROW((void)check_tolerance(Bvh(cube(1)), Bvh(cube(1)), -1.0), InvalidInput);
+  EXPECT_THROW((void)check_tolerance(Bvh(cube(1)), Bvh(cube(1)), std::nan("")), InvalidInput);
 }
 
 }  // namespace

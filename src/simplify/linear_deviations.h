@@ -4,29 +4,29 @@
 #include <span>
 #include <vector>
 
-#include "simplify/sampled_slope.h"
+#include "simplify/sample_kernel.h"
 
 namespace meshbound {
 
-/// Distances of sample points as linear functions of the motion d of one vertex: height - (x, y, z).d, in blocks of
+/// Distances of sample points as linear functions of the motion d of one vertex: deviation - (x, y, z).d, in blocks of
 /// eight. A point whose closest point lies on a moved face at the barycentric share s of the vertex, in direction n,
 /// has the slope s n; the closest points stay where they are on their faces.
-struct LinearHeights {
+struct LinearDeviations {
   struct alignas(32) Block {
-    float height[8] = {}, x[8] = {}, y[8] = {}, z[8] = {};
+    float deviation[8] = {}, x[8] = {}, y[8] = {}, z[8] = {};
     bool operator==(const Block&) const = default;
   };
   std::vector<Block> blocks;
 
   /// In a block of its own.
-  void add(float height, float slope_x, float slope_y, float slope_z) {
+  void add(float deviation, float slope_x, float slope_y, float slope_z) {
     Block& block = blocks.emplace_back();
-    block.height[0] = height;
+    block.deviation[0] = deviation;
     block.x[0] = slope_x, block.y[0] = slope_y, block.z[0] = slope_z;
   }
 };
 
-/// Sums over heights h with slopes g and weights w = |h|^(p - 2): the normal equations of the step that lowers them.
+/// Sums over deviations h with slopes g and weights w = |h|^(p - 2): the normal equations of the step that lowers them.
 struct WeightedSums {
   float weight = 0, square = 0;      ///< of w and of w h^2
   std::array<float, 3> right = {};   ///< of w h g
@@ -34,20 +34,20 @@ struct WeightedSums {
 };
 
 /// The inner loops, chosen once, by processor; all give the same result to the bit.
-struct HeightKernel {
+struct DeviationKernel {
   static constexpr std::size_t shares = 8;
   using Move = std::array<float, 3>;
 
   /// Of each point over the face nearest to it, when corner a of every face is moved. Lengths times `by_tolerance`.
   void (*linearise)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
-                    LinearHeights& heights);
-  /// After the move, for p = 2^(doublings + 1). `scale` times the largest height must be about 1 or less.
-  WeightedSums (*weighted_sums)(const LinearHeights& heights, const Move& move, float scale, int doublings);
-  /// The largest height after the move and each of eight shares of a step beyond.
-  std::array<float, shares> (*largest_along)(const LinearHeights& heights, const Move& move, const Move& step,
+                    LinearDeviations& deviations);
+  /// After the move, for p = 2^(doublings + 1). `scale` times the largest deviation must be about 1 or less.
+  WeightedSums (*weighted_sums)(const LinearDeviations& deviations, const Move& move, float scale, int doublings);
+  /// The largest deviation after the move and each of eight shares of a step beyond.
+  std::array<float, shares> (*largest_along)(const LinearDeviations& deviations, const Move& move, const Move& step,
                                              const std::array<float, shares>& share);
 };
-[[nodiscard]] HeightKernel portable_height_kernel();
-[[nodiscard]] HeightKernel fastest_height_kernel();
+[[nodiscard]] DeviationKernel portable_deviation_kernel();
+[[nodiscard]] DeviationKernel fastest_deviation_kernel();
 
 }  // namespace meshbound

@@ -24,11 +24,11 @@ namespace meshbound::verify {
 ///
 /// Drawing in costs tolerance / 1024, so `limit` is 1023 / 1024 of the tolerance. P grows from a seed over the edges
 /// that are not clear of Q; any P is as good, as all three conditions are checked for what has grown.
-class DegreeProof {
+class ParityCheck {
  public:
-  /// `mesh` must outlive this. What comes after `most_work` is no proof.
-  DegreeProof(const TriangleMesh& mesh, double tolerance,
-              std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max());
+  /// `mesh` must outlive this. What comes after `max_work` is no proof.
+  ParityCheck(const TriangleMesh& mesh, double tolerance,
+              std::uint64_t max_work = std::numeric_limits<std::uint64_t>::max());
 
   /// Whether P, grown from `seed`, proves that the piece of `triangle` is within the tolerance.
   [[nodiscard]] bool proves(const Corners& triangle, PieceCorners& corners, const Piece& piece, std::uint32_t seed);
@@ -75,7 +75,7 @@ class DegreeProof {
 
   const TriangleMesh& mesh_;
   double tolerance_;
-  std::uint64_t most_work_;
+  std::uint64_t max_work_;
   std::vector<std::array<std::uint32_t, 3>> edges_of_;  ///< by triangle; `no_edge` where two of its corners coincide
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> users_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "simplify/sampled_slope.h"
+#include "simplify/sample_kernel.h"
 
 #include "numeric/vector_code.h"
-#include "simplify/sampled_slope_impl.h"
+#include "simplify/sample_kernel_impl.h"
 
 namespace meshbound {
 namespace {
@@ -12,7 +12,7 @@ float reciprocal(float x) { return x > 0 ? 1 / x : 0; }
 
 }  // namespace
 
-SlopeKernel avx2_slope_kernel();
+SampleKernel avx2_sample_kernel();
 
 SampleFace::SampleFace(Vec3 corner, Vec3 second, Vec3 third)
     : a(rounded(corner)), ab(rounded(second - corner)), ac(rounded(third - corner)) {
@@ -25,7 +25,7 @@ SampleFace::SampleFace(Vec3 corner, Vec3 second, Vec3 third)
   by_bc = reciprocal(ab_ab - 2 * ab_ac + ac_ac);
 }
 
-void SlopeSums::add(Vec3 offset, double share) {
+void DeviationSums::add(Vec3 offset, double share) {
   const double squared = squared_length(offset), fourth = squared * squared;
   const double o[3] = {offset.x, offset.y, offset.z};
   sum += fourth * squared;
@@ -37,13 +37,13 @@ void SlopeSums::add(Vec3 offset, double share) {
   }
 }
 
-SlopeKernel portable_slope_kernel() { return {offsets, drop_far, add_slope}; }
+SampleKernel portable_sample_kernel() { return {offsets, drop_far, add_deviations}; }
 
-SlopeKernel fastest_slope_kernel() {
+SampleKernel fastest_sample_kernel() {
 #if defined(MESHBOUND_HAS_AVX2)
-  if (uses_avx2()) return avx2_slope_kernel();
+  if (uses_avx2()) return avx2_sample_kernel();
 #endif
-  return portable_slope_kernel();
+  return portable_sample_kernel();
 }
 
 }  // namespace meshbound

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/degree_proof.h"
+#include "verify/parity_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,13 +50,13 @@ double scale_of(const Corners& triangle) {
 
 }  // namespace
 
-DegreeProof::DegreeProof(const TriangleMesh& mesh, double tolerance, std::uint64_t most_work)
-    : mesh_(mesh), tolerance_(tolerance), most_work_(most_work), visited_(mesh.triangles.size(), 0) {
+ParityCheck::ParityCheck(const TriangleMesh& mesh, double tolerance, std::uint64_t max_work)
+    : mesh_(mesh), tolerance_(tolerance), max_work_(max_work), visited_(mesh.triangles.size(), 0) {
   find_edges();
 }
 
 /// Triangles of which two corners coincide are left out: they have no area, and are never needed for P.
-void DegreeProof::find_edges() {
+void ParityCheck::find_edges() {
   struct Side {
     std::uint32_t low, high, triangle, corner;
     bool operator<(const Side& other) const { return std::tie(low, high) < std::tie(other.low, other.high); }
@@ -83,7 +83,7 @@ void DegreeProof::find_edges() {
 }
 
 template <class Number>
-DegreeProof::Seen<Number> DegreeProof::see(const View<Number>& view, std::uint32_t vertex) const {
+ParityCheck::Seen<Number> ParityCheck::see(const View<Number>& view, std::uint32_t vertex) const {
   const Vec<Number> p = Number(scale_) * (to_vec<Number>(mesh_.vertices[vertex]) - view.origin);
   return {dot(view.x_axis, p), dot(view.y_axis, p), dot(view.z_axis, p)};
 }
@@ -91,7 +91,7 @@ DegreeProof::Seen<Number> DegreeProof::see(const View<Number>& view, std::uint32
 /// Seen along two sides of the triangle, which span its plane. The triangle is counter-clockwise there, the Gram
 /// determinant of the sides being positive, and so are its pieces.
 template <class Number, class CornerAt>
-DegreeProof::View<Number> DegreeProof::make_view(const CornerAt& corner_at) const {
+ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) const {
   View<Number> view;
   view.origin = to_vec<Number>((*triangle_)[0]);
   view.x_axis = Number(scale_) * (to_vec<Number>((*triangle_)[1]) - view.origin);
@@ -110,7 +110,7 @@ DegreeProof::View<Number> DegreeProof::make_view(const CornerAt& corner_at) cons
 
 /// No corner of the piece moves by more than the share of the tolerance, and so no point of it.
 template <class Number, class CornerAt>
-bool DegreeProof::drawn_in_enough(const CornerAt& corner_at) const {
+bool ParityCheck::drawn_in_enough(const CornerAt& corner_at) const {
   const std::size_t n = piece_->size();
   const Vec<Number> middle = middle_of<Number>(n, corner_at);
   const Number allowed = Number(scale_) * Number(tolerance_) * Number(drawn_in_share);
@@ -122,7 +122,7 @@ bool DegreeProof::drawn_in_enough(const CornerAt& corner_at) const {
   return true;
 }
 
-const DegreeProof::View<Exact>& DegreeProof::exact_view() {
+const ParityCheck::View<Exact>& ParityCheck::exact_view() {
   work_ += exact_cost;
   if (!exact_)
     exact_ = make_view<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
@@ -130,7 +130,7 @@ const DegreeProof::View<Exact>& DegreeProof::exact_view() {
 }
 
 /// Chooses the share by doubles, then proves it.
-bool DegreeProof::draw_in(const PieceCorners& corners, const Piece& piece) {
+bool ParityCheck::draw_in(const PieceCorners& corners, const Piece& piece) {
   const auto rough = [&](std::size_t i) -> const Vec<Interval>& { return corners.rough(piece[i]); };
   const Vec<Interval> middle = middle_of<Interval>(piece.size(), rough);
   double reach = 0;
@@ -147,7 +147,7 @@ bool DegreeProof::draw_in(const PieceCorners& corners, const Piece& piece) {
 
 /// What the triangle has above and below the window, by clipping.
 template <class Number>
-bool DegreeProof::heights_hold(const View<Number>& view, std::uint32_t triangle) const {
+bool ParityCheck::heights_hold(const View<Number>& view, std::uint32_t triangle) const {
   std::vector<Seen<Number>> polygon;
   for (const std::uint32_t vertex : mesh_.triangles[triangle]) polygon.push_back(see(view, vertex));
   const auto is_low = [&](const Seen<Number>& p) {
@@ -182,7 +182,7 @@ bool DegreeProof::heights_hold(const View<Number>& view, std::uint32_t triangle)
 /// A line along a side of the window or along the edge separates the two, if anything does: these are the directions
 /// of the sides of their difference.
 template <class Number>
-bool DegreeProof::is_clear(const View<Number>& view, const Edge& edge) const {
+bool ParityCheck::is_clear(const View<Number>& view, const Edge& edge) const {
   const Seen<Number> p = see(view, edge.low), q = see(view, edge.high);
   const std::size_t sides = view.window.size();
   for (std::size_t side = 0; side < sides; ++side) {
@@ -202,7 +202,7 @@ bool DegreeProof::is_clear(const View<Number>& view, const Edge& edge) const {
 /// that a vertex at the height of the ray counts for one of two edges. Of an edge that an even number of triangles have
 /// any answer is right, as long as it is the same for all of them.
 template <class Number>
-std::optional<bool> DegreeProof::crosses_ray(const View<Number>& view, const Edge& edge) const {
+std::optional<bool> ParityCheck::crosses_ray(const View<Number>& view, const Edge& edge) const {
   const Seen<Number>& from = view.window[0];
   Seen<Number> low = see(view, edge.low), high = see(view, edge.high);
   const Number low_side = low.y - from.y, high_side = high.y - from.y;
@@ -218,7 +218,7 @@ std::optional<bool> DegreeProof::crosses_ray(const View<Number>& view, const Edg
   return std::nullopt;
 }
 
-bool DegreeProof::grow(std::uint32_t seed) {
+bool ParityCheck::grow(std::uint32_t seed) {
   if (++round_ == 0) {
     std::fill(visited_.begin(), visited_.end(), 0);
     round_ = 1;
@@ -228,7 +228,7 @@ bool DegreeProof::grow(std::uint32_t seed) {
   bool odd = false;
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const std::uint32_t triangle = patch_[i];
-    if (++work_ > most_work_) return false;
+    if (++work_ > max_work_) return false;
     if (edges_of_[triangle][0] == no_edge) return false;
     if (!heights_hold(rough_, triangle) && !heights_hold(exact_view(), triangle)) return false;
     for (const std::uint32_t index : edges_of_[triangle]) {
@@ -251,7 +251,7 @@ bool DegreeProof::grow(std::uint32_t seed) {
   return odd;
 }
 
-bool DegreeProof::proves(const Corners& triangle, PieceCorners& corners, const Piece& piece, std::uint32_t seed) {
+bool ParityCheck::proves(const Corners& triangle, PieceCorners& corners, const Piece& piece, std::uint32_t seed) {
   triangle_ = &triangle;
   corners_ = &corners;
   piece_ = &piece;

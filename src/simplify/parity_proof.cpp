@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simplify/degree_cover.h"
+#include "simplify/parity_proof.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@ namespace {
 /// Tests against the sides of T' are relaxed by this share of the tolerance. Coordinates in the view carry errors of
 /// less than 2^-47 of the largest coordinate, sides 2^-45; `set_view` gives up where the rim is not wider.
 constexpr double rim_share = 1e-6;
-constexpr double least_rim = 0x1p-44;
+constexpr double min_rim = 0x1p-44;
 
 /// A patch of more triangles belongs to a face so large that cutting it is no slower.
 constexpr std::size_t largest_patch = 20000;
 
 /// A triangle clipped by three lines has at most six corners.
-constexpr std::size_t most_clipped = 8;
+constexpr std::size_t max_clipped = 8;
 
 std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& vertices) {
   std::vector<std::uint32_t> order(vertices.size()), first(vertices.size());
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& vertices) {
 
 }  // namespace
 
-DegreeCover::DegreeCover(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
+ParityProof::ParityProof(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles)
     : vertices_(vertices), triangles_(triangles), visited_(triangles.size(), 0) {
   find_neighbours();
 }
@@ -43,7 +43,7 @@ DegreeCover::DegreeCover(const std::vector<Vec3>& vertices, const std::vector<st
 /// Neighbours across edges of exactly two triangles, vertices of equal coordinates being one. Any other edge counts as
 /// boundary, which can only make a proof fail. Sides are sorted by their lower vertex, and compared with the others
 /// there.
-void DegreeCover::find_neighbours() {
+void ParityProof::find_neighbours() {
   const std::vector<std::uint32_t> first = first_of_equal(vertices_);
   neighbours_.assign(triangles_.size(), {no_neighbour, no_neighbour, no_neighbour});
   const auto for_each_side = [&](const auto& use) {
@@ -68,7 +68,7 @@ void DegreeCover::find_neighbours() {
 }
 
 /// Sides that have one vertex in common.
-void DegreeCover::match(std::span<Side> sides) {
+void ParityProof::match(std::span<Side> sides) {
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.high < b.high; });
   for (std::size_t i = 0, j; i < sides.size(); i = j) {
     for (j = i + 1; j < sides.size() && sides[j].high == sides[i].high;) ++j;
@@ -78,15 +78,15 @@ void DegreeCover::match(std::span<Side> sides) {
   }
 }
 
-DegreeCover::Projected DegreeCover::project(Vec3 p) const {
+ParityProof::Projected ParityProof::project(Vec3 p) const {
   const Vec3 q = p - origin_;
   return {dot(q, x_axis_), dot(q, y_axis_), dot(q, z_axis_)};
 }
 
 /// Axes, T' and its sides. False where the face is too thin, or the tolerance too small for doubles at this size.
-bool DegreeCover::set_view(const std::array<Vec3, 3>& face, double tolerance, double magnitude) {
+bool ParityProof::set_view(const std::array<Vec3, 3>& face, double tolerance, double magnitude) {
   rim_ = rim_share * tolerance;
-  if (!(rim_ > least_rim * magnitude)) return false;
+  if (!(rim_ > min_rim * magnitude)) return false;
   origin_ = face[0];
   const Vec3 ab = face[1] - face[0], ac = face[2] - face[0];
   const Vec3 normal = cross(ab, ac);
@@ -130,7 +130,7 @@ bool DegreeCover::set_view(const std::array<Vec3, 3>& face, double tolerance, do
   return true;
 }
 
-DegreeCover::Beyond DegreeCover::beyond(const ProjectedTriangle& t) const {
+ParityProof::Beyond ParityProof::beyond(const ProjectedTriangle& t) const {
   Beyond beyond;
   for (std::size_t side = 0; side < 3; ++side) {
     for (std::size_t k = 0; k < 3; ++k) beyond[side][k] = outside(side, t[k]);
@@ -139,12 +139,12 @@ DegreeCover::Beyond DegreeCover::beyond(const ProjectedTriangle& t) const {
 }
 
 /// Clips the triangle to the prism over T' and its rim, and looks at the heights of what is left.
-bool DegreeCover::heights_within(const ProjectedTriangle& t, const Beyond& beyond) const {
+bool ParityProof::heights_within(const ProjectedTriangle& t, const Beyond& beyond) const {
   if (std::max({std::abs(t[0].h), std::abs(t[1].h), std::abs(t[2].h)}) <= height_limit_) return true;
   for (const auto& of_side : beyond) {
     if (std::min({of_side[0], of_side[1], of_side[2]}) > rim_) return true;
   }
-  std::array<Projected, most_clipped> polygon{t[0], t[1], t[2]}, clipped;
+  std::array<Projected, max_clipped> polygon{t[0], t[1], t[2]}, clipped;
   std::size_t count = 3;
   for (std::size_t side = 0; side < 3; ++side) {
     std::size_t kept = 0;
@@ -165,7 +165,7 @@ bool DegreeCover::heights_within(const ProjectedTriangle& t, const Beyond& beyon
 }
 
 /// True when a line separates the projected edge from T' by more than the rim.
-bool DegreeCover::edge_is_clear(const ProjectedTriangle& t, std::size_t k, const Beyond& beyond) const {
+bool ParityProof::edge_is_clear(const ProjectedTriangle& t, std::size_t k, const Beyond& beyond) const {
   const std::size_t j = (k + 1) % 3;
   for (const auto& of_side : beyond) {
     if (of_side[k] > rim_ && of_side[j] > rim_) return true;
@@ -183,7 +183,7 @@ bool DegreeCover::edge_is_clear(const ProjectedTriangle& t, std::size_t k, const
 }
 
 /// Whether a ray from the centre of T' crosses the outline of the projected triangle an odd number of times.
-bool DegreeCover::above_centre(const ProjectedTriangle& t) const {
+bool ParityProof::above_centre(const ProjectedTriangle& t) const {
   bool odd = false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Projected* low = &t[k];
@@ -196,7 +196,7 @@ bool DegreeCover::above_centre(const ProjectedTriangle& t) const {
   return odd;
 }
 
-bool DegreeCover::covers(const std::array<Vec3, 3>& face, double tolerance, double magnitude, std::uint32_t seed) {
+bool ParityProof::covers(const std::array<Vec3, 3>& face, double tolerance, double magnitude, std::uint32_t seed) {
   if (!set_view(face, tolerance, magnitude)) return false;
   ++round_;
   patch_.assign(1, seed);

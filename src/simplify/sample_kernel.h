@@ -47,7 +47,7 @@ struct SampleFace {
 
 /// The sum over points of (distance / tolerance)^6, with its slope when corner a of every face is moved: for Newton's
 /// method, distances as to a plane through the closest point.
-struct SlopeSums {
+struct DeviationSums {
   double sum = 0, worst_squared = 0;  ///< the largest (distance / tolerance)^2
   double gradient[3] = {0, 0, 0};
   double curvature[6] = {0, 0, 0, 0, 0, 0};  ///< xx, yy, zz, xy, yz, zx
@@ -63,15 +63,16 @@ struct alignas(32) SampleOffsets {
 };
 
 /// The inner loops, chosen once, by processor; all give the same result to the bit.
-struct SlopeKernel {
+struct SampleKernel {
   /// By block of points. At least one face.
   void (*offsets)(const SamplePoints& points, std::span<const SampleFace> faces, std::vector<SampleOffsets>& offsets);
   /// Weight 0 for points further than `tolerance` from all faces.
   void (*drop_far)(SamplePoints& points, std::span<const SampleFace> faces, float tolerance);
   /// Adds the points, each against the face nearest to it. `by_tolerance` is 1 / tolerance.
-  void (*add_slope)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance, SlopeSums& sums);
+  void (*add_deviations)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
+                         DeviationSums& sums);
 };
-[[nodiscard]] SlopeKernel portable_slope_kernel();
-[[nodiscard]] SlopeKernel fastest_slope_kernel();
+[[nodiscard]] SampleKernel portable_sample_kernel();
+[[nodiscard]] SampleKernel fastest_sample_kernel();
 
 }  // namespace meshbound

@@ -13,7 +13,7 @@
 
 namespace meshbound {
 
-/// How `Searcher::sweep` bounded a triangle.
+/// How `SearchKernel::sweep` bounded a triangle.
 enum class Swept {
   NotAtAll,
   NotNear,  ///< not even the centroid is within the target: the hint may have been a bad one
@@ -23,9 +23,9 @@ enum class Swept {
 
 /// One thread's search against one tree: the inner loops behind one interface, so that the instruction set is chosen
 /// once, at run time. Points are in the working frame of the tree. Not thread-safe; the tree may be shared.
-class Searcher {
+class SearchKernel {
  public:
-  virtual ~Searcher() = default;
+  virtual ~SearchKernel() = default;
 
   /// Starts a new batch from a proven lower bound; the upper bound starts at 0.
   virtual void begin(const LowerBound& lower) = 0;
@@ -70,8 +70,8 @@ class Searcher {
   [[nodiscard]] virtual const WalkCounters& counters() const = 0;
 };
 
-/// The fastest searcher this machine runs. All of them give the same results to the last bit.
-std::unique_ptr<Searcher> make_searcher(const Bvh::Data& target, const Goal& goal);
+/// The fastest kernel this machine runs. All of them give the same results to the last bit.
+std::unique_ptr<SearchKernel> make_search_kernel(const Bvh::Data& target, const Goal& goal);
 
 /// Sets the rounding slacks of a goal (numeric/rounding.h): `magnitude` bounds all coordinates, `model_error` is what
 /// the coordinates themselves may be off.

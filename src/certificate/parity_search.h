@@ -25,11 +25,11 @@ struct PatchNeighbours {
 /// (tools/schema/certificate-1.md): the patch P, grown from a seed, has nothing too high over the piece, no edge with
 /// one triangle across it, and an odd degree. Whatever comes near a limit counts as a failure, so that the reader's
 /// exact decisions are the same. Not thread-safe.
-class DegreeSearch {
+class ParitySearch {
  public:
   /// `goal` gives the tolerance and the slack, in B's working frame; `magnitude` bounds all coordinates there. `target`
   /// and `neighbours` must outlive this. O(n).
-  DegreeSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
+  ParitySearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
                std::size_t patch_limit);
 
   /// For a piece of `triangle`, with the triangle of B at `seed`, all in B's working frame. O(size of the patch).

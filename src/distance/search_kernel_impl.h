@@ -4,15 +4,15 @@
 
 #include "distance/cell_walker.h"
 #include "distance/group_traversal.h"
-#include "distance/searcher.h"
+#include "distance/search_kernel.h"
 #include "distance/subdivision.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
-class SearcherImpl final : public Searcher {
+class SearchKernelImpl final : public SearchKernel {
  public:
-  SearcherImpl(const Bvh::Data& target, const Goal& goal) : walker_(target, goal) {}
+  SearchKernelImpl(const Bvh::Data& target, const Goal& goal) : walker_(target, goal) {}
 
   void begin(const LowerBound& lower) override { walker_.begin(lower); }
 
