@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "distance/piece.h"
-#include "distance/search_kernel.h"
-#include "distance/subdivision.h"
+#include "distance/kernel/search_kernel.h"
+#include "distance/paper/subdivision.h"
 #include "meshbound/distance.h"
+#include "proof/piece.h"
 #include "reference/brute_force.h"
 #include "reference/claims.h"
 #include "reference/small_meshes.h"

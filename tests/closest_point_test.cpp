@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
-#include "distance/point_query.h"
+#include "distance/kernel/point_query.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"

@@ -10,8 +10,8 @@
 
 #include "certificate/cut_search.h"
 #include "certificate/encoder.h"
-#include "distance/point_like.h"
-#include "distance/search_kernel.h"
+#include "distance/kernel/search_kernel.h"
+#include "distance/shortcuts/point_like.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "numeric/first_error.h"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "certificate/proof_node.h"
-#include "distance/piece.h"
+#include "proof/piece.h"
 
 namespace meshbound {
 

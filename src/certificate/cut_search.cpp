@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "certificate/cell_planes.h"
+#include "proof/cell_planes.h"
 
 namespace meshbound {
 namespace {

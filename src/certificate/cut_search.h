@@ -8,13 +8,13 @@
 #include "certificate/chord_cut.h"
 #include "certificate/parity_search.h"
 #include "certificate/proof_node.h"
-#include "distance/goal.h"
-#include "distance/piece.h"
+#include "proof/goal.h"
+#include "proof/piece.h"
 
 namespace meshbound {
 
 /// Finds the cuts after which each piece of a triangle is near one triangle of B: the walk over the cells of B
-/// (distance/cell_walker.h), with cuts that few bytes can say, and written down. Not thread-safe.
+/// (distance/kernel/cell_walker.h), with cuts that few bytes can say, and written down. Not thread-safe.
 class CutSearch {
  public:
   /// `goal` gives the tolerance and the slacks, in B's working frame, `magnitude` bounds all coordinates there.

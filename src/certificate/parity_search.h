@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
-#include "distance/goal.h"
-#include "distance/piece.h"
+#include "proof/goal.h"
+#include "proof/piece.h"
 
 namespace meshbound {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
-#include "distance/point_like.h"
-#include "distance/point_query.h"
-#include "distance/search_kernel.h"
+#include "distance/kernel/point_query.h"
+#include "distance/kernel/search_kernel.h"
+#include "distance/shortcuts/point_like.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "bvh/bvh_data.h"
-#include "distance/one_sided.h"
+#include "distance/search/one_sided.h"
 #include "distance/symmetric.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "distance/point_like.h"
-#include "distance/search_kernel.h"
+#include "distance/kernel/search_kernel.h"
+#include "distance/shortcuts/point_like.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "distance/search_memory.h"
+#include "distance/search/search_memory.h"
 #include "meshbound/distance.h"
 
 namespace meshbound {

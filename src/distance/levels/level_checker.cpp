@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/level_checker.h"
+
+#include <optional>
+
+#include "distance/levels/level_surface.h"
+#include "distance/symmetric.h"
+
+namespace meshbound {
+namespace {
+
+template <class T>
+std::size_t bytes(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
+std::size_t bytes(const SearchMemory& memory) {
+  return bytes(memory.proofs) + bytes(memory.faces) + bytes(memory.hints);
+}
+
+/// All that is known of the level before: true of the original with the tree of that serial number.
+struct Known {
+  std::uint64_t original_serial = 0;
+  LevelSurface level;
+  SearchMemory from_original;  ///< faces are slots of the level's tree
+  SearchMemory from_level;
+};
+
+}  // namespace
+
+struct LevelChecker::Impl {
+  explicit Impl(const Bvh& model) : original(&model) {}
+  Impl(const MeshView& model, const BvhOptions& options) : own(std::in_place, model, options), original(&*own) {}
+
+  /// What is known of a new level before it is searched.
+  [[nodiscard]] Known inherit(const Bvh::Data& tree, const MeshView& level) const {
+    Known next;
+    next.original_serial = original->data().serial;
+    next.level = LevelSurface(tree, level);
+    if (known && known->original_serial == next.original_serial) {
+      const Successors successors(known->level, next.level);
+      next.from_original = inherited_by_original(known->from_original, successors);
+      next.from_level = inherited_by_level(known->from_level, successors, tree);
+    } else {
+      next.from_original.reset(original->data());
+      next.from_level.reset(tree);
+    }
+    next.from_level.names_faces = false;
+    return next;
+  }
+
+  /// search(tree, memory) -> result. What is known is replaced only when all went well.
+  template <class Search>
+  auto with_level(const MeshView& level, int threads, Search&& search) {
+    const Bvh tree(level, {.threads = threads});
+    Known next = inherit(tree.data(), level);
+    auto result = search(tree, HausdorffMemory{&next.from_original, &next.from_level});
+    known = std::move(next);
+    return result;
+  }
+
+  std::optional<Bvh> own;
+  const Bvh* original;
+  std::optional<Known> known;
+};
+
+LevelChecker::LevelChecker(const MeshView& original, const BvhOptions& options)
+    : impl_(std::make_unique<Impl>(original, options)) {}
+LevelChecker::LevelChecker(const Bvh& original) : impl_(std::make_unique<Impl>(original)) {}
+LevelChecker::LevelChecker(LevelChecker&&) noexcept = default;
+LevelChecker& LevelChecker::operator=(LevelChecker&&) noexcept = default;
+LevelChecker::~LevelChecker() = default;
+
+ToleranceCheck LevelChecker::check(const MeshView& level, double tolerance, const DistanceOptions& options) {
+  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const HausdorffMemory& memory) {
+    return check_tolerance(*impl_->original, tree, tolerance, options, memory);
+  });
+}
+
+HausdorffDistance LevelChecker::measure(const MeshView& level, const DistanceOptions& options) {
+  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const HausdorffMemory& memory) {
+    return hausdorff_distance(*impl_->original, tree, options, memory);
+  });
+}
+
+const Bvh& LevelChecker::original() const { return *impl_->original; }
+
+std::size_t LevelChecker::memory_bytes() const {
+  if (!impl_->known) return sizeof(Impl);
+  const Known& known = *impl_->known;
+  return sizeof(Impl) + bytes(known.level.vertices) + bytes(known.level.corners) + bytes(known.from_original) +
+         bytes(known.from_level);
+}
+
+}  // namespace meshbound
