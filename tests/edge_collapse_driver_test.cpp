@@ -82,7 +82,7 @@ TEST(EdgeCollapseDriver, HoldsTheBoundWithAboutAsManyFacesAsTheQueueOfTheCore) {
       EXPECT_EQ(check_tolerance(Bvh(shape.mesh), Bvh(level.mesh), shape.tolerance).verdict, Verdict::Within);
     }
     const auto faces = static_cast<double>(own.faces());
-    EXPECT_NEAR(static_cast<double>(cgal.faces()), faces, std::max(10.0, 0.03 * faces));
+    EXPECT_NEAR(static_cast<double>(cgal.faces()), faces, std::max(20.0, 0.05 * faces));
   }
 }
 

@@ -37,6 +37,8 @@ void expect_within(const TriangleMesh& original, const SimplifiedLevel& level) {
   EXPECT_EQ(check_tolerance(Bvh(original), Bvh(level.mesh), level.tolerance).verdict, Verdict::Within);
 }
 
+constexpr std::size_t min_vertices = 4000;
+
 std::vector<std::size_t> sizes(const Split& split) {
   std::vector<std::size_t> sizes(split.regions.size(), 0);
   for (const std::uint32_t r : split.region_of) {
@@ -47,9 +49,9 @@ std::vector<std::size_t> sizes(const Split& split) {
 
 TEST(Split, CutsLargeMeshesIntoRegionsOfEqualSizeAndLeavesSmallOnesWhole) {
   const test::StateOf small(datasets::icosphere(1, 4));
-  EXPECT_EQ(split(*small, 0).regions.size(), 1u);
+  EXPECT_EQ(split(*small, 0, min_vertices).regions.size(), 1u);
   const test::StateOf large(datasets::icosphere(1, 6));
-  const Split halved = split(*large, 0);
+  const Split halved = split(*large, 0, min_vertices);
   ASSERT_GT(halved.regions.size(), 2u);
   const double even = static_cast<double>(large->mesh.vertex_count()) / static_cast<double>(halved.regions.size());
   for (const std::size_t vertices : sizes(halved)) EXPECT_NEAR(static_cast<double>(vertices), even, 4);
@@ -58,27 +60,31 @@ TEST(Split, CutsLargeMeshesIntoRegionsOfEqualSizeAndLeavesSmallOnesWhole) {
 /// Otherwise an edge at a seam of one would be at a seam of the other too, and never tried.
 TEST(Split, CutsElsewhereWhereItIsShifted) {
   const test::StateOf state(datasets::icosphere(1, 6));
-  const Split one = split(*state, 0), other = split(*state, 1);
-  std::size_t at_a_seam_of_one = 0, at_seams_of_both = 0;
   const auto is_seam = [&](const Split& of, Corner c) {
     return of.region_of[state->mesh.start(c)] != of.region_of[state->mesh.end(c)];
   };
-  for (Corner c = 0; c < 3 * state->mesh.face_count(); ++c) {
-    at_a_seam_of_one += is_seam(one, c) ? 1 : 0;
-    at_seams_of_both += is_seam(one, c) && is_seam(other, c) ? 1 : 0;
+  for (int shift = 0; shift < shifts_of_split; ++shift) {
+    const Split one = split(*state, shift, min_vertices);
+    const Split other = split(*state, (shift + 1) % shifts_of_split, min_vertices);
+    std::size_t at_a_seam_of_one = 0, at_seams_of_both = 0;
+    for (Corner c = 0; c < 3 * state->mesh.face_count(); ++c) {
+      at_a_seam_of_one += is_seam(one, c) ? 1 : 0;
+      at_seams_of_both += is_seam(one, c) && is_seam(other, c) ? 1 : 0;
+    }
+    EXPECT_GT(at_a_seam_of_one, 0u);
+    EXPECT_LT(20 * at_seams_of_both, at_a_seam_of_one);
   }
-  EXPECT_GT(at_a_seam_of_one, 0u);
-  EXPECT_LT(20 * at_seams_of_both, at_a_seam_of_one);
 }
 
 TEST(Split, DependsOnTheMeshAlone) {
   const test::StateOf state(terrain());
-  for (const int shift : {0, 1}) EXPECT_EQ(split(*state, shift).region_of, split(*state, shift).region_of);
+  for (int shift = 0; shift < shifts_of_split; ++shift)
+    EXPECT_EQ(split(*state, shift, min_vertices).region_of, split(*state, shift, min_vertices).region_of);
 }
 
 TEST(Split, NumbersOfChangesOfRegionsNeverMeet) {
   const test::StateOf state(datasets::icosphere(1, 6));
-  const Split parts = split(*state, 0);
+  const Split parts = split(*state, 0, min_vertices);
   std::vector<std::uint32_t> faces(parts.regions.size(), 0);
   for (std::uint32_t f = 0; f < state->mesh.face_count(); ++f) ++faces[parts.region_of[state->mesh.vertex(3 * f)]];
   for (std::size_t r = 0; r + 1 < parts.regions.size(); ++r)
@@ -87,7 +93,7 @@ TEST(Split, NumbersOfChangesOfRegionsNeverMeet) {
 
 TEST(Merge, CountsTheFacesThatAreGoneAndKeepsTheLogsInTheirOrder) {
   test::StateOf state(datasets::icosphere(1, 6));
-  Split parts = split(*state, 0);
+  Split parts = split(*state, 0, min_vertices);
   const std::size_t faces = state->faces;
   for (Region& region : parts.regions) {
     region.removed_faces = 2 + region.id;

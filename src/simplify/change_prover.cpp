@@ -10,6 +10,7 @@ bool ChangeProver::prove(const Split& split, Region& region) {
   ProofWorkers::Worker& worker = workers_.of_thread(thread_);
   const auto stamps = region.log.stamps_of(region.log.last_number());
   bool holds = worker.cover_change(stamps, split, region.id);
+  met_seam_ = !holds && worker.meets_seam();
   originals_tested += worker.affected();
   for (const EditLog::Stamp& stamp : stamps) {
     if (!holds) break;

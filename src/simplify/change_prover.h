@@ -22,6 +22,8 @@ class ChangeProver {
   }
   /// In two steps: until `accept`, `undo_last` may still take back a change that holds.
   bool prove(const Split& split, Region& region);
+  /// Whether the last change might have been proven with the help of faces of other regions.
+  [[nodiscard]] bool met_seam() const { return met_seam_; }
   void accept(Region& region);
   /// Makes all changes of the region that are not proven yet, many around one place, part of what is proven. False
   /// where that fails; they are as they were then.
@@ -33,6 +35,7 @@ class ChangeProver {
   DecimationState& state_;
   ProofWorkers& workers_;
   std::size_t thread_;
+  bool met_seam_ = false;
   std::vector<std::uint32_t> changed_;  ///< by a group
 };
 

@@ -19,13 +19,18 @@ namespace {
 /// it is cheaper to prove one by one.
 constexpr double share_together = 0.7;
 
+/// Vertices of a region at least: smaller ones lose more at their seams than threads gain. A proof takes much longer
+/// than a proposal, so it pays to prove in regions when a mesh has become small.
+constexpr std::size_t min_vertices_together = 2000, min_vertices_one_by_one = 1000;
+
 /// Passes over the edges that something has changed around end where one removes a smaller share of the faces.
 constexpr double min_gain_of_pass = 0.01;
 
-/// Where proofs have failed, what was taken back is proposed again, with less of the tolerance, as long as it is more
-/// than this share: proofs of single collapses cost many times more.
+/// Where proofs have failed, what was taken back is proposed again, with less of the tolerance, while it is more than
+/// the first share of what was proposed, and less than the second: proofs of single collapses cost many times more, but
+/// where most proposals fail they save the failures.
 constexpr int max_rounds = 4;
-constexpr double min_share_taken_back = 0.05;
+constexpr double min_share_taken_back = 0.05, max_share_taken_back = 0.3;
 
 /// The time is looked at once in this many edges, and progress is told.
 constexpr std::uint32_t edges_between_looks = 32;
@@ -52,9 +57,9 @@ class Run {
     for (int round = 0; round < max_rounds; ++round) {
       propose(0);
       propose(1);
-      const std::size_t changes = proposed();
-      const std::size_t taken_back = prove_and_repair();
-      if (static_cast<double>(taken_back) < min_share_taken_back * static_cast<double>(changes)) break;
+      const auto changes = static_cast<double>(proposed());
+      const auto share = static_cast<double>(prove_and_repair()) / std::max(1.0, changes);
+      if (share < min_share_taken_back || share > max_share_taken_back) break;
     }
     prove_one_by_one();
     if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip) refine();
@@ -84,7 +89,8 @@ class Run {
   DecimationThreads& threads_;
   StopToken stop_of_proof_;
   std::atomic<EndedBy> ended_by_{EndedBy::NothingFits};
-  FirstError error_;  ///< of a region: the others end
+  std::atomic<std::size_t> removed_{0};  ///< faces, from all regions of a split
+  FirstError error_;                     ///< of a region: the others end
 };
 
 /// Triangles of the original that the mesh was not made from need a face that covers them; those that have none stay.
@@ -101,6 +107,7 @@ void Run::keep_what_has_no_face() {
 
 /// Runs of the regions of a split side by side.
 void Run::in_regions(Split split, const Work& work) {
+  removed_ = 0;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_.count())
   for (std::size_t r = 0; r < split.regions.size(); ++r) {
     if (error_.has_error()) continue;
@@ -117,7 +124,9 @@ void Run::in_regions(Split split, const Work& work) {
 /// For one region: asked before each collapse.
 std::function<bool(std::size_t)> Run::must_stop() {
   const bool tells = omp_get_thread_num() == 0 && goal_.progress;
-  return [this, tells, edges = std::uint32_t{0}](std::size_t removed) mutable {
+  return [this, tells, edges = std::uint32_t{0}, known = std::size_t{0}](std::size_t removed) mutable {
+    removed_ += removed - known;
+    known = removed;
     if (has_ended() || error_.has_error()) return true;
     if (goal_.target_faces > 0 && state_.faces - removed <= goal_.target_faces) {
       ended_by_ = EndedBy::Target;
@@ -125,7 +134,7 @@ std::function<bool(std::size_t)> Run::must_stop() {
     }
     if (edges++ % edges_between_looks != 0) return false;
     if (goal_.stop.stopped()) note_stop();
-    if (tells) goal_.progress(state_.faces - removed);
+    if (tells) goal_.progress(state_.faces - removed_);
     return has_ended();
   };
 }
@@ -134,7 +143,7 @@ std::function<bool(std::size_t)> Run::must_stop() {
 void Run::propose(int shift) {
   if (has_ended()) return;
   if (is_global() && shift > 0) return;
-  in_regions(is_global() ? whole(state_) : split(state_, shift),
+  in_regions(is_global() ? whole(state_) : split(state_, shift, min_vertices_together),
              [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
                RegionCollapses::Limits limits{share_together, must_stop(), nullptr};
                if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };
@@ -187,7 +196,7 @@ std::size_t Run::prove_and_repair() {
 /// What was refused for a smaller share of the tolerance may fit now.
 void Run::try_the_others_again() {
   for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
-    if (state_.hopeless[e] == 0) state_.refused_at[e] = 0;
+    if (state_.hope[e] == Hope::WithMoreTolerance) state_.refused_at[e] = 0;
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
@@ -196,11 +205,11 @@ void Run::prove_one_by_one() {
   try_the_others_again();
   while (!has_ended()) {
     const std::size_t before = state_.faces;
-    for (int shift = 0; shift < 3 && !has_ended(); ++shift) {
-      if (is_global() && shift < 2) continue;
-      in_regions(shift == 2 ? whole(state_) : split(state_, shift),
+    for (int shift = is_global() ? shifts_of_split : 0; shift <= shifts_of_split && !has_ended(); ++shift) {
+      const bool is_last = shift == shifts_of_split;
+      in_regions(is_last ? whole(state_) : split(state_, shift, min_vertices_one_by_one),
                  [&](const Split& split, Region& region, Proposer& proposer, ChangeProver& prover) {
-                   if (shift < 2 && split.regions.size() == 1) return;
+                   if (!is_last && split.regions.size() == 1) return;
                    RegionCollapses::Limits limits{1, must_stop(), nullptr};
                    if (goal_.on_exceed == OnExceed::Stop) {
                      limits.ends_at_refusal = [&] {

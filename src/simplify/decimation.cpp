@@ -20,7 +20,7 @@ namespace {
 
 /// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge
 /// and miss its middle.
-constexpr double spacing_of_samples = 4;
+constexpr double spacing_of_samples = 3;
 
 TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   TriangleMesh result;

@@ -80,7 +80,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       stamp(mesh.face_count(), 0),
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
-      hopeless(3 * mesh.face_count(), 0),
+      hope(3 * mesh.face_count(), Hope::WithMoreTolerance),
       place_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
       cover(triangles.size()),
       nearest(source_triangle) {
@@ -93,6 +93,7 @@ void DecimationState::grow_tolerance(double to) {
   tolerance = to;
   limit = provable(to);
   std::fill(refused_at.begin(), refused_at.end(), 0);
+  std::fill(hope.begin(), hope.end(), Hope::WithMoreTolerance);
   std::fill(share.begin(), share.end(), 1.0F);
 }
 

@@ -69,6 +69,13 @@ class Samples {
   std::vector<std::uint32_t> triangle_near_, first_;
 };
 
+/// When an edge that was refused may be worth another trial.
+enum class Hope : std::uint8_t {
+  WithMoreTolerance,  ///< a larger share of the tolerance, or a change around it
+  AfterChange,        ///< something changes around it
+  OfOtherEnds         ///< one of its ends moves: it was refused by a wide margin
+};
+
 /// One change of the mesh that has not been proven yet, and what was before.
 struct Edit {
   enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
@@ -143,8 +150,8 @@ struct DecimationState {
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the beginning
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  std::vector<std::uint8_t> hopeless;  ///< by edge: whether a larger share of the tolerance would not have helped
-  std::vector<std::uint32_t> place_in_queue;  ///< by edge
+  std::vector<Hope> hope;                          ///< by edge: of one that was refused
+  std::vector<std::uint32_t> place_in_queue;       ///< by edge
 
   /// All proofs hold for a larger tolerance as well, and what was refused may fit now. Not for a smaller one.
   void grow_tolerance(double to);

@@ -88,6 +88,7 @@ class ProofWorkers::Worker {
   /// Covers of the originals that relied on these faces, which have just been changed, by place in `affected`. False
   /// where one was not found.
   bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
+    meets_seam_ = false;
     affected_.clear();
     affected_marks_.clear();
     for (const EditLog::Stamp& stamp : changed) {
@@ -98,7 +99,7 @@ class ProofWorkers::Worker {
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_) {
         const auto faces = state_.cover.faces_of(t);
-        if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
+        if (!std::all_of(faces.begin(), faces.end(), owned)) return meets_seam_ = true, false;
       }
     }
     if (affected_.empty()) return true;
@@ -139,6 +140,8 @@ class ProofWorkers::Worker {
     return true;
   }
   [[nodiscard]] std::size_t affected() const { return affected_.size(); }
+  /// Whether `cover_change` might have found a cover with the help of faces of other regions.
+  [[nodiscard]] bool meets_seam() const { return meets_seam_; }
   void assign_covers(CoverAssignment& cover) {
     for (std::size_t i = 0; i < affected_.size(); ++i) {
       ids_.clear();
@@ -180,7 +183,11 @@ class ProofWorkers::Worker {
       for (Corner c = 3 * found_[k]; c < 3 * found_[k] + 3; ++c) {
         if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
-          if (found_marks_.insert(d / 3) && owned(d / 3)) enter_face(d / 3);
+          if (!found_marks_.insert(d / 3)) return true;
+          if (owned(d / 3))
+            enter_face(d / 3);
+          else
+            meets_seam_ = true;
           return found_.size() < CandidateFaces::capacity;
         });
       }
@@ -357,6 +364,7 @@ class ProofWorkers::Worker {
   std::vector<std::size_t> ends_;       ///< by place in `affected_`: of its faces in `ids_`
   std::vector<std::size_t> in_pieces_;  ///< places in `affected_`
   std::vector<FaceMask> used_;
+  bool meets_seam_ = false;
   std::vector<Part> parts_;
 
   /// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most

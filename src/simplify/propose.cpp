@@ -38,6 +38,15 @@ constexpr double good_share = 0.9;
 /// Where a place could not be proven, another one is looked for where distances are this share of the limit.
 constexpr double lower_share = 0.7;
 
+/// Beyond this deviation, in tolerances, hardly any edge is accepted after a change around it.
+constexpr float max_deviation_after_change = 1.25F;
+
+/// For an edge whose samples are this far away, in tolerances, where its vertex is placed best.
+Hope hope_of(float deviation) {
+  if (deviation > max_deviation_after_change) return Hope::OfOtherEnds;
+  return deviation > hopeless_deviation ? Hope::AfterChange : Hope::WithMoreTolerance;
+}
+
 /// Two faces that stay have three vertices in common: they are the others of a tetrahedron.
 bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
   return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
@@ -165,7 +174,7 @@ bool Proposer::are_borders_near(Vec3 point) {
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
   by_bound_ = false;
-  hopeless_ = true;
+  hope_ = Hope::AfterChange;
   if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   if (is_locked(kept) && is_locked(gone)) return std::nullopt;
@@ -173,7 +182,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
   if (is_locked(kept) || is_locked(gone)) {
     tried_ = is_locked(kept) ? p : q;
-    hopeless_ = false;
+    hope_ = Hope::WithMoreTolerance;
     return fits(tried_) ? std::optional(tried_) : std::nullopt;
   }
   const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
@@ -181,13 +190,14 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   by_bound_ = true;
   const double planes = state_.quadrics[kept].planes() + state_.quadrics[gone].planes();
   const double deviation = std::sqrt(std::max(0.0, best.cost) / planes);
+  hope_ = Hope::OfOtherEnds;
   if (!wanted && deviation > max_deviation_from_planes * full_limit_) return std::nullopt;
-  hopeless_ = false;
+  hope_ = Hope::WithMoreTolerance;
   if (share < 1 && deviation > max_deviation_together * limit_) return std::nullopt;
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
   if (const auto lower = minimax(tried_, good_share * limit_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (!hopeless_ && fits(end)) return end;
+    if (hope_ == Hope::WithMoreTolerance && fits(end)) return end;
   }
   return std::nullopt;
 }
@@ -236,7 +246,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
     take_few();
     deviation_kernel_.linearise(few_, faces_, by_limit, deviations_);
     const MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
-    hopeless_ = step.there > hopeless_deviation;
+    hope_ = hope_of(step.there);
     if (step.there > max_height) return std::nullopt;
     const Vec3 moved = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
     if (set_faces(moved))
@@ -257,7 +267,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
         step = minimax_step(deviations_, deviation_kernel_, low_deviation);
       }
     }
-    hopeless_ = step.there > hopeless_deviation;
+    hope_ = hope_of(step.there);
     if (full_limit_ * step.there > (k == 0 ? hopeful_deviation : 1) * limit_) return std::nullopt;
     point = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
     if (!set_faces(point)) return std::nullopt;
@@ -309,8 +319,10 @@ void Proposer::enter(const Split& split, const Region& region) { split_ = &split
 bool Proposer::is_inside(Corner edge) const {
   if (split_->region_of.empty()) return true;
   const auto owned_around = [&](std::uint32_t v) {
+    std::size_t faces = 0;
     return state_.mesh.for_each_corner(v, [&](Corner c) {
-      return split_->owns(region_, state_.mesh.end(c)) && split_->owns(region_, state_.mesh.apex(c));
+      return ++faces <= EdgeStar::max_faces && split_->owns(region_, state_.mesh.end(c)) &&
+             split_->owns(region_, state_.mesh.apex(c));
     });
   };
   return owned_around(state_.mesh.start(edge)) && owned_around(state_.mesh.end(edge));

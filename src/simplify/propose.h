@@ -44,13 +44,14 @@ class Proposer {
   [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share, std::optional<Vec3> wanted);
   /// Changes from now on are those of this region. Both must outlive them.
   void enter(const Split& split, const Region& region);
-  /// Whether all vertices around an edge belong to the region.
+  /// Whether all vertices around an edge belong to the region. An edge with too many faces around it may count as
+  /// outside: it can not be collapsed either.
   [[nodiscard]] bool is_inside(Corner edge) const;
   /// Whether it was for the bound that the last edge was refused, and where its vertex was to go.
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
-  /// Whether the last edge would be refused with a larger share of the tolerance as well.
-  [[nodiscard]] bool is_hopeless() const { return hopeless_; }
+  /// What the edge that was refused last needs.
+  [[nodiscard]] Hope hope() const { return hope_; }
   /// Another place for the edge that was asked for last, where the largest distance is smaller: for one that could not
   /// be proven.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
@@ -89,7 +90,7 @@ class Proposer {
   int max_steps_ = 0;
   bool lowered_ = false;   ///< the last place is one where the largest distance is least
   bool gathered_ = false;  ///< the samples
-  bool hopeless_ = false;  ///< no place comes near
+  Hope hope_ = Hope::WithMoreTolerance;
   bool by_bound_ = false;  ///< samples were asked
   Vec3 tried_;             ///< the first place
   Vec3 origin_;

@@ -19,6 +19,9 @@
 namespace meshbound {
 namespace {
 
+/// Vertices of a region at least.
+constexpr std::size_t min_vertices_refined = 1000;
+
 /// A round that removes a smaller share of the faces is the last one, but for the first rounds: a few hundred faces may
 /// stay the same for one and fall again.
 constexpr double min_gain_of_round = 0.025;
@@ -200,10 +203,10 @@ std::vector<Refiner::Task> tasks(const DecimationState& state, const Split& regi
   return tasks;
 }
 
-/// One round over all regions, each by one thread. Those of odd rounds are cut elsewhere.
+/// One round over all regions, each by one thread. Each round is cut elsewhere than the one before.
 void refine_round(DecimationState& state, const std::vector<std::unique_ptr<Refiner>>& refiners, int round,
                   const RefinementGoal& goal) {
-  Split regions = split(state, round % 2);
+  Split regions = split(state, round % shifts_of_split, min_vertices_refined);
   const std::vector<Refiner::Task> work = tasks(state, regions, goal);
   FirstError error;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(refiners.size()))

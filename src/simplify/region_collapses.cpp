@@ -27,8 +27,9 @@ bool RegionCollapses::is_owned(Corner edge) const {
 bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns(region_.id, mesh().corners(face)); }
 
 bool RegionCollapses::is_open(Corner edge) const {
-  return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >=
-                               state_.refused_at[mesh().edge(edge)];
+  const std::uint32_t refused_at = state_.refused_at[mesh().edge(edge)];
+  if (refused_at > 0 && state_.hope[mesh().edge(edge)] == Hope::OfOtherEnds) return false;
+  return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >= refused_at;
 }
 
 bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[mesh().edge(edge)] > clock_at_start_; }
@@ -61,8 +62,9 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
     if (point && make(*point)) return true;
   }
   ++proposer_.counts.refused;
+  if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
   state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
-  state_.hopeless[mesh().edge(edge)] = !point_found && proposer_.is_hopeless() ? 1 : 0;
+  state_.hope[mesh().edge(edge)] = point_found ? Hope::WithMoreTolerance : proposer_.hope();
   if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
   return false;
 }
@@ -77,7 +79,7 @@ void RegionCollapses::collapse_all() {
     for (const Corner e : edges_before_) queue.erase(e);
     mesh().for_each_corner(kept(), [&](Corner c) {
       for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))})
-        if (is_owned(e)) queue.put(e, edge_cost(state_, e));
+        if (is_open(e)) queue.put(e, edge_cost(state_, e));
       return true;
     });
   }

@@ -2,17 +2,25 @@
 #include "simplify/regions.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
+
+#include "simplify/propose.h"
 
 namespace meshbound {
 namespace {
 
-/// Smaller regions lose more at their seams than threads gain.
-constexpr std::size_t min_vertices_of_region = 4000;
-constexpr std::uint32_t max_regions = 64;
+constexpr std::uint32_t max_regions = 1024;
 
 /// Where the first cut of a shifted split runs; all others halve.
 constexpr double shifted_cut = 1.0 / 3;
+
+/// The axes that a split cuts across, by shift: orthogonal, with components that are multiples of 1, 1/3 or 1/7. Planes
+/// of different splits share lines at most, where planes along the same axes through the middles of a symmetric mesh
+/// would be the same ones.
+constexpr std::array<std::array<Vec3, 3>, shifts_of_split> axes_of_shift = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                                                             {{{2, 2, 1}, {-2, 1, 2}, {1, -2, 2}}},
+                                                                             {{{6, 2, 3}, {-3, 6, 2}, {2, 3, -6}}}}};
 
 class Cutter {
  public:
@@ -24,6 +32,7 @@ class Cutter {
   /// By region: its vertices.
   std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions) {
     cut(vertices_, regions, shift_ == 0 ? 0.5 : shifted_cut);
+    join_at_hubs();
     return std::move(of_region_);
   }
 
@@ -39,7 +48,8 @@ class Cutter {
     for (const std::uint32_t v : vertices) box.extend(position(v));
     Eigen::Index axis = 0;
     box.sizes().maxCoeff(&axis);
-    const auto along = [&](std::uint32_t v) { return position(v)[axis]; };
+    const Vec3 direction = axes()[static_cast<std::size_t>(axis)];
+    const auto along = [&](std::uint32_t v) { return dot(direction, state_.mesh.position(v)); };
     const auto middle = static_cast<std::size_t>(share * static_cast<double>(vertices.size()));
     std::nth_element(
         vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
@@ -48,12 +58,56 @@ class Cutter {
     cut(vertices.subspan(middle), regions - regions / 2, 0.5);
   }
 
-  /// A shifted split has axes of other directions, scaled by 3: planes of both splits share lines at most, where
-  /// planes along the same axes through the middles of a symmetric mesh would be the same ones.
+  /// Makes one region of those around a vertex with so many faces that a collapse next to one of its edges may be
+  /// refused: the cap of a cylinder would be decimated in one sector only, and the other cap in another one.
+  void join_at_hubs() {
+    const ArrayMesh& mesh = state_.mesh;
+    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0), joined(of_region_.size());
+    std::iota(joined.begin(), joined.end(), 0u);
+    const auto root = [&](std::uint32_t r) {
+      while (joined[r] != r) r = joined[r];
+      return r;
+    };
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f)
+      if (!mesh.is_removed(f))
+        for (const std::uint32_t v : mesh.corners(f)) ++faces[v];
+    for (const std::uint32_t hub : vertices_) {
+      if (faces[hub] <= EdgeStar::max_faces) continue;
+      mesh.for_each_corner(hub, [&](Corner c) {
+        for (const std::uint32_t v : {mesh.end(c), mesh.apex(c)}) {
+          const auto [low, high] = std::minmax({root(into_.region_of[hub]), root(into_.region_of[v])});
+          joined[high] = low;
+        }
+        return true;
+      });
+    }
+    for (std::uint32_t& r : joined) r = root(r);
+    join(joined);
+  }
+  /// `joined` names for each region the one that it becomes part of, which has no higher number.
+  void join(const std::vector<std::uint32_t>& joined) {
+    std::vector<std::vector<std::uint32_t>> kept;
+    std::vector<std::uint32_t> number(joined.size());
+    for (std::uint32_t r = 0; r < joined.size(); ++r) {
+      if (joined[r] == r) {
+        number[r] = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(std::move(of_region_[r]));
+        continue;
+      }
+      number[r] = number[joined[r]];
+      std::vector<std::uint32_t>& into = kept[number[r]];
+      const auto middle = static_cast<std::ptrdiff_t>(into.size());
+      into.insert(into.end(), of_region_[r].begin(), of_region_[r].end());
+      std::inplace_merge(into.begin(), into.begin() + middle, into.end());
+    }
+    of_region_ = std::move(kept);
+    for (const std::uint32_t v : vertices_) into_.region_of[v] = number[into_.region_of[v]];
+  }
+
+  [[nodiscard]] const std::array<Vec3, 3>& axes() const { return axes_of_shift[static_cast<std::size_t>(shift_)]; }
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t v) const {
     const Vec3 p = state_.mesh.position(v);
-    if (shift_ == 0) return {p.x, p.y, p.z};
-    return {2 * p.x + 2 * p.y + p.z, p.y - 2 * p.x + 2 * p.z, p.x - 2 * p.y + 2 * p.z};
+    return {dot(axes()[0], p), dot(axes()[1], p), dot(axes()[2], p)};
   }
 
   const DecimationState& state_;
@@ -80,20 +134,18 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
 
 }  // namespace
 
-Split split(const DecimationState& state, int shift) {
+Split split(const DecimationState& state, int shift, std::size_t min_vertices) {
   Split result;
   Cutter cutter(state, result, shift);
   std::uint32_t count = 1;
-  while (count < max_regions && cutter.vertices() >= 2 * std::size_t{count} * min_vertices_of_region) count *= 2;
-  if (count > 1) {
-    result.region_of.assign(state.mesh.vertex_count(), ArrayMesh::none);
-    if (shift != 0) ++count;
-    auto vertices = cutter.run(count);
-    make_regions(state, result, count);
-    for (std::uint32_t r = 0; r < count; ++r) result.regions[r].vertices = std::move(vertices[r]);
-    return result;
-  }
+  while (count < max_regions && cutter.vertices() >= 2 * std::size_t{count} * min_vertices) count *= 2;
+  if (count == 1) return whole(state);
+  result.region_of.assign(state.mesh.vertex_count(), ArrayMesh::none);
+  auto vertices = cutter.run(shift == 0 ? count : count + 1);
+  count = static_cast<std::uint32_t>(vertices.size());
+  if (count == 1) return whole(state);
   make_regions(state, result, count);
+  for (std::uint32_t r = 0; r < count; ++r) result.regions[r].vertices = std::move(vertices[r]);
   return result;
 }
 

@@ -25,9 +25,14 @@ struct Split {
   }
 };
 
-/// Cuts a mesh into regions of about equal numbers of vertices, each between planes. The number depends on the mesh
-/// alone. Cuts of another `shift`, 0 or 1, run in other directions. O(n log n).
-[[nodiscard]] Split split(const DecimationState& state, int shift);
+/// `split` knows so many ways to cut one mesh.
+inline constexpr int shifts_of_split = 3;
+
+/// Cuts a mesh into regions of about equal numbers of vertices, each between planes, and none of fewer than
+/// `min_vertices`. The number depends on the mesh alone. Cuts of another `shift`, less than `shifts_of_split`, run in
+/// other directions, so that few vertices lie at seams of all of them. All vertices around one with
+/// many faces are of one region. O(n log n).
+[[nodiscard]] Split split(const DecimationState& state, int shift, std::size_t min_vertices);
 /// One region of all.
 [[nodiscard]] Split whole(const DecimationState& state);
 /// Takes over what was changed in the regions, in their order.

@@ -220,8 +220,11 @@ Repair repair(DecimationState& state, const Unproven& unproven) {
   }
   const std::vector<std::uint32_t> changed = undoing.run();
   ++state.clock;
-  for (const std::uint32_t f : changed)
+  for (const std::uint32_t f : changed) {
     for (const std::uint32_t v : state.mesh.corners(f)) state.touched[v] = state.clock;
+    if (state.mesh.is_removed(f)) continue;
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) state.refused_at[state.mesh.edge(c)] = 0;
+  }
   return {changed, undoing.undone()};
 }
 
