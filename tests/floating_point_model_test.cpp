@@ -2,13 +2,16 @@
 // Where the arithmetic is not the one that the bounds are proven for, no bound is given; coordinates at the ends of the
 // range of doubles get a bound that holds or a clear refusal.
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <array>
 #include <cfenv>
 #include <cmath>
 
 #include "mesh_files.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
+#include "meshbound/floating_point_scope.h"
 #include "meshbound/io.h"
 #include "reference/claims.h"
 #include "reference/small_meshes.h"
@@ -23,7 +26,7 @@ namespace {
 
 using namespace reference;
 
-/// Why no tree is built here; empty when one is.
+/// The message with which a tree is refused; empty when one is built.
 std::string refusal_of_a_tree() {
   const TriangleMesh mesh = cube(1);
   try {
@@ -45,6 +48,30 @@ TEST(FloatingPointModel, FlushToZeroIsRefused) {
     EXPECT_NE(reason.find("flushed to zero"), std::string::npos) << reason;
   }
   EXPECT_EQ(refusal_of_a_tree(), "");
+}
+
+/// On the calling thread and on those of OpenMP; afterwards each has the mode that it had.
+TEST(FloatingPointModel, ScopeGivesTheThreadsOfAnEngineTheModeThatBoundsNeed) {
+  constexpr unsigned flush_to_zero = 0x8000;
+  constexpr int threads = 3;
+  omp_set_num_threads(threads);
+  const unsigned before = _mm_getcsr();
+  std::array<unsigned, threads> inside{}, after{};
+#pragma omp parallel num_threads(threads)
+  _mm_setcsr(before | flush_to_zero);
+  {
+    const FloatingPointScope scope;
+    EXPECT_EQ(refusal_of_a_tree(), "");
+#pragma omp parallel num_threads(threads)
+    inside[static_cast<std::size_t>(omp_get_thread_num())] = _mm_getcsr() & flush_to_zero;
+  }
+#pragma omp parallel num_threads(threads)
+  {
+    after[static_cast<std::size_t>(omp_get_thread_num())] = _mm_getcsr() & flush_to_zero;
+    _mm_setcsr(before);
+  }
+  for (const unsigned mode : inside) EXPECT_EQ(mode, 0u);
+  for (const unsigned mode : after) EXPECT_EQ(mode, flush_to_zero);
 }
 #endif
 
@@ -108,9 +135,9 @@ TEST(CoordinateRange, BoundsHoldBetweenMeshesFromBothEnds) {
   const TriangleMesh small = scaled(cube(1), 1e-310), large = scaled(cube(1), 1e300);
   for (const auto& [a, b] : {std::pair(small, large), std::pair(large, small)}) {
     const OneSidedDistance result = one_sided_hausdorff_distance(Bvh(a), Bvh(b));
-    ExactLength least = exact_distance(a.vertices[0], b);
-    for (const Eigen::Vector3d& v : a.vertices) least = std::max(least, exact_distance(v, b));
-    EXPECT_LE(least.compare(result.bounds.upper), 0);
+    ExactLength smallest = exact_distance(a.vertices[0], b);
+    for (const Eigen::Vector3d& v : a.vertices) smallest = std::max(smallest, exact_distance(v, b));
+    EXPECT_LE(smallest.compare(result.bounds.upper), 0);
     EXPECT_LE(result.bounds.lower, result.bounds.upper);
     EXPECT_LE(result.bounds.lower, 1e300 * 1.7320508075688774);
   }

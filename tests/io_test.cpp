@@ -28,6 +28,8 @@ struct Target {
 const std::vector<Target> double_targets = {
     {"m.off", {}}, {"m.obj", {}}, {"m.ply", {}}, {"m.PLY", {.ascii = true, .single_precision = false}}};
 const std::vector<Target> float_targets = {{"m.stl", {}},
+                                           {"m.off", {.ascii = false, .single_precision = true}},
+                                           {"m.obj", {.ascii = false, .single_precision = true}},
                                            {"m.STL", {.ascii = true, .single_precision = false}},
                                            {"m.ply", {.ascii = false, .single_precision = true}},
                                            {"m.ply", {.ascii = true, .single_precision = true}}};

@@ -151,6 +151,17 @@ TEST(SourceTree, FollowsItsOwnRules) {
   EXPECT_EQ(joined(violations(MESHBOUND_SOURCE_DIR)), "");
 }
 
+TEST(SourceTree, UmbrellaHeaderNamesEveryPublicHeaderOfTheCore) {
+  const fs::path folder = fs::path(MESHBOUND_SOURCE_DIR) / "include/meshbound";
+  const std::vector<std::string> umbrella = load(folder, folder / "meshbound.h").lines;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || name == "meshbound.h") continue;
+    EXPECT_NE(std::find(umbrella.begin(), umbrella.end(), "#include \"meshbound/" + name + "\""), umbrella.end())
+        << name;
+  }
+}
+
 TEST_F(Layering, AcceptsEarlierFoldersAndPublicHeaders) {
   write("src/distance/walk.cpp", "#include <vector>\n#include \"bvh/tree.h\"\n#include \"meshbound/distance.h\"");
   write("include/meshbound/cgal/monitor.h", "#include <CGAL/Surface_mesh.h>", "GPL-3.0-or-later");

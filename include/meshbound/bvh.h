@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meshbound/bounds.h"
+#include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {

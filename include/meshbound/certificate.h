@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "meshbound/error.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {

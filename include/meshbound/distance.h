@@ -13,6 +13,7 @@
 
 #include "meshbound/bounds.h"
 #include "meshbound/bvh.h"
+#include "meshbound/error.h"
 
 namespace meshbound {
 

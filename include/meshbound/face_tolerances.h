@@ -5,6 +5,7 @@
 #include <span>
 
 #include "meshbound/bounds.h"
+#include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "meshbound/error.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -50,7 +51,7 @@ struct ReadOptions {
 
 struct WriteOptions {
   bool ascii = false;             ///< PLY and STL: text instead of binary
-  bool single_precision = false;  ///< PLY: float coordinates (STL is always float, OFF and OBJ always 17 digits)
+  bool single_precision = false;  ///< every coordinate is rounded to a float, as it always is in STL; PLY stores floats
   const std::atomic<bool>* cancel = nullptr;  ///< writing ends with `Interrupted` soon after this is set; not owned
 };
 

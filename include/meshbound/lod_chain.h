@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/simplify.h"
 

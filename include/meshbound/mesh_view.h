@@ -2,29 +2,60 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <ranges>
+#include <span>
 
+#include "meshbound/error.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
 
-/// A triangle soup in somebody else's memory: positions as float or double at any stride, indices of 16 or 32 bits.
-/// Copies nothing and owns nothing; the buffers must outlive the view. Cheap to copy, safe to read from many threads.
+template <class T>
+concept CoordinateType = std::same_as<T, float> || std::same_as<T, double>;
+
+template <class T>
+concept IndexType = std::same_as<T, std::uint16_t> || std::same_as<T, std::uint32_t> || std::same_as<T, std::int32_t>;
+
+/// A triangle soup in somebody else's memory: positions as float or double at any stride, indices of 16 or 32 bits, or
+/// `int`. Copies nothing and owns nothing; the buffers must outlive the view. Cheap to copy, safe to read from many
+/// threads. Indices are checked by `validate`, which every function of the library calls on what it is given.
 class MeshView {
  public:
   MeshView(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor): a mesh is a view of itself
 
-  /// `stride` is the distance in bytes from one vertex to the next; `indices` holds three per triangle, tightly packed.
-  MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
-           std::size_t triangle_count);
-  MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
-           std::size_t triangle_count);
-  MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
-           std::size_t triangle_count);
-  MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
-           std::size_t triangle_count);
+  /// `positions` holds x, y, z of each vertex, `indices` three vertices of each triangle; both are tightly packed
+  /// contiguous ranges, such as std::vector, std::array or std::span. Throws `InvalidInput` when one of the sizes is
+  /// not a multiple of three.
+  template <std::ranges::contiguous_range Positions, std::ranges::contiguous_range Indices>
+  requires CoordinateType<std::ranges::range_value_t<Positions>> && IndexType<std::ranges::range_value_t<Indices>>
+  MeshView(const Positions& positions, const Indices& indices)
+      : MeshView(std::ranges::data(positions), triples(std::ranges::size(positions), "coordinates"),
+                 3 * sizeof(std::ranges::range_value_t<Positions>), indices) {}
+
+  /// Positions inside larger vertices: `stride` is the distance in bytes from one vertex to the next. Throws as above
+  /// when the number of indices is not a multiple of three.
+  template <CoordinateType Coordinate, std::ranges::contiguous_range Indices>
+  requires IndexType<std::ranges::range_value_t<Indices>> MeshView(const Coordinate* positions,
+                                                                   std::size_t vertex_count, std::size_t stride,
+                                                                   const Indices& indices)
+      : MeshView(positions, vertex_count, stride, std::ranges::data(indices),
+                 triples(std::ranges::size(indices), "indices")) {}
+
+  /// From bare pointers. The last argument is the number of triangles, not of indices; nothing can check it.
+  template <CoordinateType Coordinate, IndexType Index>
+  MeshView(const Coordinate* positions, std::size_t vertex_count, std::size_t stride, const Index* indices,
+           std::size_t triangle_count)
+      : positions_(reinterpret_cast<const std::byte*>(positions)),
+        indices_(reinterpret_cast<const std::byte*>(indices)),
+        vertex_count_(vertex_count),
+        triangle_count_(triangle_count),
+        stride_(stride),
+        single_precision_(std::same_as<Coordinate, float>),
+        short_indices_(std::same_as<Index, std::uint16_t>) {}
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
   [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
@@ -32,6 +63,9 @@ class MeshView {
   [[nodiscard]] Triangle triangle(std::size_t i) const;
 
  private:
+  /// A third of `size`; throws `InvalidInput`, naming `what`, when that is no whole number.
+  static std::size_t triples(std::size_t size, const char* what);
+
   const std::byte* positions_ = nullptr;
   const std::byte* indices_ = nullptr;
   std::size_t vertex_count_ = 0;

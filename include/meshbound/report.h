@@ -17,6 +17,13 @@
 
 namespace meshbound {
 
+/// Which program made a document, when, and for which command.
+struct Provenance {
+  std::string tool, version;
+  std::string date;                  ///< UTC, such as "2026-11-22T08:40:00Z"
+  std::vector<std::string> command;  ///< the words of the command line, the program's own name first
+};
+
 /// A mesh file that a report speaks of.
 struct MeshReport {
   std::string path;
@@ -25,6 +32,7 @@ struct MeshReport {
   std::size_t decoded_strips = 0;
   std::size_t ignored_elements = 0;
   std::optional<DroppedAttributes> dropped = {};  ///< of a mesh that is written again
+  std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
 };
 
 /// False for a direction that nobody has looked at, such as the second one of a decision that the first one ended: its
@@ -47,6 +55,7 @@ struct WorstSpot {
 
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
 struct DistanceReport {
+  std::optional<Provenance> provenance;
   std::string verdict;  ///< "done" (the interval is as narrow as wanted), "within", "exceeds" or "undecided"
   Outcome outcome = Outcome::Converged;  ///< of the whole question
   std::string reason;                    ///< why the outcome is "budget" or "precision"; else empty
@@ -82,6 +91,7 @@ struct LevelReport {
   std::string path;
   std::size_t faces = 0;
   HausdorffDistance distance;  ///< a: the original, b: the level as written
+  std::string sha256 = {};     ///< of the file, hexadecimal; empty: not computed
 };
 
 /// A proof that was written for `verify_certificate`.
@@ -92,6 +102,7 @@ struct CertificateReport {
 
 /// What `simplify_with_bound` says: schema "meshbound/simplify/1".
 struct SimplifyReport {
+  std::optional<Provenance> provenance;
   Verdict verdict = Verdict::Undecided;
   DecidedBy decided_by = DecidedBy::Measurement;
   double tolerance = 0;
@@ -115,6 +126,7 @@ struct SimplifyReport {
   struct Seconds {
     double read = 0, simplify = 0, certify = 0, certificate = 0, write = 0, total = 0;
   } seconds;
+  std::size_t locked_vertices = 0;
   int threads = 1;
 };
 
@@ -122,21 +134,24 @@ struct SimplifyReport {
 struct LodReport {
   /// From which the tolerances came, if they were not given.
   struct View {
-    double pixels = 1;
+    double pixels = 1;  ///< of the finest level
     Screen screen;
   };
   struct Level : LevelReport {
     std::string file;  ///< the last part of `path`: where the report lies beside the levels, it needs no more
     std::size_t vertices = 0;
+    std::optional<double> pixels;         ///< that the tolerance covers at `view_distance`
     std::optional<double> view_distance;  ///< the one that the tolerance was made for
     std::string stopped_by;               ///< as in `SimplifyReport`
   };
+  std::optional<Provenance> provenance;
   Verdict verdict = Verdict::Undecided;
   std::string driver;  ///< "cgal" or "core"
   MeshReport original;
   std::optional<View> view;
   std::vector<Level> levels;  ///< those that were proven, ascending by tolerance
   SimplifyReport::Seconds seconds;
+  std::size_t locked_vertices = 0;
   int threads = 1;
 };
 

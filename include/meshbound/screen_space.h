@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "meshbound/error.h"
+
 namespace meshbound {
 
 struct Screen {

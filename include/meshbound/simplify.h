@@ -12,6 +12,7 @@
 
 #include "meshbound/certificate.h"
 #include "meshbound/distance.h"
+#include "meshbound/error.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -126,6 +127,7 @@ struct SimplifyResult {
   std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: part of every level as they are
   std::size_t pruned_components = 0;      ///< dropped as wholes, `SimplifyOptions::prune`
   std::size_t pruned_faces = 0;           ///< that these had when they were dropped
+  std::size_t locked_vertices = 0;        ///< that no collapse may move: by the options that lock some
   bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
   bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
   CollapseCounts counts;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "meshbound/bounds.h"
+#include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {

@@ -24,33 +24,11 @@ bool all_usable(const MeshView& view) {
 
 }  // namespace
 
-MeshView::MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
-                   std::size_t triangle_count)
-    : positions_(reinterpret_cast<const std::byte*>(positions)),
-      indices_(reinterpret_cast<const std::byte*>(indices)),
-      vertex_count_(vertex_count),
-      triangle_count_(triangle_count),
-      stride_(stride) {}
-
-MeshView::MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
-                   std::size_t triangle_count)
-    : MeshView(positions, vertex_count, stride, static_cast<const std::uint32_t*>(nullptr), triangle_count) {
-  indices_ = reinterpret_cast<const std::byte*>(indices);
-  short_indices_ = true;
-}
-
-MeshView::MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
-                   std::size_t triangle_count)
-    : MeshView(static_cast<const double*>(nullptr), vertex_count, stride, indices, triangle_count) {
-  positions_ = reinterpret_cast<const std::byte*>(positions);
-  single_precision_ = true;
-}
-
-MeshView::MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
-                   std::size_t triangle_count)
-    : MeshView(positions, vertex_count, stride, static_cast<const std::uint32_t*>(nullptr), triangle_count) {
-  indices_ = reinterpret_cast<const std::byte*>(indices);
-  short_indices_ = true;
+std::size_t MeshView::triples(std::size_t size, const char* what) {
+  if (size % 3 != 0)
+    throw InvalidInput("a mesh view of " + std::to_string(size) + " " + what +
+                       ": the number must be a multiple of three");
+  return size / 3;
 }
 
 MeshView::MeshView(const TriangleMesh& mesh)

@@ -13,7 +13,7 @@ namespace meshbound {
 namespace {
 
 bool stores_floats(FileFormat format, const WriteOptions& options) {
-  return format == FileFormat::Stl || (format == FileFormat::Ply && options.single_precision);
+  return format == FileFormat::Stl || options.single_precision;
 }
 
 void refuse_beyond_float(const std::filesystem::path& path, const TriangleMesh& mesh) {
@@ -68,6 +68,11 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Trian
                 const WriteOptions& options) {
   const FileFormat format = format_of(path);
   refuse_unwritable(path, format, mesh, options);
+  if (options.single_precision && (format == FileFormat::Off || format == FileFormat::Obj)) {
+    WriteOptions as_they_are = options;
+    as_they_are.single_precision = false;
+    return write_mesh(file, path, rounded_for(path, mesh, options), as_they_are);
+  }
   switch (format) {
     case FileFormat::Off:
       return write_off(file, mesh);

@@ -81,6 +81,7 @@ void Decimation::make_state(const StopToken& stop) {
                  std::move(soup.vertex_of), std::move(soup.triangle_of));
   stop.check();
   state_->locked = locked();
+  locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
   if (!options_.face_tolerances.empty()) {
     std::vector<Eigen::AlignedBox3d> boxes(original_.triangles.size());
     for (std::size_t t = 0; t < boxes.size(); ++t)
@@ -240,6 +241,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
 void Decimation::describe(SimplifyResult& result) const {
   result.kept_triangles = state_->kept.size();
   result.dropped_triangles = dropped_triangles_ - result.kept_triangles;
+  result.locked_vertices = locked_vertices_;
   result.split = split_;
   result.pruned_components = pruned_components_;
   result.pruned_faces = pruned_faces_;

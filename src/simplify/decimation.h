@@ -48,7 +48,7 @@ class Decimation {
   Bvh tree_;                                   ///< in the frame
   std::optional<DecimationState> state_;
   std::optional<DecimationThreads> threads_;
-  std::size_t dropped_triangles_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
+  std::size_t dropped_triangles_ = 0, locked_vertices_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
   bool split_ = false, below_rounding_ = false;
 };
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// All of the core. What needs CGAL is in meshbound/cgal/.
+#pragma once
+#include "meshbound/bounds.h"
+#include "meshbound/bvh.h"
+#include "meshbound/certificate.h"
+#include "meshbound/collapse_checker.h"
+#include "meshbound/distance.h"
+#include "meshbound/error.h"
+#include "meshbound/face_tolerances.h"
+#include "meshbound/floating_point_scope.h"
+#include "meshbound/io.h"
+#include "meshbound/level_checker.h"
+#include "meshbound/lod_chain.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/mesh_view.h"
+#include "meshbound/proximity.h"
+#include "meshbound/report.h"
+#include "meshbound/screen_space.h"
+#include "meshbound/simplify.h"
+#include "meshbound/stop_token.h"
+#include "meshbound/transform.h"
+#include "meshbound/triangle_mesh.h"

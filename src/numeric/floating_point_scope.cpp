@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/floating_point_scope.h"
+
+#include <omp.h>
+
+namespace meshbound {
+
+// Flush-to-zero and the rounding mode are part of the floating-point environment of <cfenv>.
+
+FloatingPointScope::FloatingPointScope() {
+  std::fenv_t own;
+  std::fegetenv(&own);
+  before_.assign(static_cast<std::size_t>(omp_get_max_threads()), own);  // OpenMP may give fewer threads than asked for
+#pragma omp parallel num_threads(static_cast <int>(before_.size()))
+  {
+    std::fegetenv(&before_[static_cast<std::size_t>(omp_get_thread_num())]);
+    std::fesetenv(FE_DFL_ENV);
+  }
+}
+
+FloatingPointScope::~FloatingPointScope() {
+#pragma omp parallel num_threads(static_cast <int>(before_.size()))
+  std::fesetenv(&before_[static_cast<std::size_t>(omp_get_thread_num())]);
+}
+
+}  // namespace meshbound
