@@ -9,7 +9,7 @@
 
 namespace meshbound::bench {
 
-/// The same triangles, each with vertices of its own.
+/// The mesh with vertices of its own for each triangle.
 [[nodiscard]] TriangleMesh unwelded(const TriangleMesh& mesh);
 
 /// The unit square at z = 0, `cells` x `cells` squares of two triangles each.

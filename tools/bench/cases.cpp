@@ -72,7 +72,7 @@ double distance_seconds(const TriangleMesh& a, const TriangleMesh& b, double err
   return seconds;
 }
 
-/// Of simplifying at 0.1% of the diagonal, the measurement of the result included.
+/// Seconds of simplifying at 0.1% of the diagonal, the measurement of the result included.
 double simplify_seconds(const TriangleMesh& mesh) {
   SimplifyOptions options;
   options.tolerance = 0.001 * bounding_box_diagonal(mesh);

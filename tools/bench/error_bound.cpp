@@ -7,12 +7,15 @@
 #include "cgal_functions.h"
 #include "meshes.h"
 #include "our_run.h"
+#include "pair_list.h"
 #include "table.h"
 
 namespace {
 
 using namespace meshbound;
 using namespace meshbound::bench;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Subject {
   std::string name;
@@ -32,7 +35,7 @@ class Curves {
       const double bound = std::pow(10.0, exponent);
       const OurRun ours = run_ours(subject.a, subject.b, {bound, -1, 1, options_.limit});
       if (ours.status == ChildResult::Status::Done) {
-        row(subject, "ours", bound, ours.build.cpu + ours.query.cpu, ours.bounds.upper);
+        row(subject, "ours", bound, ours.build.cpu + ours.query.cpu, nan, ours.bounds);
         middle = (ours.bounds.lower + ours.bounds.upper) / 2;
       }
       // A smaller bound never takes CGAL less time.
@@ -48,14 +51,15 @@ class Curves {
       const ChildResult child = timed([&] { return cgal.approximate(density); });
       if (child.status != ChildResult::Status::Done) return;
       const double error = std::abs(child.values[0] - truth);
-      row(subject, "CGAL approximate", std::max(error, 1e-9), child.values[1], child.values[0]);
+      row(subject, "CGAL sampled", std::max(error, 1e-9), child.values[1], child.values[0], {nan, nan});
     }
   }
 
   bool cgal_run(const Subject& subject, const char* method, double bound, const std::function<double()>& function) {
     const ChildResult child = timed(function);
     if (child.status != ChildResult::Status::Done) return false;
-    row(subject, method, bound, child.values[1], child.values[0]);
+    const double value = child.values[0];  // the distance is within the bound of it
+    row(subject, method, bound, child.values[1], value, {std::max(0.0, value - bound), value + bound});
     return true;
   }
 
@@ -67,10 +71,12 @@ class Curves {
     });
   }
 
-  void row(const Subject& subject, const char* method, double bound, double seconds, double value) {
-    table_.rows.push_back({subject.name, method, format(bound), format(seconds), format(value, 9)});
+  void row(const Subject& subject, const char* method, double bound, double seconds, double value,
+           const Bounds& bounds) {
+    table_.rows.push_back({subject.name, method, format(bound), format(seconds), format(value, 9),
+                           format(bounds.lower, 9), format(bounds.upper, 9)});
     table_.write_csv(options_.out / "error_bound.csv", options_.machine);
-    std::printf("%s, %s: %.0e %.3g s, %.9g\n", subject.name.c_str(), method, bound, seconds, value);
+    std::printf("%s, %s: %.0e %.3g s\n", subject.name.c_str(), method, bound, seconds);
     std::fflush(stdout);
   }
 
@@ -78,13 +84,12 @@ class Curves {
   Table& table_;
 };
 
-int run(const Options& options) {
+/// Bunny and fandisk beside what is made of them.
+void add_default_subjects(const Options& options, Curves& curves) {
   const auto fandisk = find_dataset({"cad/c3d_fandisk.obj", "cgal/fandisk.off"});
   const auto bunny = find_dataset({"scan/c3d_stanford-bunny.obj", "cgal/bunny00.off"});
   if (!fandisk || !bunny)
     throw std::runtime_error("fandisk or bunny is missing; run datasets/fetch or set MESHBOUND_DATASETS");
-  Table table{{"pair", "method", "error bound", "CPU seconds", "value"}, {}};
-  Curves curves(options, table);
   const auto decimation = [&](const std::filesystem::path& file) {
     Recipe half{file};
     half.ratio = 0.5;
@@ -95,6 +100,18 @@ int run(const Options& options) {
   Recipe finer{*bunny};
   finer.subdivisions = 1;
   curves.add({"bunny / its subdivision", make({*bunny}, options.cache), make(finer, options.cache)});
+}
+
+int run(const Options& options) {
+  Table table{{"pair", "method", "error bound [diagonals]", "CPU time [s]", "value [diagonals]", "lower [diagonals]",
+               "upper [diagonals]"},
+              {}};
+  Curves curves(options, table);
+  for (std::size_t i = 0; i + 1 < options.pair.size(); i += 2) {
+    const PairSpec pair = file_pair(options.pair[i], options.pair[i + 1]);
+    curves.add({pair.name, make(pair.a, options.cache), make(pair.b, options.cache)});
+  }
+  if (options.pair.empty()) add_default_subjects(options, curves);
   if (!options.found_any()) return 0;
   write_file(options.out / "error_bound.md", table.markdown());
   return 0;

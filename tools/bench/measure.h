@@ -25,10 +25,10 @@ class Stopwatch {
   double cpu_;
 };
 
-/// Of a sequence that is not empty; the lower of the two middle ones when their number is even.
+/// The median of a sequence that is not empty; the lower of the two middle ones when their number is even.
 [[nodiscard]] double median(std::vector<double> values);
 
-/// Of positive values; 0 when there are none.
+/// The geometric mean of positive values; 0 when there are none.
 [[nodiscard]] double geometric_mean(const std::vector<double>& values);
 
 /// Slope of the least-squares line through (log x, log y): the exponent of a power law. At least two points.

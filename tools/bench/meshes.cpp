@@ -49,14 +49,14 @@ TriangleMesh normalised(const Recipe& recipe) {
 }
 
 void shuffle(TriangleMesh& mesh, std::mt19937& random) {
-  std::vector<std::uint32_t> place(mesh.vertices.size());
-  std::iota(place.begin(), place.end(), 0U);
-  std::shuffle(place.begin(), place.end(), random);
-  std::vector<Eigen::Vector3d> vertices(place.size());
-  for (std::size_t v = 0; v < place.size(); ++v) vertices[place[v]] = mesh.vertices[v];
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  std::iota(new_index.begin(), new_index.end(), 0U);
+  std::shuffle(new_index.begin(), new_index.end(), random);
+  std::vector<Eigen::Vector3d> vertices(new_index.size());
+  for (std::size_t v = 0; v < new_index.size(); ++v) vertices[new_index[v]] = mesh.vertices[v];
   mesh.vertices = std::move(vertices);
   for (Triangle& t : mesh.triangles)
-    for (std::uint32_t& v : t) v = place[v];
+    for (std::uint32_t& v : t) v = new_index[v];
   std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
 }
 

@@ -15,7 +15,7 @@ PairSpec with_decimation(const std::string& name, Recipe mesh, double ratio, dou
   return {name + " / its " + percent, ratio < 0.05 ? "coarse" : "decimation", mesh, reduced, reach};
 }
 
-/// The same surface twice, by other triangles or other bits.
+/// Adds pairs of one surface with itself: by other triangles, in another order, or with other bits.
 void add_near_zero_pairs(const std::string& name, const fs::path& file, std::vector<PairSpec>& pairs) {
   const Recipe mesh{file};
   Recipe subdivided = mesh, reordered = mesh, jittered = mesh, rounded = mesh;
@@ -23,10 +23,10 @@ void add_near_zero_pairs(const std::string& name, const fs::path& file, std::vec
   reordered.variation = Variation::OtherOrder;
   jittered.variation = Variation::Jittered;
   rounded.variation = Variation::Float;
-  const bool in_the_issue = name == "bunny";
+  const bool has_target = name == "bunny";
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  pairs.push_back({name + " / its midpoint subdivision", "subdivision", mesh, subdivided, in_the_issue ? 0.2 : none});
-  pairs.push_back({name + " / itself", "identical", mesh, mesh, in_the_issue ? 0.03 : none});
+  pairs.push_back({name + " / its midpoint subdivision", "subdivision", mesh, subdivided, has_target ? 0.2 : none});
+  pairs.push_back({name + " / itself", "identical", mesh, mesh, has_target ? 0.03 : none});
   pairs.push_back({name + " / itself in another order", "identical", mesh, reordered});
   pairs.push_back({name + " / itself moved by 1e-9", "near-zero", mesh, jittered});
   pairs.push_back({name + " / itself rounded to float", "near-zero", mesh, rounded});
@@ -89,6 +89,10 @@ std::vector<PairSpec> decimation_pairs() {
         pairs.push_back(with_decimation(std::string(folder) + '/' + file.filename().string(), {file}, ratio,
                                         std::numeric_limits<double>::quiet_NaN()));
   return pairs;
+}
+
+PairSpec file_pair(const fs::path& a, const fs::path& b) {
+  return {a.filename().string() + " / " + b.filename().string(), "given", {a}, {b, a}};
 }
 
 std::vector<PairSpec> dataset_pairs() {

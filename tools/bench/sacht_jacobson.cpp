@@ -169,8 +169,8 @@ class Protocol {
   }
 
   const Options& options_;
-  Table table_{{"pair", "error bound", "triangles from", "triangles to", "lower", "upper", "ours s", "build s",
-                "CGAL s", "ratio"},
+  Table table_{{"pair", "error bound", "triangles from", "triangles to", "lower [diagonals]", "upper [diagonals]",
+                "ours s", "build s", "CGAL s", "ratio"},
                {}};
   std::vector<Row> rows_;
   bool holds_ = true;

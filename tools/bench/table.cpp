@@ -16,6 +16,20 @@ std::string joined(const std::vector<std::string>& cells, const char* separator)
   return line;
 }
 
+/// A cell of a CSV file: what is not there is empty, and what would be taken for several cells stands in quotes.
+std::string csv_cell(const std::string& cell) {
+  if (cell == "-") return "";
+  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string csv_line(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = csv_cell(cell);
+  return joined(cells, ",") + '\n';
+}
+
 }  // namespace
 
 std::string format(double value, int digits) {
@@ -33,8 +47,8 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 void Table::write_csv(const std::filesystem::path& path, const std::string& machine) const {
-  std::string text = "# " + machine + '\n' + joined(columns, ",") + '\n';
-  for (const auto& row : rows) text += joined(row, ",") + '\n';
+  std::string text = "# " + machine + '\n' + csv_line(columns);
+  for (const auto& row : rows) text += csv_line(row);
   write_file(path, text);
 }
 

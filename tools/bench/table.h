@@ -14,7 +14,8 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 
-  /// One line for the machine, starting with '#', then the table separated by commas; cells hold no commas. Throws
+  /// One line for the machine, starting with '#', then the table separated by commas, where "-" is an
+  /// empty cell. Throws
   /// `std::runtime_error` when it cannot be written.
   void write_csv(const std::filesystem::path& path, const std::string& machine) const;
   [[nodiscard]] std::string markdown() const;
