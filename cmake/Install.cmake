@@ -11,7 +11,9 @@ install(EXPORT meshboundTargets NAMESPACE meshbound:: DESTINATION ${package_dir}
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/meshbound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "cgal" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/LICENSES ${PROJECT_SOURCE_DIR}/docs ${PROJECT_SOURCE_DIR}/tools/schema
+  ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(TARGET meshbound_cgal)
   set_target_properties(meshbound_cgal PROPERTIES EXPORT_NAME cgal)
@@ -21,7 +23,7 @@ if(TARGET meshbound_cgal)
     FILES_MATCHING PATTERN "*.h")
 endif()
 
-foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance verify_certificate)
+foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance verify_certificate generate_mesh)
   if(TARGET ${tool})
     install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()

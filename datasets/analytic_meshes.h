@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "meshbound/triangle_mesh.h"
@@ -54,8 +55,14 @@ namespace meshbound::datasets {
 /// the four basic operations only, so the same seed gives the same bits on every machine.
 [[nodiscard]] TriangleMesh terrain(double side, std::size_t cells, std::uint64_t seed);
 
-/// Names that `mesh_of_size` knows.
-[[nodiscard]] std::span<const std::string_view> kinds();
+/// A shape that `mesh_of_size` makes.
+struct Kind {
+  std::string_view name, description;
+};
+[[nodiscard]] std::span<const Kind> kinds();
+
+/// "icosphere, uv-sphere, ..."
+[[nodiscard]] std::string kind_names();
 
 /// The shape `kind` at unit size with about `faces` triangles: never more, and at least half as many (icosphere: a
 /// quarter), for `faces` of 1,000 or more. Throws `InvalidInput` for an unknown kind or fewer than 1,000 faces.

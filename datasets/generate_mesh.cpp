@@ -14,15 +14,22 @@ int main(int argc, char** argv) {
   std::string kind;
   std::string path;
   std::size_t faces = 100'000;
-  std::string names;
-  for (const std::string_view name : datasets::kinds()) names += (names.empty() ? "" : ", ") + std::string(name);
-  app.add_option("KIND", kind, "one of " + names)->required();
-  app.add_option("--size", faces, "about how many triangles, never more")->capture_default_str();
+  meshbound::WriteOptions options;
+  app.add_option("KIND", kind, "Shape: " + datasets::kind_names())->required();
+  app.add_option("--size", faces,
+                 "Largest number of triangles, 1000 to 100000000: the mesh has as many as its grid can, at least half "
+                 "(icosphere: a quarter)")
+      ->capture_default_str();
   app.add_option("-o,--output", path, "OFF, OBJ, PLY or STL file to write")->required();
-  app.footer("Exit codes: 0 written, 2 bad usage or a file that cannot be written.");
+  meshbound::tools::add_write_options(app, options);
+  std::string footer = "Kinds, closed unless said otherwise, in model units:\n";
+  for (const datasets::Kind& known : datasets::kinds())
+    footer += "  " + std::string(known.name) + ": " + std::string(known.description) + "\n";
+  app.footer(footer + "Exit codes: 0 written, 2 bad usage or a file that cannot be written.");
+  app.set_version_flag("--version", "generate_mesh " MESHBOUND_VERSION);
   return meshbound::tools::tool_main(app, argc, argv, [&] {
     const meshbound::TriangleMesh mesh = datasets::mesh_of_size(kind, faces);
-    meshbound::write_mesh(path, mesh);
+    meshbound::write_mesh(path, mesh, options);
     std::printf("%s: %zu vertices, %zu faces\n", path.c_str(), mesh.vertices.size(), mesh.triangles.size());
     return 0;
   });

@@ -10,8 +10,16 @@
 namespace meshbound::datasets {
 namespace {
 
-constexpr std::array<std::string_view, 9> known_kinds = {"icosphere",    "uv-sphere", "torus", "cube",   "thin-sheet",
-                                                         "spiked-plane", "cylinder",  "gear",  "terrain"};
+constexpr std::array<Kind, 9> known_kinds = {
+    {{"icosphere", "sphere of radius 1, an icosahedron cut again and again: 320, 1280, 5120, ... faces"},
+     {"uv-sphere", "sphere of radius 1, meridians and parallels, long thin faces at the poles"},
+     {"torus", "radius 1, tube radius 0.4"},
+     {"cube", "side 1, each side a grid"},
+     {"thin-sheet", "two grids of side 1, 0.001 apart, closed by a wall"},
+     {"spiked-plane", "square of side 1, every 8th inner vertex raised by 0.05; open"},
+     {"cylinder", "radius 1, height 2, each cap a fan around one vertex, as in CAD files"},
+     {"gear", "spur gear of 24 teeth, radius 1, width 0.25"},
+     {"terrain", "fractal heights over a square of side 1; open"}}};
 
 /// The largest n with n * n <= value.
 std::size_t integer_root(std::size_t value) {
@@ -35,11 +43,17 @@ TriangleMesh gear_of_size(std::size_t faces) {
 
 }  // namespace
 
-std::span<const std::string_view> kinds() { return known_kinds; }
+std::span<const Kind> kinds() { return known_kinds; }
+
+std::string kind_names() {
+  std::string names;
+  for (const Kind& kind : known_kinds) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  return names;
+}
 
 TriangleMesh mesh_of_size(std::string_view kind, std::size_t faces) {
   if (faces < 1000 || faces > 100'000'000)
-    throw InvalidInput("a mesh of a given size needs from 1,000 to 100,000,000 faces");
+    throw InvalidInput("a mesh of " + std::to_string(faces) + " faces is not made; give a size of 1,000 to 100,000,000");
   const std::size_t half = integer_root(faces / 2);
   const std::size_t quarter = integer_root(faces / 4);
   if (kind == "icosphere") return icosphere_of_size(faces);
@@ -51,9 +65,7 @@ TriangleMesh mesh_of_size(std::string_view kind, std::size_t faces) {
   if (kind == "cylinder") return cylinder(1, 2, faces / 4);
   if (kind == "gear") return gear_of_size(faces);
   if (kind == "terrain") return terrain(1, half, 2009);
-  std::string known;
-  for (const std::string_view name : kinds()) known += (known.empty() ? "" : ", ") + std::string(name);
-  throw InvalidInput("unknown kind of mesh '" + std::string(kind) + "'; known are " + known);
+  throw InvalidInput("unknown kind of mesh '" + std::string(kind) + "'; known are " + kind_names());
 }
 
 }  // namespace meshbound::datasets

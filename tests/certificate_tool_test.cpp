@@ -137,10 +137,10 @@ TEST_F(CertificateTools, EveryLevelHasItsOwn) {
                      {"--levels", "0.3%,1%", "--tolerance", "2%", "--certificate", in("small.cert")})
                 .exit_code,
             0);
-  EXPECT_EQ(verify("torus.off", "small_level_1.ply", "small_level_1.cert", {"--tolerance", "0.3%"}).exit_code, 0);
-  EXPECT_EQ(verify("torus.off", "small_level_2.ply", "small_level_2.cert", {"--tolerance", "1%"}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "small_level_0.ply", "small_level_0.cert", {"--tolerance", "0.3%"}).exit_code, 0);
+  EXPECT_EQ(verify("torus.off", "small_level_1.ply", "small_level_1.cert", {"--tolerance", "1%"}).exit_code, 0);
   EXPECT_EQ(verify("torus.off", "small.ply", "small.cert", {"--tolerance", "2%"}).exit_code, 0);
-  EXPECT_EQ(verify("torus.off", "small.ply", "small_level_1.cert").exit_code, 1);
+  EXPECT_EQ(verify("torus.off", "small.ply", "small_level_0.cert").exit_code, 1);
 }
 
 TEST_F(CertificateTools, ATolerance0IsCertifiedWhereNothingChanged) {

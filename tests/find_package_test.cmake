@@ -13,9 +13,25 @@ if(sanitize)
   set(flags -D CMAKE_CXX_FLAGS=-fsanitize=${sanitize})
 endif()
 run("install" ${CMAKE_COMMAND} --install ${build_dir} --prefix ${work_dir}/prefix --config ${config})
+# Everything that the README names runs from the prefix.
+foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance verify_certificate generate_mesh)
+  run("run the installed ${tool}" ${work_dir}/prefix/bin/${tool} --version)
+endforeach()
+foreach(file IN ITEMS README.md schema/simplify-1.schema.json schema/certificate-1.md examples/simplify_in_memory.cpp)
+  if(NOT EXISTS ${work_dir}/prefix/share/doc/meshbound/${file})
+    message(FATAL_ERROR "share/doc/meshbound/${file} was not installed")
+  endif()
+endforeach()
 run("configure the consumer" ${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/build -G ${generator}
   -D CMAKE_BUILD_TYPE=${config} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_PREFIX_PATH=${work_dir}/prefix
   -D CONSUMER_CGAL=${with_cgal} ${flags})
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/wrong -G ${generator}
+  -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_PREFIX_PATH=${work_dir}/prefix -D CONSUMER_COMPONENT=CGAL
+  RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE output)
+string(REGEX REPLACE "[ \n]+" " " output "${output}")
+if(result EQUAL 0 OR NOT output MATCHES "it has no component CGAL; its components are meshbound and cgal")
+  message(FATAL_ERROR "a component that is not there: no reason given (${result}):\n${output}")
+endif()
 run("build the consumer" ${CMAKE_COMMAND} --build ${work_dir}/build)
 run("run the consumer" ${work_dir}/build/consumer)
 if(with_cgal)

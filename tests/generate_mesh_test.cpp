@@ -1,58 +1,57 @@
 // SPDX-License-Identifier: MIT
 // generate_mesh through its command line.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "datasets/analytic_meshes.h"
-#include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "run_tool.h"
 
 namespace {
 
-namespace fs = std::filesystem;
-
-int run(const std::string& arguments) {
-  const int status = std::system((std::string(GENERATE_MESH) + ' ' + arguments + " >/dev/null 2>&1").c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+using meshbound::testing_tools::run_tool;
+using meshbound::testing_tools::ToolRun;
 
 class GenerateMesh : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+  static ToolRun run(const std::vector<std::string>& arguments) { return run_tool(GENERATE_MESH, arguments); }
+  /// One line that says why.
+  static void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) {
+    const ToolRun refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(meshbound::testing_tools::line_count(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find(reason), std::string::npos) << refused.err;
+  }
 
-  fs::path folder_ = fs::temp_directory_path() / ("meshbound_generate_" + std::to_string(::getpid()));
+  meshbound::testing_tools::TemporaryFolder folder_;
 };
 
 TEST_F(GenerateMesh, WritesTheMeshOfTheLibraryBitForBit) {
   for (const char* name : {"mesh.off", "mesh.obj", "mesh.ply"}) {
-    const fs::path path = folder_ / name;
-    ASSERT_EQ(run("gear --size 5000 -o " + path.string()), 0);
+    ASSERT_EQ(run({"gear", "--size", "5000", "-o", in(name)}).exit_code, 0);
     const meshbound::TriangleMesh expected = meshbound::datasets::mesh_of_size("gear", 5000);
-    const meshbound::TriangleMesh read = meshbound::read_mesh(path).mesh;
+    const meshbound::TriangleMesh read = meshbound::read_mesh(in(name)).mesh;
     EXPECT_EQ(read.vertices, expected.vertices) << name;
     EXPECT_EQ(read.triangles, expected.triangles) << name;
   }
 }
 
 TEST_F(GenerateMesh, RefusesWhatItCannotMakeAndWritesNothing) {
-  EXPECT_EQ(run("klein-bottle -o " + (folder_ / "a.ply").string()), 2);
-  EXPECT_EQ(run("cube --size 3 -o " + (folder_ / "b.ply").string()), 2);
-  EXPECT_EQ(run("cube -o " + (folder_ / "c.xyz").string()), 2);
-  EXPECT_EQ(run("cube"), 2);
-  try {
-    (void)meshbound::datasets::mesh_of_size("sphere", 5000);
-    FAIL() << "made a mesh of an unknown kind";
-  } catch (const meshbound::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("known are "), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("icosphere"), std::string::npos) << error.what();
-  }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  expect_refused({"sphere", "-o", in("a.ply")}, "known are icosphere, uv-sphere, ");
+  expect_refused({"cube", "--size", "3", "-o", in("b.ply")}, "give a size of 1,000 to 100,000,000");
+  expect_refused({"cube", "-o", in("c.xyz")}, "c.xyz");
+  expect_refused({"cube"}, "--output");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(GenerateMesh, HelpDescribesEveryKind) {
+  const std::string help = run({"--help"}).out;
+  for (const meshbound::datasets::Kind& kind : meshbound::datasets::kinds())
+    EXPECT_NE(help.find("  " + std::string(kind.name) + ": " + std::string(kind.description) + "\n"), std::string::npos)
+        << help;
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ TEST_F(HausdorffTool, LeavesOutWhatWasNotAskedFor) {
 
 TEST_F(HausdorffTool, WritesJsonToAFileAndASummaryToStdout) {
   const ToolRun result = run({cube_, large_, "--json", folder_ / "out.json"});
-  EXPECT_NE(result.out.find("Hausdorff distance"), std::string::npos);
+  EXPECT_NE(result.out.find("distance    ["), std::string::npos);
   EXPECT_EQ(json::parse(content_of(folder_ / "out.json"))["schema"], "meshbound/distance/1");
   const ToolRun quiet = run({cube_, large_, "--quiet"});
   EXPECT_EQ(quiet.out + quiet.err, "");
@@ -211,8 +211,8 @@ TEST_F(HausdorffTool, NamesTheWorstSpotItKnowsOfAFailedGateInItsLastLine) {
   EXPECT_EQ(failed.err, "");
   const std::regex form("FAIL 1\\.\\d+ > 1\\.5 at \\(\\S+ \\S+ \\S+\\), triangle \\d+");
   EXPECT_TRUE(std::regex_match(last_line(failed.out), form)) << failed.out;
-  EXPECT_NE(failed.out.find("B to A               not searched\n"), std::string::npos) << failed.out;
-  EXPECT_NE(failed.out.find("upper not searched\n"), std::string::npos) << failed.out;
+  EXPECT_NE(failed.out.find("  B to A not searched\n"), std::string::npos) << failed.out;
+  EXPECT_NE(failed.out.find("distance    at least 1."), std::string::npos) << failed.out;
   EXPECT_EQ(failed.out.find("inf"), std::string::npos) << failed.out;
 
   const ToolRun quiet = run({large_, cube_, "--tolerance", "1.5", "--quiet"});
@@ -242,7 +242,7 @@ TEST_F(HausdorffTool, FindsTheWorstSpotAfterTheDecisionWhenAsked) {
     SCOPED_TRACE(tolerance);
     const ToolRun result = run({cube_, large_, "--tolerance", tolerance, "--worst", "--json", folder_ / "worst.json"});
     EXPECT_EQ(result.exit_code, tolerance == "0.9" ? 1 : 0);
-    EXPECT_NE(result.out.find("worst spot           ("), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("worst spot  ("), std::string::npos) << result.out;
     const json document = checked_document(content_of(folder_ / "worst.json"));
     EXPECT_EQ(document["verdict"], tolerance == "0.9" ? "exceeds" : "within");
     EXPECT_EQ(document["outcome"], "converged");
@@ -256,7 +256,7 @@ TEST_F(HausdorffTool, FindsTheWorstSpotAfterTheDecisionWhenAsked) {
   const std::string line = last_line(run({cube_, large_, "--tolerance", "0.9", "--worst"}).out);
   EXPECT_EQ(line.rfind("FAIL 1.73205 > 0.9 at (", 0), 0u) << line;
   EXPECT_EQ(line.substr(line.size() - 5), " of B") << line;
-  EXPECT_NE(run({cube_, large_, "--worst"}).out.find("worst spot           ("), std::string::npos);
+  EXPECT_NE(run({cube_, large_, "--worst"}).out.find("worst spot  ("), std::string::npos);
   EXPECT_EQ(run({cube_, large_, "--tolerance", "1.8", "--worst", "--quiet"}).err, "");
 }
 
@@ -340,9 +340,7 @@ TEST_F(HausdorffTool, ShowsTheWitnessOfAPointLikeDirection) {
   write_mesh(folder_ / "point.off", point);
   write_mesh(folder_ / "mesh.off", mesh);
   const std::string text = run({folder_ / "mesh.off", folder_ / "point.off"}).out;
-  EXPECT_NE(text.find("witness            from (-0.5 0.4 -0.7) to (0.8061316566424304 -0.8019195186906112"),
-            std::string::npos)
-      << text;
+  EXPECT_NE(text.find("witness (-0.5 0.4 -0.7) to (0.8061316566424304 -0.8019195186906112"), std::string::npos) << text;
   const json distance = parsed(run({folder_ / "mesh.off", folder_ / "point.off", "--json", "-"}))["distance"];
   expect_nearest(distance["a_to_b"], point);
   expect_nearest(distance["b_to_a"], mesh);
@@ -350,7 +348,7 @@ TEST_F(HausdorffTool, ShowsTheWitnessOfAPointLikeDirection) {
 
 TEST_F(HausdorffTool, PrintsTheFewestDigitsThatReadBack) {
   const std::string text = run({sphere_, soup_}).out;
-  const std::regex line("(lower|witness) .*"), number("-?\\d[0-9.e+-]*");
+  const std::regex line("(distance +|[AB] to [AB] |witness )[\\[(].*"), number("-?\\d[0-9.e+-]*");
   std::size_t found = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) {
     const std::string numbers = it->str();

@@ -102,6 +102,90 @@ TEST_F(LodChainTool, TakesItsTolerancesFromPixelsAndDistances) {
   expect_levels_hold(json);
 }
 
+/// What an engine asks: how many pixels the error may cover, at one distance. The screen is one of 1080 pixels and 60
+/// degrees unless it is said otherwise.
+TEST_F(LodChainTool, TakesSeveralPixelsAtOneDistance) {
+  const ToolRun result = run({"--pixels", "8,1,2,4", "--distances", "3", "--json", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json json = checked_document(result.out);
+  EXPECT_EQ(json["view"]["screen_height"], 1080);
+  EXPECT_NEAR(json["view"]["fov_degrees"].get<double>(), 60, 1e-9);
+  EXPECT_EQ(json["view"]["pixels"], 1);
+  ASSERT_EQ(json["levels"].size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double pixels = std::exp2(i);
+    EXPECT_EQ(json["levels"][i]["pixels"], pixels);
+    EXPECT_NEAR(json["levels"][i]["tolerance"].get<double>(), pixels * 6 * std::tan(std::numbers::pi / 6) / 1080,
+                1e-12);
+    EXPECT_NEAR(json["levels"][i]["view_distance"].get<double>(), 3, 1e-9);
+  }
+  expect_levels_hold(json);
+}
+
+TEST_F(LodChainTool, NamesTheOptionOfAViewThatIsMissing) {
+  EXPECT_NE(run({"--pixels", "1"}).err.find("missing: --distances"), std::string::npos);
+  EXPECT_NE(run({"--distances", "1"}).err.find("missing: --pixels"), std::string::npos);
+  EXPECT_NE(run({"--fov", "60"}).err.find("missing: --pixels"), std::string::npos);
+  EXPECT_NE(run({"--pixels", "1,2", "--distances", "1,2"}).err.find("several --pixels"), std::string::npos);
+}
+
+TEST_F(LodChainTool, DoubtsAFieldOfViewThatMayBeInRadians) {
+  const ToolRun radians = run({"--pixels", "1", "--distances", "3", "--fov", "1.0471975511965976"});
+  EXPECT_EQ(radians.exit_code, 0);
+  EXPECT_NE(radians.err.find("taken as degrees; a field of view given in radians would be 60\n"), std::string::npos)
+      << radians.err;
+  EXPECT_EQ(run({"--pixels", "1", "--distances", "3", "--fov", "5"}).err, "");
+  EXPECT_EQ(run({"--pixels", "1", "--distances", "3", "--fov", "1", "--quiet"}).err, "");
+}
+
+/// A second run leaves no levels beside a chain.json that does not know them, and takes nothing else away.
+TEST_F(LodChainTool, RemovesTheLevelsOfAnEarlierRunAndNothingElse) {
+  const auto is_there = [&](const char* name) { return fs::exists(in("chain") + "/" + name); };
+  ASSERT_EQ(run({"--levels", "0.002,0.004,0.008,0.016"}).exit_code, 0);
+  std::ofstream(in("chain/lod_3.ply"), std::ios::app) << "changed by somebody";
+  std::ofstream(in("chain/lod_7.ply")) << "of somebody else";
+  std::ofstream(in("chain/notes.txt")) << "of somebody else";
+  ASSERT_EQ(run({"--levels", "0.01"}).exit_code, 0);
+  EXPECT_TRUE(is_there("lod_0.ply"));
+  EXPECT_FALSE(is_there("lod_1.ply"));
+  EXPECT_FALSE(is_there("lod_2.ply"));
+  for (const char* kept : {"lod_3.ply", "lod_7.ply", "notes.txt", "chain.json"}) EXPECT_TRUE(is_there(kept)) << kept;
+}
+
+TEST_F(LodChainTool, KeepsAnEarlierLevelThatIsReadOrCannotBeWritten) {
+  ASSERT_EQ(run({"--levels", "0.002,0.004,0.008"}).exit_code, 0);
+  fs::permissions(in("chain/lod_1.ply"), fs::perms::owner_read);
+  const ToolRun result =
+      testing_tools::run_tool(LOD_CHAIN, {in("chain/lod_2.ply"), in("chain"), "--levels", "0.02", "--format", "obj"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(fs::exists(in("chain/lod_0.ply")));
+  EXPECT_TRUE(fs::exists(in("chain/lod_1.ply")));
+  EXPECT_TRUE(fs::exists(in("chain/lod_2.ply")));
+}
+
+/// A chain.json of somebody else may name anything.
+TEST_F(LodChainTool, RemovesNothingForADocumentThatIsNotItsOwn) {
+  fs::create_directory(in("chain"));
+  std::ofstream(in("lod_1.ply")) << "precious";
+  const std::string checksum = testing_tools::run_shell("sha256sum " + in("lod_1.ply")).out.substr(0, 64);
+  for (const char* file : {"../lod_1.ply", "lod_1.ply", "/etc/hostname"}) {
+    fs::copy_file(in("lod_1.ply"), in("chain/lod_1.ply"), fs::copy_options::overwrite_existing);
+    const Json level = {{"file", file}, {"sha256", checksum}};
+    std::ofstream(in("chain/chain.json")) << Json{{"schema", "other/1"}, {"levels", {level}}};
+    ASSERT_EQ(run({"--levels", "0.01"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(in("chain/lod_1.ply")));
+    std::ofstream(in("chain/chain.json")) << Json{{"schema", "meshbound/lod/1"}, {"levels", {level}}};
+    ASSERT_EQ(run({"--levels", "0.01"}).exit_code, 0);
+    EXPECT_EQ(fs::exists(in("chain/lod_1.ply")), std::string(file) != "lod_1.ply");
+    EXPECT_TRUE(fs::exists(in("lod_1.ply")));
+  }
+  for (const char* text :
+       {"", "{", "[]", "{\"schema\":\"meshbound/lod/1\"}", "{\"schema\":\"meshbound/lod/1\",\"levels\":3}"}) {
+    std::ofstream(in("chain/chain.json")) << text;
+    EXPECT_EQ(run({"--levels", "0.01"}).exit_code, 0) << text;
+  }
+}
+
 TEST_F(LodChainTool, KeepsToTheOptionsThatAllToolsHave) {
   EXPECT_EQ(run({"--levels", "0.01", "--quiet", "--threads", "1", "--driver", "core"}).out, "");
   expect_levels_hold(checked_document(content_of(in("chain/chain.json"))));
@@ -119,6 +203,7 @@ TEST_F(LodChainTool, RefusesBadUsageInOneLineAndMakesNoFolder) {
   expect_refused({"--levels", "-1"});
   expect_refused({"--levels", "0.1", "--pixels", "1"});
   expect_refused({"--pixels", "1", "--screen-height", "1080", "--fov", "60"});
+  expect_refused({"--pixels", "1,2", "--distances", "1,2"});
   expect_refused({"--pixels", "1", "--screen-height", "1080", "--fov", "180", "--distances", "1"});
   expect_refused({"--pixels", "0", "--screen-height", "1080", "--fov", "60", "--distances", "1"});
   expect_refused({"--pixels", "1", "--screen-height", "1080", "--fov", "60", "--distances", "0"});

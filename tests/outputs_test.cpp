@@ -37,7 +37,7 @@ const std::vector<Output> outputs = {
     {"simplify_level",
      SIMPLIFY_WITH_BOUND,
      {"in.off", "out.off", "--tolerance", "2%", "--levels", "1%"},
-     "out_level_1.off",
+     "out_level_0.off",
      false},
     {"chain_level", LOD_CHAIN, {"in.off", ".", "--levels", "1%,2%", "--format", "off"}, "lod_1.off", false},
     {"chain_report", LOD_CHAIN, {"in.off", ".", "--levels", "1%"}, "chain.json", false},
@@ -199,9 +199,9 @@ TEST_F(OutputPairs, NeverShareAFile) {
     for (const std::string path : {"out.off", "sub/../out.off", "sub/link.off"})
       expect_refused_before_work(SIMPLIFY_WITH_BOUND, with(simplify, {option, path}));
   expect_refused_before_work(SIMPLIFY_WITH_BOUND, with(simplify, {"--json", "x", "--certificate", "./x"}));
-  expect_refused_before_work(SIMPLIFY_WITH_BOUND, with(simplify, {"--levels", "1%", "--json", "out_level_1.off"}));
+  expect_refused_before_work(SIMPLIFY_WITH_BOUND, with(simplify, {"--levels", "1%", "--json", "out_level_0.off"}));
   expect_refused_before_work(SIMPLIFY_WITH_BOUND,
-                             with(simplify, {"--levels", "1%", "--certificate", "x", "--json", "x_level_1"}));
+                             with(simplify, {"--levels", "1%", "--certificate", "x", "--json", "x_level_0"}));
   expect_refused_before_work(HAUSDORFF_DISTANCE,
                              {"in.off", "lod_0.off", "--tolerance", "9", "--json", "x", "--certificate", "x"});
   for (const std::string path : {"new/lod_0.off", "new/lod_1.off", "new/chain.json"})

@@ -10,8 +10,10 @@
 #include "common/affine_argument.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
+#include "common/mesh_input.h"
 #include "common/output.h"
 #include "common/progress.h"
+#include "common/provenance.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
 #include "common/threads.h"
@@ -32,17 +34,17 @@ using namespace meshbound;
 using namespace meshbound::tools;
 
 /// Reads a mesh, and maps it if there is a map. Returns how far rounding has moved its image at most.
-double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, TriangleMesh& mesh,
+double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum, TriangleMesh& mesh,
             MeshReport& report) {
-  MeshFile file = read_mesh(path, {&interrupted()});
-  mesh = std::move(file.mesh);
+  mesh = read_input(path, with_checksum, report);
+  report.dropped.reset();  // nothing is written again
   double displacement = 0;
   if (map) {
     TransformedMesh image = transformed(mesh, *map);
     mesh = std::move(image.mesh);
     displacement = image.displacement_bound;
+    report.summary = summarise(mesh);
   }
-  report = {path, summarise(mesh), file.triangulated_polygons, file.decoded_strips, file.ignored_elements};
   return displacement;
 }
 
@@ -88,6 +90,7 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Trian
 }
 
 void fill(DistanceReport& report, const Answer& answer, const Question& question, const Arguments& arguments) {
+  report.provenance = provenance();
   report.verdict = answer.verdict;
   report.outcome = answer.outcome;
   report.reason = answer.reason;
@@ -130,9 +133,10 @@ int run(const Arguments& arguments) {
   DistanceReport report;
   TriangleMesh a, b;
   double displacement = 0;
+  const bool with_checksums = !arguments.common.json.empty();
   run_both(
-      arguments.common.threads, [&] { load(arguments.a, std::nullopt, a, report.a); },
-      [&] { displacement = load(arguments.b, map, b, report.b); });
+      arguments.common.threads, [&] { load(arguments.a, std::nullopt, with_checksums, a, report.a); },
+      [&] { displacement = load(arguments.b, map, with_checksums, b, report.b); });
   if (map) report.transform_displacement = displacement;
   const Question question = question_about(a, b, arguments, lengths, report.a.summary.bbox_diagonal, displacement);
   report.seconds.read = watch.lap();

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 // lod_chain IN DIR: levels of detail, each with a proven distance to IN. The files appear together, once every one of
 // them has been written, read back and measured.
+#include <algorithm>
 #include <cstdio>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "common/distance_text.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
+#include "common/level_files.h"
 #include "common/output.h"
 #include "common/output_folder.h"
+#include "common/provenance.h"
 #include "common/signals.h"
 #include "decimation/decimation_run.h"
 #include "levels/level_run.h"
@@ -21,26 +26,40 @@ namespace {
 struct Options : DecimationOptions {
   std::string folder, format = "ply";
   std::vector<std::string> levels, distances;
-  std::optional<double> pixels, screen_height, fov;
+  std::vector<double> pixels;
+  std::optional<double> screen_height, fov;
 };
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("IN", options.input, "Mesh to make levels of: OFF, OBJ, PLY or STL")->required();
-  app.add_option("DIR", options.folder, "Folder for lod_0, lod_1, ... and chain.json; made when it is not there")
+  app.add_option("DIR", options.folder,
+                 "Folder for lod_0 (the finest), lod_1, ... and chain.json; made when it is not there. Levels of an "
+                 "earlier run in it that are not written again are removed")
       ->required();
   app.add_option("--levels", options.levels, "Tolerances: model units, or 0.1% of the bounding-box diagonal: T1,T2,...")
       ->delimiter(',');
-  app.add_option("--pixels", options.pixels, "Instead of --levels: pixels that the error may cover on the screen");
-  app.add_option("--screen-height", options.screen_height, "Height of the screen in pixels");
-  app.add_option("--fov", options.fov, "Vertical field of view in degrees");
-  app.add_option("--distances", options.distances,
-                 "Distances from the eye to the model, a level for each: model units, or % of the diagonal: D1,D2,...")
+  app.add_option("--pixels", options.pixels,
+                 "Instead of --levels: pixels that the error may cover on the screen; P1,P2,... at one of --distances "
+                 "makes a level for each")
       ->delimiter(',');
+  app.add_option("--distances", options.distances,
+                 "With --pixels: distances from the eye to the model, model units or % of the diagonal; D1,D2,... for "
+                 "one of --pixels makes a level for each")
+      ->delimiter(',');
+  app.add_option("--screen-height", options.screen_height,
+                 "With --pixels: height of the screen in pixels (default 1080)");
+  app.add_option("--fov", options.fov, "With --pixels: vertical field of view in degrees (default 60)");
   app.add_option("--format", options.format, "Format of the level files")
       ->check(CLI::IsMember({"ply", "obj", "off", "stl"}))
       ->capture_default_str();
   add_decimation_options(app, options);
 }
+
+constexpr double default_screen_height = 1080;  // pixels
+constexpr double default_fov = 60;              // degrees
+
+/// Fields of view below this, in degrees, are those of telescopes; an angle in radians is never above it.
+constexpr double smallest_usual_fov = 5;
 
 /// One run of the tool, in the order of its phases.
 class Run : DecimationRun {
@@ -55,16 +74,19 @@ class Run : DecimationRun {
   [[nodiscard]] std::filesystem::path chain_path() const;
   void read();
   void choose_tolerances();
+  void choose_view();
   void open_outputs();
   void make_levels();
   [[nodiscard]] bool take(std::size_t index, const SimplifiedLevel& level);
   void publish();
+  [[nodiscard]] std::vector<std::filesystem::path> stale_files() const;
   void print_summary() const;
 
   const Options& options_;
   std::optional<Bvh> tree_;
   std::optional<OutputFolder> folder_;
   std::vector<GatedOutput> outputs_;  ///< one for each tolerance
+  std::vector<double> pixels_;        ///< of the tolerances, where they come from a view
   LodReport report_;
   std::optional<ProgressBar> bar_;
   bool ended_by_time_ = false;  ///< for some level
@@ -93,16 +115,21 @@ int Run::operator()() {
 }
 
 void Run::check_usage() const {
-  const int of_view = int{options_.pixels.has_value()} + int{options_.screen_height.has_value()} +
-                      int{options_.fov.has_value()} + int{!options_.distances.empty()};
-  if (options_.levels.empty() && of_view == 0)
-    throw InvalidInput(
-        "say which levels to make: --levels T1,T2,... or --pixels with --screen-height, --fov, "
-        "--distances");
-  if (!options_.levels.empty() && of_view > 0)
+  const bool has_view =
+      !options_.pixels.empty() || !options_.distances.empty() || options_.screen_height || options_.fov;
+  if (options_.levels.empty() && !has_view)
+    throw InvalidInput("say which levels to make: --levels T1,T2,... or --pixels P1,P2,... with --distances D");
+  if (!options_.levels.empty() && has_view)
     throw InvalidInput("--levels gives the tolerances themselves; leave out --pixels and what belongs to it");
-  if (options_.levels.empty() && of_view < 4)
-    throw InvalidInput("--pixels, --screen-height, --fov and --distances belong together; one is missing");
+  if (!has_view) return;
+  if (options_.pixels.empty()) throw InvalidInput("missing: --pixels, how many the error may cover, such as 1");
+  if (options_.distances.empty())
+    throw InvalidInput("missing: --distances, from the eye to the model, in model units or % of the diagonal");
+  if (options_.pixels.size() > 1 && options_.distances.size() > 1)
+    throw InvalidInput("several --pixels need one of --distances, and several --distances one of --pixels");
+  if (options_.fov && *options_.fov < smallest_usual_fov && !options_.common.quiet)
+    std::fprintf(stderr, "lod_chain: --fov %s is taken as degrees; a field of view given in radians would be %s\n",
+                 exact_number(*options_.fov).c_str(), short_number(*options_.fov / std::numbers::pi * 180).c_str());
 }
 
 std::filesystem::path Run::level_path(std::size_t index) const {
@@ -113,31 +140,45 @@ std::filesystem::path Run::chain_path() const { return std::filesystem::path(opt
 
 void Run::check_paths() const {
   std::vector<NamedPath> outputs{{"DIR", chain_path()}, {"--json", options_.common.json}};
-  for (std::size_t i = 0; i < options_.levels.size() + options_.distances.size(); ++i)
-    outputs.push_back({"DIR", level_path(i)});
+  const std::size_t of_view = std::max(options_.pixels.size(), options_.distances.size());
+  for (std::size_t i = 0; i < options_.levels.size() + of_view; ++i) outputs.push_back({"DIR", level_path(i)});
   require_distinct_files({{"IN", options_.input}}, outputs);
 }
 
 void Run::read() {
-  read_original(report_.original);
+  read_original(report_.original, true);
   report_.seconds.read = watch_.lap();
 }
 
 void Run::choose_tolerances() {
   add_tolerances("--levels", options_.levels);
-  if (options_.pixels) {
-    const Screen screen{*options_.screen_height, *options_.fov / 180 * std::numbers::pi};
-    report_.view = LodReport::View{*options_.pixels, screen};
-    for (const std::string& distance : options_.distances)
-      tolerances_.push_back(screen_space_tolerance(screen, *options_.pixels,
-                                                   parse_length("--distances", distance).in_model_units(diagonal_)));
-  }
+  if (!options_.pixels.empty()) choose_view();
   sort_tolerances();
+}
+
+void Run::choose_view() {
+  const Screen screen{options_.screen_height.value_or(default_screen_height),
+                      options_.fov.value_or(default_fov) / 180 * std::numbers::pi};
+  std::vector<std::pair<double, double>> levels;  // tolerance, pixels
+  for (const double pixels : options_.pixels) {
+    for (const std::string& text : options_.distances) {
+      const double distance = parse_length("--distances", text).in_model_units(diagonal_);
+      levels.emplace_back(screen_space_tolerance(screen, pixels, distance), pixels);
+    }
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  for (const auto& [tolerance, pixels] : levels) {
+    tolerances_.push_back(tolerance);
+    pixels_.push_back(pixels);
+  }
+  report_.view = LodReport::View{pixels_.front(), screen};
 }
 
 void Run::open_outputs() {
   folder_.emplace(options_.folder);
-  for (std::size_t i = 0; i < tolerances_.size(); ++i) outputs_.emplace_back(level_path(i), interrupted_);
+  for (std::size_t i = 0; i < tolerances_.size(); ++i)
+    outputs_.emplace_back(level_path(i), interrupted_, options_.write);
   check_writable(chain_path());
   if (!options_.common.json.empty()) check_writable(options_.common.json);
 }
@@ -152,6 +193,10 @@ void Run::make_levels() {
   LevelRun run(original_, options);
   for (std::size_t i = 0; i < tolerances_.size(); ++i)
     if (!take(i, run.next(tolerances_[i], 0))) break;
+  SimplifyResult run_of_all;
+  run.describe(run_of_all);
+  report_.locked_vertices = run_of_all.locked_vertices;
+  report_.provenance = provenance();
   report_.driver = options_.driver;
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
@@ -180,10 +225,13 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   LodReport::Level& entry = report_.levels.emplace_back();
   entry.tolerance = level.tolerance;
   entry.decided_by = decided_by;
-  if (report_.view)
-    entry.view_distance = min_view_distance(report_.view->screen, report_.view->pixels, level.tolerance);
+  if (report_.view) {
+    entry.pixels = pixels_[index];
+    entry.view_distance = min_view_distance(report_.view->screen, pixels_[index], level.tolerance);
+  }
   entry.path = output.path().string();
   entry.file = output.path().filename().string();
+  entry.sha256 = output.checksum();
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
   entry.distance = output.distance();
@@ -195,26 +243,43 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
 }
 
 void Run::publish() {
+  const std::vector<std::filesystem::path> stale = stale_files();
   const UninterruptedScope together;
   // The report names the files, so it comes last; an interrupted rename leaves the old report with the old names.
   for (GatedOutput& output : outputs_) output.publish();
   write_text(chain_path(), to_json(report_));
+  std::error_code ignored;  // the new chain.json does not name them, whether they go or not
+  for (const std::filesystem::path& path : stale) std::filesystem::remove(path, ignored);
+}
+
+/// Levels of an earlier run in the same folder that this run neither reads nor writes.
+std::vector<std::filesystem::path> Run::stale_files() const {
+  std::vector<std::filesystem::path> stale = level_files_of(chain_path());
+  std::erase_if(stale, [&](const std::filesystem::path& path) {
+    std::error_code error;
+    const auto is_here = [&](const std::filesystem::path& other) {
+      return path == other || std::filesystem::equivalent(path, other, error);
+    };
+    return is_here(options_.input) || is_here(options_.common.json) ||
+           std::any_of(outputs_.begin(), outputs_.end(), [&](const GatedOutput& o) { return is_here(o.path()); });
+  });
+  return stale;
 }
 
 void Run::print_summary() const {
-  std::printf("original   %s, %zu faces\n", options_.input.c_str(), report_.original.summary.faces);
+  print_line("original", options_.input + ", " + std::to_string(report_.original.summary.faces) + " faces");
   for (const LodReport::Level& level : report_.levels) {
-    std::printf("%-10s %zu faces, tolerance %s, distance [%.6g, %.6g]", level.file.c_str(), level.faces,
-                both_units(level.tolerance, diagonal_).c_str(), level.distance.bounds.lower,
-                level.distance.bounds.upper);
-    if (level.view_distance) std::printf(", from view distance %s on", short_number(*level.view_distance).c_str());
-    std::printf("\n");
-    if (const std::string how = explanation(level.decided_by); !how.empty())
-      std::printf("           decided: %s\n", how.c_str());
+    print_line(level.file, std::to_string(level.faces) + " faces, tolerance " + both_units(level.tolerance, diagonal_));
+    print_line("", "distance " + interval(level.distance.bounds));
+    if (level.view_distance)
+      print_line("", exact_number(*level.pixels) + (*level.pixels == 1 ? " pixel" : " pixels") +
+                         " on the screen from view distance " + short_number(*level.view_distance) + " on");
+    if (const std::string how = explanation(level.decided_by); !how.empty()) print_line("", "decided: " + how);
   }
+  print_line("verdict", to_string(report_.verdict));
+  print_locked(report_.locked_vertices, report_.original.summary);
   print_dropped(report_.original);
-  std::printf("verdict    %s\n", to_string(report_.verdict).c_str());
-  print_seconds(report_.seconds);
+  print_seconds(report_.seconds, report_.threads);
 }
 
 }  // namespace

@@ -9,10 +9,12 @@
 #include <optional>
 #include <vector>
 
+#include "common/distance_text.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/output.h"
 #include "common/output_folder.h"
+#include "common/provenance.h"
 #include "common/signals.h"
 #include "decimation/decimation_run.h"
 #include "levels/level_run.h"
@@ -27,7 +29,7 @@ struct Options : DecimationOptions {
   std::string output, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
-  std::optional<double> target_ratio;
+  std::string target_ratio;
   bool prune = false;
 };
 
@@ -43,19 +45,20 @@ void declare(CLI::App& app, Options& options) {
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
   auto* faces = app.add_option("--target-faces", options.target_faces, "End at this many faces, tolerance permitting")
                     ->check(CLI::NonNegativeNumber);
-  app.add_option("--target-ratio", options.target_ratio, "The same as a share of the faces of IN")
-      ->check(CLI::Range(0.0, 1.0))
+  app.add_option("--target-ratio", options.target_ratio, "The same as a share of the faces of IN: 0.1 or 10%")
       ->excludes(faces);
   app.add_option("--on-exceed", options.on_exceed,
                  "At a collapse that would exceed the tolerance: skip it and go on, or stop there")
       ->check(CLI::IsMember({"skip", "stop"}))
       ->capture_default_str();
-  app.add_option("--levels", options.levels, "Smaller tolerances to write levels for as well: T1,T2,...")
+  app.add_option("--levels", options.levels,
+                 "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
+                 "itself the coarsest")
       ->delimiter(',');
   app.add_option("--output-dir", options.output_dir, "Folder for the levels (default: that of OUT)");
   app.add_option("--certificate", options.certificate,
                  "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
-                 "FILE_level_1 and so on");
+                 "FILE_level_0 and so on");
   app.add_option("--effort", options.effort,
                  "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
       ->check(is_effort)
@@ -72,6 +75,7 @@ class Run : DecimationRun {
   int operator()();
 
  private:
+  void parse_target();
   void check_paths() const;
   [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
   [[nodiscard]] std::filesystem::path certificate_path(std::size_t index) const;
@@ -99,10 +103,13 @@ class Run : DecimationRun {
   /// The time ended the run: OUT is the best mesh that was proven by then.
   [[nodiscard]] bool ended_by_time() const;
 
-  std::vector<DecidedBy> decided_by_;  ///< of the outputs
+  std::optional<double> target_ratio_;
+  std::vector<std::string> checksums_;  ///< of the outputs, when a document is to name them
+  std::vector<DecidedBy> decided_by_;   ///< of the outputs
 };
 
 int Run::operator()() {
+  parse_target();
   check_paths();
   read();
   choose_tolerances();
@@ -116,8 +123,12 @@ int Run::operator()() {
   return verdict_ == Verdict::Within && ended_by_time() ? ExitUndecided : exit_code(verdict_);
 }
 
+void Run::parse_target() {
+  if (!options_.target_ratio.empty()) target_ratio_ = parse_share("--target-ratio", options_.target_ratio);
+}
+
 void Run::read() {
-  read_original(report_.original);
+  read_original(report_.original, !options_.common.json.empty());
   report_.seconds.read = watch_.lap();
 }
 
@@ -131,7 +142,9 @@ void Run::choose_tolerances() {
     if (tolerances_.back() < largest_level)
       throw InvalidInput("--levels: a level is larger than --tolerance, which is that of OUT");
   } else if (tolerances_.empty()) {
-    throw InvalidInput("--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%");
+    throw InvalidInput(
+        "--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%, or "
+        "--tolerance 100% where only the number of faces counts");
   }
   sort_tolerances();
   report_.tolerance = tolerances_.back();
@@ -142,13 +155,13 @@ std::filesystem::path Run::level_path(std::size_t index) const {
   const std::filesystem::path out = options_.output;
   const std::filesystem::path folder =
       options_.output_dir.empty() ? out.parent_path() : std::filesystem::path(options_.output_dir);
-  return folder / (out.stem().string() + "_level_" + std::to_string(index + 1) + out.extension().string());
+  return folder / (out.stem().string() + "_level_" + std::to_string(index) + out.extension().string());
 }
 
 std::filesystem::path Run::certificate_path(std::size_t index) const {
   const std::filesystem::path certificate = options_.certificate;
   return certificate.parent_path() /
-         (certificate.stem().string() + "_level_" + std::to_string(index + 1) + certificate.extension().string());
+         (certificate.stem().string() + "_level_" + std::to_string(index) + certificate.extension().string());
 }
 
 /// Before any work: nothing that is written may replace what is read, or what is written besides.
@@ -169,10 +182,10 @@ void Run::open_outputs() {
     if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
     for (std::size_t i = 0; i < tolerances_.size(); ++i) {
       const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
-      if (is_level) outputs_.emplace_back(level_path(i), interrupted_);
+      if (is_level) outputs_.emplace_back(level_path(i), interrupted_, options_.write);
     }
   }
-  outputs_.emplace_back(options_.output, interrupted_);
+  outputs_.emplace_back(options_.output, interrupted_, options_.write);
   if (options_.certificate.empty()) return;
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
     certificates_.emplace_back(certificate_path(i), AtomicFile::Stream::Staged, &interrupted_);
@@ -187,6 +200,7 @@ void Run::simplify() {
   result_ = decimate_levels(original_, simplify);
   report_.effort = options_.effort;
   report_.driver = options_.driver;
+  report_.locked_vertices = result_.locked_vertices;
   report_.pruned = {result_.pruned_components, result_.pruned_faces};
   report_.stopped_by = to_string(result_.last().ended_by);
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused,
@@ -198,7 +212,7 @@ void Run::simplify() {
 SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
   SimplifyOptions simplify = decimation(outputs_.back(), bar);
   if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
-  simplify.target_ratio = options_.target_ratio;
+  simplify.target_ratio = target_ratio_;
   simplify.on_exceed = options_.on_exceed == "stop" ? OnExceed::Stop : OnExceed::Skip;
   simplify.effort = options_.effort == "high" ? Effort::High : Effort::Normal;
   simplify.prune = options_.prune;
@@ -260,13 +274,13 @@ std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double t
                             {"threads", options_.common.threads}};
   if (options_.target_faces) options["target_faces"] = *options_.target_faces;
   if (options_.feature_angle) options["feature_angle"] = *options_.feature_angle;
-  if (options_.target_ratio) options["target_ratio"] = *options_.target_ratio;
+  if (target_ratio_) options["target_ratio"] = *target_ratio_;
   if (options_.common.has_time_limit) options["time_limit"] = options_.common.time_limit;
   write_text(folder / "options.json", options.dump(2) + '\n');
   return folder;
 }
 
-/// Of the files as they read. A result whose certificate is not complete in time gives way to the original, which is
+/// Proves the files as they read. A result whose certificate is not complete in time gives way to the original, which is
 /// certified in one pass.
 void Run::write_certificates() {
   if (certificates_.empty()) return;
@@ -299,6 +313,8 @@ void Run::write_certificates() {
 
 /// The certificates last: one that is there speaks of a mesh that is there.
 void Run::publish() {
+  if (!options_.common.json.empty())
+    for (const GatedOutput& output : outputs_) checksums_.push_back(output.checksum());
   const UninterruptedScope together;
   for (GatedOutput& output : outputs_) output.publish();
   for (AtomicFile& certificate : certificates_) certificate.commit();
@@ -309,11 +325,13 @@ void Run::report() {
   report_.verdict = verdict_;
   report_.decided_by = decided_by_.empty() ? DecidedBy::Measurement : decided_by_.back();
   if (ended_by_time()) report_.stopped_by = to_string(EndedBy::TimeLimit);
+  report_.provenance = provenance();
   report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
+  if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
   report_.distance = out.distance();
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
-                              outputs_[i].distance()});
+                              outputs_[i].distance(), checksums_.empty() ? "" : checksums_[i]});
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
@@ -338,7 +356,7 @@ bool Run::ended_by_time() const {
 
 std::string Run::end_reason() const {
   const auto ended = result_.last().ended_by;
-  const bool had_target = options_.target_faces || options_.target_ratio;
+  const bool had_target = options_.target_faces || target_ratio_;
   if (result_.tolerance_below_rounding)
     return "the tolerance is below the rounding of the coordinates: nothing collapsed";
   if (ended_by_time() && ended != EndedBy::TimeLimit) return "the time limit came before a smaller mesh was proven";
@@ -349,44 +367,39 @@ std::string Run::end_reason() const {
   return had_target ? tolerance + ": it came before the target" : tolerance;
 }
 
-void print_direction(const char* label, const OneSidedDistance& side) {
-  const Eigen::Vector3d &from = side.witness.from.position, &to = side.witness.nearest.position;
-  std::printf("  %s [%.9g, %.9g], seen from (%.9g %.9g %.9g) to (%.9g %.9g %.9g)\n", label, side.bounds.lower,
-              side.bounds.upper, from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
-}
-
 void Run::print_summary() const {
   const GatedOutput& out = outputs_.back();
-  std::printf("faces      %zu -> %zu (%s%%): %s\n", report_.original.summary.faces, out.summary().faces,
-              short_number(100.0 * static_cast<double>(out.summary().faces) /
-                           static_cast<double>(report_.original.summary.faces))
-                  .c_str(),
-              end_reason().c_str());
-  std::printf("tolerance  %s\n", both_units(report_.tolerance, diagonal_).c_str());
-  std::printf("distance   [%.9g, %.9g], %s\n", out.distance().bounds.lower, out.distance().bounds.upper,
-              to_string(verdict_).c_str());
-  print_direction("original to simplified", out.distance().a_to_b);
-  print_direction("simplified to original", out.distance().b_to_a);
+  const HausdorffDistance& distance = out.distance();
+  const std::size_t faces = out.summary().faces, before = report_.original.summary.faces;
+  print_line("faces", std::to_string(before) + " -> " + std::to_string(faces) + " (" +
+                          short_number(100.0 * static_cast<double>(faces) / static_cast<double>(before)) +
+                          "%): " + end_reason());
+  print_line("tolerance", both_units(report_.tolerance, diagonal_));
+  print_distance(distance.bounds, distance.a_to_b, &distance.b_to_a,
+                 {"original to simplified", "simplified to original"}, diagonal_);
+  print_line("verdict", to_string(verdict_));
   for (std::size_t i = 0; i < decided_by_.size(); ++i) {
     if (const std::string how = explanation(decided_by_[i]); !how.empty())
-      std::printf("decided    %s: %s\n", outputs_[i].path().c_str(), how.c_str());
+      print_line("decided", outputs_[i].path().string() + ": " + how);
   }
+  print_locked(result_.locked_vertices, report_.original.summary);
   if (options_.prune)
-    std::printf("pruned     %zu components of %zu faces\n", result_.pruned_components, result_.pruned_faces);
-  if (result_.split) std::printf("input      not an oriented 2-manifold: cut into one for decimation\n");
+    print_line("pruned", std::to_string(result_.pruned_components) + " components of " +
+                             std::to_string(result_.pruned_faces) + " faces");
+  if (result_.split)
+    print_line("input", "not an oriented 2-manifold: simplified as one, with edges and vertices doubled where needed");
   if (result_.dropped_triangles + result_.kept_triangles > 0)
-    std::printf("input      %zu duplicate or degenerate triangles dropped, %zu kept as they are\n",
-                result_.dropped_triangles, result_.kept_triangles);
+    print_line("input", std::to_string(result_.dropped_triangles) + " duplicate or degenerate triangles dropped, " +
+                            std::to_string(result_.kept_triangles) + " kept as they are");
   print_dropped(report_.original);
-  print_seconds(report_.seconds);
+  print_seconds(report_.seconds, report_.threads);
   if (verdict_ != Verdict::Within) return;
-  for (const GatedOutput& output : outputs_) {
-    std::printf("wrote      %s, %zu faces, [%.6g, %.6g]\n", output.path().c_str(), output.summary().faces,
-                output.distance().bounds.lower, output.distance().bounds.upper);
-  }
+  for (const GatedOutput& output : outputs_)
+    print_line("wrote", output.path().string() + ", " + std::to_string(output.summary().faces) + " faces, " +
+                            interval(output.distance().bounds));
   for (const CertificateReport& certificate : report_.certificates)
-    std::printf("wrote      %s, %zu bytes: a proof for verify_certificate\n", certificate.path.c_str(),
-                certificate.bytes);
+    print_line("wrote",
+               certificate.path + ", " + std::to_string(certificate.bytes) + " bytes: a proof for verify_certificate");
 }
 
 }  // namespace

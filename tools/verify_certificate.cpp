@@ -11,14 +11,19 @@
 #include <string>
 #include <vector>
 
+#include "common/distance_text.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
+#include "common/mesh_input.h"
 #include "common/output.h"
+#include "common/provenance.h"
+#include "common/sha256.h"
 #include "common/signals.h"
 #include "common/tool_main.h"
 #include "mesh/file_bytes.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "report/json_parts.h"
 #include "verify/certificate_reader.h"
 #include "verify/verifier.h"
 
@@ -35,6 +40,7 @@ struct Options {
 
 struct Inputs {
   TriangleMesh original, simplified;
+  std::string original_sha256, simplified_sha256;  ///< empty: not computed
   std::vector<std::uint8_t> certificate;
 };
 
@@ -63,8 +69,8 @@ void require_tolerance(const verify::Proof& proof, const Options& options, const
   if (options.tolerance.empty()) return;
   const double wanted = parse_length("--tolerance", options.tolerance).in_model_units(diagonal_of(original));
   if (proof.tolerance > wanted)
-    throw verify::Rejected("it proves a tolerance of " + short_number(proof.tolerance) + ", more than the wanted " +
-                           short_number(wanted));
+    throw verify::Rejected("it proves a tolerance of " + exact_number(proof.tolerance) + ", more than the wanted " +
+                           exact_number(wanted));
 }
 
 Json to_json(const verify::Proof::Direction& direction) {
@@ -81,13 +87,22 @@ struct Outcome {
   double read_seconds = 0, verify_seconds = 0;
 };
 
+Json mesh_json(const std::string& path, const TriangleMesh& mesh, const std::string& sha256) {
+  return {{"path", path}, {"faces", mesh.triangles.size()}, {"sha256", sha256}};
+}
+
 void write_json(const Options& options, const Inputs& inputs, const Outcome& outcome) {
-  Json json = {{"schema", "meshbound/verify/1"},
-               {"verdict", outcome.proof ? "proven" : "rejected"},
-               {"reason", outcome.proof ? Json() : Json(outcome.reason)},
-               {"original", {{"path", options.original}, {"faces", inputs.original.triangles.size()}}},
-               {"simplified", {{"path", options.simplified}, {"faces", inputs.simplified.triangles.size()}}},
-               {"certificate", {{"path", options.certificate}, {"bytes", inputs.certificate.size()}}}};
+  Json json = {
+      {"schema", "meshbound/verify/1"},
+      {"verdict", outcome.proof ? "proven" : "rejected"},
+      {"reason", outcome.proof ? Json() : Json(outcome.reason)},
+      {"provenance", report::provenance(provenance())},
+      {"original", mesh_json(options.original, inputs.original, inputs.original_sha256)},
+      {"simplified", mesh_json(options.simplified, inputs.simplified, inputs.simplified_sha256)},
+      {"certificate",
+       {{"path", options.certificate},
+        {"bytes", inputs.certificate.size()},
+        {"sha256", sha256({reinterpret_cast<const char*>(inputs.certificate.data()), inputs.certificate.size()})}}}};
   if (outcome.proof) {
     json["tolerance"] = outcome.proof->tolerance;
     json["original_to_simplified"] = to_json(outcome.proof->original_to_simplified);
@@ -100,16 +115,17 @@ void write_json(const Options& options, const Inputs& inputs, const Outcome& out
 void print(const Options& options, const Inputs& inputs, const Outcome& outcome) {
   const verify::Proof::Direction &forward = outcome.proof->original_to_simplified,
                                  &backward = outcome.proof->simplified_to_original;
-  std::printf("proven     %s and %s are within %s of each other\n", options.original.c_str(),
-              options.simplified.c_str(), exact_number(outcome.proof->tolerance).c_str());
-  std::printf("pieces     %llu of the original, %llu of the simplified mesh; %llu of them proven by parity\n",
-              static_cast<unsigned long long>(forward.pieces), static_cast<unsigned long long>(backward.pieces),
-              static_cast<unsigned long long>(forward.by_parity + backward.by_parity));
-  std::printf("bytes      %zu, %s for each original triangle\n", inputs.certificate.size(),
-              short_number(static_cast<double>(inputs.certificate.size()) /
-                           static_cast<double>(inputs.original.triangles.size()))
-                  .c_str());
-  std::printf("seconds    read %.2f, verify %.2f\n", outcome.read_seconds, outcome.verify_seconds);
+  print_line("proven", options.original + " and " + options.simplified + " are within " +
+                           exact_number(outcome.proof->tolerance) + " of each other");
+  print_line("pieces", std::to_string(forward.pieces) + " of the original, " + std::to_string(backward.pieces) +
+                           " of the simplified mesh; " + std::to_string(forward.by_parity + backward.by_parity) +
+                           " of them proven by parity");
+  print_line("bytes", std::to_string(inputs.certificate.size()) + ", " +
+                          short_number(static_cast<double>(inputs.certificate.size()) /
+                                       static_cast<double>(inputs.original.triangles.size())) +
+                          " for each original triangle");
+  print_line("seconds",
+             "read " + rounded_seconds(outcome.read_seconds) + ", verify " + rounded_seconds(outcome.verify_seconds));
 }
 
 int run(const Options& options) {
@@ -121,8 +137,13 @@ int run(const Options& options) {
   Clock::time_point start = Clock::now();
   Inputs inputs;
   inputs.certificate = certificate_of(options.certificate);
-  inputs.original = read_mesh(options.original, {&interrupted()}).mesh;
-  inputs.simplified = read_mesh(options.simplified, {&interrupted()}).mesh;
+  const bool with_checksums = !options.json.empty();
+  InputFile original = read_file(options.original, with_checksums);
+  InputFile simplified = read_file(options.simplified, with_checksums);
+  inputs.original = std::move(original.content.mesh);
+  inputs.original_sha256 = original.sha256;
+  inputs.simplified = std::move(simplified.content.mesh);
+  inputs.simplified_sha256 = simplified.sha256;
   outcome.read_seconds = seconds_since(start);
   start = Clock::now();
   try {

@@ -11,6 +11,7 @@ std::string to_json(const DistanceReport& from) {
   if (from.b_to_a) directions.push_back(&*from.b_to_a);
 
   Json json = {{"schema", "meshbound/distance/1"}, {"verdict", from.verdict}, {"outcome", to_string(from.outcome)}};
+  if (from.provenance) json["provenance"] = provenance(*from.provenance);
   if (!from.reason.empty()) json["reason"] = from.reason;
   json["error_bound"] = from.error_bound ? number(*from.error_bound) : Json(nullptr);
   if (from.tolerance) json["tolerance"] = length(*from.tolerance, diagonal);

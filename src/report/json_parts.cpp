@@ -39,7 +39,12 @@ Json mesh(const MeshReport& mesh) {
                {"decoded_strips", mesh.decoded_strips},
                {"ignored_elements", mesh.ignored_elements}};
   if (mesh.dropped) json["dropped"] = dropped(*mesh.dropped);
+  if (!mesh.sha256.empty()) json["sha256"] = mesh.sha256;
   return json;
+}
+
+Json provenance(const Provenance& from) {
+  return {{"tool", from.tool}, {"version", from.version}, {"date", from.date}, {"command", from.command}};
 }
 
 Json bounds(const Bounds& bounds) { return {{"lower", number(bounds.lower)}, {"upper", number(bounds.upper)}}; }

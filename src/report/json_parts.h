@@ -20,6 +20,9 @@ using Json = nlohmann::ordered_json;
 /// {"path":..,"vertices":..,"faces":..,"components":..,"closed":..,"bbox_diagonal":..} and what the reader did
 [[nodiscard]] Json mesh(const MeshReport& mesh);
 
+/// {"tool":..,"version":..,"date":..,"command":[..]}
+[[nodiscard]] Json provenance(const Provenance& provenance);
+
 /// {"lower":..,"upper":..}
 [[nodiscard]] Json bounds(const Bounds& bounds);
 

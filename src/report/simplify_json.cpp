@@ -6,6 +6,7 @@ namespace meshbound {
 std::string to_json(const SimplifyReport& from) {
   using namespace report;
   Json json = {{"schema", "meshbound/simplify/1"}, {"verdict", to_string(from.verdict)}};
+  if (from.provenance) json["provenance"] = provenance(*from.provenance);
   json["tolerance"] = length(from.tolerance, from.original.summary.bbox_diagonal);
   json["original"] = mesh(from.original);
   json["simplified"] = mesh(from.simplified);
@@ -18,13 +19,16 @@ std::string to_json(const SimplifyReport& from) {
   json["effort"] = from.effort;
   json["driver"] = from.driver;
   json["pruned"] = {{"components", from.pruned.components}, {"faces", from.pruned.faces}};
+  json["locked_vertices"] = from.locked_vertices;
   json["levels"] = Json::array();
   for (const LevelReport& level : from.levels) {
-    json["levels"].push_back({{"tolerance", number(level.tolerance)},
-                              {"path", level.path},
-                              {"faces", level.faces},
-                              {"decided_by", to_string(level.decided_by)},
-                              {"distance", symmetric(level.distance)}});
+    Json& entry = json["levels"].emplace_back();
+    entry["tolerance"] = number(level.tolerance);
+    entry["path"] = level.path;
+    if (!level.sha256.empty()) entry["sha256"] = level.sha256;
+    entry["faces"] = level.faces;
+    entry["decided_by"] = to_string(level.decided_by);
+    entry["distance"] = symmetric(level.distance);
   }
   if (!from.certificates.empty()) {
     json["certificates"] = Json::array();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Passes when an installed meshbound can be compiled against, linked and run: it measures, and simplifies without CGAL.
-#include <meshbound/distance.h>
-#include <meshbound/mesh_summary.h>
-#include <meshbound/simplify.h>
+#include <meshbound/meshbound.h>
 
 namespace {
 

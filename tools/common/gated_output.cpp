@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/sha256.h"
 #include "mesh/file_bytes.h"
 #include "mesh/readers.h"
 #include "mesh/writers.h"
@@ -12,8 +13,8 @@
 
 namespace meshbound::tools {
 
-GatedOutput::GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel)
-    : path_(std::move(path)), cancel_(cancel) {
+GatedOutput::GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel, const WriteOptions& options)
+    : path_(std::move(path)), cancel_(cancel), options_(options) {
   (void)format_of(path_);
   restart();
 }
@@ -21,12 +22,12 @@ GatedOutput::GatedOutput(std::filesystem::path path, const std::atomic<bool>& ca
 void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, &cancel_); }
 
 Precision GatedOutput::precision() const {
-  return format_of(path_) == FileFormat::Stl ? Precision::Single : Precision::Double;
+  return format_of(path_) == FileFormat::Stl || options_.single_precision ? Precision::Single : Precision::Double;
 }
 
 void GatedOutput::write(const TriangleMesh& mesh) {
   restart();
-  write_mesh(*file_, path_, rounded_for(path_, mesh), {});
+  write_mesh(*file_, path_, rounded_for(path_, mesh, options_), options_);
   file_->complete();
 }
 
@@ -34,6 +35,8 @@ TriangleMesh GatedOutput::written_mesh() const {
   const FileBytes bytes(file_->staged(), &cancel_);
   return parse_mesh(path_, bytes.bytes(), {&cancel_}).mesh;
 }
+
+std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->staged(), &cancel_).bytes()); }
 
 const HausdorffDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
   const TriangleMesh mesh = written_mesh();

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "mesh/atomic_file.h"
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
+#include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
 
@@ -19,11 +21,11 @@ class GatedOutput {
  public:
   /// Throws `InvalidInput` when the extension of `path` is none of ours, `IoError` when it cannot be written to.
   /// Reading and writing throw `Interrupted` once `cancel` is set; it must outlive this.
-  GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel);
+  GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel, const WriteOptions& options = {});
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Of the coordinates in the file. A mesh that has this precision already is written without any rounding.
+  /// Precision of the coordinates in the file. A mesh that has this precision already is written without any rounding.
   [[nodiscard]] Precision precision() const;
 
   /// Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
@@ -37,6 +39,7 @@ class GatedOutput {
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
   [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
+  [[nodiscard]] std::string checksum() const;                            ///< SHA-256 of the file; before `publish`
 
   /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
   /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the
@@ -54,6 +57,7 @@ class GatedOutput {
 
   std::filesystem::path path_;  ///< as named by the user
   const std::atomic<bool>& cancel_;
+  WriteOptions options_;
   std::unique_ptr<AtomicFile> file_;
   Verdict verdict_ = Verdict::Undecided;
   HausdorffDistance distance_;

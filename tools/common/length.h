@@ -15,6 +15,9 @@ struct Length {
 /// Throws `InvalidInput`, naming `option`, unless `text` is a finite number that is not negative, "%" allowed after it.
 [[nodiscard]] Length parse_length(const std::string& option, const std::string& text);
 
+/// A share from 0 to 1 as typed: "0.5" or "50%". Throws `InvalidInput`, naming `option`, for anything else.
+[[nodiscard]] double parse_share(const std::string& option, const std::string& text);
+
 /// Both ways to read a length: "0.0123 (0.1% of the diagonal)".
 [[nodiscard]] std::string both_units(double absolute, double diagonal);
 

@@ -19,7 +19,7 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::show(double fraction) {
   if (!enabled_) return;
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
-  if (percent == shown_percent_) return;
+  if (percent <= shown_percent_) return;
   shown_percent_ = percent;
   constexpr int width = 40;
   const int filled = percent * width / 100;

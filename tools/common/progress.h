@@ -4,7 +4,8 @@
 
 namespace meshbound::tools {
 
-/// A progress bar on stderr, drawn only when that is a terminal and `quiet` is false, and wiped when it goes.
+/// A progress bar on stderr, drawn only when that is a terminal and `quiet` is false, and wiped when it goes. It never
+/// goes back: smaller fractions than the largest one so far change nothing.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);

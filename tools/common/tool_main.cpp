@@ -7,8 +7,12 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "common/omp_spin.h"
+#include "common/provenance.h"
 #include "common/signals.h"
 #include "common/threads.h"
 
@@ -28,6 +32,37 @@ std::string seconds(const std::string& text) {
   return is_number && value >= 0 ? "" : "'" + text + "' is not a number of seconds, 0 or more";
 }
 
+/// Fewest letters to insert, delete or replace to make `b` of `a`.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
+    }
+  }
+  return row[b.size()];
+}
+
+/// "; did you mean --tolerance?" for the first unknown option that some option begins with, or nearly is; else empty.
+std::string suggestion(const CLI::App& app) {
+  constexpr std::size_t typing_errors = 2;
+  for (const std::string& unknown : app.remaining()) {
+    const std::string word = unknown.substr(std::min(unknown.find_first_not_of('-'), unknown.size()));
+    if (word.empty() || unknown[0] != '-') continue;
+    std::string names;
+    for (const CLI::Option* option : app.get_options()) {
+      for (const std::string& name : option->get_lnames())
+        if (name.starts_with(word) || (word.size() > typing_errors && edit_distance(word, name) <= typing_errors))
+          names += (names.empty() ? "--" : " or --") + name;
+    }
+    if (!names.empty()) return "; did you mean " + names + "?";
+  }
+  return "";
+}
+
 }  // namespace
 
 ExitCode exit_code(Verdict verdict) {
@@ -40,6 +75,13 @@ ExitCode exit_code(Verdict verdict) {
       break;
   }
   return ExitUndecided;
+}
+
+void add_write_options(CLI::App& app, WriteOptions& options) {
+  app.add_flag("--ascii", options.ascii, "Write PLY and STL as text (OFF and OBJ always are)");
+  app.add_flag("--single-precision", options.single_precision,
+               "Round coordinates to floats first, so that every bound is of what is written; PLY then stores floats, "
+               "as STL always does");
 }
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
@@ -67,6 +109,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
   limit_omp_spin();
+  remember_command_line(app.get_name(), argc, argv);
   ignore_write_signals();
   watch_interrupts(app.get_name());
   try {
@@ -74,7 +117,7 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    return complain(app, std::string(error.what()) + " (see --help)");
+    return complain(app, std::string(error.what()) + suggestion(app) + " (see --help)");
   }
   try {
     const int code = run();

@@ -7,6 +7,7 @@
 
 #include "common/exit_code.h"
 #include "meshbound/bounds.h"
+#include "meshbound/io.h"
 
 namespace meshbound::tools {
 
@@ -20,11 +21,15 @@ struct CommonOptions {
   std::string json;  ///< file for the JSON document, "-" for stdout, empty for none
 };
 
+/// Adds --ascii and --single-precision.
+void add_write_options(CLI::App& app, WriteOptions& options);
+
 /// Adds --threads, --quiet, --time-limit, --json and --version.
 void add_common_options(CLI::App& app, CommonOptions& options);
 
 /// Parses the command line and calls `run`, whose result is the exit code. A usage error or an exception becomes one
-/// line on stderr and `ExitBadInput`; --help and --version print on stdout and give `ExitDone`.
+/// line on stderr and `ExitBadInput`, with the nearest options where one is unknown; --help and --version print on
+/// stdout and give `ExitDone`.
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
 }  // namespace meshbound::tools

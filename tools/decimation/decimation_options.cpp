@@ -17,11 +17,13 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
       ->capture_default_str();
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
   app.add_option("--feature-angle", options.feature_angle,
-                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees")
+                 "Leave edges as they are where the normals of the faces are further apart than this, in degrees; both "
+                 "ends of such an edge are locked, and the output says how many vertices that are")
       ->check(CLI::Range(0.0, 180.0));
   app.add_option("--error-bound", options.error_bound,
                  "Width of the interval that the distance of a result is measured to, once it is proven to be within "
                  "its tolerance (default: 1% of that)");
+  add_write_options(app, options.write);
   add_common_options(app, options.common);
   app.description(app.get_description() +
                   " Outputs carry triangles only: texture coordinates, normals, colours, materials and groups are "

@@ -8,7 +8,9 @@
 #include <limits>
 #include <numbers>
 
+#include "common/distance_text.h"
 #include "common/length.h"
+#include "common/mesh_input.h"
 #include "common/signals.h"
 #include "decimation/drivers.h"
 #include "decimation/dropped_attributes.h"
@@ -39,12 +41,9 @@ DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(in
   (void)collapse_driver(options.driver, options.cost);  // throws before any work where there is none
 }
 
-void DecimationRun::read_original(MeshReport& report) {
-  MeshFile file = read_mesh(shared_.input, {&interrupted_});
-  original_ = std::move(file.mesh);
+void DecimationRun::read_original(MeshReport& report, bool with_checksum) {
+  original_ = read_input(shared_.input, with_checksum, report);
   validate(original_);
-  report = {shared_.input,       summarise(original_),  file.triangulated_polygons,
-            file.decoded_strips, file.ignored_elements, file.dropped};
   diagonal_ = report.summary.bbox_diagonal;
 }
 
@@ -144,9 +143,17 @@ std::string explanation(DecidedBy how) {
   return "no result for this tolerance could be decided: it is the original";
 }
 
-void print_seconds(const SimplifyReport::Seconds& seconds) {
-  std::printf("seconds    read %.2f, simplify %.2f, write %.2f, certify %.2f, total %.2f\n", seconds.read,
-              seconds.simplify, seconds.write, seconds.certify, seconds.total);
+void print_locked(std::size_t vertices, const MeshSummary& original) {
+  if (vertices == 0) return;
+  print_line("locked", std::to_string(vertices) + " of " + std::to_string(original.vertices) +
+                           " vertices: ends of edges that are to stay as they are");
+}
+
+void print_seconds(const SimplifyReport::Seconds& seconds, int threads) {
+  print_line("seconds", "read " + rounded_seconds(seconds.read) + ", simplify " + rounded_seconds(seconds.simplify) +
+                            ", write " + rounded_seconds(seconds.write) + ", certify " +
+                            rounded_seconds(seconds.certify) + ", total " + rounded_seconds(seconds.total) +
+                            thread_count(threads));
 }
 
 }  // namespace meshbound::tools

@@ -20,8 +20,8 @@ class DecimationRun {
   /// `options` must outlive this. Throws `InvalidInput` for a driver that is not there or does not know the cost.
   explicit DecimationRun(const DecimationOptions& options);
 
-  /// Reads and validates the input.
-  void read_original(MeshReport& report);
+  /// Reads and validates the input; its checksum is computed where a document is to name it.
+  void read_original(MeshReport& report, bool with_checksum);
   /// `flag` names the option that `texts` come from, for messages.
   void add_tolerances(const std::string& flag, const std::vector<std::string>& texts);
   /// Ascending, without repetitions.
@@ -65,7 +65,10 @@ void print_dropped(const MeshReport& original);
 /// What to tell the user about a result that was not decided at once: a sentence, empty where there is nothing to say.
 [[nodiscard]] std::string explanation(DecidedBy how);
 
-/// "seconds    read 0.01, simplify ...", a line on stdout.
-void print_seconds(const SimplifyReport::Seconds& seconds);
+/// "locked      12 of 482 vertices: ...", a line on stdout where options lock some.
+void print_locked(std::size_t vertices, const MeshSummary& original);
+
+/// "seconds     read 0.010, simplify ...", a line on stdout.
+void print_seconds(const SimplifyReport::Seconds& seconds, int threads);
 
 }  // namespace meshbound::tools

@@ -95,7 +95,7 @@ bool out_of_budget(const Answer& answer) {
          (answer.b_to_a && answer.b_to_a->outcome == Outcome::BudgetExhausted);
 }
 
-/// Of the whole question, whatever came first in one direction.
+/// How the whole question ended, whatever ended the search of one direction.
 Outcome outcome_of(const Answer& answer, const Question& question, Verdict verdict) {
   if (question.error_bound) {
     const bool narrow = answer.bounds.upper - answer.bounds.lower <= *question.error_bound;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "common/distance_text.h"
 #include "common/length.h"
 
 namespace meshbound::tools {
@@ -13,43 +14,23 @@ namespace {
 
 void print_mesh(const char* name, const MeshReport& mesh) {
   const MeshSummary& s = mesh.summary;
-  std::printf("%s  %s: %zu triangles, %zu vertices, %zu component%s, %s, diagonal %s\n", name, mesh.path.c_str(),
-              s.faces, s.vertices, s.components, s.components == 1 ? "" : "s", s.closed ? "closed" : "open",
-              short_number(s.bbox_diagonal).c_str());
-  if (mesh.triangulated_polygons > 0) std::printf("   %zu polygons split into triangles\n", mesh.triangulated_polygons);
-  if (mesh.decoded_strips > 0) std::printf("   %zu triangle strips decoded\n", mesh.decoded_strips);
-  if (mesh.ignored_elements > 0) std::printf("   %zu lines, points or empty faces ignored\n", mesh.ignored_elements);
-}
-
-/// `no_upper` says why there is no upper bound, where there is none.
-void print_bounds(const char* label, const Bounds& bounds, const char* no_upper, double diagonal) {
-  const bool has_upper = std::isfinite(bounds.upper);
-  std::printf("%-20s lower %s, upper %s\n", label, exact_number(bounds.lower).c_str(),
-              has_upper ? exact_number(bounds.upper).c_str() : no_upper);
-  std::printf("%-20s %s %s\n", "", both_units(bounds.lower, diagonal).c_str(),
-              has_upper ? ("to " + both_units(bounds.upper, diagonal)).c_str() : "or more");
-}
-
-std::string exact_point(const Eigen::Vector3d& p) {
-  return "(" + exact_number(p.x()) + " " + exact_number(p.y()) + " " + exact_number(p.z()) + ")";
+  print_line(name, mesh.path + ": " + std::to_string(s.faces) + " triangles, " + std::to_string(s.vertices) +
+                       " vertices, " + std::to_string(s.components) +
+                       (s.components == 1 ? " component, " : " components, ") + (s.closed ? "closed" : "open") +
+                       ", diagonal " + short_number(s.bbox_diagonal));
+  if (mesh.triangulated_polygons > 0)
+    print_line("", std::to_string(mesh.triangulated_polygons) + " polygons split into triangles");
+  if (mesh.decoded_strips > 0) print_line("", std::to_string(mesh.decoded_strips) + " triangle strips decoded");
+  if (mesh.ignored_elements > 0)
+    print_line("", std::to_string(mesh.ignored_elements) + " lines, points or empty faces ignored");
 }
 
 std::string short_point(const Eigen::Vector3d& p) {
   return "(" + short_number(p.x()) + " " + short_number(p.y()) + " " + short_number(p.z()) + ")";
 }
 
-void print_direction(const char* label, const OneSidedDistance& distance, double diagonal) {
-  if (!was_searched(distance)) {
-    std::printf("%-20s not searched\n", label);
-    return;
-  }
-  print_bounds(label, distance.bounds, "not known", diagonal);
-  std::printf("%-20s from %s to %s\n", "  witness", exact_point(distance.witness.from.position).c_str(),
-              exact_point(distance.witness.nearest.position).c_str());
-}
-
 /// The mesh is named where it is B: a reader of a log expects A, the original.
-std::string place(const WorstSpot& worst) {
+std::string spot(const WorstSpot& worst) {
   return short_point(worst.point.position) + ", triangle " + std::to_string(worst.point.triangle) +
          (worst.on_a ? "" : " of B");
 }
@@ -58,16 +39,23 @@ unsigned long long count(std::uint64_t n) { return n; }  // printf has no portab
 
 void print_profile(const char* label, const OneSidedDistance& distance) {
   const DistanceStats& s = distance.stats;
-  std::printf("%-20s %.3f%% culled on A, %.5f%% culled on B\n", label, s.culled_on_a_percent, s.culled_on_b_percent);
-  std::printf("%-20s %llu triangles: %llu identical, %llu culled by node, %llu by their corners, %llu subdivided\n", "",
+  std::printf("%s\n", label);
+  const auto indent = [] { std::printf("%12s", ""); };
+  indent();
+  std::printf("%.3f%% culled on A, %.5f%% culled on B\n", s.culled_on_a_percent, s.culled_on_b_percent);
+  indent();
+  std::printf("%llu triangles: %llu identical, %llu culled by node, %llu by their corners, %llu subdivided\n",
               count(s.triangles), count(s.matched), count(s.culled_by_node), count(s.culled_by_vertices),
               count(s.walked));
-  std::printf("%-20s %llu queries, %llu nodes, %llu triangles tested\n", "", count(s.closest_point_queries),
+  indent();
+  std::printf("%llu queries, %llu nodes, %llu triangles tested\n", count(s.closest_point_queries),
               count(s.nodes_visited), count(s.triangles_tested));
-  std::printf("%-20s %llu subdivisions into %llu pieces, %u deep; %llu resolved, %llu enclosed, %llu given up\n", "",
+  indent();
+  std::printf("%llu subdivisions into %llu pieces, %u deep; %llu resolved, %llu enclosed, %llu given up\n",
               count(s.subdivisions), count(s.pieces), s.deepest_subdivision, count(s.resolved), count(s.enclosed),
               count(s.given_up));
-  std::printf("%-20s matching %.4f s, culling on A %.4f s, on B %.4f s, subdivision %.4f s\n", "", s.phases.matching,
+  indent();
+  std::printf("matching %.4f s, culling on A %.4f s, on B %.4f s, subdivision %.4f s\n", s.phases.matching,
               s.phases.culling_on_a, s.phases.culling_on_b, s.phases.subdivision);
 }
 
@@ -84,7 +72,7 @@ std::pair<std::string, std::string> told_apart(double larger, double smaller) {
 std::string failure(const DistanceReport& report) {
   const auto [distance, tolerance] = told_apart(report.bounds.lower, *report.tolerance);
   const std::string line = "FAIL " + distance + " > " + tolerance;
-  return report.worst ? line + " at " + place(*report.worst) : line;
+  return report.worst ? line + " at " + spot(*report.worst) : line;
 }
 
 std::string undecided(const DistanceReport& report) {
@@ -108,25 +96,21 @@ void print_report(const DistanceReport& report, bool profile) {
   const double diagonal = report.a.summary.bbox_diagonal;
   print_mesh("A", report.a);
   print_mesh("B", report.b);
-  print_direction("A to B", report.a_to_b, diagonal);
-  if (report.b_to_a) {
-    print_direction("B to A", *report.b_to_a, diagonal);
-    const bool all_searched = was_searched(report.a_to_b) && was_searched(*report.b_to_a);
-    print_bounds("Hausdorff distance", report.bounds, all_searched ? "not known" : "not searched", diagonal);
-  }
-  if (report.worst_was_wanted && report.worst)
-    std::printf("%-20s %s%s\n", "worst spot", place(*report.worst).c_str(), report.worst->on_a ? " of A" : "");
+  if (report.tolerance) print_line("tolerance", both_units(*report.tolerance, diagonal));
   if (report.error_bound)
-    std::printf("%-20s %s%s\n", "error bound", both_units(*report.error_bound, diagonal).c_str(),
-                report.reason.empty() ? "" : (", not reached: " + report.reason).c_str());
-  if (report.tolerance) std::printf("%-20s %s\n", "tolerance", both_units(*report.tolerance, diagonal).c_str());
+    print_line("error bound", both_units(*report.error_bound, diagonal) +
+                                  (report.reason.empty() ? "" : ", not reached: " + report.reason));
+  print_distance(report.bounds, report.a_to_b, report.b_to_a ? &*report.b_to_a : nullptr, {"A to B", "B to A"},
+                 diagonal);
+  if (report.worst_was_wanted && report.worst)
+    print_line("worst spot", spot(*report.worst) + (report.worst->on_a ? " of A" : ""));
   if (report.transform_displacement)
-    std::printf("%-20s %s, within the bounds\n", "transform rounding",
-                short_number(*report.transform_displacement).c_str());
-  std::printf("%-20s %s\n", "verdict", report.verdict.c_str());
-  std::printf("%-20s read %.3f s, build %.3f s, query %.3f s, total %.3f s; %d thread%s\n", "time", report.seconds.read,
-              report.seconds.build, report.seconds.query, report.seconds.total, report.threads,
-              report.threads == 1 ? "" : "s");
+    print_line("transform", "coordinates of B rounded by at most " + exact_number(*report.transform_displacement) +
+                                ", which the bounds include");
+  print_line("verdict", report.verdict);
+  print_line("seconds", "read " + rounded_seconds(report.seconds.read) + ", build " +
+                            rounded_seconds(report.seconds.build) + ", query " + rounded_seconds(report.seconds.query) +
+                            ", total " + rounded_seconds(report.seconds.total) + thread_count(report.threads));
   if (profile) print_profile("profile A to B", report.a_to_b);
   if (profile && report.b_to_a) print_profile("profile B to A", *report.b_to_a);
   if (const std::string line = closing_line(report); !line.empty()) std::printf("%s\n", line.c_str());

@@ -43,11 +43,11 @@ class Interval {
   Interval(double lo, double hi) : lo_(lo), hi_(hi) {}
 
   /// An operation of IEEE doubles is off by at most half a unit in the last place, 2^-53 of the result, or 2^-1075
-  /// where it underflows. 2^-52 of the result and the least double are more than that, the rounding of this step
+  /// where it underflows. 2^-52 of the result and the smallest double are more than that, the rounding of this step
   /// included.
   static Interval rounded(double lo, double hi) {
-    constexpr double least = std::numeric_limits<double>::denorm_min();
-    const double below = lo - (std::fabs(lo) * 0x1p-52 + least), above = hi + (std::fabs(hi) * 0x1p-52 + least);
+    constexpr double smallest = std::numeric_limits<double>::denorm_min();
+    const double below = lo - (std::fabs(lo) * 0x1p-52 + smallest), above = hi + (std::fabs(hi) * 0x1p-52 + smallest);
     if (!(std::fabs(below) < infinity && std::fabs(above) < infinity)) return everything();
     return {below, above};
   }
@@ -59,7 +59,7 @@ inline bool surely_positive(const Interval& x) { return x.lower() > 0; }
 inline bool surely_positive(const Exact& x) { return sgn(x) > 0; }
 inline bool surely_negative(const Interval& x) { return x.upper() < 0; }
 inline bool surely_negative(const Exact& x) { return sgn(x) < 0; }
-/// Of rationals "surely" is the truth: a sign that is not one of these two is 0.
+/// For rationals "surely" means exactly: a sign that is not one of these two is 0.
 inline bool surely_not_negative(const Interval& x) { return x.lower() >= 0; }
 inline bool surely_not_negative(const Exact& x) { return sgn(x) >= 0; }
 

@@ -25,7 +25,7 @@ Vec<Number> middle_of(std::size_t n, const CornerAt& corner_at) {
   return Number(0.5) * corner_at(0) + Number(0.25) * (corner_at(n / 2) + corner_at(n - 1));
 }
 
-/// By vertex, the first one at the same place.
+/// For each vertex the first one with the same position.
 std::vector<std::uint32_t> representatives(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> order, first(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) order.insert(order.end(), t.begin(), t.end());
@@ -139,7 +139,7 @@ bool ParityCheck::draw_in(const PieceCorners& corners, const Piece& piece) {
     reach = std::max({reach, std::hypot(way.x.middle(), way.y.middle(), way.z.middle())});
   }
   const double wanted = 0.999 * drawn_in_share * tolerance_ / reach;
-  if (!(wanted > 0x1p-60)) return false;  // with the least scale still a normal double: nothing is rounded
+  if (!(wanted > 0x1p-60)) return false;  // with the smallest scale still a normal double: nothing is rounded
   drawn_in_ = std::min(0.5, std::ldexp(1.0, std::ilogb(wanted)));
   return drawn_in_enough<Interval>(rough) ||
          drawn_in_enough<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });

@@ -11,7 +11,7 @@
 
 namespace meshbound::verify {
 
-/// A convex part of a source triangle: the hull of these corners, in cyclic order, by their places in `PieceCorners`.
+/// A convex part of a source triangle: the hull of these corners, in cyclic order, as indices into `PieceCorners`.
 using Piece = std::vector<std::uint32_t>;
 
 /// The corners of the pieces of one triangle. Each new one lies on a segment between two earlier ones at a share of
@@ -31,10 +31,10 @@ class PieceCorners {
   /// The double coordinates, where the corner is one of the triangle itself.
   [[nodiscard]] const Eigen::Vector3d* given(std::uint32_t i) const { return i < 3 ? &triangle_[i] : nullptr; }
 
-  /// Cuts a piece along a chord. The two parts share the chord and together are the piece, whatever its shape: the
+  /// Cuts a piece along a chord. The two pieces share the chord and together are the piece, whatever its shape: the
   /// corners of a piece are the image, under the affine map from a standard triangle, of a convex polygon there, and a
   /// chord between two points of the outline of a convex polygon makes two of it. Throws `Rejected` when an end of the
-  /// chord lies on an edge that the piece does not have, or a part would have more than `max_corners`.
+  /// chord lies on an edge that the piece does not have, or a piece would have more than `max_corners`.
   [[nodiscard]] std::pair<Piece, Piece> cut(const Piece& piece, const Token& chord);
 
  private:

@@ -18,9 +18,9 @@ namespace {
 /// Cuts on the way to a piece: enough to halve the sides of a triangle forty times each.
 constexpr int deepest_cut = 128;
 
-/// What proofs by degree may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
+/// What parity proofs may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
 /// again and again. Real proofs need less than one for each byte and triangle.
-constexpr std::uint64_t parity_work_at_least = 65536, parity_work_per_unit = 1024;
+constexpr std::uint64_t min_parity_work = 65536, parity_work_per_unit = 1024;
 
 Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
   const Triangle& t = mesh.triangles[triangle];
@@ -76,8 +76,8 @@ class DirectionCheck {
       const bool holds = degree_->proves(shape_, corners_, piece, last_);
       result_.parity_work = degree_->work();
       if (!holds)
-        fail(result_.parity_work > max_parity_work() ? "is proven by degree at too great a cost"
-                                                     : "has a piece whose proof by degree does not hold");
+        fail(result_.parity_work > max_parity_work() ? "is proven by parity at too great a cost"
+                                                     : "has a piece whose parity proof does not hold");
       return;
     }
     const Corners near = corners_of(target_, last_);
@@ -86,7 +86,7 @@ class DirectionCheck {
   }
 
   [[nodiscard]] std::uint64_t max_parity_work() const {
-    return parity_work_at_least +
+    return min_parity_work +
            parity_work_per_unit * (section_.tokens.size() + source_.triangles.size() + target_.triangles.size());
   }
 
@@ -143,9 +143,9 @@ void require_identity(const TriangleMesh& mesh, const MeshIdentity& claimed, con
 
 /// Everything here relies on doubles rounded to nearest.
 void require_ieee_doubles() {
-  volatile double one = 1, half_step = 0x1p-53, least = std::numeric_limits<double>::denorm_min();
-  if (one + half_step != 1 || one - half_step == 1 || one + 3 * half_step <= 1 + half_step || least / 2 != 0 ||
-      least * 1 == 0)
+  volatile double one = 1, half_step = 0x1p-53, smallest = std::numeric_limits<double>::denorm_min();
+  if (one + half_step != 1 || one - half_step == 1 || one + 3 * half_step <= 1 + half_step || smallest / 2 != 0 ||
+      smallest * 1 == 0)
     throw std::runtime_error("this build or processor mode does not round doubles as IEEE 754 says");
 }
 

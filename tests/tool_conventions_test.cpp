@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// What the tools have in common: how they print a distance, name themselves and their files in documents, round what
+// they write, and answer mistakes on the command line.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <regex>
+
+#include "common/length.h"
+#include "common/progress.h"
+#include "common/sha256.h"
+#include "datasets/analytic_meshes.h"
+#include "json_claims.h"
+#include "meshbound/distance.h"
+#include "meshbound/io.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using testing_tools::checked_document;
+using testing_tools::content_of;
+using testing_tools::Json;
+using testing_tools::run_tool;
+using testing_tools::ToolRun;
+
+class ToolConventions : public testing::Test {
+ protected:
+  ToolConventions() { write_mesh(in("in.off"), datasets::torus(1, 0.3, 40, 16)); }
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] ToolRun simplify(std::vector<std::string> options, const std::string& out = "out.ply") const {
+    options.insert(options.begin(), {in("in.off"), in(out)});
+    return run_tool(SIMPLIFY_WITH_BOUND, options);
+  }
+  static void expect_refused(const ToolRun& result, const std::string& reason) {
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(testing_tools::line_count(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
+  }
+
+  testing_tools::TemporaryFolder folder_;
+};
+
+const std::vector<std::string> all_tools = {SIMPLIFY_WITH_BOUND, LOD_CHAIN, HAUSDORFF_DISTANCE, VERIFY_CERTIFICATE,
+                                            GENERATE_MESH};
+
+TEST_F(ToolConventions, HelpOfEveryToolListsItsExitCodes) {
+  for (const std::string& tool : all_tools)
+    EXPECT_NE(run_tool(tool, {"--help"}).out.find("Exit codes: 0 "), std::string::npos) << tool;
+}
+
+/// From the line "distance" to the next one that begins with a word.
+std::string distance_lines(const std::string& text) {
+  const std::regex lines("(^|\n)(distance [^\n]*\n([ ][^\n]*\n)+)");
+  std::smatch match;
+  EXPECT_TRUE(std::regex_search(text, match, lines)) << text;
+  return match[2];
+}
+
+TEST_F(ToolConventions, DistancesArePrintedInTheSameLines) {
+  const ToolRun simplified = simplify({"--tolerance", "0.02", "--error-bound", "0.0002"});
+  ASSERT_EQ(simplified.exit_code, 0) << simplified.err;
+  const ToolRun measured =
+      run_tool(HAUSDORFF_DISTANCE, {in("in.off"), in("out.ply"), "--tolerance", "0.02", "--error-bound", "0.0002"});
+  std::string lines = distance_lines(simplified.out);
+  lines = std::regex_replace(lines, std::regex("original to simplified"), "A to B");
+  lines = std::regex_replace(lines, std::regex("simplified to original"), "B to A");
+  EXPECT_EQ(lines, distance_lines(measured.out));
+  for (const char* line : {"\nverdict     within\n", "\ntolerance   0.02 ("}) {
+    EXPECT_NE(simplified.out.find(line), std::string::npos) << simplified.out;
+    EXPECT_NE(measured.out.find(line), std::string::npos) << measured.out;
+  }
+}
+
+/// Bounds are those of the document, to the bit, and no number has a digit that it does not need.
+TEST_F(ToolConventions, PrintedBoundsReadBackAsTheSameDoubles) {
+  const ToolRun run = simplify({"--tolerance", "0.02", "--json", in("r.json")});
+  const Json distance = checked_document(content_of(in("r.json")))["distance"];
+  double lower = 0, upper = 0;
+  const std::string lines = distance_lines(run.out);
+  ASSERT_EQ(std::sscanf(lines.c_str(), "distance [%lf, %lf]", &lower, &upper), 2) << lines;
+  EXPECT_EQ(lower, distance["lower"].get<double>());
+  EXPECT_EQ(upper, distance["upper"].get<double>());
+  const std::regex number("-?[0-9]+[.][0-9]+(e-?[0-9]+)?");
+  for (std::sregex_iterator it(lines.begin(), lines.end(), number), end; it != end; ++it) {
+    const std::string text = it->str();
+    EXPECT_EQ(tools::exact_number(std::strtod(text.c_str(), nullptr)), text);
+  }
+}
+
+TEST_F(ToolConventions, UnknownOptionsNameTheNearestOnes) {
+  expect_refused(simplify({"--tol", "0.1"}), "did you mean --tolerance?");
+  expect_refused(simplify({"--tolerence", "0.1"}), "did you mean --tolerance?");
+  expect_refused(simplify({"-e", "0.1"}), "did you mean --effort or --error-bound?");
+  expect_refused(run_tool(LOD_CHAIN, {in("in.off"), in("chain"), "--level", "0.1"}), "did you mean --levels?");
+  const ToolRun unlike = simplify({"--tolerance", "0.1", "--frobnicate"});
+  expect_refused(unlike, "--frobnicate");
+  EXPECT_EQ(unlike.err.find("did you mean"), std::string::npos) << unlike.err;
+}
+
+TEST_F(ToolConventions, LengthsWithAUnitAreRefusedWithAdvice) {
+  for (const char* length : {"0.05mm", "0.05µm", "0.05px"})
+    expect_refused(simplify({"--tolerance", length}),
+                   "mesh files carry no unit; give the number in the unit of the file (0.05)");
+  expect_refused(simplify({"--tolerance", "mm"}), "give a number in model units (0.5)");
+}
+
+TEST_F(ToolConventions, TargetsAreSharesOrPercentages) {
+  const auto faces = [&](const std::string& ratio) {
+    EXPECT_EQ(simplify({"--tolerance", "100%", "--target-ratio", ratio, "--quiet"}).exit_code, 0);
+    return read_mesh(in("out.ply")).mesh.triangles.size();
+  };
+  EXPECT_EQ(faces("0.5"), faces("50%"));
+  for (const char* ratio : {"1.5", "150%", "-1", "half"})
+    expect_refused(simplify({"--tolerance", "1", "--target-ratio", ratio}),
+                   "give a number from 0 to 1 or a percentage");
+  expect_refused(simplify({"--target-ratio", "0.5"}), "--tolerance 100%");
+}
+
+std::string sha256sum(const std::string& path) {
+  return testing_tools::run_shell("sha256sum " + testing_tools::shell_quoted(path)).out.substr(0, 64);
+}
+
+TEST_F(ToolConventions, DocumentsSayWhichProgramMadeThemOfWhichFiles) {
+  const std::string levels = in("levels"), proof = in("out.cert");
+  ASSERT_EQ(simplify({"--tolerance", "0.02", "--levels", "0.01", "--output-dir", levels, "--certificate", proof,
+                      "--json", in("simplify.json")})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_tool(HAUSDORFF_DISTANCE, {in("in.off"), in("out.ply"), "--json", in("distance.json")}).exit_code, 0);
+  ASSERT_EQ(run_tool(VERIFY_CERTIFICATE, {in("in.off"), in("out.ply"), proof, "--json", in("verify.json")}).exit_code,
+            0);
+  ASSERT_EQ(run_tool(LOD_CHAIN, {in("in.off"), in("chain"), "--levels", "0.02", "--json", in("lod.json")}).exit_code,
+            0);
+  const auto document = [&](const std::string& name, const std::string& tool) {
+    const Json json = checked_document(content_of(in(name + ".json")));
+    EXPECT_EQ(json["provenance"]["tool"], tool);
+    EXPECT_EQ(
+        json["provenance"]["tool"].get<std::string>() + " " + json["provenance"]["version"].get<std::string>() + "\n",
+        run_tool(std::filesystem::path(SIMPLIFY_WITH_BOUND).parent_path() / tool, {"--version"}).out);
+    EXPECT_TRUE(std::regex_match(json["provenance"]["date"].get<std::string>(),
+                                 std::regex("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ")));
+    EXPECT_EQ(json["provenance"]["command"][1], in("in.off"));
+    return json;
+  };
+  const std::string original = sha256sum(in("in.off")), result = sha256sum(in("out.ply"));
+  const Json simplified = document("simplify", "simplify_with_bound");
+  EXPECT_EQ(simplified["original"]["sha256"], original);
+  EXPECT_EQ(simplified["simplified"]["sha256"], result);
+  EXPECT_EQ(simplified["levels"][0]["sha256"], sha256sum(levels + "/out_level_0.ply"));
+  const Json distance = document("distance", "hausdorff_distance");
+  EXPECT_EQ(distance["a"]["sha256"], original);
+  EXPECT_EQ(distance["b"]["sha256"], result);
+  const Json verified = document("verify", "verify_certificate");
+  EXPECT_EQ(verified["original"]["sha256"], original);
+  EXPECT_EQ(verified["simplified"]["sha256"], result);
+  EXPECT_EQ(verified["certificate"]["sha256"], sha256sum(proof));
+  const Json chain = document("lod", "lod_chain");
+  EXPECT_EQ(chain["original"]["sha256"], original);
+  EXPECT_EQ(chain["levels"][0]["sha256"], sha256sum(in("chain/lod_0.ply")));
+}
+
+/// Where a message ends relative to the blocks of 64 bytes makes the difference; and two vectors of FIPS 180-4.
+TEST(Sha256, IsTheStandardOne) {
+  EXPECT_EQ(tools::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(tools::sha256(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  const testing_tools::TemporaryFolder folder;
+  for (const std::size_t size : {0, 1, 55, 56, 63, 64, 65, 119, 120, 128}) {
+    std::string bytes;
+    for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(37 * i + 200);
+    std::ofstream(folder / "bytes", std::ios::binary) << bytes;
+    EXPECT_EQ(tools::sha256(bytes), sha256sum(folder / "bytes")) << size;
+  }
+}
+
+bool all_floats(const TriangleMesh& mesh) {
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    if (p.cast<float>().cast<double>() != p) return false;
+  return true;
+}
+
+/// Rounding comes before the measurement: the bound is that of the file.
+TEST_F(ToolConventions, CoordinatesAreFloatsWhenAskedInEveryFormat) {
+  const Bvh original(read_mesh(in("in.off")).mesh);
+  for (const char* name : {"out.ply", "out.off", "out.obj", "out.stl"}) {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(simplify({"--tolerance", "0.02", "--quiet"}, name).exit_code, 0);
+    if (std::string(name) != "out.stl") EXPECT_FALSE(all_floats(read_mesh(in(name)).mesh));
+    const ToolRun run = simplify({"--tolerance", "0.02", "--single-precision", "--json", "-"}, name);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const TriangleMesh written = read_mesh(in(name)).mesh;
+    EXPECT_TRUE(all_floats(written));
+    const Json distance = checked_document(run.out)["distance"];
+    EXPECT_EQ(check_tolerance(original, Bvh(written), distance["upper"]).verdict, Verdict::Within);
+    EXPECT_EQ(check_tolerance(original, Bvh(written), 0.02).verdict, Verdict::Within);
+  }
+  ASSERT_EQ(simplify({"--tolerance", "0.02", "--single-precision"}).exit_code, 0);
+  EXPECT_NE(content_of(in("out.ply")).find("property float x\n"), std::string::npos);
+}
+
+TEST_F(ToolConventions, EveryToolThatWritesMeshesWritesText) {
+  const auto head = [&](const std::string& name) { return content_of(in(name)).substr(0, 60); };
+  ASSERT_EQ(simplify({"--tolerance", "0.02", "--ascii"}).exit_code, 0);
+  EXPECT_NE(head("out.ply").find("format ascii 1.0\n"), std::string::npos);
+  ASSERT_EQ(simplify({"--tolerance", "0.02", "--ascii"}, "out.stl").exit_code, 0);
+  EXPECT_EQ(head("out.stl").rfind("solid", 0), 0u);
+  const std::vector<std::string> levels = {in("in.off"), in("chain"), "--levels",
+                                           "0.02",       "--ascii",   "--single-precision"};
+  ASSERT_EQ(run_tool(LOD_CHAIN, levels).exit_code, 0);
+  EXPECT_NE(head("chain/lod_0.ply").find("format ascii 1.0\n"), std::string::npos);
+  EXPECT_TRUE(all_floats(read_mesh(in("chain/lod_0.ply")).mesh));
+  ASSERT_EQ(run_tool(GENERATE_MESH, {"gear", "--size", "5000", "--ascii", "--single-precision", "-o", in("gear.ply")})
+                .exit_code,
+            0);
+  EXPECT_NE(head("gear.ply").find("format ascii 1.0\n"), std::string::npos);
+  EXPECT_TRUE(all_floats(read_mesh(in("gear.ply")).mesh));
+}
+
+/// Both ends of an edge of the cube that is sharp: 12 edges of 5 inner vertices and 8 corners.
+TEST_F(ToolConventions, SayHowManyVerticesAreLocked) {
+  write_mesh(in("cube.off"), datasets::cube(1, 6));
+  const ToolRun run = run_tool(SIMPLIFY_WITH_BOUND, {in("cube.off"), in("out.off"), "--tolerance", "0.2",
+                                                     "--feature-angle", "80", "--json", in("r.json")});
+  EXPECT_NE(run.out.find("\nlocked      68 of 218 vertices: "), std::string::npos) << run.out;
+  EXPECT_EQ(checked_document(content_of(in("r.json")))["locked_vertices"], 68);
+  const ToolRun chain = run_tool(
+      LOD_CHAIN, {in("cube.off"), in("chain"), "--levels", "0.2", "--feature-angle", "80", "--json", in("l.json")});
+  EXPECT_NE(chain.out.find("\nlocked      68 of 218 vertices: "), std::string::npos) << chain.out;
+  EXPECT_EQ(checked_document(content_of(in("l.json")))["locked_vertices"], 68);
+  EXPECT_EQ(simplify({"--tolerance", "0.02"}).out.find("locked"), std::string::npos);
+}
+
+/// What a terminal would show of a run whose second direction begins at the beginning again.
+TEST(Progress, NeverGoesBack) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(::grantpt(terminal) | ::unlockpt(terminal), 0);
+  const int screen = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);
+  ASSERT_GE(screen, 0);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(screen, STDERR_FILENO);
+  {
+    tools::ProgressBar bar("measuring", false);
+    for (const double fraction : {0.1, 0.46, 0.1, 0.3, 0.46, 0.7}) bar.show(fraction);
+  }
+  ::dup2(before, STDERR_FILENO);
+  std::string shown(4096, '\0');
+  shown.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(terminal, shown.data(), shown.size()))));
+  for (const int file : {before, screen, terminal}) ::close(file);
+  std::vector<int> percents;
+  const std::regex percent(" +(\\d+)%");
+  for (std::sregex_iterator it(shown.begin(), shown.end(), percent), end; it != end; ++it)
+    percents.push_back(std::stoi((*it)[1]));
+  EXPECT_EQ(percents, (std::vector<int>{10, 46, 70})) << shown;
+}
+
+}  // namespace
+}  // namespace meshbound

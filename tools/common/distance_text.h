@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// The lines on stdout by which every tool says how far two meshes are apart. Bounds and coordinates have the fewest
+/// digits that read back as the same double.
+#pragma once
+#include <string>
+
+#include "meshbound/distance.h"
+
+namespace meshbound::tools {
+
+/// A line "label       text"; a label that is empty continues the line above.
+void print_line(const std::string& label, const std::string& text);
+
+/// "[0.0013, 0.0014]", or "at least 0.0013" where there is no upper bound.
+[[nodiscard]] std::string interval(const Bounds& bounds);
+
+/// "0.012", and "; 2 threads": for lines that tell the time.
+[[nodiscard]] std::string rounded_seconds(double seconds);
+[[nodiscard]] std::string thread_count(int threads);
+
+/// What the two directions are called: "A to B", "original to simplified".
+struct DirectionNames {
+  const char* a_to_b;
+  const char* b_to_a;
+};
+
+/// The interval of the distance in model units and in percent of the diagonal, then each direction with its interval
+/// and its witness: a point of one mesh and the closest point of the other. `b_to_a` may be null: not asked for.
+void print_distance(const Bounds& bounds, const OneSidedDistance& a_to_b, const OneSidedDistance* b_to_a,
+                    const DirectionNames& names, double diagonal);
+
+}  // namespace meshbound::tools

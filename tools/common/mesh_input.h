@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "meshbound/io.h"
+#include "meshbound/report.h"
+
+namespace meshbound::tools {
+
+struct InputFile {
+  MeshFile content;
+  std::string sha256;  ///< of the bytes that were parsed; empty: not computed
+};
+
+/// `read_mesh` for a tool: ends with `Interrupted` when the process is.
+[[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum);
+
+/// The mesh of `read_file`; `report` says what was read.
+[[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report);
+
+}  // namespace meshbound::tools

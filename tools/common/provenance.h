@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "meshbound/report.h"
+
+namespace meshbound::tools {
+
+/// To be called once, by `tool_main`: what `provenance` will say of this process.
+void remember_command_line(const std::string& tool, int argc, const char* const* argv);
+
+/// This process, its command line and the time at the call.
+[[nodiscard]] Provenance provenance();
+
+}  // namespace meshbound::tools
