@@ -6,6 +6,7 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <meshbound/cgal/deviation_monitor.h>
 #include <meshbound/distance.h>
+#include <meshbound/error.h>
 #include <meshbound/io.h>
 
 #include <cstdio>
@@ -31,7 +32,7 @@ struct OwnPlacement {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   Mesh mesh;
   if (argc != 4 || !CGAL::IO::read_OFF(argv[1], mesh)) return 2;
   const double tolerance = std::atof(argv[3]);
@@ -52,4 +53,7 @@ int main(int argc, char** argv) {
   if (check.verdict != meshbound::Verdict::Within) return 1;
   meshbound::write_mesh(argv[2], result);
   return 0;
+} catch (const meshbound::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

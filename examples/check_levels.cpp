@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <meshbound/error.h>
 #include <meshbound/io.h>
 #include <meshbound/level_checker.h>
 
 #include <cstdio>
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc < 3) return 2;
   const meshbound::Bvh original(meshbound::read_mesh(argv[1]).mesh);
   meshbound::LevelChecker levels(original);
@@ -17,4 +18,7 @@ int main(int argc, char** argv) {
     if (check.verdict != meshbound::Verdict::Within) return 1;
   }
   return 0;
+} catch (const meshbound::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

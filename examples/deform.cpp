@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <meshbound/distance.h>
+#include <meshbound/error.h>
 #include <meshbound/io.h>
 
 #include <cmath>
 #include <cstdio>
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2) return 2;
   auto mesh = meshbound::read_mesh(argv[1]).mesh;
   const meshbound::Bvh at_rest(mesh);
@@ -19,4 +20,7 @@ int main(int argc, char** argv) {
     std::printf("%.17g <= H <= %.17g\n", distance.bounds.lower, distance.bounds.upper);
   }
   return 0;
+} catch (const meshbound::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

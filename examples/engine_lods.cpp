@@ -3,6 +3,7 @@
 // bits where they suffice, tolerances from what a viewer can see.
 // Usage: engine_lods IN
 #include <meshbound/bvh.h>
+#include <meshbound/error.h>
 #include <meshbound/io.h>
 #include <meshbound/lod_chain.h>
 #include <meshbound/screen_space.h>
@@ -29,9 +30,7 @@ struct Buffers {
       for (const std::uint32_t v : triangle) indices.push_back(static_cast<Index>(v));
   }
   // Nothing is copied: the view reads the buffers where they are.
-  meshbound::MeshView view() const {
-    return {vertices[0].position, vertices.size(), sizeof(Vertex), indices.data(), indices.size() / 3};
-  }
+  meshbound::MeshView view() const { return {vertices[0].position, vertices.size(), sizeof(Vertex), indices}; }
 };
 
 template <class Index>
@@ -56,10 +55,13 @@ bool make_levels(const Buffers<Index>& model) {
   return all_hold;
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 2) return 2;
   const meshbound::TriangleMesh mesh = meshbound::read_mesh(argv[1]).mesh;
   const bool is_short = mesh.vertices.size() <= 0x10000;
   const bool hold = is_short ? make_levels(Buffers<std::uint16_t>(mesh)) : make_levels(Buffers<std::uint32_t>(mesh));
   return hold ? 0 : 1;
+} catch (const meshbound::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

@@ -1,92 +1,171 @@
 // SPDX-License-Identifier: MIT
-// The README says what is there: its program is the one the tests compile, its commands and files exist.
+// The documents say what is there: their programs are those that the tests compile, their commands run, and the files
+// and tests that they name exist.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/io.h"
+#include "run_tool.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using meshbound::testing_tools::content_of;
+using meshbound::testing_tools::run_shell;
+using meshbound::testing_tools::run_tool;
+using meshbound::testing_tools::TemporaryFolder;
+using meshbound::testing_tools::ToolRun;
+
 const fs::path root = MESHBOUND_SOURCE_DIR;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
+std::vector<fs::path> documents() {
+  std::vector<fs::path> all{root / "README.md", root / "CONTRIBUTING.md"};
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
-TEST(Readme, ShowsTheProgramsThatTheTestsCompile) {
-  for (const char* name : {"measure_two_meshes.cpp", "simplify_in_memory.cpp", "check_levels.cpp", "deform.cpp"}) {
-    std::string program = text_of(root / "examples" / name);
-    ASSERT_EQ(program.rfind("// SPDX", 0), 0U);
-    program.erase(0, program.find('\n') + 1);
-    EXPECT_NE(text_of(root / "README.md").find("```cpp\n" + program + "```"), std::string::npos) << name;
+/// What stands between "```language" and "```".
+std::vector<std::string> blocks(const std::string& text, const std::string& language) {
+  std::vector<std::string> found;
+  const std::string begin = "```" + language + "\n", end = "\n```";
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at)) {
+    at += begin.size();
+    const std::size_t stop = text.find(end, at);
+    found.push_back(text.substr(at, stop + 1 - at));
+    at = stop;
   }
+  return found;
 }
 
-TEST(Readme, ProgramTellsACubeFromALargerOne) {
-  const fs::path folder = fs::temp_directory_path() / ("meshbound_readme_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  meshbound::write_mesh(folder / "cube.off", meshbound::datasets::cube(1, 1));
-  meshbound::write_mesh(folder / "fine.off", meshbound::datasets::cube(1, 8));
-  meshbound::write_mesh(folder / "large.off", meshbound::datasets::cube(1.5, 1));
-  const auto run = [&](const char* other) {
-    const std::string files = " " + (folder / "cube.off").string() + " " + (folder / other).string();
-    const int status = std::system((MEASURE_TWO_MESHES + files + " >/dev/null").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  };
-  EXPECT_EQ(run("fine.off"), 0);
-  EXPECT_EQ(run("large.off"), 1);
-  fs::remove_all(folder);
+TEST(Readme, IsShort) { EXPECT_LE(meshbound::testing_tools::line_count(content_of(root / "README.md")), 200); }
+
+/// A program that the tests compile is in examples/, below its licence.
+TEST(Documents, ShowOnlyProgramsThatTheTestsCompile) {
+  std::vector<std::string> programs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "examples")) {
+    const std::string program = content_of(entry.path());
+    programs.push_back(program.substr(program.find('\n') + 1));
+  }
+  std::size_t shown = 0;
+  for (const fs::path& document : documents()) {
+    for (const std::string& block : blocks(content_of(document), "cpp")) {
+      EXPECT_NE(std::find(programs.begin(), programs.end(), block), programs.end()) << document << ":\n" << block;
+      ++shown;
+    }
+  }
+  EXPECT_GE(shown, 4u);
 }
 
-TEST(Readme, ProgramsForLevelsAndMovingMeshesRun) {
-  const fs::path folder = fs::temp_directory_path() / ("meshbound_levels_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  meshbound::write_mesh(folder / "cube.off", meshbound::datasets::cube(1, 4));
-  meshbound::write_mesh(folder / "fine.off", meshbound::datasets::cube(1, 8));
-  meshbound::write_mesh(folder / "large.off", meshbound::datasets::cube(1.5, 1));
-  const auto run = [&](const std::string& program, const std::vector<const char*>& files) {
-    std::string command = program;
-    for (const char* file : files) command += " " + (folder / file).string();
-    const int status = std::system((command + " >/dev/null").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  };
-  EXPECT_EQ(run(CHECK_LEVELS, {"cube.off", "fine.off", "cube.off"}), 0);
-  EXPECT_EQ(run(CHECK_LEVELS, {"cube.off", "fine.off", "large.off"}), 1);
-  EXPECT_EQ(run(DEFORM, {"cube.off"}), 0);
-  fs::remove_all(folder);
+/// The lines of `text` that call one of our tools, without their comments: in blocks of sh, and indented ones.
+std::vector<std::string> commands(const std::string& text) {
+  std::vector<std::string> found;
+  const std::regex line("(^|\n)(    )?((simplify_with_bound|lod_chain|verify_certificate|hausdorff_distance) [^\n#]*)");
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) found.push_back((*it)[3]);
+  return found;
 }
 
-TEST(Readme, ProgramSimplifiesACube) {
-  const fs::path folder = fs::temp_directory_path() / ("meshbound_simplify_" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  meshbound::write_mesh(folder / "cube.off", meshbound::datasets::cube(1, 8));
-  const std::string files = " " + (folder / "cube.off").string() + " " + (folder / "small.off").string();
-  EXPECT_EQ(std::system((SIMPLIFY_IN_MEMORY + files + " >/dev/null").c_str()), 0);
-  EXPECT_EQ(meshbound::read_mesh(folder / "small.off").mesh.triangles.size(), 12u);
-  fs::remove_all(folder);
+TEST(Documents, CommandsRunAsTheyAreWritten) {
+  const TemporaryFolder folder;
+  meshbound::write_mesh(folder / "bunny.ply", meshbound::datasets::torus(1, 0.3, 60, 24));
+  std::size_t count = 0;
+  for (const fs::path& document : documents()) {
+    for (const std::string& command : commands(content_of(document))) {
+      const ToolRun run =
+          run_shell("cd '" + folder.path().string() + "' && PATH='" TOOLS_FOLDER "':$PATH && " + command);
+      EXPECT_EQ(run.exit_code, 0) << document << ": " << command << run.err;
+      ++count;
+    }
+  }
+  EXPECT_GE(count, 5u);
 }
 
-TEST(Readme, NamesOnlyFilesThatExist) {
-  const std::string readme = text_of(root / "README.md");
-  const std::regex path(R"(`((?:tools|tests|datasets|src|include|examples|cmake|docs|LICENSES)/[\w./-]*)[^`]*`)");
+TEST(Documents, NameOnlyFilesThatExist) {
+  const std::regex in_ticks(
+      R"(`((?:tools|tests|datasets|src|include|examples|cmake|docs|LICENSES)/[\w./-]*[\w/])[^`]*`)");
+  const std::regex linked(R"(\]\(([^)#:]+)\))");
   std::size_t found = 0;
-  for (std::sregex_iterator it(readme.begin(), readme.end(), path), end; it != end; ++it) {
-    EXPECT_TRUE(fs::exists(root / (*it)[1].str())) << (*it)[1];
-    ++found;
+  for (const fs::path& document : documents()) {
+    const std::string text = content_of(document);
+    for (std::sregex_iterator it(text.begin(), text.end(), in_ticks), end; it != end; ++it, ++found)
+      EXPECT_TRUE(fs::exists(root / (*it)[1].str())) << document << ": " << (*it)[1];
+    for (std::sregex_iterator it(text.begin(), text.end(), linked), end; it != end; ++it, ++found)
+      EXPECT_TRUE(fs::exists(document.parent_path() / (*it)[1].str())) << document << ": " << (*it)[1];
   }
-  EXPECT_GT(found, 8U);
+  EXPECT_GT(found, 40U);
+}
+
+/// "`Lemma3_...`" stands for every test whose name begins so.
+TEST(PageOfThePaper, NamesOnlyTestsThatExist) {
+  const std::string page = content_of(root / "docs/paper.md"), tests = content_of(root / "tests/paper_test.cpp");
+  const std::regex name("`((?:Lemma|Theorem|Eq|Section|Table)\\d\\w*?)(?:\\.\\.\\.)?`");
+  std::size_t found = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), name), end; it != end; ++it, ++found)
+    EXPECT_NE(tests.find("TEST(Paper, " + (*it)[1].str()), std::string::npos) << (*it)[1];
+  EXPECT_GE(found, 10u);
+}
+
+class Programs : public testing::Test {
+ protected:
+  Programs() {
+    meshbound::write_mesh(in("cube.off"), meshbound::datasets::cube(1, 4));
+    meshbound::write_mesh(in("fine.off"), meshbound::datasets::cube(1, 8));
+    meshbound::write_mesh(in("large.off"), meshbound::datasets::cube(1.5, 1));
+  }
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Programs, TellACubeFromALargerOne) {
+  EXPECT_EQ(run_tool(MEASURE_TWO_MESHES, {in("cube.off"), in("fine.off")}).exit_code, 0);
+  EXPECT_EQ(run_tool(MEASURE_TWO_MESHES, {in("cube.off"), in("large.off")}).exit_code, 1);
+  EXPECT_EQ(run_tool(CHECK_LEVELS, {in("cube.off"), in("fine.off"), in("cube.off")}).exit_code, 0);
+  EXPECT_EQ(run_tool(CHECK_LEVELS, {in("cube.off"), in("fine.off"), in("large.off")}).exit_code, 1);
+  EXPECT_EQ(run_tool(DEFORM, {in("cube.off")}).exit_code, 0);
+}
+
+TEST_F(Programs, SimplifyACube) {
+  EXPECT_EQ(run_tool(SIMPLIFY_IN_MEMORY, {in("fine.off"), in("small.off")}).exit_code, 0);
+  EXPECT_EQ(meshbound::read_mesh(in("small.off")).mesh.triangles.size(), 12u);
+}
+
+/// None ends in an exception that nobody catches.
+TEST_F(Programs, SayInOneLineWhatTheyCannotRead) {
+  for (const auto& [program, more] :
+       {std::pair<std::string, std::vector<std::string>>{MEASURE_TWO_MESHES, {"absent.off"}},
+        {SIMPLIFY_IN_MEMORY, {"absent.off"}},
+        {CHECK_LEVELS, {"absent.off"}},
+        {DEFORM, {}}}) {
+    std::vector<std::string> arguments{in("absent.off")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ToolRun run = run_tool(program, arguments);
+    EXPECT_EQ(run.exit_code, 2) << program;
+    EXPECT_NE(run.err.find("absent.off"), std::string::npos) << run.err;
+    EXPECT_EQ(meshbound::testing_tools::line_count(run.err), 1) << run.err;
+  }
+}
+
+/// Before minutes of compiling.
+TEST(Benchmarks, RefuseWrongUsageAtOnce) {
+  const auto refused = [](const std::string& arguments, const std::string& reason) {
+    const ToolRun run = run_shell("'" MESHBOUND_SOURCE_DIR "/tools/bench/run' " + arguments, 20);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
+    EXPECT_EQ(meshbound::testing_tools::line_count(run.err), 1) << run.err;
+  };
+  refused("nosuch", "usage: ");
+  refused("--pair only_one", "usage: ");
+  refused("--pair absent_a.ply absent_b.ply", "absent_a.ply is not there");
+  const std::string file = "'" MESHBOUND_SOURCE_DIR "/README.md'";
+  refused("--pair " + file + " " + file + " scaling", "not with scaling");
 }
 
 }  // namespace
