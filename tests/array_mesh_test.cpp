@@ -32,7 +32,7 @@ ArrayMesh array_mesh(const TriangleMesh& mesh) {
   return {std::move(points), soup.faces, soup.twin};
 }
 
-/// All that an undone change must give back: every array but the corner by which a vertex is entered.
+/// What undoing a change must restore: every array except the corner at which the walk around a vertex begins.
 struct Arrays {
   std::vector<std::array<double, 3>> positions;
   std::vector<std::uint32_t> vertices, twins;
@@ -161,6 +161,7 @@ std::vector<Case> cases() {
 TEST(ArrayMesh, StaysAManifoldUnderRandomChanges) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
+    std::array<int, 3> made = {};
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       ArrayMesh mesh = array_mesh(c.mesh);
       expect_valid(mesh);
@@ -171,14 +172,18 @@ TEST(ArrayMesh, StaysAManifoldUnderRandomChanges) {
         if (HasFatalFailure()) return;
       }
       expect_valid(mesh);
-      EXPECT_GT(changes.count[0] + changes.count[1], 0);
+      for (std::size_t kind = 0; kind < made.size(); ++kind) made[kind] += changes.count[kind];
     }
+    EXPECT_GT(made[0], 0) << "no collapse";
+    EXPECT_GT(made[1], 0) << "no edge was flipped";
+    EXPECT_GT(made[2], 0) << "no vertex was moved";
   }
 }
 
 TEST(ArrayMesh, UndoingInReverseOrderGivesBackEveryArray) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
+    std::array<int, 3> undone = {};
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       ArrayMesh mesh = array_mesh(c.mesh);
       const Arrays start(mesh);
@@ -187,6 +192,7 @@ TEST(ArrayMesh, UndoingInReverseOrderGivesBackEveryArray) {
       const Arrays middle(mesh);
       Changes more(mesh, seed + 100);
       for (std::size_t k = 0; k < c.mesh.triangles.size(); ++k) more.make();
+      for (std::size_t kind = 0; kind < undone.size(); ++kind) undone[kind] += changes.count[kind] + more.count[kind];
       while (!more.empty()) more.undo();
       ASSERT_EQ(Arrays(mesh), middle);
       expect_valid(mesh);
@@ -195,6 +201,9 @@ TEST(ArrayMesh, UndoingInReverseOrderGivesBackEveryArray) {
       expect_valid(mesh);
       if (HasFatalFailure()) return;
     }
+    EXPECT_GT(undone[0], 0) << "no collapse";
+    EXPECT_GT(undone[1], 0) << "no edge was flipped";
+    EXPECT_GT(undone[2], 0) << "no vertex was moved";
   }
 }
 

@@ -165,29 +165,6 @@ TEST(Bvh, AdjacencyIsMutualOnManifoldEdgesAndEmptyOnBorders) {
   }
 }
 
-TEST(Bvh, EdgeOfManyTrianglesIsARing) {
-  TriangleMesh book;  // five pages on one spine
-  book.vertices = {{0, 0, 0}, {0, 0, 1}};
-  for (std::uint32_t page = 0; page < 5; ++page) {
-    book.vertices.emplace_back(std::cos(page), std::sin(page), 0.5);
-    book.triangles.push_back({0, 1, page + 2});
-  }
-  const Bvh bvh(book);
-  const Bvh::Data& data = bvh.data();
-  std::uint32_t slot = 0;
-  std::vector<bool> met(5, false);
-  for (int step = 0; step < 5; ++step) {
-    EXPECT_FALSE(met[slot]);
-    met[slot] = true;
-    std::uint32_t next = no_slot;
-    for (const Neighbour& neighbour : data.neighbours[slot])
-      if (neighbour.slot != no_slot) next = neighbour.slot;
-    ASSERT_LT(next, 5U);
-    slot = next;
-  }
-  EXPECT_EQ(slot, 0U);
-}
-
 template <class Vector>
 bool same_bytes(const Vector& a, const Vector& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
@@ -205,30 +182,18 @@ void expect_same(const Bvh::Data& a, const Bvh::Data& b) {
   EXPECT_EQ(a.frame.error, b.frame.error);
 }
 
-/// In the memory of a scanner neighbours are apart.
+/// Vertices and triangles in random order: neighbours are far apart in memory, as in the files of some scanners.
 TriangleMesh scrambled(TriangleMesh mesh) {
   std::mt19937 random(11);
-  std::vector<std::uint32_t> place(mesh.vertices.size());
-  std::iota(place.begin(), place.end(), 0U);
-  std::shuffle(place.begin(), place.end(), random);
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  std::iota(new_index.begin(), new_index.end(), 0U);
+  std::shuffle(new_index.begin(), new_index.end(), random);
   std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
   TriangleMesh result = mesh;
-  for (std::size_t v = 0; v < place.size(); ++v) result.vertices[place[v]] = mesh.vertices[v];
+  for (std::size_t v = 0; v < new_index.size(); ++v) result.vertices[new_index[v]] = mesh.vertices[v];
   for (Triangle& t : result.triangles)
-    for (std::uint32_t& v : t) v = place[v];
+    for (std::uint32_t& v : t) v = new_index[v];
   return result;
-}
-
-/// Triangles around one vertex: more edges at it than are compared with each other.
-TriangleMesh fan(std::uint32_t n) {
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = 2 * std::acos(-1.0) * i / n;
-    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
-    mesh.triangles.push_back({n, i, (i + 1) % n});
-  }
-  mesh.vertices.emplace_back(0, 0, 0);
-  return mesh;
 }
 
 /// Knots of four vertices, 16^3 of them, apart from each other: every fourth vertex has more edges to later ones than
@@ -239,9 +204,9 @@ TriangleMesh knots() {
   std::uniform_int_distribution<std::uint32_t> corner(0, 3);
   TriangleMesh mesh;
   for (std::uint32_t knot = 0; knot < 16 * 16 * 16; ++knot) {
-    const Vector3d place(knot % 16, knot / 16 % 16, knot / 256);
+    const Vector3d new_index(knot % 16, knot / 16 % 16, knot / 256);
     for (int i = 0; i < 4; ++i)
-      mesh.vertices.push_back(place + Vector3d(offset(random), offset(random), offset(random)));
+      mesh.vertices.push_back(new_index + Vector3d(offset(random), offset(random), offset(random)));
     for (int i = 0; i < 64; ++i)
       mesh.triangles.push_back({4 * knot + corner(random), 4 * knot + corner(random), 4 * knot + corner(random)});
   }

@@ -28,7 +28,7 @@ using Random = std::mt19937;
 
 std::size_t below(Random& random, std::size_t n) { return random() % n; }
 
-/// Two meshes with a tolerance hardly above their distance, and its certificate.
+/// Two meshes, a tolerance slightly above their distance, and the certificate for it.
 struct Case {
   TriangleMesh a, b;
   Bounds distance;
@@ -358,7 +358,7 @@ std::vector<Eigen::Vector3d> samples_of(verify::PieceCorners& corners, const ver
 }
 
 /// Checks the leaves of a direction by sampling, with nothing of what the verifier decides with: points of a piece lie
-/// near its triangle, or near the mesh for a proof by degree.
+/// near its triangle, or near the mesh for a parity proof.
 class SamplingOracle {
  public:
   SamplingOracle(const TriangleMesh& source, const TriangleMesh& target, double tolerance)
@@ -437,7 +437,8 @@ Trees nothing_known(const Trees& trees) {
   return {Nodes(roots_of(trees.forward).size() - 1, none), Nodes(roots_of(trees.backward).size() - 1, none)};
 }
 
-/// Bits of the proof itself. A chord that ends elsewhere, another seed, a triangle that is as near: some are proofs.
+/// Flips bits of the proof itself. Some of the results are proofs as well: with a chord that ends elsewhere, another
+/// seed, or another triangle that is as near.
 TEST(CertificateMutation, SealedAgainAFlippedBitIsRejectedOrStillAProof) {
   Random random(6);
   std::size_t tried = 0, accepted = 0;

@@ -152,8 +152,8 @@ TEST(ClosestPoint, IsTheSameForEveryHintAndInstructionSet) {
   }
 }
 
-/// Nothing allowed, so that the slow way is taken wherever the plane across an offset does not prove the distance to
-/// the last bit: its answer is that of asking every triangle for its best plane.
+/// With no slack allowed, the slow way is taken wherever the plane across an offset does not prove the distance to the
+/// last bit. It then proves what `certified_distance` proves by asking every triangle for its best plane.
 TEST(ClosestPoint, ProvesNoMoreThanThePlanesOfEachTriangle) {
   for (const TriangleMesh& mesh : hard_meshes()) {
     const Bvh bvh(mesh);

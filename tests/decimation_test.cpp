@@ -14,31 +14,15 @@
 #include "meshbound/simplify.h"
 #include "numeric/vector_code.h"
 #include "reference/small_meshes.h"
+#include "setting.h"
 #include "simplify/faults.h"
+#include "simplify_options.h"
 
 namespace meshbound {
 namespace {
 
-SimplifyOptions within(double tolerance) {
-  SimplifyOptions options;
-  options.tolerance = tolerance;
-  options.threads = 1;
-  return options;
-}
-
-/// Sets a variable for its lifetime.
-template <class T>
-class Setting {
- public:
-  Setting(T& variable, T value) : variable_(variable), before_(std::exchange(variable, value)) {}
-  ~Setting() { variable_ = before_; }
-  Setting(const Setting&) = delete;
-  Setting& operator=(const Setting&) = delete;
-
- private:
-  T& variable_;
-  const T before_;
-};
+using test::Setting;
+using test::within;
 
 bool holds(const TriangleMesh& original, const SimplifiedLevel& level) {
   return level.verdict == Verdict::Within &&
@@ -57,11 +41,7 @@ void expect_equal(const SimplifyResult& a, const SimplifyResult& b) {
 
 class Decimation : public testing::TestWithParam<test::NamedDriver> {
  protected:
-  static SimplifyOptions options(double tolerance) {
-    SimplifyOptions options = within(tolerance);
-    options.driver = GetParam().driver;
-    return options;
-  }
+  static SimplifyOptions options(double tolerance) { return within(tolerance, GetParam().driver); }
 };
 
 TEST_P(Decimation, MakesMostCollapsesOfSmoothShapesTogether) {

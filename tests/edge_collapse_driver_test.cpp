@@ -18,17 +18,12 @@
 #include "decimation_states.h"
 #include "meshbound/cgal/lod_chain.h"
 #include "reference/small_meshes.h"
+#include "simplify_options.h"
 
 namespace meshbound::cgal {
 namespace {
 
-SimplifyOptions within(double tolerance, std::shared_ptr<const CollapseDriver> driver = nullptr) {
-  SimplifyOptions options;
-  options.tolerance = tolerance;
-  options.threads = 1;
-  options.driver = std::move(driver);
-  return options;
-}
+using test::within;
 
 /// Counts what it passes on.
 class CountingDriver : public CollapseDriver {
@@ -135,21 +130,10 @@ TEST(EdgeCollapseDriver, EndsWhereItIsTold) {
   EXPECT_EQ(stop.verdict, Verdict::Within);
 }
 
-TriangleMesh fan(std::uint32_t n) {
-  TriangleMesh mesh;
-  mesh.vertices.emplace_back(0, 0, 0);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n;
-    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
-    mesh.triangles.push_back({0, i + 1, (i + 1) % n + 1});
-  }
-  return mesh;
-}
-
 /// At a vertex with thousands of edges CGAL asks for thousands of costs after each collapse beside it.
 TEST(Hubs, KeepTheBoundAndFewFacesWithBothDrivers) {
   for (const auto& [mesh, tolerance, max_faces] :
-       {std::tuple{fan(1000), 0.003, 50u}, std::tuple{datasets::cylinder(1, 2, 360), 0.003, 180u},
+       {std::tuple{reference::fan(1000), 0.003, 50u}, std::tuple{datasets::cylinder(1, 2, 360), 0.003, 180u},
         std::tuple{datasets::cylinder(1, 2, 4000), 0.003, 220u},
         std::tuple{datasets::uv_sphere(1, 20, 400), 0.01, 700u}}) {
     for (const bool by_cgal : {false, true}) {
@@ -221,7 +205,7 @@ TEST(RegionMesh, TellsOfEdgesOfNoLengthAndOfHubs) {
   const Corner edge = 20;
   square->mesh.move(square->mesh.start(edge), square->mesh.position(square->mesh.end(edge)));
   EXPECT_TRUE(region_of(*square).has_edge_of_no_length);
-  test::StateOf hub(fan(500));
+  test::StateOf hub(reference::fan(500));
   EXPECT_EQ(region_of(*hub).max_edges_of_vertex, 500u);
 }
 

@@ -69,7 +69,7 @@ TEST(HausdorffDistance, IsTheLargerDirection) {
   expect_distance(both(plane, moved(plane, {0, 0, 0.5})), plane, {0.5, 0.5});
 }
 
-/// The same triangles, numbered, ordered and turned otherwise.
+/// The mesh with its vertices numbered, its triangles ordered and their corners rotated differently.
 TriangleMesh renumbered(const TriangleMesh& mesh) {
   TriangleMesh result;
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -126,7 +126,7 @@ TriangleMesh jittered(TriangleMesh mesh, double most) {
   return mesh;
 }
 
-/// The same triangles in the same order, with vertices of their own and turned by one, two or no corners.
+/// The mesh with vertices of its own for each triangle, in the same order, corners rotated by one, two or none.
 TriangleMesh with_own_vertices(const TriangleMesh& mesh) {
   TriangleMesh result;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

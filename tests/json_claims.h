@@ -82,7 +82,7 @@ inline void expect_nearest(const Json& direction, const MeshView& other) {
   EXPECT_NEAR(reference::exact_distance(from, other).approximate(), length, 1e-9 * length + witness_rounding(from, to));
 }
 
-/// The document in `text`, after all of the above but the last.
+/// The document in `text`, checked against its schema, and its witnesses against its bounds.
 inline Json checked_document(const std::string& text) {
   const Json document = Json::parse(text);
   std::string name = document["schema"].get<std::string>().substr(std::string("meshbound/").size());

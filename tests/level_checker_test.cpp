@@ -39,7 +39,7 @@ TriangleMesh jittered(TriangleMesh mesh, double size, Random& random, double sha
   return mesh;
 }
 
-/// The same surface with other numbers: vertices and triangles shuffled, corners turned or mirrored.
+/// The surface under other numbers: vertices and triangles shuffled, corners rotated or mirrored.
 TriangleMesh renumbered(const TriangleMesh& mesh, Random& random) {
   std::vector<std::uint32_t> place(mesh.vertices.size());
   std::iota(place.begin(), place.end(), 0U);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -44,6 +45,15 @@ inline std::string refusal(const std::string& name, const std::string& content) 
     return line;
   }
   return {};
+}
+
+/// The file holds the unit right triangle, however it was written down.
+inline void expect_triangle(const MeshFile& file) {
+  ASSERT_EQ(file.mesh.vertices.size(), 3u);
+  EXPECT_EQ(file.mesh.vertices[0], Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(file.mesh.vertices[1], Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(file.mesh.vertices[2], Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

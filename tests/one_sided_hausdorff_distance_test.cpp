@@ -469,13 +469,13 @@ TEST(Proximity, AgreesWithTheDistanceOfTheTriangle) {
       EXPECT_EQ(proximity.triangle_within(triangle, truth.lower * (1 - 1e-5), hint), Verdict::Exceeds);
       EXPECT_NE(proximity.triangle_within(triangle, truth.upper * 0.9, hint, 0), Verdict::Within);
       const ExactLength exact = exact_distance(triangle[0], target);
-      const double least = proximity.upper_distance(triangle[0], hint);
-      EXPECT_LE(exact.compare(least), 0);
-      for (const double enough : {0.5 * least, 1.001 * least, 2 * least, 10 * least}) {
+      const double smallest = proximity.upper_distance(triangle[0], hint);
+      EXPECT_LE(exact.compare(smallest), 0);
+      for (const double enough : {0.5 * smallest, 1.001 * smallest, 2 * smallest, 10 * smallest}) {
         hint = 0;
         const double upper = proximity.upper_distance(triangle[0], hint, enough);
         EXPECT_LE(exact.compare(upper), 0);
-        EXPECT_LE(upper, std::max(enough, least * (1 + 1e-12)));
+        EXPECT_LE(upper, std::max(enough, smallest * (1 + 1e-12)));
       }
     }
   }

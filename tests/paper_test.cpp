@@ -43,10 +43,10 @@ double squared_distance(const Bvh::Data& data, std::uint32_t slot, const Vec3& p
 }
 
 double min_squared_distance(const Bvh::Data& data, const Vec3& p) {
-  double least = std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity();
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
-    least = std::min(least, squared_distance(data, slot, p));
-  return least;
+    smallest = std::min(smallest, squared_distance(data, slot, p));
+  return smallest;
 }
 
 /// Random triangles and points in the working cube of a tree, [-1, 1]^3.
@@ -229,9 +229,9 @@ std::size_t expect_complete_candidates(const Bvh& b, const TriangleCorners& t, R
   collect_candidates(b.data(), t, bounds_of(b.data(), t).upper.squared, 1e-13, candidates, counters);
   for (int j = 0; j < 50; ++j) {
     const Vec3 p = random.point_in(t);
-    double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& c : candidates) least = std::min(least, squared_distance(b.data(), c.slot, p));
-    EXPECT_EQ(least, min_squared_distance(b.data(), p));
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Candidate& c : candidates) smallest = std::min(smallest, squared_distance(b.data(), c.slot, p));
+    EXPECT_EQ(smallest, min_squared_distance(b.data(), p));
   }
   for (const Candidate& c : candidates)
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(c.squared[k], squared_distance(b.data(), c.slot, t[k]));

@@ -273,18 +273,18 @@ TEST(Property, TheOneSidedDistanceLiesInItsExactEnclosure) {
     const TriangleMesh b = rounded_to_grid(random_soup(seed + 900, 1 + random.below(4), 0.5));
     const Bounds bounds = one_sided(a, b);
     constexpr int n = 8;
-    ExactLength most{0, 1, 0};
+    ExactLength largest{0, 1, 0};
     for (std::size_t i = 0; i < a.triangles.size(); ++i) {
       const Corners t = corners(a, i);
       const auto at = [&](int u, int v) { return Vector3d(((n - u - v) * t[0] + u * t[1] + v * t[2]) / n); };
       const auto covered = [&](const std::array<Vector3d, 3>& piece) {
-        std::optional<ExactLength> least;
+        std::optional<ExactLength> smallest;
         for (std::size_t j = 0; j < b.triangles.size(); ++j) {
           ExactLength furthest{0, 1, 0};
           for (const Vector3d& p : piece) furthest = std::max(furthest, exact_distance(p, corners(b, j)));
-          if (!least || furthest < *least) least = furthest;
+          if (!smallest || furthest < *smallest) smallest = furthest;
         }
-        most = std::max(most, *least);
+        largest = std::max(largest, *smallest);
       };
       for (int u = 0; u < n; ++u) {
         for (int v = 0; u + v < n; ++v) {
@@ -294,7 +294,7 @@ TEST(Property, TheOneSidedDistanceLiesInItsExactEnclosure) {
         }
       }
     }
-    EXPECT_GE(most.compare(bounds.lower), 0) << "no point is as far as lower";
+    EXPECT_GE(largest.compare(bounds.lower), 0) << "no point is as far as lower";
   });
 }
 

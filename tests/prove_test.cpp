@@ -25,8 +25,7 @@ std::vector<Vec3> positions_of(const TriangleMesh& mesh) {
   return positions;
 }
 
-/// A state whose mesh has nothing in common with its original but the place, all of it changed since it was last
-/// proven.
+/// A decimation state whose mesh shares no vertex or triangle with its original, so that all of it is unproven.
 struct Approximation {
   Approximation(const TriangleMesh& original, const TriangleMesh& mesh, double tolerance,
                 const std::vector<double>& limits = {})
@@ -125,7 +124,7 @@ TEST(Proof, NamesAnOriginalTriangleWithNothingNear) {
   EXPECT_EQ(unproven.faces, std::vector<std::uint32_t>());
 }
 
-/// Larger coordinates would have larger rounding errors than the proof leaves room for.
+/// Such coordinates would have larger rounding errors than the proof allows for.
 TEST(Proof, RefusesFacesFarAwayAndCoordinatesThatAreNoNumbers) {
   const TriangleMesh original = reference::unit_square(4);
   for (const double x : {1e300, std::nan(""), -HUGE_VAL}) {
@@ -149,7 +148,7 @@ TEST(Proof, CoversLargeTrianglesByManySmallFaces) {
   EXPECT_EQ(prove(original, with_hole, 1e-3).originals.size(), 1u);
 }
 
-/// Each of them has a hundred candidates, of which it may look at 64.
+/// Each triangle has a hundred candidate faces, of which the proof looks at 64 at most.
 TEST(Proof, FindsTheFaceOfATriangleAmongManyThatCrossIt) {
   TriangleMesh fan;
   for (std::uint32_t k = 0; k < 100; ++k) {

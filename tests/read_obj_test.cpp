@@ -13,12 +13,6 @@ const std::string three_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 MeshFile read(const std::string& content) { return read_content("m.obj", content); }
 std::string refused(const std::string& content) { return refusal("m.obj", content); }
 
-void expect_triangle(const MeshFile& file) {
-  ASSERT_EQ(file.mesh.vertices.size(), 3u);
-  EXPECT_EQ(file.mesh.vertices[1], Eigen::Vector3d(1, 0, 0));
-  EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
-}
-
 TEST(ReadObj, ReadsEveryFormOfCorner) {
   for (const std::string face : {"1 2 3", "1/1 2/2 3/3", "1/1/1 2/2/2 3/3/3", "1//1 2//2 3//3", "1/ 2// 3/1/",
                                  "-3 -2 -1", "-3/-1/-1 -2//-2 -1/9", "\t1  2\t3 "})

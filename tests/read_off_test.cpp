@@ -14,16 +14,6 @@ const std::string triangle = "OFF\n3 1 0\n" + three_vertices + "3 0 1 2\n";
 MeshFile read(const std::string& content) { return read_content("m.off", content); }
 std::string refused(const std::string& content) { return refusal("m.off", content); }
 
-/// The unit right triangle, however it was written down.
-void expect_triangle(const MeshFile& file) {
-  ASSERT_EQ(file.mesh.vertices.size(), 3u);
-  ASSERT_EQ(file.mesh.triangles.size(), 1u);
-  EXPECT_EQ(file.mesh.vertices[0], Eigen::Vector3d(0, 0, 0));
-  EXPECT_EQ(file.mesh.vertices[1], Eigen::Vector3d(1, 0, 0));
-  EXPECT_EQ(file.mesh.vertices[2], Eigen::Vector3d(0, 1, 0));
-  EXPECT_EQ(file.mesh.triangles[0], (Triangle{0, 1, 2}));
-}
-
 TEST(ReadOff, ReadsTheTriangle) { expect_triangle(read(triangle)); }
 
 TEST(ReadOff, TakesEveryKindOfWhitespaceAndComment) {

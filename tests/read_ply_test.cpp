@@ -21,13 +21,6 @@ const std::string triangle = triangle_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 MeshFile read(const std::string& content) { return read_content("m.ply", content); }
 std::string refused(const std::string& content) { return refusal("m.ply", content); }
 
-void expect_triangle(const MeshFile& file) {
-  ASSERT_EQ(file.mesh.vertices.size(), 3u);
-  EXPECT_EQ(file.mesh.vertices[1], Eigen::Vector3d(1, 0, 0));
-  EXPECT_EQ(file.mesh.vertices[2], Eigen::Vector3d(0, 1, 0));
-  EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
-}
-
 /// Bytes of the data part of a binary file, in the byte order asked for. Tests run on little-endian machines.
 class Bytes {
  public:

@@ -18,13 +18,13 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
 #include "reference/small_meshes.h"
+#include "simplify_options.h"
 
 namespace meshbound {
 namespace {
 
 SimplifyOptions within(double tolerance) {
-  SimplifyOptions options;
-  options.tolerance = tolerance;
+  SimplifyOptions options = test::within(tolerance);
   options.threads = 2;
   return options;
 }
@@ -57,7 +57,7 @@ TEST(Split, CutsLargeMeshesIntoRegionsOfEqualSizeAndLeavesSmallOnesWhole) {
   for (const std::size_t vertices : sizes(halved)) EXPECT_NEAR(static_cast<double>(vertices), even, 4);
 }
 
-/// Otherwise an edge at a seam of one would be at a seam of the other too, and never tried.
+/// An edge at a seam of both splits would never be tried.
 TEST(Split, CutsElsewhereWhereItIsShifted) {
   const test::StateOf state(datasets::icosphere(1, 6));
   const auto is_seam = [&](const Split& of, Corner c) {

@@ -42,17 +42,6 @@ TriangleMesh book(std::uint32_t pages, std::uint32_t shared) {
   return mesh;
 }
 
-TriangleMesh fan(std::uint32_t n) {
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const double angle = 2 * std::acos(-1.0) * i / n;
-    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
-    mesh.triangles.push_back({n, i, (i + 1) % n});
-  }
-  mesh.vertices.emplace_back(0, 0, 0);
-  return mesh;
-}
-
 /// Every third triangle with vertices of its own.
 TriangleMesh torn(TriangleMesh mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {

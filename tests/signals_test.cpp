@@ -85,7 +85,7 @@ TEST_F(Signals, LetFilesAppearTogether) {
   EXPECT_EQ(file_count(), 3);
 }
 
-/// Even there a FIFO that nobody reads does not hold the process.
+/// A FIFO that nobody reads does not keep the process from ending, not even inside an `UninterruptedScope`.
 TEST_F(Signals, EndTheWaitForTheReaderOfAFifo) {
   ASSERT_EQ(::mkfifo((folder_ / "fifo").c_str(), 0600), 0);
   const int code = run([&] {

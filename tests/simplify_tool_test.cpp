@@ -22,6 +22,7 @@
 #include "meshbound/io.h"
 #include "reference/small_meshes.h"
 #include "run_tool.h"
+#include "setting.h"
 
 namespace meshbound {
 namespace {
@@ -270,12 +271,11 @@ TEST_F(SimplifyTool, WritesTheBestMeshThatIsDecided) {
   for (const auto& [undecided, decided_by] : {std::pair{0, "measurement"}, std::pair{1, "second_method"},
                                               std::pair{2, "smaller_tolerance"}, std::pair{3, "original"}}) {
     SCOPED_TRACE(decided_by);
-    setenv("UNDECIDED_MEASUREMENTS", std::to_string(undecided).c_str(), 1);
+    const test::EnvironmentSetting fault("UNDECIDED_MEASUREMENTS", std::to_string(undecided));
     const Result result = run(arguments, SIMPLIFY_WITH_UNDECIDED_MEASUREMENTS);
-    unsetenv("UNDECIDED_MEASUREMENTS");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    EXPECT_EQ(result.out.find("decided    ") != std::string::npos, undecided > 0) << result.out;
+    EXPECT_EQ(result.out.find("decided     ") != std::string::npos, undecided > 0) << result.out;
     const Json json = checked_document(content_of(in("r.json")));
     EXPECT_EQ(json["decided_by"], decided_by);
     EXPECT_EQ(json["verdict"], "within");
@@ -360,9 +360,8 @@ TEST_F(SimplifyTool, CatchesASabotagedResultAtTheGate) {
 /// find the fault is kept.
 TEST_F(SimplifyTool, CatchesAFaultyProofAndSavesAReproducer) {
   const std::string arguments = "sphere.off out.ply --tolerance 0.02 --threads 1 --driver core";
-  setenv("PROOF_FAULT", "1.5", 1);
+  const test::EnvironmentSetting fault("PROOF_FAULT", "1.5");
   const Result faulty = run(arguments, SIMPLIFY_WITH_FAULTY_DECIMATION);
-  unsetenv("PROOF_FAULT");
   EXPECT_EQ(faulty.exit_code, 2);
   EXPECT_EQ(faulty.out, "");
   EXPECT_EQ(std::count(faulty.err.begin(), faulty.err.end(), '\n'), 1) << faulty.err;
@@ -384,9 +383,8 @@ TEST_F(SimplifyTool, CatchesAFaultyProofAndSavesAReproducer) {
 /// Samples that admit thirty times too much cost collapses that are taken back, and nothing else.
 TEST_F(SimplifyTool, RepairsWhatFaultySamplesAdmit) {
   write_mesh(in("terrain.off"), datasets::terrain(1, 40, 3));
-  setenv("SAMPLE_FAULT", "30", 1);
+  const test::EnvironmentSetting fault("SAMPLE_FAULT", "30");
   const Result faulty = run("terrain.off out.ply --tolerance 0.01 --json -", SIMPLIFY_WITH_FAULTY_DECIMATION);
-  unsetenv("SAMPLE_FAULT");
   ASSERT_EQ(faulty.exit_code, 0) << faulty.err;
   EXPECT_EQ(check(in("terrain.off"), in("out.ply"), 0.01), Verdict::Within);
   EXPECT_GT(checked_document(faulty.out)["collapses"]["taken_back"], 0);
@@ -428,7 +426,7 @@ TEST_F(SimplifyTool, DropsComponentsAndCountsThemWhenAsked) {
   ASSERT_EQ(pruned.exit_code, 0) << pruned.err;
   EXPECT_EQ(checked_document(pruned.out).at("pruned"), Json({{"components", 1}, {"faces", 80}}));
   EXPECT_EQ(check(in("two.off"), in("out.off"), 0.02), Verdict::Within);
-  EXPECT_NE(run("two.off out.off --tolerance 0.02 --prune").out.find("pruned     1 components of 80"),
+  EXPECT_NE(run("two.off out.off --tolerance 0.02 --prune").out.find("pruned      1 components of 80"),
             std::string::npos);
 }
 

@@ -13,6 +13,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
 #include "shapes.h"
+#include "simplify_options.h"
 
 namespace meshbound {
 namespace {
@@ -22,13 +23,7 @@ using test::Shape;
 
 class Driven : public testing::TestWithParam<test::NamedDriver> {
  protected:
-  static SimplifyOptions within(double tolerance) {
-    SimplifyOptions options;
-    options.tolerance = tolerance;
-    options.threads = 1;
-    options.driver = GetParam().driver;
-    return options;
-  }
+  static SimplifyOptions within(double tolerance) { return test::within(tolerance, GetParam().driver); }
 };
 class SimplifyWithBound : public Driven {};
 class Pruning : public Driven {};

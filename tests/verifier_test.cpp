@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the certificate verifier: numbers, distances, pieces, proofs by degree, and certificates made by hand
+// The parts of the certificate verifier: numbers, distances, pieces, parity proofs, and certificates made by hand
 // that lie in one point each.
 #include "verify/verifier.h"
 
@@ -155,7 +155,7 @@ TEST(PieceCorners, RefuseChordsThatTheirPieceDoesNotHave) {
   EXPECT_THROW(for (int i = 0; i < 20; ++i) piece = corners.cut(piece, chord(0, 1, 1, 255)).second, Rejected);
 }
 
-/// Whether a triangle over the unit square's middle is proven by degree with a seed of this mesh.
+/// Whether a triangle over the unit square's middle is proven by parity with a seed of this mesh.
 bool proves(const TriangleMesh& mesh, double tolerance, std::uint32_t seed, const Corners& face) {
   PieceCorners corners;
   corners.start(face);
@@ -234,7 +234,7 @@ TEST(ParityCheck, NeedsATriangleWithArea) {
   EXPECT_FALSE(proves(sheet, 0.05, below_middle(sheet), {face[0], face[0], face[0]}));
 }
 
-/// Where intervals of doubles are at a loss: at sizes beyond their range, the rationals decide the same.
+/// At sizes where intervals of doubles overflow or underflow, rationals give the same decision.
 TEST(ParityCheck, HoldsAtAnySize) {
   for (const double size : {1e-200, 1e-100, 1e100, 1e140}) {
     const TriangleMesh sheet = reference::scaled(reference::unit_square(7), size);
@@ -246,7 +246,7 @@ TEST(ParityCheck, HoldsAtAnySize) {
   }
 }
 
-/// What a few bytes can ask for is bounded.
+/// A certificate of a few bytes cannot ask the verifier for unbounded work.
 TEST(ParityCheck, EndsWhereItCostsTooMuch) {
   const TriangleMesh sheet = reference::unit_square(7);
   const std::uint32_t seed = below_middle(sheet);
@@ -367,7 +367,7 @@ TEST(Forgery, WithoutBottomIsRejected) {
   EXPECT_EQ(f.rejection(), "triangle 0 of the original mesh is cut too often");
 }
 
-/// A gap cannot be written down; what can is a piece that is said to lie where it does not.
+/// The format cannot express a gap. It can only claim of a piece that it lies near a triangle that it is not near.
 TEST(Forgery, OfATriangleThatOnlyPartlyLiesNearIsRejected) {
   Forgery f;
   f.b.vertices[1].x() = 0.5;

@@ -12,6 +12,7 @@
 #include "meshbound/cgal/simplify_with_bound.h"
 #include "meshbound/error.h"
 #include "reference/small_meshes.h"
+#include "simplify_options.h"
 
 namespace meshbound::cgal {
 namespace {
@@ -35,12 +36,7 @@ std::set<std::pair<Place, Place>> edges_of(const TriangleMesh& mesh) {
   return edges;
 }
 
-SimplifyOptions within(double tolerance) {
-  SimplifyOptions options;
-  options.tolerance = tolerance;
-  options.threads = 1;
-  return options;
-}
+using test::within;
 
 std::vector<bool> every(std::size_t step, std::size_t count) {
   std::vector<bool> locked(count, false);

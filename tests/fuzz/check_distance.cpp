@@ -126,20 +126,20 @@ std::optional<Eigen::Vector3d> exact_midpoint(const Eigen::Vector3d& a, const Ei
   return middle;
 }
 
-/// Exact lengths with `least <= h(A,B) <= most`. A corner or the middle of an edge of A is a point of A. The distance
+/// Exact lengths with `lower <= h(A,B) <= upper`. A corner or the middle of an edge of A is a point of A. The distance
 /// to one triangle is convex, so that on a triangle of A, or on each of the four that the middles of its edges make of
 /// it, it is largest at a corner.
 struct Enclosure {
-  ExactLength least{0, 1, 0}, most{0, 1, 0};
+  ExactLength lower{0, 1, 0}, upper{0, 1, 0};
 
   void include(const reference::Corners& corners, ExactDistances& distances) {
     std::vector<ExactLength> furthest = distances.from(corners[0]);
     for (const Eigen::Vector3d& corner : corners) {
       const std::vector<ExactLength>& lengths = distances.from(corner);
-      least = std::max(least, *std::min_element(lengths.begin(), lengths.end()));
+      lower = std::max(lower, *std::min_element(lengths.begin(), lengths.end()));
       for (std::size_t j = 0; j < lengths.size(); ++j) furthest[j] = std::max(furthest[j], lengths[j]);
     }
-    most = std::max(most, *std::min_element(furthest.begin(), furthest.end()));
+    upper = std::max(upper, *std::min_element(furthest.begin(), furthest.end()));
   }
 };
 
@@ -162,8 +162,8 @@ Enclosure enclosure(const TriangleMesh& a, const TriangleMesh& b) {
 
 void check_bounds(const Bounds& bounds, const Enclosure& exact) {
   require(bounds.lower >= 0 && bounds.lower <= bounds.upper, "0 <= lower <= upper");
-  require(std::isinf(bounds.upper) || exact.least.compare(bounds.upper) <= 0, "a corner is further away than upper");
-  require(exact.most.compare(bounds.lower) >= 0, "no point is as far away as lower");
+  require(std::isinf(bounds.upper) || exact.lower.compare(bounds.upper) <= 0, "a corner is further away than upper");
+  require(exact.upper.compare(bounds.lower) >= 0, "no point is as far away as lower");
 }
 
 /// Two intervals that hold the same number.
@@ -174,12 +174,12 @@ void check_meet(const Bounds& one, const Bounds& other) {
 void check_verdict(const ToleranceCheck& check, const Enclosure& forward, const Enclosure& backward) {
   const double tolerance = check.tolerance;
   if (check.verdict == Verdict::Within)
-    require(forward.least.compare(tolerance) <= 0 && backward.least.compare(tolerance) <= 0, "within, but it exceeds");
+    require(forward.lower.compare(tolerance) <= 0 && backward.lower.compare(tolerance) <= 0, "within, but it exceeds");
   if (check.verdict == Verdict::Exceeds)
-    require(forward.most.compare(tolerance) > 0 || backward.most.compare(tolerance) > 0, "exceeds, but it is within");
+    require(forward.upper.compare(tolerance) > 0 || backward.upper.compare(tolerance) > 0, "exceeds, but it is within");
 }
 
-/// The same surface, of triangles that are repeated until a search shares its work among so many threads.
+/// The surface made of triangles that are repeated until a search shares its work among so many threads.
 TriangleMesh repeated(TriangleMesh mesh, int threads) {
   constexpr std::size_t triangles_per_thread = 1050;
   const std::size_t distinct = mesh.triangles.size();
@@ -249,8 +249,8 @@ void check_distance(Bytes content) {
   check_meet(distance.a_to_b.bounds, other.a_to_b.bounds);
   check_meet(distance.b_to_a.bounds, other.b_to_a.bounds);
   check_closest_point(*tree_b, b, a.vertices[a.triangles[0][0]]);
-  // Bits that choose nothing else. Seldom: it takes as long as a thousand of the others; cross-culling, which compares
-  // all of these triangles with each other, most.
+  // Chosen by bits that choose nothing else, and seldom: it takes as long as a thousand of the others, longest with
+  // cross-culling, which compares all of these triangles with each other.
   if (how < 128 || kind < 192) return;
   const int threads = options.method == Method::CellWalking ? 2 + static_cast<int>(kind / 16 % 2) : 2;
   check_threads(a, b, options, threads, forward, backward);

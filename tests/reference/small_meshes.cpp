@@ -39,6 +39,17 @@ TriangleMesh unit_square(int n) {
   return mesh;
 }
 
+TriangleMesh fan(std::uint32_t n) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / n;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    mesh.triangles.push_back({n, i, (i + 1) % n});
+  }
+  mesh.vertices.emplace_back(0, 0, 0);
+  return mesh;
+}
+
 TriangleMesh cube(double half) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)

@@ -17,13 +17,16 @@ namespace meshbound::reference {
 /// [0,1]^2 x {0} in n x n squares of two triangles each.
 [[nodiscard]] TriangleMesh unit_square(int n);
 
+/// A disc of radius 1, `n` triangles around one vertex, which is the last.
+[[nodiscard]] TriangleMesh fan(std::uint32_t n);
+
 /// The surface of [-half, half]^3, 12 triangles.
 [[nodiscard]] TriangleMesh cube(double half);
 
 /// Icosahedron split `levels` times, vertices on the unit sphere up to rounding.
 [[nodiscard]] TriangleMesh icosphere(int levels);
 
-/// Distance from the centre to the nearest point of a mesh whose vertices lie on the unit sphere around it: the least
+/// Distance from the centre to the nearest point of a mesh whose vertices lie on the unit sphere around it: the smallest
 /// height of its face planes, up to rounding. All its points lie between this radius and 1.
 [[nodiscard]] double inscribed_radius(const TriangleMesh& mesh);
 
