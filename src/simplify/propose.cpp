@@ -136,7 +136,7 @@ double Proposer::limit_around() const {
   return state_.limit_in(box);
 }
 
-bool Proposer::owns(std::uint32_t face) const { return split_->owns(region_, state_.mesh.corners(face)); }
+bool Proposer::owns(std::uint32_t face) const { return split_->owns_face(region_, face); }
 
 bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) return false;
