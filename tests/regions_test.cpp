@@ -82,6 +82,27 @@ TEST(Split, DependsOnTheMeshAlone) {
     EXPECT_EQ(split(*state, shift, min_vertices).region_of, split(*state, shift, min_vertices).region_of);
 }
 
+/// A thread asks for faces of other regions, whose corners may change meanwhile.
+TEST(Split, KnowsTheRegionOfAFaceWithoutItsCorners) {
+  const test::StateOf state(datasets::icosphere(1, 6));
+  for (int shift = 0; shift < shifts_of_split; ++shift) {
+    const Split cut = split(*state, shift, min_vertices);
+    std::size_t between = 0;
+    for (std::uint32_t f = 0; f < state->mesh.face_count(); ++f) {
+      const auto [a, b, c] = state->mesh.corners(f);
+      std::size_t owners = 0;
+      for (const Region& region : cut.regions) {
+        const bool owns_corners = cut.owns(region.id, a) && cut.owns(region.id, b) && cut.owns(region.id, c);
+        EXPECT_EQ(cut.owns_face(region.id, f), owns_corners);
+        owners += owns_corners ? 1 : 0;
+      }
+      between += owners == 0 ? 1 : 0;
+    }
+    EXPECT_GT(between, 0u);
+  }
+  EXPECT_TRUE(whole(*state).owns_face(0, 0));
+}
+
 TEST(Split, NumbersOfChangesOfRegionsNeverMeet) {
   const test::StateOf state(datasets::icosphere(1, 6));
   const Split parts = split(*state, 0, min_vertices);

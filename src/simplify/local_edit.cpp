@@ -237,6 +237,7 @@ void LocalEdit::touch(std::span<const std::uint32_t> faces) {
   for (const std::uint32_t face : faces) {
     if (state_.mesh.is_removed(face)) continue;
     for (const std::uint32_t v : state_.mesh.corners(face)) state_.touched[v] = region_->clock;
+    for (Corner c = 3 * face; c < 3 * face + 3; ++c) state_.refused_at[state_.mesh.edge(c)] = 0;
   }
 }
 

@@ -95,7 +95,7 @@ class ProofWorkers::Worker {
       for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
         if (affected_marks_.insert(t)) affected_.push_back(t);
     }
-    const auto owned = [&](std::uint32_t face) { return split.owns(region, state_.mesh.corners(face)); };
+    const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_) {
         const auto faces = state_.cover.faces_of(t);
@@ -159,7 +159,7 @@ class ProofWorkers::Worker {
     for (const std::uint32_t face : changed)
       for (const std::uint32_t t : state_.cover.originals_of(face))
         if (affected_marks_.insert(t)) affected_.push_back(t);
-    const auto owned = [&](std::uint32_t face) { return split.owns(region, state_.mesh.corners(face)); };
+    const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     for (const std::uint32_t t : affected_) {
       const auto faces = state_.cover.faces_of(t);
       if (!std::all_of(faces.begin(), faces.end(), owned)) return false;

@@ -28,6 +28,12 @@ struct EdgeStar {
   std::vector<std::uint32_t> around_kept_, around_gone_;  ///< vertices
 };
 
+/// Which points of an edge are compared with the original.
+struct PointsOnEdge {
+  double spacing;  ///< in tolerances, at least
+  double max;      ///< between the ends
+};
+
 /// Makes a collapse that has been noted.
 void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point);
 
@@ -76,7 +82,8 @@ class Proposer {
   void add_vertex(Vec3 point);
   [[nodiscard]] bool fits(Vec3 point);
   void find_borders();
-  [[nodiscard]] bool are_borders_near(Vec3 point);
+  [[nodiscard]] bool is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points);
+  [[nodiscard]] bool are_edges_near(Vec3 point);
   [[nodiscard]] std::optional<Vec3> minimax(Vec3 point, double low);
 
   DecimationState& state_;
@@ -87,9 +94,9 @@ class Proposer {
   EdgeStar star_;
   std::vector<GuardedFace> before_;    ///< the faces that move
   double limit_ = 0, full_limit_ = 0;  ///< of samples, with the share that they may reach, and of the tolerance
-  int max_steps_ = 0;
-  bool lowered_ = false;   ///< the last place is one where the largest distance is least
-  bool gathered_ = false;  ///< the samples
+  bool is_together_ = false;           ///< proofs are still to come
+  bool lowered_ = false;               ///< the last place is one where the largest distance is least
+  bool gathered_ = false;              ///< the samples
   Hope hope_ = Hope::WithMoreTolerance;
   bool by_bound_ = false;  ///< samples were asked
   Vec3 tried_;             ///< the first place

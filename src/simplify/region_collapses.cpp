@@ -24,7 +24,7 @@ bool RegionCollapses::is_owned(Corner edge) const {
   return split_.owns(region_.id, mesh().start(edge)) && split_.owns(region_.id, mesh().end(edge));
 }
 
-bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns(region_.id, mesh().corners(face)); }
+bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns_face(region_.id, face); }
 
 bool RegionCollapses::is_open(Corner edge) const {
   const std::uint32_t refused_at = state_.refused_at[mesh().edge(edge)];

@@ -117,6 +117,16 @@ class Cutter {
   std::vector<std::vector<std::uint32_t>> of_region_;
 };
 
+void assign_faces(const DecimationState& state, Split& split) {
+  split.region_of_face.assign(state.mesh.face_count(), ArrayMesh::none);
+  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f) {
+    if (state.mesh.is_removed(f)) continue;
+    const auto [a, b, c] = state.mesh.corners(f);
+    const std::uint32_t region = split.region_of[a];
+    if (split.region_of[b] == region && split.region_of[c] == region) split.region_of_face[f] = region;
+  }
+}
+
 /// The numbers of changes of a region follow those of the regions before: there are fewer than faces.
 void make_regions(const DecimationState& state, Split& split, std::uint32_t count) {
   std::vector<std::uint32_t> faces(count, 0);
@@ -144,6 +154,7 @@ Split split(const DecimationState& state, int shift, std::size_t min_vertices) {
   auto vertices = cutter.run(shift == 0 ? count : count + 1);
   count = static_cast<std::uint32_t>(vertices.size());
   if (count == 1) return whole(state);
+  assign_faces(state, result);
   make_regions(state, result, count);
   for (std::uint32_t r = 0; r < count; ++r) result.regions[r].vertices = std::move(vertices[r]);
   return result;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,16 +11,17 @@ namespace meshbound {
 ///
 /// A change belongs to a region when all vertices of the faces around it do. So a face whose vertices belong to several
 /// regions stays as it is, a face of one region is read and changed by its thread alone, and regions need no locks.
+/// Which region a face belongs to is noted at the split: its corners may be read by the thread of that region only.
 struct Split {
-  std::vector<std::uint32_t> region_of;  ///< by vertex; empty: all belong to one region
+  std::vector<std::uint32_t> region_of;       ///< by vertex; empty: all belong to one region
+  std::vector<std::uint32_t> region_of_face;  ///< by face: that of all its vertices, `none` if they differ; or empty
   std::vector<Region> regions;
 
   [[nodiscard]] bool owns(std::uint32_t region, std::uint32_t vertex) const {
     return region_of.empty() || region_of[vertex] == region;
   }
-  /// Whether all three vertices belong to the region.
-  [[nodiscard]] bool owns(std::uint32_t region, const std::array<std::uint32_t, 3>& corners) const {
-    return owns(region, corners[0]) && owns(region, corners[1]) && owns(region, corners[2]);
+  [[nodiscard]] bool owns_face(std::uint32_t region, std::uint32_t face) const {
+    return region_of_face.empty() || region_of_face[face] == region;
   }
 };
 

@@ -93,6 +93,16 @@ bool StarSamples::is_near_original(Vec3 point, double limit) {
   return proximity_.upper_distance({point.x, point.y, point.z}, near_, limit) <= limit;
 }
 
+bool StarSamples::is_edge_near_original(Vec3 vertex, Vec3 end, int points, double limit) {
+  if (ids_.empty()) return true;
+  std::uint32_t near = near_;
+  for (int k = 1; k <= points; ++k) {
+    const Vec3 p = vertex + (static_cast<double>(k) / (points + 1)) * (end - vertex);
+    if (!(proximity_.upper_distance({p.x, p.y, p.z}, near, limit) <= limit)) return false;
+  }
+  return true;
+}
+
 Vec3 StarSamples::offset_from_original(Vec3 point) {
   (void)proximity_.upper_distance({point.x, point.y, point.z}, near_);
   const auto& v = state_.triangles[near_];

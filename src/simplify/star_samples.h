@@ -27,6 +27,8 @@ class StarSamples {
   [[nodiscard]] bool hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
+  /// Whether points between that vertex and `end`, at so many equal steps, are within `limit` of the original.
+  [[nodiscard]] bool is_edge_near_original(Vec3 vertex, Vec3 end, int points, double limit);
   /// From the point of the original nearest to the vertex that was asked for last to it.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
   /// Gives each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the faces
