@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the certificate verifier: numbers, distances, pieces, proofs by degree, and certificates made by hand
+// The parts of the certificate verifier: numbers, distances, pieces, proofs by parity, and certificates made by hand
 // that lie in one point each.
 #include "verify/verifier.h"
 
@@ -155,7 +155,7 @@ TEST(PieceCorners, RefuseChordsThatTheirPieceDoesNotHave) {
   EXPECT_THROW(for (int i = 0; i < 20; ++i) piece = corners.cut(piece, chord(0, 1, 1, 255)).second, Rejected);
 }
 
-/// Whether a triangle over the unit square's middle is proven by degree with a seed of this mesh.
+/// Whether a triangle over the unit square's middle is proven by parity with a seed of this mesh.
 bool proves(const TriangleMesh& mesh, double tolerance, std::uint32_t seed, const Corners& face) {
   PieceCorners corners;
   corners.start(face);
