@@ -40,7 +40,7 @@ double area(const Piece& piece) {
 
 TEST(Piece, OfElevenCornersIsCutWhereNineLieOnOneSide) {
   const Piece piece = polygon(11);
-  const PlaneSides sides = sides_of(piece, {1, 0, 0}, 0.7);
+  const CornerDistances sides = distances_from_plane(piece, {1, 0, 0}, 0.7);
   Piece inside, outside;
   ASSERT_TRUE(cut(piece, sides, inside, outside));
   EXPECT_EQ(inside.count + outside.count, 11u + 4u);
@@ -50,7 +50,7 @@ TEST(Piece, OfElevenCornersIsCutWhereNineLieOnOneSide) {
 TEST(Piece, IsNotCutWhereAPartHasNoRoom) {
   const Piece piece = polygon(Piece::capacity);
   Piece inside, outside;
-  EXPECT_FALSE(cut(piece, sides_of(piece, {1, 1e-3, 0}, 0.95), inside, outside));
+  EXPECT_FALSE(cut(piece, distances_from_plane(piece, {1, 1e-3, 0}, 0.95), inside, outside));
   EXPECT_FALSE(cut_by_chord(piece, {0, 0.5}, {11, 0.5}, inside, outside));
 }
 

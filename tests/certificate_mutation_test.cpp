@@ -111,7 +111,7 @@ Nodes decoded(const TriangleMesh& source, const verify::Section& section) {
         open += 2;
         continue;
       }
-      node.kind = token.kind == verify::Token::Kind::Degree ? ProofNode::Kind::Degree : ProofNode::Kind::Near;
+      node.kind = token.kind == verify::Token::Kind::Parity ? ProofNode::Kind::Parity : ProofNode::Kind::Near;
       last = token.kind == verify::Token::Kind::Recall ? last_at[triangle[token.corner]]
                                                        : static_cast<std::uint32_t>(last + token.step);
       node.target = last;
@@ -358,7 +358,7 @@ std::vector<Eigen::Vector3d> samples_of(verify::PieceCorners& corners, const ver
 }
 
 /// Checks the leaves of a direction by sampling, with nothing of what the verifier decides with: points of a piece lie
-/// near its triangle, or near the mesh for a parity proof.
+/// near its triangle, or near the mesh for a proof by parity.
 class SamplingOracle {
  public:
   SamplingOracle(const TriangleMesh& source, const TriangleMesh& target, double tolerance)
@@ -402,7 +402,7 @@ class SamplingOracle {
     constexpr double rounding = 1e-14;  // of the sample points, for models of size 1
     const auto points = samples_of(corners_, piece);
     return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
-      if (node.kind == ProofNode::Kind::Degree) return closest_point(tree_, p).distance.lower <= tolerance_ + rounding;
+      if (node.kind == ProofNode::Kind::Parity) return closest_point(tree_, p).distance.lower <= tolerance_ + rounding;
       return reference::exact_distance(p, reference::corners(target_, node.target)).compare(tolerance_ + rounding) <= 0;
     });
   }

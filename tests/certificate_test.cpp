@@ -158,7 +158,7 @@ TEST(Certificate, KeepsAMarginForTheVerifier) {
   EXPECT_GT(refused, 20);
 }
 
-/// One triangle over 200,000 others: more than one parity proof may use.
+/// One triangle over 200,000 others: more than one proof by parity may use.
 TEST(Certificate, OfALargeFlatFaceIsSmall) {
   const TriangleMesh plain = reference::unit_square(300);
   const auto certificate = build_certificate(plain, reference::unit_square(1), 1e-4);

@@ -21,7 +21,7 @@ class DecimationFixture {
         tree_(mesh),
         state(vertices_, triangles_, tree_, array_mesh(), soup_.vertex_of, soup_.triangle_of) {
     state.grow_tolerance(tolerance);
-    state.set_samples(4 * tolerance);
+    state.set_samples(tolerance);
   }
   DecimationFixture(const DecimationFixture&) = delete;
   DecimationFixture& operator=(const DecimationFixture&) = delete;

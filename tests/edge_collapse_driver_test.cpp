@@ -212,7 +212,7 @@ TEST(RegionMesh, TellsOfEdgesOfNoLengthAndOfHubs) {
 /// The triangles that a driver leaves of a mesh without proofs; null: the queue of the core.
 std::vector<std::array<std::uint32_t, 3>> left_by(const CollapseDriver* driver, DecimationState& state) {
   state.grow_tolerance(0.1);
-  state.set_samples(0.4);
+  state.set_samples(0.1);
   Split split = whole(state);
   Proposer proposer(state);
   RegionCollapses collapses(state, split, split.regions.front(), proposer, nullptr,

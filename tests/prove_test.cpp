@@ -42,7 +42,7 @@ struct Approximation {
       state.local.emplace(std::move(boxes), limits);
     }
     state.grow_tolerance(tolerance);
-    state.set_samples(4 * tolerance);
+    state.set_samples(tolerance);
     std::fill(state.stamp.begin(), state.stamp.end(), 1);
   }
   Approximation(const Approximation&) = delete;

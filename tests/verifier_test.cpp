@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the certificate verifier: numbers, distances, pieces, parity proofs, and certificates made by hand
+// The parts of the certificate verifier: numbers, distances, pieces, proofs by parity, and certificates made by hand
 // that lie in one point each.
 #include "verify/verifier.h"
 

@@ -44,7 +44,7 @@ std::uint64_t equal_bits(const std::uint32_t* far, std::uint32_t wanted) {
 #endif
 }
 
-/// A closed surface has twice as many triangles as vertices.
+/// Vertices that make one task: a closed surface has twice as many triangles as vertices.
 constexpr std::size_t vertices_per_task = triangles_per_task / 2;
 
 /// An edge of a triangle, seen from the smaller of its vertices.
@@ -54,7 +54,7 @@ struct HalfEdge {
   std::uint8_t upward;  ///< 1: runs from the smaller vertex to the larger one
 };
 
-/// One on a seam: its smaller vertex belongs to an earlier run.
+/// A half-edge on a seam between runs: its smaller vertex belongs to an earlier run.
 struct SeamEdge {
   std::uint32_t near;
   HalfEdge edge;
@@ -71,7 +71,7 @@ struct ByIndex {
 struct ByPosition {
   const std::uint32_t* position;
   [[nodiscard]] std::uint32_t operator()(std::uint32_t vertex) const { return position[vertex]; }
-  [[nodiscard]] static bool takes(std::uint32_t u, std::uint32_t v) { return u != v && std::max(u, v) != no_position; }
+  [[nodiscard]] static bool takes(std::uint32_t u, std::uint32_t v) { return u != v && std::max(u, v) != no_index; }
 };
 
 /// Links the half-edges of each edge, by the ends that `Ends` gives to their vertices, as far as it takes them.
@@ -145,7 +145,7 @@ class HalfEdgeMatching {
     });
   }
 
-  /// Turns counts into the begins of buckets, counted from the first of the run. Returns the sum.
+  /// Turns counts into the offsets of buckets within the run. Returns their sum.
   std::uint32_t add_seams_and_sum(std::uint32_t run) {
     for_each_seam_edge(run, [&](std::uint32_t near, const HalfEdge&) { ++bucket_end_[near]; });
     std::uint32_t sum = 0;
@@ -199,7 +199,7 @@ class HalfEdgeMatching {
     });
   }
 
-  /// Each with all others, without branches that depend on where its like is.
+  /// Compares each half-edge with all others, without branches that depend on which one is its match.
   void match_by_comparing(std::size_t from, std::uint32_t count) {
     const std::uint32_t *const far = far_.data() + from, *const id = id_.data() + from;
     const std::uint8_t* const upward = upward_.data() + from;
@@ -242,9 +242,9 @@ class HalfEdgeMatching {
   const std::vector<std::uint32_t>& first_vertex_;  ///< by run
   std::uint32_t runs_;
   Array<std::uint32_t> bucket_end_;           ///< by vertex, from the first half-edge of its run
-  Array<std::uint32_t> far_;                  ///< by vertex: of its half-edges, `HalfEdge::far`
-  Array<std::uint32_t> id_;                   ///< likewise
-  Array<std::uint8_t> upward_;                ///< likewise
+  Array<std::uint32_t> far_;                  ///< by bucket: `HalfEdge::far` of its half-edges
+  Array<std::uint32_t> id_;                   ///< by bucket: `HalfEdge::id`
+  Array<std::uint8_t> upward_;                ///< by bucket: `HalfEdge::upward`
   std::vector<std::vector<SeamEdge>> seams_;  ///< by run, in the order of their ids
   std::vector<std::uint32_t> size_;           ///< half-edges by run
 };

@@ -30,7 +30,7 @@ class Arena {
   /// nothing.
   void touch();
 
-  /// At the begin of a cache line, which no other array then shares. Null where so much is not left.
+  /// Memory that begins at a cache line, which no other array then shares. Null where not enough is left.
   [[nodiscard]] void* take(std::size_t bytes) noexcept;
   [[nodiscard]] bool owns(const void* storage) const noexcept;
   /// Takes everything back.
@@ -90,7 +90,7 @@ struct UninitialisedAllocator {
 template <class T>
 using Array = std::vector<T, UninitialisedAllocator<T>>;
 
-/// An empty one that takes its memory from an arena.
+/// An empty array that takes its memory from an arena.
 template <class T>
 Array<T> array_in(Arena& arena) {
   return Array<T>(UninitialisedAllocator<T>(&arena));

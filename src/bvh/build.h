@@ -5,24 +5,25 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 
-/// The steps of building `Bvh::Data`; each fills the members named after it from those filled before, by tasks for the
-/// team of threads that it is called in (numeric/tasks.h). What cannot be cut finely is cut into `runs`, one for each
-/// thread. Every step gives the same result for any number of threads and runs. What they need for themselves comes
-/// from `scratch`, which they leave cleared.
+/// The steps of building `Bvh::Data`. Each fills the members that its comment names from those filled before, by tasks
+/// for the team of threads that it is called in (numeric/tasks.h). Work that cannot be cut into small tasks is cut into
+/// `runs`, one for each thread. Every step gives the same result for any number of threads and runs. Temporary memory
+/// comes from `scratch`, which each step leaves cleared.
 
-/// Triangles or vertices of a task: some ten microseconds of work.
+/// Triangles or vertices that make one task: some ten microseconds of work.
 inline constexpr std::size_t triangles_per_task = 4096;
 
-/// Below this many triangles a build is over before another thread has woken up.
+/// Triangles below which a build is over before another thread has woken up.
 inline constexpr std::size_t triangles_per_thread = 4096;
 
 /// Threads for a build or a refit of so many triangles. `wanted`: as `BvhOptions::threads`.
 std::size_t useful_threads(int wanted, std::size_t triangles);
 
-/// Box, diagonal and frame, and a new serial number. `box`: of the vertices that triangles use, model units.
+/// Sets box, diagonal and frame, and a new serial number. `box`: of the vertices that triangles use, model units.
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 
 /// Where the longest edge of a triangle begins: corner 0, 1 or 2, the first of them when edges are equally long.
@@ -32,28 +33,25 @@ inline std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
   return not_ab * (2 - static_cast<std::uint32_t>(bc >= ca));
 }
 
-/// `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so that the order is unique.
+/// Fills `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so the order is unique.
 void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
 
-/// Where run `r` of `runs` equal runs of n things begins.
+/// The first of n items that belongs to run `r`, where the items are divided into `runs` equal runs.
 inline std::uint32_t run_begin(std::uint32_t n, std::uint32_t r, std::uint32_t runs) {
   return static_cast<std::uint32_t>(std::uint64_t{n} * r / runs);
 }
 
-/// `vertices`, `source_vertex`, `corners` with the longest edge first (what `closest_on_triangle` asks for), and the
-/// frame's error. Returns for each of some equal runs of slots the first of the vertices that it is the first to use,
-/// and after the last run their number.
+/// Fills `vertices`, `source_vertex`, `corners` with the longest edge first (as `closest_on_triangle` wants it), and
+/// the frame's error. Vertices are numbered by first use along the slots, which are divided into `runs` equal runs.
+/// Returns for each run the first vertex that no run before it uses, and behind them the number of all vertices.
 std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
 
-/// The position of a vertex that no edge with one triangle asks for.
-inline constexpr std::uint32_t no_position = 0xffffffff;
-
-/// By vertex, for those at the ends of edges that `neighbours` gives one triangle only, and for all others at their
-/// positions: the first vertex at the same position (coordinates of the working frame that are equal, 0 and -0 too).
-/// `no_position` for the others. Empty when no two vertices share a position. Expected O(n), by one thread.
+/// By vertex: the first vertex at the same position (coordinates of the working frame that are equal, 0 and -0 too),
+/// for the ends of edges that `neighbours` gives one triangle only and for all other vertices at such positions;
+/// `no_index` for the rest. Empty when no two vertices share a position. Expected O(n), by one thread.
 Array<std::uint32_t> seam_positions(const Bvh::Data& data);
 
-/// `neighbours`. `first_vertex`: as `place_vertices` returned it.
+/// Fills `neighbours`. `first_vertex`: as `place_vertices` returned it.
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
 void build_normals(Bvh::Data& data);
 void build_nodes(Bvh::Data& data);

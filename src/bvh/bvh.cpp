@@ -44,7 +44,7 @@ struct Extremes {
   }
 };
 
-/// Of the vertices of a mesh. `sound`: all coordinates may be used.
+/// The extreme vertices of a mesh. `sound`: all coordinates may be used.
 Extremes extremes_of(const MeshView& mesh, std::size_t vertices, std::atomic<bool>& sound) {
   std::vector<Extremes> of_task(vertices / triangles_per_task + 1);
   for_each_range(vertices, triangles_per_task, [&](std::size_t begin, std::size_t end) {
@@ -70,7 +70,7 @@ Extremes extremes_of(const MeshView& mesh, std::size_t vertices, std::atomic<boo
   return all;
 }
 
-/// Which of the six extreme vertices triangles use, a bit for each. `sound`: all indices are in range.
+/// Which of the six extreme vertices are used by triangles, a bit for each. `sound`: all indices are in range.
 unsigned used_extremes(const MeshView& mesh, const Extremes& all, std::size_t vertices, std::atomic<bool>& sound) {
   std::vector<std::uint8_t> sides(vertices, 0);  // by vertex, the bits of those that it is
   for (unsigned side = 0; side < 6 && all.at[side] < vertices; ++side) {
@@ -124,7 +124,7 @@ std::size_t tree_bytes(const MeshView& mesh) {
          sizeof(BvhNode) * (lowest_nodes + lowest_nodes / 7) + rounding;
 }
 
-/// The step that takes most: `build_adjacency`, with three half-edges of a triangle.
+/// Bytes of scratch memory that `build_adjacency` takes, more than any other step: three half-edges a triangle.
 std::size_t scratch_bytes(const MeshView& mesh) {
   constexpr std::size_t half_edges = 3 * (2 * sizeof(std::uint32_t) + 1), rounding = 4096;
   return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * max_used_vertices(mesh) + rounding;
@@ -147,7 +147,8 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {
   return data;
 }
 
-/// What a run may have beyond the share of a thread: so much of a build can be left to others without cutting it up.
+/// By how many threads the share of a mesh may exceed its number of runs: so much of its build is left to threads that
+/// have finished, instead of cutting it into another run.
 constexpr double tolerated_excess = 0.2;
 
 /// Trees of several meshes. Threads are shared out by size; one that has built its tree helps with the tasks of others.
@@ -178,8 +179,8 @@ std::size_t bytes(const Vector& v) {
 }  // namespace
 
 std::size_t useful_threads(int wanted, std::size_t triangles) {
-  const auto most = static_cast<std::size_t>(wanted > 0 ? wanted : omp_get_max_threads());
-  return std::min(most, 1 + triangles / triangles_per_thread);
+  const auto max_threads = static_cast<std::size_t>(wanted > 0 ? wanted : omp_get_max_threads());
+  return std::min(max_threads, 1 + triangles / triangles_per_thread);
 }
 
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {

@@ -41,19 +41,19 @@ struct Bvh::Data {
   Data() = default;
   explicit Data(std::size_t arena_bytes) : arena(arena_bytes) {}
 
-  Arena arena;               ///< of the arrays of a new tree, as far as it has room
-  std::uint64_t serial = 0;  ///< of these coordinates; never given twice in a process
+  Arena arena;               ///< memory for the arrays of a new tree, as far as it has room
+  std::uint64_t serial = 0;  ///< identifies these coordinates; never given twice in a process
   double built_cost = 0;     ///< `tree_cost` before the first refit; 0: never refitted
   Frame frame;
   Eigen::AlignedBox3d bounding_box;  ///< model units
-  double diagonal = 0;               ///< of it, model units
+  double diagonal = 0;               ///< length of the diagonal of `bounding_box`, model units
   Box working_box;
 
   // By vertex, in the order of first use along the curve. Only vertices that triangles use.
   Array<Vec3> vertices = array_in<Vec3>(arena);
   Array<std::uint32_t> source_vertex =
       array_in<std::uint32_t>(arena);  ///< index in the mesh that the tree was built from
-  // By slot: the place of a triangle along the curve.
+  // By slot: the index of a triangle along the curve.
   Array<Triangle> corners = array_in<Triangle>(arena);
   Array<std::array<Neighbour, 3>> neighbours =
       array_in<std::array<Neighbour, 3>>(arena);  ///< [k] across the edge from corner k to corner k + 1
@@ -64,7 +64,7 @@ struct Bvh::Data {
   std::vector<std::uint32_t> level_begin;
 
   [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(corners.size()); }
-  /// Leaves: block i has the slots 4 i ... 4 i + 3, as far as there are so many.
+  /// Number of leaves: block i has the slots 4 i ... 4 i + 3, as far as there are triangles.
   [[nodiscard]] std::uint32_t block_count() const { return (triangle_count() + block_width - 1) / block_width; }
   [[nodiscard]] std::uint32_t levels() const { return static_cast<std::uint32_t>(level_begin.size()) - 1; }
 };

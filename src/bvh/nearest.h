@@ -39,8 +39,8 @@ inline Vec<Double4> gather4(const Vec3& p, const Vec3& q, const Vec3& r, const V
 }
 
 /// The four triangles of a block, lane by lane; the last block repeats its last triangle in unused lanes. Their corners
-/// are gathered: a copy for each block, ready to load, made a leaf's test no faster that matters and took 72 of 200
-/// bytes a triangle, which building had to write.
+/// are gathered: storing a copy for each block made testing a leaf hardly faster and took 72 of 200 bytes a triangle,
+/// which building had to write.
 inline CornerTriangle<Double4> triangles_of_block(const Bvh::Data& data, std::uint32_t block) {
   const std::uint32_t first = block * block_width, last = data.triangle_count() - 1;
   const Triangle *const s = &data.corners[first], *const t = &data.corners[std::min(first + 1, last)],
@@ -57,9 +57,9 @@ inline CornerTriangle<Double4> triangles_of_block(const Bvh::Data& data, std::ui
 struct FloatQuery {
   explicit FloatQuery(const Vec3& p) : FloatQuery(p, p) {}
   FloatQuery(const Vec3& box_lo, const Vec3& box_hi) {
-    const double least[3] = {box_lo.x, box_lo.y, box_lo.z}, most[3] = {box_hi.x, box_hi.y, box_hi.z};
+    const double min[3] = {box_lo.x, box_lo.y, box_lo.z}, max[3] = {box_hi.x, box_hi.y, box_hi.z};
     for (int axis = 0; axis < 3; ++axis) {
-      const auto from = static_cast<float>(least[axis]), to = static_cast<float>(most[axis]);
+      const auto from = static_cast<float>(min[axis]), to = static_cast<float>(max[axis]);
       lo[axis] = broadcast8(from - step(from));
       hi[axis] = broadcast8(to + step(to));
     }
@@ -84,7 +84,7 @@ inline Float8 squared_box_distances(const BvhNode& node, const FloatQuery& q) {
   return sum;
 }
 
-/// Boxes at this squared distance or more hold nothing nearer than `squared`.
+/// The limit for computed box distances: boxes at this squared distance or more hold no point within `squared`.
 inline float prune_limit(double squared) {
   const double limit = squared * (1 + 0x1p-20);
   return limit < 0x1p126 ? static_cast<float>(limit) + std::numeric_limits<float>::min()
@@ -177,7 +177,8 @@ inline void step_towards(const Bvh::Data& data, const Vec3& p, double enough_squ
   }
 }
 
-/// Walks likewise, without looking at distances; returns where that ends.
+/// Walks from `slot` across the edge that p is furthest outside of, until p lies over a triangle or the walk has taken
+/// its steps; returns the triangle where it ends. Looks at no distances.
 inline std::uint32_t step_over(const Bvh::Data& data, const Vec3& p, std::uint32_t slot) {
   for (int step = 0; step < steps_towards_point; ++step) {
     const std::size_t edge = edge_towards(data, slot, triangle_at(data, slot), p);

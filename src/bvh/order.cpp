@@ -14,7 +14,8 @@
 namespace meshbound {
 namespace {
 
-/// A triangle's place along the curve above its index, so that one number is sorted and ties go by index.
+/// A triangle's index along the curve in the high bits and its index in the mesh in the low ones, so that one number is
+/// sorted and ties go by index.
 using Keyed = std::uint64_t;
 
 constexpr int digit_bits = 12;  ///< a histogram of 2^12 counters of 32 bits stays in the first-level cache
@@ -27,7 +28,7 @@ int grid_bits(std::size_t triangles, int index_bits) {
   return std::min(bits, (64 - index_bits) / 3);
 }
 
-/// Samples for each thread where the items are divided: the parts then differ by a few percent.
+/// Samples for each thread where the items are divided into ranges of keys: these then differ in size by a few percent.
 constexpr std::size_t samples_per_part = 256;
 
 /// Stable least-significant-digit radix sort by the bits from `first` to below `end`, in so many passes; `from` and
@@ -45,8 +46,8 @@ void radix_sort(std::span<Keyed> from, std::span<Keyed> to, int first, int end, 
   }
 }
 
-/// Items divided by key into parts, each of which one thread then sorts where no other thread writes: threads that
-/// scatter into one array by digits write to the same cache lines.
+/// Divides items into ranges of keys, each of which one thread then sorts in memory of its own: threads that scatter
+/// into one array by digits would write to the same cache lines.
 class Partition {
  public:
   Partition(const Array<Keyed>& items, std::size_t parts) : items_(items), parts_(parts), begin_(parts * parts + 1) {
@@ -56,7 +57,7 @@ class Partition {
     for (std::size_t part = 1; part < parts; ++part) first_of_.push_back(samples[samples_per_part * part]);
   }
 
-  /// How many items of a run belong to each part.
+  /// Counts how many items of a run belong to each range.
   void count(std::size_t run) {
     std::vector<std::uint32_t> counts(parts_, 0);
     for_each(run, [&](std::size_t part, Keyed) { ++counts[part]; });
@@ -64,7 +65,7 @@ class Partition {
   }
   void sum() { std::partial_sum(begin_.begin(), begin_.end(), begin_.begin()); }
 
-  /// In the order of the runs, so that items keep theirs inside a part.
+  /// Moves the items in the order of the runs, so that they keep their order inside a range.
   void move(std::size_t run, Array<Keyed>& to) const {
     std::vector<std::uint32_t> at(parts_);
     for (std::size_t part = 0; part < parts_; ++part) at[part] = begin_[part * parts_ + run];
@@ -88,11 +89,11 @@ class Partition {
 
   const Array<Keyed>& items_;
   std::size_t parts_;
-  std::vector<Keyed> first_of_;       ///< the least item of each part but the first
-  std::vector<std::uint32_t> begin_;  ///< by part, and in it by the run that the items come from
+  std::vector<Keyed> first_of_;       ///< the least item of each range but the first
+  std::vector<std::uint32_t> begin_;  ///< by range, and in it by the run that the items come from
 };
 
-/// By key; items of one key keep their order.
+/// Sorts by key; items of one key keep their order.
 void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end, std::size_t parts) {
   const int passes = (end - first + digit_bits - 1) / digit_bits;
   if (parts == 1) {

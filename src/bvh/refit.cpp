@@ -16,7 +16,7 @@ std::array<T, 3> rotated(const std::array<T, 3>& x, std::uint32_t by) {
 
 constexpr std::uint8_t no_turn = 3;
 
-/// By how many corners the tree has turned a triangle of the mesh (`longest_edge`); trees never mirror them.
+/// By how many corners the tree has rotated a triangle of the mesh (`longest_edge`); trees never mirror them.
 std::uint8_t turn_of(const Bvh::Data& data, std::uint32_t slot, const Triangle& in_mesh) {
   const Triangle& t = data.corners[slot];
   const Triangle in_tree{data.source_vertex[t[0]], data.source_vertex[t[1]], data.source_vertex[t[2]]};
@@ -72,7 +72,7 @@ void move_vertices(Bvh::Data& data, const MeshView& moved) {
   data.frame.error = *std::max_element(errors.begin(), errors.end());
 }
 
-/// Turns each triangle as a build would: its longest edge first, ties by the order in the mesh.
+/// Rotates the corners of each triangle as a build would: its longest edge first, ties by the order in the mesh.
 void turn_triangles(Bvh::Data& data, const std::vector<std::uint8_t>& turned) {
   for_each_range(data.triangle_count(), triangles_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t slot = begin; slot < end; ++slot) {
@@ -85,8 +85,9 @@ void turn_triangles(Bvh::Data& data, const std::vector<std::uint8_t>& turned) {
   });
 }
 
-/// Sum of the squared diagonals of all boxes in units of the whole one's: to a query on the surface the chance that it
-/// opens a box grows with the box's extent in the two directions of the surface. 1 for a mesh that is a point.
+/// What a query on the surface costs, relatively: the sum of the squared diagonals of all boxes divided by that of the
+/// whole box, since the chance that a query opens a box grows with its extent in the two directions of the surface. 1
+/// for a mesh that is a point.
 double tree_cost(const Bvh::Data& data) {
   const double whole = squared_length(data.working_box.hi - data.working_box.lo);
   if (!(whole > 0)) return 1;

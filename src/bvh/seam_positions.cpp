@@ -8,30 +8,19 @@
 #include <utility>
 
 #include "bvh/build.h"
+#include "geometry/position_table.h"
 
 namespace meshbound {
 namespace {
 
 constexpr std::uint32_t batch = 32;
 
-/// Equal for equal positions. x + 0.0 turns -0 into 0 and leaves all else as it is.
-std::uint64_t hash_of(const Vec3& p) {
-  std::uint64_t hash = 0;
-  for (const double x : {p.x, p.y, p.z}) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15;
-    hash ^= hash >> 32;
-  }
-  return hash * 0xd6e8feb86659fd93;
-}
-
-bool same_position(const Vec3& p, const Vec3& q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
-
-/// Open addressing, at most three quarters full.
-class PositionTable {
+/// The vertices at each position; only of those that are put in. Open addressing, at most three quarters full.
+class TornPositions {
  public:
-  PositionTable(const Bvh::Data& data, std::size_t positions)
+  TornPositions(const Bvh::Data& data, std::size_t positions)
       : vertices_(data.vertices), shift_(64 - static_cast<int>(std::bit_width(positions + positions / 3 + 1))) {
-    first_at_.assign(std::size_t{1} << (64 - shift_), no_position);
+    first_at_.assign(std::size_t{1} << (64 - shift_), no_index);
   }
 
   /// Calls use(vertex, first entry to look at) for the vertices that `wanted` takes, in ascending order.
@@ -44,7 +33,7 @@ class PositionTable {
       for (; v < count && size < batch; ++v) {
         if (!wanted(v)) continue;
         vertex[size] = v;
-        entry[size] = static_cast<std::uint32_t>(hash_of(vertices_[v]) >> shift_);
+        entry[size] = static_cast<std::uint32_t>(position_hash(position_key(vertices_[v])) >> shift_);
         __builtin_prefetch(&first_at_[entry[size++]]);
       }
       for (std::uint32_t i = 0; i < size; ++i) use(vertex[i], entry[i]);
@@ -53,7 +42,7 @@ class PositionTable {
 
   /// The entry of the position of a vertex, or the free one where it belongs.
   [[nodiscard]] std::uint32_t find(std::uint32_t vertex, std::uint32_t entry) const {
-    while (first_at_[entry] != no_position && !same_position(vertices_[first_at_[entry]], vertices_[vertex]))
+    while (first_at_[entry] != no_index && !same_position(vertices_[first_at_[entry]], vertices_[vertex]))
       entry = (entry + 1) & static_cast<std::uint32_t>(first_at_.size() - 1);
     return entry;
   }
@@ -63,10 +52,10 @@ class PositionTable {
  private:
   const Array<Vec3>& vertices_;
   int shift_;
-  Array<std::uint32_t> first_at_;  ///< by entry: the first vertex there, `no_position` where there is none
+  Array<std::uint32_t> first_at_;  ///< by entry: the first vertex there, `no_index` where there is none
 };
 
-/// Sets the ends of edges with one triangle to 0. Returns their number.
+/// Sets the entries of the ends of edges with one triangle to 0. Returns their number.
 std::size_t mark_torn_vertices(const Bvh::Data& data, Array<std::uint32_t>& position) {
   std::size_t torn = 0;
   for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
@@ -91,29 +80,29 @@ bool any_torn_edge(const Bvh::Data& data) {
 Array<std::uint32_t> seam_positions(const Bvh::Data& data) {
   Array<std::uint32_t> position;
   if (!any_torn_edge(data)) return position;
-  position.assign(data.vertices.size(), no_position);
+  position.assign(data.vertices.size(), no_index);
   const std::size_t torn = mark_torn_vertices(data, position);
-  PositionTable table(data, torn);
+  TornPositions table(data, torn);
   bool shared = false;
-  table.for_each_hashed([&](std::uint32_t v) { return position[v] != no_position; },
+  table.for_each_hashed([&](std::uint32_t v) { return position[v] != no_index; },
                         [&](std::uint32_t v, std::uint32_t hashed) {
                           const std::uint32_t entry = table.find(v, hashed);
-                          shared = shared || table.first_at(entry) != no_position;
+                          shared = shared || table.first_at(entry) != no_index;
                           table.first_at(entry) = std::min(table.first_at(entry), v);
                           position[v] = entry;
                         });
-  // The other vertices, of edges that have their triangles: those at the same positions join, at the entry found.
-  table.for_each_hashed([&](std::uint32_t v) { return position[v] == no_position; },
+  // The other vertices, whose edges all have two triangles: those at such a position join it.
+  table.for_each_hashed([&](std::uint32_t v) { return position[v] == no_index; },
                         [&](std::uint32_t v, std::uint32_t hashed) {
                           const std::uint32_t entry = table.find(v, hashed);
-                          if (table.first_at(entry) == no_position) return;
+                          if (table.first_at(entry) == no_index) return;
                           shared = true;
                           table.first_at(entry) = std::min(table.first_at(entry), v);
                           position[v] = entry;
                         });
   if (!shared) return {};
   for (std::uint32_t& p : position)
-    if (p != no_position) p = table.first_at(p);
+    if (p != no_index) p = table.first_at(p);
   return position;
 }
 

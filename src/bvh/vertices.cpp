@@ -14,10 +14,10 @@ namespace {
 constexpr std::uint32_t unused = 0xffffffff;
 constexpr std::uint32_t of_earlier_run = 0xffffffff;
 
-/// More would not pay: every run has a table of all vertices.
+/// Most runs that pay: every run has a table of all vertices.
 constexpr std::size_t max_runs = 16;
 
-/// Triangles of a batch: what they need fits into the first-level cache.
+/// Triangles of a batch: their data fits into the first-level cache.
 constexpr std::uint32_t batch = 64;
 
 struct Run {
@@ -78,8 +78,8 @@ class Renumbering {
 
   [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
 
-  /// By batches, in passes without a dependence on what was fetched just before: the processor waits for many at a
-  /// time.
+  /// Works in batches, in passes that do not depend on what was fetched just before: the processor then waits for many
+  /// entries at a time.
   void number_vertices(std::uint32_t r) {
     Run& run = run_[r];
     std::fill(run.local.begin(), run.local.end(), unused);

@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -12,28 +11,22 @@
 #include "certificate/encoder.h"
 #include "distance/kernel/search_kernel.h"
 #include "distance/shortcuts/point_like.h"
+#include "geometry/magnitude.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "numeric/first_error.h"
+#include "proof/edge_neighbours.h"
 
 namespace meshbound {
 namespace {
 
 constexpr std::size_t triangles_per_chunk = 256;  ///< hints are handed on inside a chunk
 
-/// Where the proofs by degree together would cost a reader more than this for each triangle of both meshes, as in
-/// stacks of large triangles over fine ones, they are made small. It may refuse what costs 1024 times as many.
+/// Triangles of patches for each triangle of both meshes. Where all parity proofs together would cost a reader more, as
+/// in stacks of large triangles over fine ones, patches are made small. A reader may refuse what costs 1024 times this.
 constexpr std::uint64_t parity_work_per_triangle = 16;
-constexpr std::size_t largest_small_patch = 256;
-
-double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
-
-using Clock = std::chrono::steady_clock;
-
-Clock::time_point deadline_after(double seconds) {
-  if (!(seconds < 1e9)) return Clock::time_point::max();  // about 30 years: no deadline, and no overflow
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
+constexpr std::size_t max_small_patch = 256;
 
 /// A source triangle that could not be proven.
 struct Failure {
@@ -45,25 +38,25 @@ struct Failure {
 class DirectionProof {
  public:
   DirectionProof(const MeshView& source, const MeshView& target, double tolerance, const CertificateOptions& options,
-                 Clock::time_point deadline, const std::string& source_name)
+                 const StopToken& stop, const std::string& source_name)
       : source_(source),
         target_(target),
         tolerance_(tolerance),
         options_(options),
         source_name_(source_name),
         tree_(target, BvhOptions{options.threads}),
-        neighbours_(tree_.data()) {
+        neighbours_(edge_neighbours(tree_.data().vertices, tree_.data().corners)) {
     load_vertices();
-    goal_.deadline = deadline;
-    goal_.cancel = options.cancel;
+    goal_.stop = stop;
   }
 
-  /// Nothing when it was cancelled or ran out of time.
+  /// The proof; nothing when it was cancelled or ran out of time.
   std::optional<EncodedSection> run(double progress_from);
 
  private:
-  /// Fills the chunks. What the proofs by degree cost a reader; nothing when it was cancelled or ran out of time.
-  [[nodiscard]] std::optional<std::uint64_t> prove(std::size_t largest_patch, double progress_from);
+  /// Fills the chunks. Returns what the parity proofs cost a reader (`ParitySearch::work`); nothing when it was
+  /// cancelled or ran out of time.
+  [[nodiscard]] std::optional<std::uint64_t> prove(std::size_t max_patch, double progress_from);
   void load_vertices();
   [[nodiscard]] Failure prove_chunk(std::size_t chunk, CutSearch& search);
   [[nodiscard]] bool is_in_target(const Triangle& triangle, std::uint32_t slot) const;
@@ -75,7 +68,7 @@ class DirectionProof {
   const CertificateOptions& options_;
   std::string source_name_;
   Bvh tree_;
-  PatchNeighbours neighbours_;
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;
   Goal goal_;
   double magnitude_ = 1;        ///< of all coordinates in the working frame
   std::vector<Vec3> vertices_;  ///< of the source, in the working frame of the tree
@@ -85,19 +78,17 @@ class DirectionProof {
 void DirectionProof::load_vertices() {
   const Frame& frame = tree_.data().frame;
   double error = 0;
-  std::vector<bool> used(source_.vertex_count(), false);
-  for (std::size_t t = 0; t < source_.triangle_count(); ++t)
-    for (const std::uint32_t v : source_.triangle(t)) used[v] = true;
+  const std::vector<std::uint8_t> used = used_vertices(source_);
   vertices_.resize(source_.vertex_count());
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    if (!used[v]) continue;
+    if (used[v] == 0) continue;
     const Eigen::Vector3d p = source_.vertex(v);
     const Vec3 model{p.x(), p.y(), p.z()};
     vertices_[v] = frame.to_working(model);
-    magnitude_ = std::max(magnitude_, largest(vertices_[v]));
+    magnitude_ = std::max(magnitude_, largest_magnitude_of(vertices_[v]));
     error = std::max(error, frame.rounding_of(model));
   }
-  if (!(magnitude_ <= largest_magnitude))
+  if (!(magnitude_ <= max_magnitude))
     throw InvalidInput("the meshes differ too much in size, or lie too far apart, for a certificate");
   goal_.decide_only = true;
   goal_.tolerance = frame.working_length_down(tolerance_);
@@ -133,13 +124,13 @@ Failure DirectionProof::prove_chunk(std::size_t chunk, CutSearch& search) {
 
 std::optional<EncodedSection> DirectionProof::run(double progress_from) {
   const std::uint64_t enough = parity_work_per_triangle * (source_.triangle_count() + target_.triangle_count());
-  std::optional<std::uint64_t> work = prove(ParitySearch::largest_patch, progress_from);
-  if (work && *work > enough + ParitySearch::largest_patch) work = prove(largest_small_patch, progress_from);
+  std::optional<std::uint64_t> work = prove(ParitySearch::max_patch, progress_from);
+  if (work && *work > enough + ParitySearch::max_patch) work = prove(max_small_patch, progress_from);
   if (!work) return std::nullopt;
   return encode(source_, chunks_);
 }
 
-std::optional<std::uint64_t> DirectionProof::prove(std::size_t largest_patch, double progress_from) {
+std::optional<std::uint64_t> DirectionProof::prove(std::size_t max_patch, double progress_from) {
   const std::size_t count = (source_.triangle_count() + triangles_per_chunk - 1) / triangles_per_chunk;
   chunks_.assign(count, {});
   const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
@@ -151,7 +142,7 @@ std::optional<std::uint64_t> DirectionProof::prove(std::size_t largest_patch, do
 #pragma omp parallel num_threads(threads)
   {
     std::optional<CutSearch> search;
-    error.guard([&] { search.emplace(tree_.data(), neighbours_, goal_, magnitude_, largest_patch); });
+    error.guard([&] { search.emplace(tree_.data(), neighbours_, goal_, magnitude_, max_patch); });
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t chunk = 0; chunk < count; ++chunk) {
       if (stop || !search || goal_.out_of_time()) continue;
@@ -192,10 +183,10 @@ std::optional<Certificate> build_certificate(const MeshView& original, const Mes
                                              const CertificateOptions& options) {
   if (!(std::isfinite(tolerance) && tolerance >= 0))
     throw InvalidInput("the tolerance of a certificate must be a length in model units, 0 or more");
-  const Clock::time_point deadline = deadline_after(options.seconds);
-  const auto forward = DirectionProof(original, simplified, tolerance, options, deadline, "original").run(0);
+  const StopToken stop = StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds);
+  const auto forward = DirectionProof(original, simplified, tolerance, options, stop, "original").run(0);
   if (!forward) return std::nullopt;
-  const auto backward = DirectionProof(simplified, original, tolerance, options, deadline, "simplified").run(0.5);
+  const auto backward = DirectionProof(simplified, original, tolerance, options, stop, "simplified").run(0.5);
   if (!backward) return std::nullopt;
   Certificate certificate;
   certificate.original_to_simplified = counts_of(*forward);

@@ -9,15 +9,15 @@ namespace {
 
 constexpr std::array<int, 4> sizes_of_ends = {8, 16, 32, 48};  ///< bits, as the format has them
 
-/// Where the plane meets the outline.
+/// A point where the plane meets the outline of the piece.
 struct Crossing {
   std::uint32_t edge = 0;
   double share = 0;
-  double length = 0;  ///< of the edge
+  double length = 0;  ///< of the edge, working units
 };
 
-/// Two of them, or nothing.
-std::optional<std::array<Crossing, 2>> crossings(const Piece& piece, const PlaneSides& sides) {
+/// The two points where the plane meets the outline, or nothing where there are not two.
+std::optional<std::array<Crossing, 2>> crossings(const Piece& piece, const CornerDistances& sides) {
   std::array<Crossing, 2> found;
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < piece.count; ++i) {
@@ -73,7 +73,7 @@ std::optional<ChordCut> parts_of(const Piece& piece, const Chord& chord) {
 
 }  // namespace
 
-std::optional<ChordCut> cut_by_chord(const Piece& piece, const PlaneSides& sides, double max_shift) {
+std::optional<ChordCut> cut_by_chord(const Piece& piece, const CornerDistances& sides, double max_shift) {
   const auto ends = crossings(piece, sides);
   if (!ends) return std::nullopt;
   const double longest = std::max((*ends)[0].length, (*ends)[1].length);

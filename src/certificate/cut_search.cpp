@@ -9,11 +9,10 @@
 namespace meshbound {
 namespace {
 
-/// As in the walk of the engine.
+/// The limits of the engine's walk (distance/kernel/cell_walker.h).
 constexpr std::uint32_t steps_between_queries = 8;
 constexpr std::uint32_t halve_from_depth = 60, halve_from_rounds = 24;
 constexpr std::uint32_t crowded_piece = Piece::capacity - 4;
-constexpr double noise = 1e-13;
 
 bool must_halve(const Piece& piece) {
   return piece.depth >= halve_from_depth || piece.rounds >= halve_from_rounds || piece.count > crowded_piece;
@@ -26,7 +25,7 @@ Vec3 middle_of(const Piece& piece) {
 }
 
 /// Whether the first part is the one on the negative side.
-bool first_is_inside(const Piece& piece, const PlaneSides& sides, const Chord& chord) {
+bool first_is_inside(const Piece& piece, const CornerDistances& sides, const Chord& chord) {
   double first = 0;
   for (std::uint32_t i = chord.from.edge + 1; i <= chord.to.edge; ++i)
     if (std::fabs(sides.value[i]) > std::fabs(first)) first = sides.value[i];
@@ -39,9 +38,9 @@ bool first_is_inside(const Piece& piece, const PlaneSides& sides, const Chord& c
 
 }  // namespace
 
-CutSearch::CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
-                     std::size_t largest_patch)
-    : b_(target), tolerance_(goal.tolerance), degree_(target, neighbours, goal, magnitude, largest_patch) {
+CutSearch::CutSearch(const Bvh::Data& target, const std::vector<std::array<std::uint32_t, 3>>& neighbours,
+                     const Goal& goal, double magnitude, std::size_t max_patch)
+    : b_(target), tolerance_(goal.tolerance), parity_(target, neighbours, goal, magnitude, max_patch) {
   for (std::uint32_t depth = 0; depth <= deepest_cut; ++depth) {
     const double accepted = goal.tolerance - goal.slack - depth * goal.cut_slack;
     // A length is rounded four times on its way from the offset, relative to itself.
@@ -49,7 +48,8 @@ CutSearch::CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours,
   }
 }
 
-/// How far the ends of a cut may be moved to say them in few bits. Where that goes wrong, the next cuts are finer.
+/// How far the ends of a cut may be moved so that few bits describe them. Deeper pieces, where coarse cuts have failed,
+/// get finer ones.
 double CutSearch::max_shift(const Piece& piece) const {
   const double share = piece.depth < 8 ? 0x1p-4 : piece.depth < 24 ? 0x1p-8 : piece.depth < 48 ? 0x1p-16 : 0x1p-32;
   return share * tolerance_;
@@ -69,7 +69,8 @@ bool CutSearch::try_near(const Piece& piece, std::uint32_t slot) {
   return true;
 }
 
-/// Of a point of a piece: where it is too far, no triangle will do, and further cuts only add rounding.
+/// The triangle nearest to a point of a piece. Where even that is too far, no triangle will do, and further cuts only
+/// add rounding: sets `too_far_`.
 Nearest CutSearch::nearest(const Vec3& p, const Piece& piece, std::uint32_t hint) {
   Nearest best{closest_on_triangle(triangle_at(hint), p).squared_distance, hint};
   find_nearest(b_, p, 0, best, counters_);
@@ -77,7 +78,8 @@ Nearest CutSearch::nearest(const Vec3& p, const Piece& piece, std::uint32_t hint
   return best;
 }
 
-/// One triangle for the whole piece saves bytes: those nearest to its middle and corners, and their neighbours.
+/// Tries the triangles nearest to the middle and the corners of a piece, and their neighbours, for the whole piece: one
+/// triangle saves bytes.
 bool CutSearch::try_candidates(const Piece& piece) {
   std::array<std::uint32_t, 4> slots;
   slots[0] = nearest(middle_of(piece), piece, piece.slot).slot;
@@ -104,7 +106,7 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
   if (!proven && !too_far_) {
     whole.slot = nearest_to_middle_;
     proven =
-        try_parity(whole) || (degree_.patch_was_too_large() ? halve_by_parity(whole) : cover_interior_by_parity(whole));
+        try_parity(whole) || (parity_.patch_was_too_large() ? halve_by_parity(whole) : cover_interior_by_parity(whole));
     if (!proven) {
       nodes.resize(before);
       too_far_ = false;  // perhaps only by the rounding of these cuts
@@ -119,13 +121,13 @@ CutSearch::Outcome CutSearch::prove(const std::array<Vec3, 3>& triangle, std::ui
 
 bool CutSearch::try_parity(const Piece& piece) {
   const std::uint32_t seed = nearest(middle_of(piece), piece, piece.slot).slot;
-  if (too_far_ || !degree_.proves(triangle_, piece, seed)) return false;
-  emit(seed, ProofNode::Kind::Degree);
+  if (too_far_ || !parity_.proves(triangle_, piece, seed)) return false;
+  emit(seed, ProofNode::Kind::Parity);
   return true;
 }
 
-/// A face that meets a crease a little beside it sticks out there, by up to the tolerance, and is no proof by degree;
-/// cut off along some of its sides it often is, and only the strips need pieces.
+/// A face that ends a little beside a crease sticks out there, by up to the tolerance, and has no parity proof. Without
+/// strips along some of its sides it often has one, and only the strips need pieces.
 bool CutSearch::cover_interior_by_parity(const Piece& piece) {
   constexpr std::array<unsigned, 7> subsets_of_sides = {1, 2, 4, 3, 5, 6, 7};  // few strips first
   for (const double width : {1.25, 4.0})
@@ -148,7 +150,7 @@ bool CutSearch::try_trimmed(const Piece& piece, unsigned sides, double width) {
     const double norm = length(outward);
     if (!(norm > 0)) return false;
     const Vec3 unit = (1 / norm) * outward;
-    const PlaneSides distances = sides_of(rest, unit, dot(unit, from) - width);
+    const CornerDistances distances = distances_from_plane(rest, unit, dot(unit, from) - width);
     if (!(distances.min < 0 && distances.max > 0)) return false;
     auto cut = cut_by_chord(rest, distances, max_shift(rest));
     if (!cut) return false;
@@ -156,12 +158,12 @@ bool CutSearch::try_trimmed(const Piece& piece, unsigned sides, double width) {
     rest = trims.back().rest();
   }
   const std::uint32_t seed = nearest(middle_of(rest), rest, rest.slot).slot;
-  return !too_far_ && degree_.proves(triangle_, rest, seed) && emit_trimmed(trims, 0, seed);
+  return !too_far_ && parity_.proves(triangle_, rest, seed) && emit_trimmed(trims, 0, seed);
 }
 
 bool CutSearch::emit_trimmed(const std::vector<Trim>& trims, std::size_t from, std::uint32_t seed) {
   if (from == trims.size()) {
-    emit(seed, ProofNode::Kind::Degree);
+    emit(seed, ProofNode::Kind::Parity);
     return true;
   }
   const Trim& trim = trims[from];
@@ -170,7 +172,7 @@ bool CutSearch::emit_trimmed(const std::vector<Trim>& trims, std::size_t from, s
   return cover_part(trim.strip()) && emit_trimmed(trims, from + 1, seed);
 }
 
-/// A patch of too many triangles is several small enough.
+/// Halves a piece whose patch has too many triangles, until the patches are small enough.
 bool CutSearch::halve_by_parity(const Piece& piece) {
   const auto cut = halves_of(piece);
   if (!cut) return false;
@@ -182,7 +184,7 @@ bool CutSearch::cover_part(Piece part) {
   if (try_candidates(part)) return true;
   part.slot = nearest(middle_of(part), part, part.slot).slot;
   if (too_far_) return false;
-  return try_parity(part) || (degree_.patch_was_too_large() ? halve_by_parity(part) : cover(part));
+  return try_parity(part) || (parity_.patch_was_too_large() ? halve_by_parity(part) : cover(part));
 }
 
 bool CutSearch::cover(Piece piece) {
@@ -236,17 +238,17 @@ bool CutSearch::ask_near_worst(Piece& piece, std::uint32_t worst) {
 /// Cuts the piece by the cell of its candidate, pushed outward first so that most parts inside are near enough.
 CutSearch::Walked CutSearch::walk(Piece& piece) {
   const CornerTriangle<double> t = triangle_at(piece.slot);
-  const double outward = outward_slack(b_, piece, accepted_squared_[piece.depth]);
+  const double outward = outward_slack(b_, piece, t, accepted_squared_[piece.depth]);
   // Moved by more than there is room beside the triangle, the ends of a cut would leave parts that are not near enough.
   const double shift = outward > 0 ? std::min(max_shift(piece), outward / 4) : max_shift(piece);
-  const double margin = std::max(noise, 2 * shift);
+  const double margin = std::max(plane_noise, 2 * shift);
+  const CellPlanes planes = cell_planes(b_, piece.slot, t);
   for (const double push : {outward, 0.0}) {
-    for (std::size_t edge = 0; edge < 3; ++edge) {
-      const std::uint32_t across = b_.neighbours[piece.slot][edge].slot;
+    for (int edge = 0; edge < 3; ++edge) {
+      const std::uint32_t across = b_.neighbours[piece.slot][static_cast<std::size_t>(edge)].slot;
       if (across == no_slot) continue;
-      const CellPlane plane = cell_plane(b_, piece.slot, t, edge);
-      const PlaneSides sides = sides_of(piece, plane.normal, plane.offset + push);
-      if (sides.max <= (push > 0 ? margin : noise)) continue;
+      const CornerDistances sides = planes.distances(piece, edge, push);
+      if (sides.max <= (push > 0 ? margin : plane_noise)) continue;
       if (sides.min >= -margin) {
         piece.slot = across;
         ++piece.age;
@@ -288,7 +290,7 @@ bool CutSearch::resolve(const Piece& piece, std::uint32_t worst) {
   }
   if (other == piece.slot) return halve(piece);
   const Vec3 normal = there - here;
-  const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (here + there)));
+  const CornerDistances sides = distances_from_plane(piece, normal, dot(normal, 0.5 * (here + there)));
   auto cut = sides.min < 0 && sides.max > 0 ? cut_by_chord(piece, sides, max_shift(piece)) : std::nullopt;
   if (!cut) return halve(piece);
   const bool inside_first = first_is_inside(piece, sides, cut->chord);
@@ -297,13 +299,13 @@ bool CutSearch::resolve(const Piece& piece, std::uint32_t worst) {
   return cover_parts(*cut);
 }
 
-/// Last resort: smaller pieces.
+/// Halves a piece for which nothing else helped.
 bool CutSearch::halve(const Piece& piece) {
   const auto cut = halves_of(piece);
   return cut && cover_parts(*cut);
 }
 
-/// Across the longest diagonal.
+/// The halves of a piece, cut across its longest diagonal.
 std::optional<ChordCut> CutSearch::halves_of(const Piece& piece) const {
   Vec3 from, to;
   double longest = -1;
@@ -317,7 +319,7 @@ std::optional<ChordCut> CutSearch::halves_of(const Piece& piece) const {
     }
   }
   const Vec3 normal = to - from;
-  const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
+  const CornerDistances sides = distances_from_plane(piece, normal, dot(normal, 0.5 * (from + to)));
   return cut_by_chord(piece, sides, max_shift(piece));
 }
 

@@ -13,15 +13,15 @@
 
 namespace meshbound {
 
-/// Finds the cuts after which each piece of a triangle is near one triangle of B: the walk over the cells of B
-/// (distance/kernel/cell_walker.h), with cuts that few bytes can say, and written down. Not thread-safe.
+/// Finds the cuts after which each piece of a triangle is near one triangle of B, and writes them down: the walk over
+/// the cells of B (distance/kernel/cell_walker.h), with cuts that few bytes describe. Not thread-safe.
 class CutSearch {
  public:
   /// `goal` gives the tolerance and the slacks, in B's working frame, `magnitude` bounds all coordinates there.
-  /// `target` and
+  /// `neighbours`: `edge_neighbours` of `target`. A parity patch has at most `max_patch` triangles. `target` and
   /// `neighbours` must outlive this.
-  CutSearch(const Bvh::Data& target, const PatchNeighbours& neighbours, const Goal& goal, double magnitude,
-            std::size_t largest_patch);
+  CutSearch(const Bvh::Data& target, const std::vector<std::array<std::uint32_t, 3>>& neighbours, const Goal& goal,
+            double magnitude, std::size_t max_patch);
 
   enum class Outcome {
     Proven,
@@ -34,8 +34,8 @@ class CutSearch {
   [[nodiscard]] Outcome prove(const std::array<Vec3, 3>& triangle, std::uint32_t& hint, std::vector<ProofNode>& nodes,
                               std::uint64_t max_steps);
 
-  /// See `ParitySearch::work`; of all triangles so far.
-  [[nodiscard]] std::uint64_t parity_work() const { return degree_.work(); }
+  /// `ParitySearch::work` of all triangles so far.
+  [[nodiscard]] std::uint64_t parity_work() const { return parity_.work(); }
 
   /// The triangle of B nearest to the middle of the triangle that `prove` was called for last.
   [[nodiscard]] std::uint32_t nearest_to_middle() const { return nearest_to_middle_; }
@@ -51,7 +51,7 @@ class CutSearch {
   struct Walked {
     bool moved = false;  ///< the piece lies in the cell of a neighbour, which is its candidate now
     bool cut = false;
-    bool covered = false;  ///< after a cut: both parts were
+    bool covered = false;  ///< after a cut: both parts were covered
   };
   [[nodiscard]] CornerTriangle<double> triangle_at(std::uint32_t slot) const {
     return meshbound::triangle_at(b_, slot);
@@ -80,7 +80,7 @@ class CutSearch {
   double tolerance_ = 0;
   /// By the cuts behind a piece: squared distances that prove as computed; negative where none does.
   std::array<double, deepest_cut + 1> accepted_squared_{};
-  ParitySearch degree_;
+  ParitySearch parity_;
   QueryCounters counters_;
   std::vector<ProofNode>* nodes_ = nullptr;
   std::array<Vec3, 3> triangle_;

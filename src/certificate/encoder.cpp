@@ -18,7 +18,7 @@ void put(Bytes& bytes, std::uint64_t value, int size) {
   for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
-/// LEB128.
+/// Appends an unsigned number as LEB128.
 void put_variable(Bytes& bytes, std::uint64_t value) {
   for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(0x80 | (value & 0x7f)));
   bytes.push_back(static_cast<std::uint8_t>(value));
@@ -26,7 +26,7 @@ void put_variable(Bytes& bytes, std::uint64_t value) {
 
 void put_token(Bytes& bytes, TokenKind kind, std::uint64_t payload) { put_variable(bytes, payload << 2 | kind); }
 
-/// 0, -1, 1, -2, 2, ... as 0, 1, 2, 3, 4, ...
+/// Zigzag: 0, -1, 1, -2, 2, ... become 0, 1, 2, 3, 4, ...
 std::uint64_t zigzag(std::int64_t value) {
   return value < 0 ? static_cast<std::uint64_t>(-(value + 1)) * 2 + 1 : static_cast<std::uint64_t>(value) * 2;
 }
@@ -39,7 +39,7 @@ void put_cut(Bytes& bytes, const Chord& chord) {
   put(bytes, chord.to.numerator, chord.bits / 8);
 }
 
-/// Writes the trees one by one; what was written before says what the next triangles need not repeat.
+/// Writes the trees one by one; a triangle may refer to what its neighbours before it wrote (recall).
 class SectionEncoder {
  public:
   explicit SectionEncoder(const MeshView& source) : source_(source), last_at_(source.vertex_count(), 0) {}
@@ -68,7 +68,7 @@ class SectionEncoder {
     ++result_.pieces;
     const std::uint64_t step = zigzag(static_cast<std::int64_t>(node.target) - static_cast<std::int64_t>(last_));
     last_ = node.target;
-    if (node.kind == ProofNode::Kind::Degree) {
+    if (node.kind == ProofNode::Kind::Parity) {
       ++result_.by_parity;
       return put_token(result_.bytes, ParityToken, step);
     }

@@ -19,7 +19,7 @@ struct EncodedSection {
 /// `trees` holds the nodes of all source triangles in their order, in any number of runs.
 [[nodiscard]] EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofNode>> trees);
 
-/// Header, both sections and the checksum.
+/// The file: header, both sections and the checksum.
 [[nodiscard]] std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& simplified, double tolerance,
                                                  const EncodedSection& original_to_simplified,
                                                  const EncodedSection& simplified_to_original);

@@ -18,9 +18,9 @@ struct Chord {
 
 /// A node of the proof that a triangle lies near the other mesh, in preorder (tools/schema/certificate-1.md).
 struct ProofNode {
-  enum class Kind : std::uint8_t { Near, Cut, Degree };
+  enum class Kind : std::uint8_t { Near, Cut, Parity };
   Kind kind = Kind::Near;
-  std::uint32_t target = 0;  ///< triangle of the other mesh, of Near and Degree
+  std::uint32_t target = 0;  ///< triangle of the other mesh, of Near and Parity
   Chord chord;               ///< of Cut
 };
 

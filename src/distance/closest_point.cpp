@@ -11,6 +11,7 @@
 #include "distance/kernel/point_query.h"
 #include "distance/kernel/search_kernel.h"
 #include "distance/shortcuts/point_like.h"
+#include "geometry/magnitude.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
@@ -18,18 +19,12 @@
 namespace meshbound {
 namespace {
 
-/// Some half a millisecond of work.
+/// Queries that make one task: some half a millisecond of work.
 constexpr std::size_t queries_per_task = 1024;
-
-/// Largest coordinate without its sign; not a number where one of them is none.
-double largest(const Vec3& v) {
-  const double sum = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
-  return sum <= sum ? std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) : sum;
-}
 
 Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-/// The mesh is a point beside its distance: see `distance_to_point_like`.
+/// The answer where the mesh is a point beside its distance: see `distance_to_point_like`.
 ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d& query) {
   const Eigen::Vector3d point = to_eigen(data.frame.to_model(data.vertices[0]));
   const Eigen::Vector3d apart = query - point;
@@ -39,8 +34,8 @@ ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d&
   return {{point, data.triangle_of_slot[0]}, {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)}};
 }
 
-/// What the certified lower bound may lose against the nearest distance, in units of `dual_error`: the interval is at
-/// most 1/16 wider for it.
+/// How far the certified lower bound may stay below the nearest distance, in units of `dual_error`: the interval
+/// becomes at most 1/16 wider.
 constexpr double allowed_loss = 0.25;
 
 /// Queries of one thread: each starts at the triangle that the one before it found, which changes no answer.
@@ -51,20 +46,20 @@ class PointQueries {
 
   ClosestPoint operator()(const Eigen::Vector3d& query) {
     const Vec3 model{query.x(), query.y(), query.z()};
-    if (!(largest(model) <= largest_coordinate))
+    if (!(largest_magnitude_of(model) <= largest_coordinate))
       throw InvalidInput("the query point has a coordinate that is not finite or is beyond 2^1000");
     const Vec3 p = map_(model);
-    const double magnitude = std::max(1.0, largest(p));
-    if (!(magnitude <= largest_magnitude)) return closest_of_point_like(data_, query);
+    const double magnitude = std::max(1.0, largest_magnitude_of(p));
+    if (!(magnitude <= max_magnitude)) return closest_of_point_like(data_, query);
     // Twice the error, so that the roundings of limits made from it are covered.
     const PointRoundings roundings{2 * primal_error * magnitude, allowed_loss * dual_error * magnitude};
     const PointDistance found = measure_(data_, p, roundings, hint_);
     hint_ = found.nearest.slot;
     Goal goal;
     set_slack(goal, magnitude, data_.frame.error + data_.frame.rounding_of(model));
-    const double upper = next_up(std::sqrt(found.nearest.squared) * (1 + 4 * unit_roundoff)) + goal.slack;
+    const double upper = goal.proven_upper(found.nearest.squared, 0);
     return {{to_eigen(map_.to_model(p - found.offset)), data_.triangle_of_slot[found.nearest.slot]},
-            {map_.length_down(std::max(0.0, found.separated - goal.slack)), map_.length_up(upper)}};
+            {map_.length_down(std::max(0.0, goal.proven_lower(found.separated, 0))), map_.length_up(upper)}};
   }
 
   [[nodiscard]] std::uint32_t hint() const { return hint_; }

@@ -6,17 +6,12 @@
 
 #include "distance/kernel/search_kernel.h"
 #include "distance/shortcuts/point_like.h"
+#include "geometry/magnitude.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
-namespace {
-
-double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
-
-}  // namespace
-
 struct Proximity::Impl {
   explicit Impl(const Bvh& model) : bvh(model), data(model.data()), slot_of_triangle(data.triangle_count()) {
     for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
@@ -29,7 +24,7 @@ struct Proximity::Impl {
       throw InvalidInput("a query point has a coordinate that is not finite or is beyond 2^1000");
     const Vec3 model{point.x(), point.y(), point.z()};
     const Vec3 working = data.frame.to_working(model);
-    magnitude = std::max(magnitude, largest(working));
+    magnitude = std::max(magnitude, largest_magnitude_of(working));
     error = std::max(error, data.frame.rounding_of(model));
     return working;
   }
@@ -67,7 +62,7 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
   double magnitude = 1, error = 0;
   Vec3 p[3];
   for (int k = 0; k < 3; ++k) p[k] = impl_->load(triangle[k], magnitude, error);
-  if (!(magnitude <= largest_magnitude)) {
+  if (!(magnitude <= max_magnitude)) {
     const Bvh single(TriangleMesh{{triangle.begin(), triangle.end()}, {{0, 1, 2}}}, {.threads = 1});
     DistanceOptions options;
     options.threads = 1;
@@ -85,23 +80,22 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
   }
   kernel.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
   if (kernel.lower().lower > impl_->current.tolerance) return Verdict::Exceeds;
-  const double upper =
-      next_up(std::sqrt(kernel.upper_squared()) * (1 + 4 * unit_roundoff)) + impl_->current.largest_slack();
+  const double upper = impl_->current.proven_upper(kernel.upper_squared(), deepest_cut);
   return upper <= impl_->current.tolerance ? Verdict::Within : Verdict::Undecided;
 }
 
 double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint, double enough) {
   double magnitude = 1, error = 0;
   const Vec3 p = impl_->load(point, magnitude, error);
-  if (!(magnitude <= largest_magnitude)) return closest_point(impl_->bvh, point).distance.upper;
+  if (!(magnitude <= max_magnitude)) return closest_point(impl_->bvh, point).distance.upper;
   SearchKernel& kernel = impl_->kernel_for(impl_->data.frame.length_down(impl_->current.tolerance), magnitude, error);
-  // Less by the slack, and by the roundings below.
+  // The slack and the roundings of `proven_upper` are taken off, so that the bound that is returned is at most
+  // `enough`.
   const double accepted =
       std::max(0.0, impl_->data.frame.working_length_down(enough) * (1 - 16 * unit_roundoff) - impl_->current.slack);
   const Nearest nearest = kernel.nearest(p, impl_->slot_of_triangle[hint], accepted * accepted);
   hint = impl_->data.triangle_of_slot[nearest.slot];
-  const double upper = next_up(std::sqrt(nearest.squared) * (1 + 4 * unit_roundoff)) + impl_->current.slack;
-  return impl_->data.frame.length_up(upper);
+  return impl_->data.frame.length_up(impl_->current.proven_upper(nearest.squared, 0));
 }
 
 }  // namespace meshbound

@@ -5,7 +5,7 @@
 
 namespace meshbound {
 
-/// What both directions take over from earlier searches; null: nothing.
+/// The memories of earlier searches of both directions; null: none.
 struct HausdorffMemory {
   SearchMemory* a_to_b = nullptr;
   SearchMemory* b_to_a = nullptr;

@@ -9,7 +9,8 @@
 namespace meshbound {
 namespace {
 
-/// A model further from the origin than this many of its sizes is moved: below it the bits lost to the offset are few.
+/// A model further from the origin than this many of its sizes is centred; nearer ones lose only a few bits to their
+/// offset.
 constexpr double far_offset = 8;
 
 /// For a model that is a single point: smaller than any other model in its neighbourhood.

@@ -8,9 +8,9 @@
 
 namespace meshbound {
 
-/// The coordinates a tree computes in: w = 2^-exponent (p - center), so that |w| < 1 in each coordinate whatever the
-/// place and scale of the model. Scaling by a power of two is exact; `center` is 0 unless the model lies far from the
-/// origin for its size, and then so coarse that the subtraction is exact for nearly all inputs.
+/// The coordinates a tree computes in: w = 2^-exponent (p - center), so that |w| < 1 in each coordinate wherever the
+/// model lies and whatever its scale. Scaling by a power of two is exact; `center` is 0 unless the model lies far from
+/// the origin for its size, and then so coarse that the subtraction is exact for nearly all inputs.
 struct Frame {
   Vec3 center;       ///< model units
   int exponent = 0;  ///< working unit = 2^exponent model units
@@ -25,11 +25,12 @@ struct Frame {
   /// Working to model units, rounded towards +infinity and 0 respectively. Arguments are >= 0.
   [[nodiscard]] double length_up(double working) const;
   [[nodiscard]] double length_down(double working) const;
-  /// Model to working units: rounded down (safe as a tolerance).
+  /// Model to working units, rounded towards 0: safe as a tolerance.
   [[nodiscard]] double working_length_down(double model) const;
 };
 
-/// The maps of a frame for many points: a product with a power of two that is a normal number gives what `ldexp` gives.
+/// The maps of a frame, fast for many points: multiplying by a power of two that is a normal number gives the same bits
+/// as `ldexp`.
 class FrameMap {
  public:
   explicit FrameMap(const Frame& frame)
@@ -58,7 +59,7 @@ class FrameMap {
 
   Frame frame_;
   double scale_;  ///< 2^-exponent, or 0 where that or its inverse is not a normal number
-  double unit_;   ///< 2^exponent, or 0 likewise
+  double unit_;   ///< 2^exponent, or 0 where that or its inverse is not a normal number
 };
 
 /// The frame for a model within the box [lo, hi] (model units, finite).

@@ -6,7 +6,7 @@ namespace {
 
 struct Step {
   std::uint8_t digit;  ///< position of the octant along the curve inside its parent
-  std::uint8_t state;  ///< of the curve inside that octant
+  std::uint8_t state;  ///< state (orientation) of the curve inside that octant
 };
 
 constexpr unsigned rotate_left(unsigned b, unsigned n) { return ((b << (n % 3)) | (b >> (3 - n % 3))) & 7U; }
@@ -20,7 +20,7 @@ constexpr unsigned direction(unsigned w) {
   return (w % 2 == 0 ? trailing_ones(w - 1) : trailing_ones(w)) % 3;
 }
 
-/// Row of state 3 * entry + direction, column of the octant (bit 0 is x).
+/// The curve by state (row: 3 * entry + direction) and octant (column: bit 0 is x, 1 y, 2 z).
 constexpr std::array<std::array<Step, 8>, 24> make_table() {
   std::array<std::array<Step, 8>, 24> table{};
   for (unsigned e = 0; e < 8; ++e) {
@@ -39,7 +39,8 @@ constexpr std::array<std::array<Step, 8>, 24> make_table() {
 
 constexpr auto table = make_table();
 
-/// Two levels at once. Column: bits 0-1 are x, 2-3 y, 4-5 z.
+/// Two levels of the curve in one step, by state and two bits of each coordinate (column: bits 0-1 are x, 2-3 y, 4-5
+/// z).
 constexpr std::array<std::array<Step, 64>, 24> make_double_table() {
   std::array<std::array<Step, 64>, 24> result{};
   for (unsigned state = 0; state < 24; ++state) {

@@ -12,7 +12,7 @@ namespace {
 
 /// Rotations that are composed in doubles drift from orthonormal by about u a step; a matrix further off than this is a
 /// mistake (a scale, a shear), not drift.
-constexpr double largest_drift = 1e-9;
+constexpr double max_drift = 1e-9;
 
 double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
@@ -21,7 +21,7 @@ double drift_of(const Eigen::Isometry3d& pose) {
   if (!pose.matrix().allFinite()) throw InvalidInput("a pose has an entry that is not finite");
   if (pose.linear() == Eigen::Matrix3d::Identity()) return 0;
   const double drift = (pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity()).norm();
-  if (!(drift <= largest_drift))
+  if (!(drift <= max_drift))
     throw InvalidInput(
         "a pose is not a rigid motion: its columns are not orthonormal; apply it to the vertices instead");
   return drift + 32 * unit_roundoff;
@@ -31,7 +31,7 @@ Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 bool same_pose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return a.matrix() == b.matrix(); }
 
-/// Both models under one pose: only the frames differ.
+/// The mapping between two models under one and the same pose: only their frames differ.
 Mapping shift_and_scale(const Frame& from, const Frame& to, double drift) {
   Mapping map;
   const double scale = std::ldexp(1.0, from.exponent - to.exponent);

@@ -30,7 +30,7 @@ Real clamped(const Real& x, const Real& most) {
   return select(low > 0.0, low, Real{});
 }
 
-/// 1 / x, or 0 where x is.
+/// 1 / x, or 0 where x is 0.
 template <class Real>
 Real reciprocal(const Real& x) {
   return select(x > 0.0, 1.0 / select(x > 0.0, x, Real{} + 1.0), Real{});
@@ -47,7 +47,7 @@ void keep_nearer(TriangleOffset<Real>& best, const Vec<Real>& offset, const Real
 
 }  // namespace detail
 
-/// From the first candidate of `closest_on_triangle`, a point of the triangle, to p.
+/// The vector to p from the first candidate of `closest_on_triangle`, which is a point of the triangle.
 template <class Real>
 [[gnu::always_inline]] inline Vec<Real> offset_from_inside(const CornerTriangle<Real>& t, const Vec<Real>& p) {
   const Real one = Real{} + 1.0;
@@ -60,13 +60,13 @@ template <class Real>
   return (ap - v * t.ab) - w * t.ac;
 }
 
-/// Best of three candidates that all lie on the triangle. The first goes along the longest edge to the foot of p, then
-/// across to the height of p, clamped into the triangle: exact for the inside and for the longest edge. Crossing from
-/// the foot, not from a, keeps the error at a few u M for slivers too: what the direction across is off (u M / height)
-/// acts on the remaining offset only. The other two are the closest points of the other two edges; for a triangle so
-/// thin that "across" is noise they cover it. Without branches, so that the same source serves one triangle and four
-/// lanes, with the same result to the last bit. Inlined, so that callers who want only the distance do not pay for the
-/// offset.
+/// The closest point of a triangle to p: the best of three candidates that all lie on the triangle. The first goes
+/// along the longest edge to the foot of p, then across to the height of p, clamped into the triangle: exact for the
+/// inside and for the longest edge. Crossing from the foot, not from a, keeps the error at a few u M for slivers too:
+/// what the direction across is off (u M / height) acts on the remaining offset only. The other two are the closest
+/// points of the other two edges; for a triangle so thin that "across" is noise they cover it. Without branches, so
+/// that the same source serves one triangle and four lanes, with the same result to the last bit. Inlined, so that
+/// callers who want only the distance do not pay for the offset.
 template <class Real>
 [[gnu::always_inline]] inline TriangleOffset<Real> closest_on_triangle(const CornerTriangle<Real>& t,
                                                                        const Vec<Real>& p) {

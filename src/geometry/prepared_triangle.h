@@ -5,8 +5,8 @@
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
-/// A triangle with what `closest_on_triangle` needs of it alone, four divisions among it: for those that are asked for
-/// the distances of several points.
+/// A triangle with all that `closest_on_triangle` computes from the triangle alone (four divisions among it): for
+/// triangles whose distance to several points is wanted.
 class PreparedTriangle {
  public:
   PreparedTriangle() = default;
@@ -18,7 +18,7 @@ class PreparedTriangle {
     per_bc_ = detail::reciprocal(dot(bc_, bc_));
   }
 
-  /// The same to the last bit as `closest_on_triangle`.
+  /// Gives the same bits as `closest_on_triangle`.
   [[nodiscard]] TriangleOffset<double> closest(Vec3 p) const {
     const Vec3 ap = p - t_.a;
     const Vec3 inside = from_inside(ap);
@@ -28,7 +28,8 @@ class PreparedTriangle {
     detail::keep_nearer(best, by_bc, squared_length(by_bc));
     return best;
   }
-  /// Whether the squared distance that `closest` gives is at most `squared`; what is likely to tell comes first.
+  /// Whether the squared distance that `closest` gives is at most `squared`; the cheap tests that mostly decide it come
+  /// first.
   [[nodiscard]] bool is_within(Vec3 p, double squared) const {
     const Vec3 ap = p - t_.a;
     return squared_length(from_inside(ap)) <= squared || squared_length(from_ac(ap)) <= squared ||
@@ -37,7 +38,7 @@ class PreparedTriangle {
   [[nodiscard]] const CornerTriangle<double>& triangle() const { return t_; }
 
  private:
-  /// From the closest point unless that lies on ac or bc: from some point of the triangle at any rate.
+  /// The vector to p from a point of the triangle: from the closest one, unless that lies on ac or bc.
   [[nodiscard]] Vec3 from_inside(Vec3 ap) const {
     const double ab_ap = dot(t_.ab, ap);
     const Vec3 rest = ap - (ab_ap * along_) * t_.ab;

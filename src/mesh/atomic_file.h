@@ -37,8 +37,8 @@ class AtomicFile {
 
   void write(std::string_view bytes);
 
-  /// At least `size` bytes (up to `largest_room`) to be filled; `use` then takes those before `end`.
-  static constexpr std::size_t largest_room = 4096;
+  /// At least `size` bytes (up to `max_room`) to be filled; `use` then takes those before `end`.
+  static constexpr std::size_t max_room = 4096;
   [[nodiscard]] char* room(std::size_t size);
   void use(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.get()); }
 

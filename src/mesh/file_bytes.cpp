@@ -15,7 +15,7 @@
 namespace meshbound {
 namespace {
 
-constexpr std::size_t largest_read = std::size_t{1} << 24;  // bytes between two looks at the flag: some milliseconds
+constexpr std::size_t max_read = std::size_t{1} << 24;  // bytes between two looks at the flag: some milliseconds
 
 class FileDescriptor {
  public:
@@ -49,7 +49,7 @@ FileBytes::FileBytes(const std::filesystem::path& path, const std::atomic<bool>*
   data_ = std::make_unique_for_overwrite<char[]>(size);
   while (size_ < size) {
     if (cancel != nullptr && *cancel) throw Interrupted(path.string() + ": interrupted while it was read");
-    const ssize_t count = ::read(file.get(), data_.get() + size_, std::min(size - size_, largest_read));
+    const ssize_t count = ::read(file.get(), data_.get() + size_, std::min(size - size_, max_read));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path, std::strerror(errno));
     if (count == 0) refuse(path, "it became shorter while it was read; wait until it is complete");

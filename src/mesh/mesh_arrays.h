@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// Copies of what a view shows, in the order of its mesh, for those that read it over and over.
+/// Copies of the vertices and triangles of a view, in its order, for algorithms that read them many times.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "geometry/vec3.h"
@@ -22,6 +23,14 @@ inline std::vector<Triangle> triangles_of(const MeshView& mesh) {
   std::vector<Triangle> triangles(mesh.triangle_count());
   for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = mesh.triangle(i);
   return triangles;
+}
+
+/// By vertex: 1 where a triangle uses it, else 0. Indices must be in range. O(n).
+inline std::vector<std::uint8_t> used_vertices(const MeshView& mesh) {
+  std::vector<std::uint8_t> used(mesh.vertex_count(), 0);
+  for (std::size_t i = 0; i < mesh.triangle_count(); ++i)
+    for (const std::uint32_t v : mesh.triangle(i)) used[v] = 1;
+  return used;
 }
 
 }  // namespace meshbound

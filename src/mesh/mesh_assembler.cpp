@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/mesh_arrays.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {
@@ -52,11 +53,9 @@ void MeshAssembler::add_strip(std::span<const std::int64_t> corners) {
 
 void MeshAssembler::refuse_used_suspects() const {
   if (suspects_.empty()) return;
-  std::vector<bool> used(vertex_count(), false);
-  for (const Triangle& t : file_.mesh.triangles)
-    for (const std::uint32_t v : t) used[v] = true;
+  const std::vector<std::uint8_t> used = used_vertices(file_.mesh);
   for (const Suspect& s : suspects_) {
-    if (used[s.vertex])
+    if (used[s.vertex] != 0)
       fail(s.offset, "vertex " + std::to_string(s.vertex) +
                          " (counted from 0) is used by a face but has a coordinate that is not finite or beyond "
                          "2^1000; repair or rescale the mesh");

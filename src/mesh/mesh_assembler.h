@@ -10,7 +10,7 @@
 
 namespace meshbound {
 
-/// Where a position in a file is told to the user: text by line, binary by byte.
+/// How messages name a position in a file: by line in text, by byte in binary files.
 enum class Position { Line, Byte };
 
 /// Collects what a reader finds into triangles, and refuses at the end what no bound can be given for. Indices must
@@ -32,12 +32,12 @@ class MeshAssembler {
   void add_polygon(std::span<const std::uint32_t> corners);
 
   /// A triangle strip of 32-bit indices, -1 starting a new one; every second triangle is turned over, so that all face
-  /// the same way. Triangles that repeat a corner only carry the strip from one part to the next and are dropped.
+  /// the same way. Triangles that repeat a corner only join two runs of the strip and are dropped.
   void add_strips(std::span<const std::int64_t> corners);
 
   void ignore_element() { ++file_.ignored_elements; }
 
-  /// For the reader to count what it steps over.
+  /// Counts of what the reader steps over, which it adds to.
   [[nodiscard]] DroppedAttributes& dropped() { return file_.dropped; }
 
   [[nodiscard]] std::size_t vertex_count() const { return file_.mesh.vertices.size(); }

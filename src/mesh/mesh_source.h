@@ -18,7 +18,8 @@ struct MeshSource {
   /// Throws `Interrupted` once `cancel` is set.
   void end_if_cancelled() const;
 
-  /// Throw `InvalidInput` naming the file, the line (counted only now, so that parsing need not) or byte, and `defect`.
+  /// These throw `InvalidInput` with the file, the line or byte, and `defect`. Lines are counted only here, so that
+  /// parsing need not count them.
   [[noreturn]] void fail_at_line(std::size_t offset, const std::string& defect) const;
   [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& defect) const;
   [[noreturn]] void fail(const std::string& defect) const;

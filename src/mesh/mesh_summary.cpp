@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mesh_arrays.h"
+
 namespace meshbound {
 namespace {
 
@@ -21,7 +23,7 @@ class VertexSets {
     return v;
   }
 
-  /// The smaller number becomes the root, which keeps paths short where neighbours have near numbers.
+  /// The smaller index becomes the root, which keeps paths short where neighbours have nearby indices.
   void unite(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
@@ -114,10 +116,8 @@ MeshSummary summarise(const MeshView& mesh) {
 }
 
 Eigen::AlignedBox3d used_bounding_box(const MeshView& mesh) {
-  // Vertices once, not once a corner.
-  std::vector<std::uint8_t> used(mesh.vertex_count(), 0);
-  for (std::size_t i = 0; i < mesh.triangle_count(); ++i)
-    for (const std::uint32_t v : mesh.triangle(i)) used[v] = 1;
+  // Each vertex once, not once for each corner.
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
   Eigen::AlignedBox3d box;
   for (std::size_t v = 0; v < used.size(); ++v)
     if (used[v] != 0) box.extend(mesh.vertex(v));

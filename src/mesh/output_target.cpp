@@ -58,8 +58,8 @@ void require_folder(const std::filesystem::path& named, const std::filesystem::p
 }  // namespace
 
 std::filesystem::path follow_links(std::filesystem::path path) {
-  constexpr int longest_chain = 40;  // as the kernel's own limit
-  for (int i = 0; i < longest_chain; ++i) {
+  constexpr int max_chain = 40;  // as the kernel's own limit
+  for (int i = 0; i < max_chain; ++i) {
     std::optional<std::filesystem::path> next = next_link(path);
     if (!next) break;
     path = std::move(*next);

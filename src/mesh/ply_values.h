@@ -13,7 +13,7 @@
 
 namespace meshbound {
 
-/// The values after the header of an ascii PLY, one element a line. Same interface as `BinaryPlyValues`.
+/// The values after the header of an ascii PLY, one element a line. It has the interface of `BinaryPlyValues`.
 class AsciiPlyValues {
  public:
   static constexpr bool is_text = true;
@@ -51,7 +51,7 @@ class AsciiPlyValues {
     cursor_.skip_line();
   }
 
-  /// Only blank lines are left.
+  /// Whether only blank lines are left.
   [[nodiscard]] bool at_end() { return !cursor_.find_word(); }
 
   [[noreturn]] void fail(const std::string& defect) const { cursor_.fail(defect); }
@@ -119,7 +119,7 @@ class BinaryPlyValues {
 
   void end_element() {}
 
-  /// Line ends after the data are the work of text tools.
+  /// Whether the data ends here; line ends after it, which text tools add, are allowed.
   [[nodiscard]] bool at_end() const {
     return std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r'; });
   }

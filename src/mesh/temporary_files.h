@@ -6,8 +6,8 @@ namespace meshbound {
 
 struct TemporaryEntry;
 
-/// A name in the list of files, and of folders unless something is in them, that must not outlive the process. Safe to
-/// use from several threads.
+/// Keeps a file, or a folder that is empty by then, in the list of what must not outlive the process. Safe to use from
+/// several threads.
 class TemporaryName {
  public:
   /// Throws `IoError` when `path` is longer than the system allows.

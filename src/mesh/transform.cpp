@@ -9,16 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
+#include "numeric/rounding.h"
 
 namespace meshbound {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
-
-/// Half an ulp of 1: the relative error of one rounding.
-constexpr double unit_roundoff = 0x1p-53;
 
 /// Below this a product may lose part of its remainder to underflow, at most half of the smallest subnormal.
 constexpr double product_is_exact_above = 0x1p-960;
@@ -28,7 +27,7 @@ struct Rounded {
   double error;
 };
 
-/// Knuth: a + b = value + error exactly.
+/// Knuth's two-sum: a + b = value + error exactly.
 Rounded two_sum(double a, double b) {
   const double sum = a + b;
   const double part = sum - a;
@@ -63,14 +62,6 @@ void require_affine(const Eigen::Matrix4d& matrix) {
     throw InvalidInput("transform: the last row of the matrix must be 0 0 0 1 (row-major order)");
 }
 
-std::vector<bool> used_vertices(const MeshView& mesh) {
-  std::vector<bool> used(mesh.vertex_count(), false);
-  for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-    for (const std::uint32_t v : mesh.triangle(i)) used[v] = true;
-  }
-  return used;
-}
-
 /// Length of a vector of non-negative errors, rounded up: hypot of three numbers errs by less than 4 units in the last
 /// place.
 double length_rounded_up(const Eigen::Vector3d& v) {
@@ -84,7 +75,7 @@ TransformedMesh transformed(const MeshView& mesh, const Eigen::Affine3d& map) {
   require_affine(map.matrix());
   validate(mesh);
   TransformedMesh result{to_triangle_mesh(mesh), 0};
-  const std::vector<bool> used = used_vertices(mesh);
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
   for (std::size_t i = 0; i < used.size(); ++i) {
     Eigen::Vector3d image;
     Eigen::Vector3d error;
@@ -94,7 +85,7 @@ TransformedMesh transformed(const MeshView& mesh, const Eigen::Affine3d& map) {
       error[k] = coordinate.error;
     }
     result.mesh.vertices[i] = image;
-    if (!used[i]) continue;
+    if (used[i] == 0) continue;
     if (!(image.cwiseAbs().maxCoeff() <= largest_coordinate) || !error.allFinite())
       throw InvalidInput("transform: vertex " + std::to_string(i) +
                          " leaves the range of coordinates (2^1000); scale the map down");

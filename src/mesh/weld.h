@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "geometry/position_table.h"
+
 namespace meshbound {
 
-/// Gives points with exactly equal coordinates (-0.0 equals 0.0) the same number, counted from 0 in the order of first
+/// Gives points with exactly equal coordinates (-0.0 equals 0.0) the same index, counted from 0 in the order of first
 /// appearance. Expected O(1) a point. NaNs of the same bits are equal here.
 class Welder {
  public:
@@ -19,13 +20,11 @@ class Welder {
   [[nodiscard]] std::size_t size() const { return keys_.size(); }
 
  private:
-  using Key = std::array<std::uint64_t, 3>;
-
   void grow();
-  [[nodiscard]] std::size_t slot_of(const Key& key) const;
+  [[nodiscard]] std::size_t slot_of(const PositionKey& key) const;
 
-  std::vector<Key> keys_;             // bits of the points, by number
-  std::vector<std::uint32_t> slots_;  // open addressing; a power of two, at most half full
+  std::vector<PositionKey> keys_;     ///< by index
+  std::vector<std::uint32_t> slots_;  ///< open addressing; a power of two, at most half full
 };
 
 }  // namespace meshbound

@@ -20,7 +20,8 @@ void write_obj(AtomicFile& file, const TriangleMesh& mesh);
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
 void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
 
-/// Writes the shortest decimal that reads back as the same double (at most 17 digits), or an integer, and `after`.
+/// Writes a number and then `after`: an integer, or the shortest decimal that reads back as the same double (at most 17
+/// digits).
 template <class Number>
 void put(AtomicFile& file, Number value, char after) {
   constexpr std::size_t longest = 32;  // characters: sign, 17 digits, point, exponent

@@ -23,7 +23,7 @@ class FirstError {
     }
   }
 
-  /// For work that is of no use once other work has failed.
+  /// Whether something has thrown already, for loops whose further work would be of no use.
   [[nodiscard]] bool has_error() const { return has_error_; }
 
   void rethrow() const {

@@ -78,7 +78,7 @@ inline double horizontal_maximum(Double4 a) {
   return low > high ? low : high;
 }
 
-/// Bit i is set where lane i of the mask is.
+/// Bit i of the result is set where lane i of the mask is.
 inline unsigned lane_bits(Mask8 mask) {
 #if defined(__AVX2__)
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
@@ -99,7 +99,7 @@ inline unsigned lane_bits(Mask4 mask) {
 #endif
 }
 
-/// The other way round.
+/// The mask whose lane i is set where bit i is.
 inline Mask4 mask_of_lanes(unsigned bits) { return (Mask4{1, 2, 4, 8} & static_cast<std::int64_t>(bits)) != 0; }
 
 }  // namespace MESHBOUND_ISA

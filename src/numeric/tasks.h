@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Parallel loops for work of a few milliseconds. A team of threads is formed once for many loops; each loop is cut
-/// into pieces, and whoever is free takes the next. The thread that runs the loops takes all of them itself where no
-/// other one comes: it waits only for pieces that another has begun, and once, at the end, for the team. A worksharing
-/// loop waits for all threads each time, which costs a time slice of the scheduler where other programs hold the
-/// processors. What a piece does must not depend on which thread runs it, or when.
+/// into tasks, and whichever thread is free takes the next. The thread that runs the loops takes all of them itself
+/// where no other one comes: it waits only for tasks that another thread has begun, and once, at the end, for the team.
+/// A worksharing loop waits for all threads each time, which costs a time slice of the scheduler where other programs
+/// hold the processors. What a task does must not depend on which thread runs it, or when.
 #pragma once
 #include <omp.h>
 
@@ -17,8 +17,8 @@
 
 namespace meshbound {
 
-/// Calls `work()` on the calling thread; the loops that it runs are shared with so many threads less one, which
-/// `omp_get_thread_num()` tells apart. Rethrows what `work` throws.
+/// Calls `work()` on the calling thread. The loops that it runs are shared with `threads` - 1 others;
+/// `omp_get_thread_num()` tells them apart. Rethrows what `work` throws.
 template <class Work>
 void with_team(int threads, Work&& work) {
   FirstError error;
@@ -61,7 +61,7 @@ void for_each_task(std::size_t count, Work&& work) {
   error.rethrow();
 }
 
-/// Calls work(begin, end) for runs of `grain` of the numbers 0 ... n - 1: `for_each_task`.
+/// Calls work(begin, end) for consecutive ranges of `grain` of the numbers 0 ... n - 1, as `for_each_task` does.
 template <class Work>
 void for_each_range(std::size_t n, std::size_t grain, Work&& work) {
   for_each_task((n + grain - 1) / grain, [&](std::size_t i) { work(i * grain, std::min(n, (i + 1) * grain)); });

@@ -3,14 +3,14 @@
 
 namespace meshbound {
 
-/// Whether kernels that were compiled for AVX2 are used: the compiler and the processor know it, and no test forbids
-/// it.
+/// Whether kernels compiled for AVX2 are used: where compiler and processor support it, and no test has switched it
+/// off.
 [[nodiscard]] bool uses_avx2();
 
 namespace internal {
 
-/// For tests that compare whole runs, and nothing else: true leaves portable kernels only. Kernels that were chosen
-/// before stay.
+/// For tests that compare whole runs, and nothing else: true allows portable kernels only. Kernels that were chosen
+/// before this call stay in use.
 extern bool portable_kernels;
 
 }  // namespace internal

@@ -3,23 +3,23 @@
 #include <cstdint>
 #include <vector>
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 
 /// The triangles of B that one covered triangle of A relies on. Filled by the walk, outside of its hot loops; not
 /// inline, because the walk is compiled once per instruction set (numeric/isa.h).
 struct CoverRecord {
-  static constexpr std::uint32_t none_yet = 0xffffffff;
-
-  bool names_all = true;  ///< false: one of them is enough
+  bool names_all = true;  ///< false: one triangle of B is enough
   double squared = 0;     ///< largest distance that was accepted
   bool complete = true;
-  std::uint32_t last = none_yet;     ///< added
+  std::uint32_t last = no_index;     ///< slot added last
   std::vector<std::uint32_t> slots;  ///< each once
 
   void clear() {
     squared = 0;
     complete = true;
-    last = none_yet;
+    last = no_index;
     slots.clear();
   }
   /// `no_slot`: a piece whose triangle is not known, so the cover proves nothing for later.

@@ -13,9 +13,9 @@ inline namespace MESHBOUND_ISA {
 
 /// What the walk knows of a piece, and how it came to be.
 struct alignas(32) PieceState {
-  std::uint32_t count = 0;        ///< of corners
+  std::uint32_t count = 0;        ///< number of corners
   std::uint32_t slot = 0;         ///< candidate triangle of B
-  std::uint32_t rival = no_slot;  ///< the triangle whose part the last split cut off from this piece
+  std::uint32_t rival = no_slot;  ///< the triangle that serves what the last split cut off from this piece
   std::uint32_t depth = 0;        ///< cuts that led here
   std::uint32_t rounds = 0;       ///< queries that led here since the last halving
   std::uint32_t splits = 0;       ///< between a candidate and another triangle that led here since the last halving
@@ -102,7 +102,7 @@ inline Farthest farthest_corner(const Piece& piece, const CornerTriangle<double>
   return farthest;
 }
 
-/// As `farthest_corner`, without saying which.
+/// The squared distance of the corner furthest from a triangle.
 inline double largest_squared_distance(const Piece& piece, const CornerTriangle<double>& triangle) {
   const CornerTriangle<Double4> t = broadcast4(triangle);
   Double4 max{};
@@ -122,13 +122,13 @@ inline double largest_squared_distance(const Piece& piece, const CornerTriangle<
 }
 
 /// Signed distances of the corners to the plane {x : normal . x = offset}, times the length of the normal.
-struct PlaneSides {
+struct CornerDistances {
   alignas(32) double value[Piece::capacity];
   double min = 0, max = 0;
 };
 
-inline PlaneSides sides_of(const Piece& piece, const Vec3& normal, double offset) {
-  PlaneSides sides;
+inline CornerDistances distances_from_plane(const Piece& piece, const Vec3& normal, double offset) {
+  CornerDistances sides;
   const Vec<Double4> n{broadcast4(normal.x), broadcast4(normal.y), broadcast4(normal.z)};
   Double4 min = broadcast4(std::numeric_limits<double>::infinity()), max = -min;
   for (std::uint32_t first = 0; first < piece.count; first += 4) {
@@ -143,7 +143,7 @@ inline PlaneSides sides_of(const Piece& piece, const Vec3& normal, double offset
 }
 
 /// Whether both parts of a cut have room for their corners.
-inline bool parts_fit(const Piece& piece, const PlaneSides& sides) {
+inline bool parts_fit(const Piece& piece, const CornerDistances& sides) {
   std::uint32_t inside = 0, outside = 0;
   for (std::uint32_t i = 0; i < piece.count; ++i) {
     const double s = sides.value[i], e = sides.value[i + 1 == piece.count ? 0 : i + 1];
@@ -158,7 +158,7 @@ inline bool parts_fit(const Piece& piece, const PlaneSides& sides) {
 /// the piece whatever the signs are: new corners lie on the piece's edges, what they cut off is a run of corners of one
 /// side, and the hull of the new corners belongs to both. False, and nothing cut, when a part would not fit in
 /// `capacity`.
-inline bool cut(const Piece& piece, const PlaneSides& sides, Piece& inside, Piece& outside) {
+inline bool cut(const Piece& piece, const CornerDistances& sides, Piece& inside, Piece& outside) {
   if (piece.count > Piece::crowded && !parts_fit(piece, sides)) return false;
   inside.count = outside.count = 0;
   for (std::uint32_t i = 0; i < piece.count; ++i) {

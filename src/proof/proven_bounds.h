@@ -31,7 +31,7 @@ class ProvenBounds {
     if (nearest.squared <= offered_squared_) return;
     const double certified = certified_distance(b_, p, nearest.squared, counters_.queries);
     if (std::sqrt(nearest.squared) - certified <= goal_.slack) offered_squared_ = nearest.squared;
-    const double proven = certified - goal_.slack - cuts * goal_.cut_slack;
+    const double proven = goal_.proven_lower(certified, cuts);
     if (proven > lower_.lower) set_lower({proven, p, nearest.slot, from_slot_});
   }
 
@@ -55,7 +55,7 @@ class ProvenBounds {
     return true;
   }
 
-  /// Accepts a piece as it stands: too deep, or the budget ran out.
+  /// Accepts a piece with the bound it has, as it is too deep or the budget ran out.
   void give_up(double squared) {
     accept(squared);
     ++counters_.given_up;
@@ -87,8 +87,8 @@ class ProvenBounds {
   void set_lower(const LowerBound& lower) {
     lower_ = lower;
     const double accepted = goal_.accepted(lower.lower);
-    // Room for the roundings, of 16 u at most, that turn a distance into an upper bound again: chords end at the
-    // target.
+    // Room for the roundings, of 16 u at most, that turn a distance into an upper bound again: corners on a chord are
+    // placed exactly at the target.
     accepted_squared_ = accepted * accepted * (1 - 64 * 0x1p-53);
     offered_squared_ = (lower.lower + goal_.slack) * (lower.lower + goal_.slack);
   }

@@ -39,7 +39,8 @@ using Json = nlohmann::ordered_json;
 /// Bounds of both directions and their maximum; a is the original, b the simplified mesh.
 [[nodiscard]] Json symmetric(const HausdorffDistance& distance);
 
-/// Statistics over the directions that were searched: sums, and means weighted by what they count.
+/// Statistics over the directions that were searched: sums of counts, and means of percentages weighted by those
+/// counts.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);
 
 /// {"read":..,"simplify":..,"certify":..,"write":..,"total":..}

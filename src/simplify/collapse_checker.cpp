@@ -65,7 +65,7 @@ class CollapseChecker::Impl {
         prover_(state_, workers_, 0) {
     proposer_.enter(split_, region());
     set_tolerance(tolerance);
-    state_.set_samples(spacing_of_samples * state_.tolerance);
+    state_.set_samples(state_.tolerance);
   }
 
   bool admits(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& point);
@@ -85,9 +85,6 @@ class CollapseChecker::Impl {
   Counts counts;
 
  private:
-  /// Between samples on an edge of the original, in tolerances.
-  static constexpr double spacing_of_samples = 4;
-
   /// Asked for last: an edge by its vertices, and where it was to go.
   struct Question {
     std::uint32_t u, v;

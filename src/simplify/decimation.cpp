@@ -18,10 +18,6 @@
 namespace meshbound {
 namespace {
 
-/// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge
-/// and miss its middle.
-constexpr double spacing_of_samples = 3;
-
 TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   TriangleMesh result;
   result.triangles = mesh.triangles;
@@ -176,7 +172,7 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
       options_.progress(1 - static_cast<double>(faces) / static_cast<double>(original_.triangles.size()));
     };
   }
-  if (state_->samples.size() == 0) state_->set_samples(spacing_of_samples * goal.tolerance);
+  if (state_->samples.size() == 0) state_->set_samples(goal.tolerance);
   const auto prune_components = [&] {
     if (!options_.prune) return;
     const Pruned pruned = prune(*state_, goal.tolerance, target_faces, options_.preserve_boundary, threads_->workers);

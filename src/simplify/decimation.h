@@ -32,7 +32,6 @@ class Decimation {
   [[nodiscard]] std::vector<std::uint8_t> locked() const;
   void lock_features(std::vector<std::uint8_t>& locked) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
-  void set_samples(double tolerance);
   [[nodiscard]] double room() const;
   [[nodiscard]] Eigen::Vector3d in_model(Vec3 p) const;
   [[nodiscard]] double rounding_of_output() const;

@@ -80,7 +80,7 @@ Token TokenReader::next() {
   token.kind = static_cast<Token::Kind>(word & 3);
   switch (token.kind) {
     case Token::Kind::Near:
-    case Token::Kind::Degree:
+    case Token::Kind::Parity:
       token.step = static_cast<std::int64_t>(payload >> 1) ^ -static_cast<std::int64_t>(payload & 1);
       break;
     case Token::Kind::Recall:

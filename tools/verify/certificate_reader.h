@@ -44,7 +44,7 @@ struct Token {
   enum class Kind : std::uint8_t {
     Near,    ///< the piece lies near one triangle of the other mesh
     Cut,     ///< the piece is cut in two along a chord
-    Degree,  ///< the piece lies near the other mesh by the degree of a projection
+    Parity,  ///< the piece lies near the other mesh by a parity proof
     Recall   ///< as Near, with the triangle that was last used at a corner of the source triangle
   };
   /// An end of a chord: on the edge from corner `edge` to the next, at the share numerator / 2^bits of the way.
@@ -54,7 +54,7 @@ struct Token {
   };
 
   Kind kind = Kind::Near;
-  std::int64_t step = 0;     ///< Near, Degree: triangle less the one before
+  std::int64_t step = 0;     ///< Near, Parity: triangle less the one before
   std::uint32_t corner = 0;  ///< Recall
   End from, to;              ///< Cut: from.edge < to.edge < `max_corners`
   int bits = 0;

@@ -11,7 +11,7 @@
 
 namespace meshbound::verify {
 
-/// Proofs by the degree of a projection. Let Q be a piece, drawn in a little towards its middle, and P a set of
+/// Parity proofs. Let Q be a piece, drawn in a little towards its middle, and P a set of
 /// triangles of the other mesh, both seen along the normal of the source triangle. If
 ///
 ///   1. what P has straight above or below Q is at most `limit` away from the plane of Q, and

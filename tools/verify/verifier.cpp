@@ -18,7 +18,7 @@ namespace {
 /// Cuts on the way to a piece: enough to halve the sides of a triangle forty times each.
 constexpr int deepest_cut = 128;
 
-/// What parity proofs may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
+/// What proofs by parity may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
 /// again and again. Real proofs need less than one for each byte and triangle.
 constexpr std::uint64_t min_parity_work = 65536, parity_work_per_unit = 1024;
 
@@ -70,14 +70,14 @@ class DirectionCheck {
     }
     ++result_.pieces;
     last_ = target_of(token);
-    if (token.kind == Token::Kind::Degree) {
+    if (token.kind == Token::Kind::Parity) {
       ++result_.by_parity;
-      if (!degree_) degree_ = std::make_unique<ParityCheck>(target_, tolerance_, max_parity_work());
-      const bool holds = degree_->proves(shape_, corners_, piece, last_);
-      result_.parity_work = degree_->work();
+      if (!parity_) parity_ = std::make_unique<ParityCheck>(target_, tolerance_, max_parity_work());
+      const bool holds = parity_->proves(shape_, corners_, piece, last_);
+      result_.parity_work = parity_->work();
       if (!holds)
         fail(result_.parity_work > max_parity_work() ? "is proven by parity at too great a cost"
-                                                     : "has a piece whose parity proof does not hold");
+                                                     : "has a piece whose proof by parity does not hold");
       return;
     }
     const Corners near = corners_of(target_, last_);
@@ -121,7 +121,7 @@ class DirectionCheck {
   std::size_t triangle_ = 0;
   Corners shape_;
   PieceCorners corners_;
-  std::unique_ptr<ParityCheck> degree_;
+  std::unique_ptr<ParityCheck> parity_;
   Proof::Direction result_;
 };
 

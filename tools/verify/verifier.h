@@ -26,7 +26,7 @@ struct Proof {
 [[nodiscard]] MeshIdentity identity_of(const TriangleMesh& mesh);
 
 /// Returns what the certificate proves of these two meshes; throws `Rejected`, with one line that says why, when it
-/// proves nothing. O(certificate + meshes): parity proofs cost the triangles
+/// proves nothing. O(certificate + meshes): proofs by parity cost the triangles
 /// they use, and too many of them are refused. Deterministic.
 [[nodiscard]] Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
                                       std::span<const std::uint8_t> certificate);

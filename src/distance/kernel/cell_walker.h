@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Voronoi subdivision taken to its end: a piece of A is cut along the cells of the triangles of B it crosses, each
-/// part walks on to the neighbour across the cut, and is bounded by that triangle alone. Compiled once per instruction
-/// set.
+/// Voronoi subdivision taken to its end: a piece of A is cut along the cells of the triangles of B that it crosses.
+/// Each part walks on to the neighbour across the cut, and is bounded by that triangle alone. Compiled once per
+/// instruction set.
 ///
 ///     while a piece is left                               d(., t) is convex: the corners bound the piece
 ///       if every corner is within the target of its candidate t: done
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "distance/kernel/choice.h"
+#include "proof/cell_planes.h"
 #include "proof/piece.h"
 #include "proof/proven_bounds.h"
 
@@ -29,14 +30,15 @@ namespace meshbound {
 inline constexpr std::uint32_t steps_between_queries = 8;
 /// Steps of a walk that has no queries: across a triangle of A that lies on a thousand of B.
 inline constexpr std::uint32_t steps_of_sweep = 32;
-/// Corners more than so many targets off the first point that is tried on a triangle are rarely near another one of it.
+/// A corner that is more than so many targets away from the first point that is tried on a triangle is rarely within
+/// the target of another point of that triangle.
 inline constexpr double hopeless_targets = 3;
-/// Queries after which a piece is halved: it walks in circles. And those from which it is split between its candidate
-/// and what a query finds: around an axis of B the cells cut off a sliver at each step.
+/// Queries after which a piece is halved, as it walks in circles; and queries after which it is split between its
+/// candidate and the triangle that a query finds, as around an axis of B the cells cut off a sliver at each step.
 inline constexpr std::uint32_t halve_from_rounds = 24;
 inline constexpr std::uint32_t split_from_rounds = 4;
 /// Splits between two triangles, and cuts, after which a piece walks no more: around a vertex of B the cells by edges
-/// may lead it back to where it came from. And splits after which it is halved, which makes bisectors straighter.
+/// may lead it back to where it came from. Then splits after which it is halved, which makes bisectors straighter.
 inline constexpr std::uint32_t splits_before_resolving = 3;
 inline constexpr std::uint32_t cuts_before_resolving = 60;
 inline constexpr std::uint32_t splits_before_halving = 8;
@@ -123,7 +125,7 @@ class CellWalker : public ProvenBounds {
 
   static bool must_halve(const Piece& piece) { return piece.rounds >= halve_from_rounds; }
 
-  /// So that three cuts by a cell fit again.
+  /// Makes room for the corners of three cuts by a cell.
   void push_halves_by_diagonal(const Piece& piece) {
     Piece first, second;
     split_by_diagonal(piece, first, second);
@@ -146,14 +148,14 @@ class CellWalker : public ProvenBounds {
     stack_.back().rival = rival;
   }
 
-  /// The parts of a piece on both sides of a line where its candidate stops to serve and `other` begins to.
+  /// Pushes the parts of a piece on both sides of a line: `near` goes on with the candidate, `far` with `other`.
   void push_split(Piece& near, Piece& far, const Piece& piece, std::uint32_t other) {
     near.splits = far.splits = piece.splits + 1;
     push_in_cell(near, piece.slot, other);
     push(far, other, 1);
   }
 
-  bool cut_and_count(const Piece& piece, const PlaneSides& sides, Piece& inside, Piece& outside) {
+  bool cut_and_count(const Piece& piece, const CornerDistances& sides, Piece& inside, Piece& outside) {
     if (!cut(piece, sides, inside, outside)) return false;
     count_cut();
     return true;
@@ -164,70 +166,24 @@ class CellWalker : public ProvenBounds {
     if (cuts_left_ > 0) --cuts_left_;
   }
 
-  /// The planes of a cell: lane k runs through the edge from corner k to k + 1, along the bisector of the normals on
-  /// both sides, with its unit normal pointing outward (0 where the edge has no direction). Lane 3 is unused.
-  struct CellPlanes {
-    Vec<Double4> normal;
-    Double4 offset;
-  };
-
-  [[nodiscard]] CellPlanes planes_of(std::uint32_t slot, const CornerTriangle<double>& t) const {
-    const auto& own = b_.normals[slot];
-    Vec<Double4> bisector{broadcast4(own[0]), broadcast4(own[1]), broadcast4(own[2])};
-    for (int edge = 0; edge < 3; ++edge) {
-      const Neighbour neighbour = b_.neighbours[slot][edge];
-      if (neighbour.slot == no_slot) continue;
-      const auto& other = b_.normals[neighbour.slot];
-      const double sign = neighbour.flipped != 0 ? -1 : 1;
-      const Vec3 sum{own[0] + sign * other[0], own[1] + sign * other[1], own[2] + sign * other[2]};
-      // Nearly folded back: the sum is rounding noise, and the plane across the triangle's own edge serves.
-      if (squared_length(sum) < 1e-3) continue;
-      bisector.x[edge] = sum.x;
-      bisector.y[edge] = sum.y;
-      bisector.z[edge] = sum.z;
-    }
-    const Vec3 bc = t.ac - t.ab, b = t.a + t.ab, c = t.a + t.ac;
-    const Vec<Double4> along{{t.ab.x, bc.x, -t.ac.x, 0}, {t.ab.y, bc.y, -t.ac.y, 0}, {t.ab.z, bc.z, -t.ac.z, 0}};
-    const Vec<Double4> from{{t.a.x, b.x, c.x, 0}, {t.a.y, b.y, c.y, 0}, {t.a.z, b.z, c.z, 0}};
-    CellPlanes planes;
-    planes.normal = cross(along, bisector);
-    const Double4 norm = square_root(squared_length(planes.normal));
-    planes.normal = select(norm > 0.0, 1.0 / norm, Double4{}) * planes.normal;
-    planes.offset = dot(planes.normal, from);
-    return planes;
-  }
-
-  /// How far the cell may be pushed outward so that most parts inside are still within the target. A part at height h
-  /// over the plane of t may lie sqrt(target^2 - h^2) sideways of t; where two edges meet at 30 degrees, pushing both
-  /// by s moves the corner of the cell by 4 s, hence one quarter: of 0.1 to 0.85 the fastest on eight pairs. What still
-  /// fails is cut by the cell itself, where only the height counts.
-  [[nodiscard]] double outward_slack(const Piece& piece, const CornerTriangle<double>& t) const {
-    const auto& n = b_.normals[piece.slot];
-    const PlaneSides heights = sides_of(piece, {n[0], n[1], n[2]}, n[0] * t.a.x + n[1] * t.a.y + n[2] * t.a.z);
-    const double highest = std::max(heights.max, -heights.min), room = accepted_squared_ - highest * highest;
-    return room > 0 ? 0.25 * std::sqrt(room) : 0;
-  }
-
   /// Cuts the piece by the cell of its candidate and sends the parts on: by the cell pushed outward where that cuts
   /// anything, else by the cell itself. False when the piece lies inside the cell.
   bool walk(const Piece& piece) {
     const CornerTriangle<double> t = triangle_at(b_, piece.slot);
-    const CellPlanes planes = planes_of(piece.slot, t);
-    const double outward = piece.trimmed ? 0 : outward_slack(piece, t);
+    const CellPlanes planes = cell_planes(b_, piece.slot, t);
+    const double outward = piece.trimmed ? 0 : outward_slack(b_, piece, t, accepted_squared_);
     return (outward > 0 && cut_by_cell(piece, planes, outward)) || cut_by_cell(piece, planes, 0);
   }
 
   bool cut_by_cell(const Piece& piece, const CellPlanes& planes, double outward) {
-    constexpr double noise = 1e-13;  // corners this near to a plane lie on it: cutting there would give empty parts
     Piece rest = piece;
     bool changed = false;
     for (int edge = 0; edge < 3; ++edge) {
       const std::uint32_t across = b_.neighbours[piece.slot][static_cast<std::size_t>(edge)].slot;
       if (across == no_slot) continue;
-      const Vec3 normal{planes.normal.x[edge], planes.normal.y[edge], planes.normal.z[edge]};
-      const PlaneSides sides = sides_of(rest, normal, planes.offset[edge] + outward);
-      if (sides.max <= noise) continue;
-      if (sides.min >= -noise) {
+      const CornerDistances sides = planes.distances(rest, edge, outward);
+      if (sides.max <= plane_noise) continue;
+      if (sides.min >= -plane_noise) {
         push(rest, across, piece.age + 1);
         return true;
       }
@@ -245,8 +201,8 @@ class CellWalker : public ProvenBounds {
     return true;
   }
 
-  /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges. Of
-  /// a piece that is only halved, the corner itself: there the lower bound is what is wanted.
+  /// A point of the piece near its worst corner, a quarter of the way to the centroid: off the ties at shared edges.
+  /// For a piece that will be halved, the corner itself, which raises the lower bound most.
   static Vec3 probe_point(const Piece& piece, std::uint32_t worst) {
     const Vec3 corner = piece.corner(worst);
     if (must_halve(piece)) return corner;
@@ -369,7 +325,7 @@ class CellWalker : public ProvenBounds {
     const std::optional<Vec3> point = equidistant_point(piece, p, t, triangle_at(b_, piece.rival), u);
     if (!point) return false;
     const Vec3 normal = lead(t, u, *point).gradient;
-    const PlaneSides sides = sides_of(piece, normal, dot(normal, *point));
+    const CornerDistances sides = distances_from_plane(piece, normal, dot(normal, *point));
     Piece near, far;
     if (!(sides.min < 0 && sides.max > 0) || !cut_and_count(piece, sides, near, far)) return false;
     push_split(near, far, piece, third);
@@ -391,7 +347,7 @@ class CellWalker : public ProvenBounds {
       }
     }
     const Vec3 normal = to - from;
-    const PlaneSides sides = sides_of(piece, normal, dot(normal, 0.5 * (from + to)));
+    const CornerDistances sides = distances_from_plane(piece, normal, dot(normal, 0.5 * (from + to)));
     if (!(sides.min < 0 && sides.max > 0) || !cut_and_count(piece, sides, near, far)) return false;
     near.rounds = far.rounds = near.splits = far.splits = 0;
     return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Which of some triangles of B is to bound a point. Compiled once per instruction set.
+/// Which of two or three triangles of B is to bound a point, and where that changes inside a piece. Compiled once per
+/// instruction set.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -16,14 +17,14 @@ struct Choice {
   CornerTriangle<double> t, other;
   double target;
 
-  /// How much further than that a point is from t: positive where t does not serve.
+  /// How much too far a point is from t: positive where t does not serve it.
   [[nodiscard]] double excess(const Vec3& p) const {
     const double to_other = std::sqrt(closest_on_triangle(other, p).squared_distance);
     return std::sqrt(closest_on_triangle(t, p).squared_distance) - std::max(to_other, target);
   }
 
   /// A share s of the way from `served` to `unserved` up to which t serves: served + s (unserved - served) is served,
-  /// and little beyond it no more. By the rule of false position in its Illinois form. 0 <= s < 1.
+  /// and points little beyond it are not. By the rule of false position in its Illinois form. 0 <= s < 1.
   [[nodiscard]] double last_served(const Vec3& served, double excess_there, const Vec3& unserved,
                                    double excess_beyond) const {
     constexpr int max_steps = 24;
@@ -50,7 +51,7 @@ struct Choice {
   }
 };
 
-/// How much nearer the triangle `other` is to a point than t, and the gradient of that.
+/// How much nearer the triangle `other` is to a point than t, and the gradient of this function of the point.
 struct Lead {
   double value = 0;
   Vec3 gradient;
@@ -65,7 +66,7 @@ inline Lead lead(const CornerTriangle<double>& t, const CornerTriangle<double>& 
   return result;
 }
 
-/// Whether a point of its plane lies in a piece, about.
+/// Whether a point of the plane of a piece lies in the piece, up to rounding.
 inline bool contains(const Piece& piece, const Vec3& p) {
   Vec3 normal;
   for (std::uint32_t i = 2; i < piece.count; ++i)

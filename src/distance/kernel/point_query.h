@@ -16,8 +16,9 @@ struct PointDistance {
 
 /// How exact the computed distances are, in working units; both depend on the magnitude of the coordinates.
 struct PointRoundings {
-  double primal = 0;   ///< computed distances may be less than this below the true ones (numeric/rounding.h)
-  double allowed = 0;  ///< what the lower bound may lose against the nearest distance before the slow way is taken
+  double primal = 0;  ///< computed distances may be less than this below the true ones (numeric/rounding.h)
+  double allowed =
+      0;  ///< how far the lower bound may stay below the nearest distance before it is computed in extended precision
 };
 
 /// The nearest triangle to p, and a lower bound at most `allowed` below its distance wherever doubles can tell. `hint`
@@ -26,7 +27,7 @@ struct PointRoundings {
 using MeasurePoint = PointDistance (*)(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,
                                        std::uint32_t hint);
 
-/// The fastest that this machine runs, and the one that any machine runs: the same results to the last bit.
+/// The fastest implementation that this machine runs, and the one that any machine runs. Both give the same bits.
 MeasurePoint point_kernel();
 MeasurePoint portable_point_kernel();
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// `MeasurePoint`. Compiled once per instruction set (numeric/isa.h).
 ///
-///     test the block of the hint: a first limit
-///     level by level: keep the children whose boxes are within the limit     no order, no branch: the limit is near
-///     its test the nearest block, then the others within the new limit           final value already
+///     test the block of the hint: a first limit, which mostly is near its final value already
+///     level by level: keep the children whose boxes are within the limit, in no order and without branches
+///     test the nearest block, then the others within the new limit
 ///
 /// Where a level would hold too many nodes, the hint was a bad one: it begins again at the block that the nearest boxes
 /// lead to. Where that does not do either (far queries), the walk of bvh/nearest.h takes its place, whose limit falls
@@ -35,7 +35,7 @@
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
-/// [bits]: the lanes whose bits are set, in order; 0 behind them.
+/// By a word of bits: the lanes whose bits are set, in order; 0 behind them.
 inline constexpr auto packed_lanes = [] {
   std::array<std::array<std::uint8_t, node_width>, 1U << node_width> table{};
   for (unsigned bits = 0; bits < table.size(); ++bits) {
@@ -103,7 +103,7 @@ class PointSearch {
   static constexpr unsigned all_lanes = 15;
   static constexpr std::uint32_t capacity = 64;  ///< nodes or blocks of a level; a warm start leaves five of them
 
-  /// Down the tree by the nearest box of each node.
+  /// The block that one reaches by taking the nearest box of each node, from the root down.
   [[nodiscard]] std::uint32_t block_by_boxes() const {
     std::uint32_t index = 0;
     for (std::uint32_t level = data_.levels() - 1; level > 0; --level) {
@@ -215,7 +215,7 @@ class PointSearch {
     });
   }
 
-  /// The least of `wanted` and what separates the triangles in the boxes within the limit.
+  /// The lower bound that the triangles in the boxes within the limit prove, at most `wanted`.
   double separated_within_limit(double wanted) const {
     QueryCounters counters;
     double least = wanted;
@@ -241,7 +241,7 @@ class PointSearch {
   std::int64_t last_slot_;
   std::uint32_t first_block_ = 0;
   float limit_ = 0;  ///< squared
-  // Lane by lane over all blocks tested.
+  // In each lane, the best of that lane's triangles in all blocks tested.
   TriangleOffset<Double4> best_{{}, broadcast4(std::numeric_limits<double>::infinity())};
   Mask4 slots_{};
   Double4 separated_squared_ = broadcast4(std::numeric_limits<double>::infinity());

@@ -47,11 +47,11 @@ class SearchKernelImpl final : public SearchKernel {
   Swept sweep(const TriangleCorners& triangle, std::uint32_t& hint, std::uint64_t max_cuts) override {
     constexpr std::uint32_t max_pieces = 64;  // beyond it the queries of a cover cost little
     const auto& [a, b, c] = triangle;
-    const Vec3 centroid = (1.0 / 3) * (a + b + c);
-    hint = step_over(walker_.target(), centroid, hint);
+    const Vec3 middle = centroid(triangle);
+    hint = step_over(walker_.target(), middle, hint);
     const std::uint32_t pieces = walker_.cover_without_queries(a, b, c, hint, max_pieces, max_cuts);
     if (pieces > 0) return pieces == 1 ? Swept::ByOneTriangle : Swept::ByWalk;
-    const double squared = closest_on_triangle(triangle_at(walker_.target(), hint), centroid).squared_distance;
+    const double squared = closest_on_triangle(triangle_at(walker_.target(), hint), middle).squared_distance;
     return walker_.accepts(squared) ? Swept::NotAtAll : Swept::NotNear;
   }
 

@@ -18,7 +18,7 @@ std::size_t bytes(const SearchMemory& memory) {
   return bytes(memory.proofs) + bytes(memory.faces) + bytes(memory.hints);
 }
 
-/// All that is known of the level before: true of the original with the tree of that serial number.
+/// All that is known of the level before. It holds for the original whose tree has that serial number.
 struct Known {
   std::uint64_t original_serial = 0;
   LevelSurface level;
@@ -32,7 +32,7 @@ struct LevelChecker::Impl {
   explicit Impl(const Bvh& model) : original(&model) {}
   Impl(const MeshView& model, const BvhOptions& options) : own(std::in_place, model, options), original(&*own) {}
 
-  /// What is known of a new level before it is searched.
+  /// What a new level inherits before it is searched.
   [[nodiscard]] Known inherit(const Bvh::Data& tree, const MeshView& level) const {
     Known next;
     next.original_serial = original->data().serial;
@@ -49,7 +49,7 @@ struct LevelChecker::Impl {
     return next;
   }
 
-  /// search(tree, memory) -> result. What is known is replaced only when all went well.
+  /// Returns search(tree, memory). What is known is replaced only when nothing threw.
   template <class Search>
   auto with_level(const MeshView& level, int threads, Search&& search) {
     const Bvh tree(level, {.threads = threads});

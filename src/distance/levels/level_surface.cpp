@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "distance/shortcuts/exact_match.h"
+#include "distance/shortcuts/triangle_table.h"
 
 namespace meshbound {
 
@@ -22,7 +22,7 @@ Successors::Successors(const LevelSurface& from, const LevelSurface& to)
   std::optional<TriangleTable> triangles;  // built when the first triangle has all its corners in the next level
   for (std::size_t v = 0; v < vertex.size(); ++v) {
     const std::uint32_t found = positions.find(from.vertices[v]);
-    if (found != no_match) vertex[v] = found;
+    if (found != no_index) vertex[v] = found;
   }
   std::vector<std::uint32_t> slot_at(to.vertices.size(), no_slot);
   for (std::uint32_t s = 0; s < to.corners.size(); ++s)
@@ -36,7 +36,7 @@ Successors::Successors(const LevelSurface& from, const LevelSurface& to)
     if (there[0] == no_slot || there[1] == no_slot || there[2] == no_slot) continue;
     if (!triangles) triangles.emplace(to.corners, to.vertices, positions);
     const std::uint32_t found = triangles->find(there);
-    if (found != no_match) slot[s] = near_slot[s] = found;
+    if (found != no_index) slot[s] = near_slot[s] = found;
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace meshbound {
 
-/// A level as its file has it, in the numbering of its tree: what a later level is compared with, whose tree may have
-/// another frame.
+/// A level in model coordinates, numbered as its tree numbers it: what a later level, whose tree may have another
+/// frame, is compared with.
 struct LevelSurface {
   std::vector<Vec3> vertices;     ///< model units, by the tree's vertex
   std::vector<Triangle> corners;  ///< by slot
@@ -20,8 +20,8 @@ struct LevelSurface {
   LevelSurface(const Bvh::Data& tree, const MeshView& level);
 };
 
-/// Where the triangles and vertices of one level are in the next one; `no_slot` for what is not there any more, bit for
-/// bit.
+/// Where the triangles and vertices of one level are in the next one; `no_slot` for those that are not there any more,
+/// bit for bit.
 struct Successors {
   std::vector<std::uint32_t> slot;    ///< by old slot
   std::vector<std::uint32_t> vertex;  ///< by old vertex

@@ -21,7 +21,7 @@ struct Candidate {
 
 /// A ball around a triangle of A: its centroid and the distance to the furthest corner.
 struct CentroidBall {
-  explicit CentroidBall(const TriangleCorners& t) : centre((1.0 / 3) * (t[0] + t[1] + t[2])) {
+  explicit CentroidBall(const TriangleCorners& t) : centre(centroid(t)) {
     for (const Vec3& corner : t) radius = std::max(radius, length(corner - centre));
   }
 

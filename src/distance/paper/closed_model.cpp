@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/magnitude.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -14,19 +15,17 @@ enum class Crossing { No, Yes, Unknown };
 double sum_of_magnitudes(const Vec3& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 double largest_coordinate_of(const TriangleCorners& t) {
-  double largest = 0;
-  for (const Vec3& p : t) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  return largest;
+  return std::max({largest_magnitude_of(t[0]), largest_magnitude_of(t[1]), largest_magnitude_of(t[2])});
 }
 
 /// Whether a plane with this normal has the triangles on different sides. Any normal will do, so its own rounding does
 /// not matter. Each projection errs by at most 3u |n|_1 M, and as much again is left for a centroid that is rounded off
 /// its triangle.
 bool separates(const Vec3& normal, const TriangleCorners& p, const TriangleCorners& q, double magnitude) {
-  const auto [p_least, p_most] = std::minmax({dot(normal, p[0]), dot(normal, p[1]), dot(normal, p[2])});
-  const auto [q_least, q_most] = std::minmax({dot(normal, q[0]), dot(normal, q[1]), dot(normal, q[2])});
+  const auto [p_min, p_max] = std::minmax({dot(normal, p[0]), dot(normal, p[1]), dot(normal, p[2])});
+  const auto [q_min, q_max] = std::minmax({dot(normal, q[0]), dot(normal, q[1]), dot(normal, q[2])});
   const double margin = 16 * unit_roundoff * sum_of_magnitudes(normal) * magnitude;
-  return p_least - q_most > margin || q_least - p_most > margin;
+  return p_min - q_max > margin || q_min - p_max > margin;
 }
 
 /// Separating axes of two triangles: the coordinate axes as the cheapest, the normals, products of edges, and for
@@ -63,8 +62,8 @@ Crossing crossing(const Vec3& p, const Vec3& q, const TriangleCorners& t) {
   const int at_p = orientation(t[0], t[1], t[2], p), at_q = orientation(t[0], t[1], t[2], q);
   if (at_p * at_q > 0) return Crossing::No;
   const int around[3] = {orientation(p, q, t[0], t[1]), orientation(p, q, t[1], t[2]), orientation(p, q, t[2], t[0])};
-  const auto [least, most] = std::minmax({around[0], around[1], around[2]});
-  if (least < 0 && most > 0) return Crossing::No;
+  const auto [min, max] = std::minmax({around[0], around[1], around[2]});
+  if (min < 0 && max > 0) return Crossing::No;
   const bool inside = around[0] != 0 && around[0] == around[1] && around[1] == around[2];
   return inside && at_p * at_q < 0 ? Crossing::Yes : Crossing::Unknown;
 }
@@ -94,7 +93,7 @@ bool is_closed(const Bvh::Data& data) {
 
 bool crosses_surface(const Bvh::Data& b, const TriangleCorners& from, const TriangleCorners& to,
                      std::span<const std::uint32_t> slots) {
-  const Vec3 here = (1.0 / 3) * (from[0] + from[1] + from[2]), there = (1.0 / 3) * (to[0] + to[1] + to[2]);
+  const Vec3 here = centroid(from), there = centroid(to);
   const auto corners_of = [&b](std::uint32_t slot) {
     const Triangle& t = b.corners[slot];
     return TriangleCorners{b.vertices[t[0]], b.vertices[t[1]], b.vertices[t[2]]};

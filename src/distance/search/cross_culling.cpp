@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <array>
 
-#include "bvh/build.h"
-#include "distance/search/one_sided_search.h"
+#include "distance/search/node_boxes.h"
+#include "distance/search/steps.h"
 
 namespace meshbound {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct NodeOfA {
   double bound_squared;  ///< of the distance of all its triangles to B
@@ -24,87 +22,101 @@ struct NodeOfA {
   bool operator<(const NodeOfA& other) const { return bound_squared < other.bound_squared; }
 };
 
+/// One run of the algorithm, by one thread.
+class CrossCulling {
+ public:
+  explicit CrossCulling(OneSidedSearch& search) : search_(search), a_(search.a()), kernel_(search.begin_own_batch()) {}
+
+  /// The triangles that wait for subdivision.
+  std::vector<OpenTriangle> run() {
+    const std::uint32_t root = a_.levels() - 1;
+    stack_.push_back({node_bound_squared(root, 0), root, 0});
+    DistanceStats& stats = search_.stats();
+    double seconds_on_b = 0;
+    std::uint64_t done = 0;
+    while (!stack_.empty() && !search_.decided()) {
+      const NodeOfA node = stack_.back();
+      stack_.pop_back();
+      const auto [begin, end] = slots_below(a_, node.level, node.index);
+      if (node.bound_squared <= kernel_.accepted_squared() || search_.out_of_budget()) {
+        kernel_.accept(node.bound_squared);
+        stats.culled_by_node += end - begin;
+        done += end - begin;
+      } else if (node.level == 0) {
+        const auto start = StopToken::Clock::now();
+        cull_leaf_on_b(node.index);
+        seconds_on_b += seconds_since(start);
+        done += end - begin;
+      } else {
+        push_children(node);
+      }
+      search_.report_progress(0.3 * static_cast<double>(done) / a_.triangle_count());
+    }
+    search_.offer_upper_squared(kernel_.upper_squared());
+    stats.phases.culling_on_b += seconds_on_b;
+    stats.phases.culling_on_a -= seconds_on_b;  // the whole step is counted there
+    return std::move(open_);
+  }
+
+ private:
+  /// Eq. 8-9 for one node, from the triangle of B at `hint_`, which becomes the one that was used.
+  double node_bound_squared(std::uint32_t level, std::uint32_t index) {
+    const Box box = node_box(a_, level, index);
+    const std::array<Vec3, 8> corners = corners_of(box, search_.map());
+    hint_ = kernel_.nearest(search_.map()(0.5 * (box.lo + box.hi)), hint_, 0).slot;
+    return kernel_.farthest_squared(corners, hint_);
+  }
+
+  /// Culling on B for the triangles of a leaf. Those whose upper bound is above the target wait for subdivision; their
+  /// corners raise the lower bound.
+  void cull_leaf_on_b(std::uint32_t block) {
+    const OneSidedTask& task = search_.task();
+    const std::uint32_t end = std::min(a_.triangle_count(), (block + 1) * block_width);
+    for (std::uint32_t slot = block * block_width; slot < end && !search_.decided(); ++slot) {
+      const TriangleCorners corners = search_.triangle(slot);
+      const std::uint32_t paired = task.known_pairs != nullptr ? (*task.known_pairs)[slot] : no_slot;
+      const std::array<std::uint32_t, 2> hints{hint_, paired == no_slot ? hint_ : paired};
+      const double enough = search_.exhausted() ? std::numeric_limits<double>::infinity() : kernel_.accepted_squared();
+      const GroupBounds bounds = kernel_.cull_on_b(corners, hints, enough);
+      hint_ = bounds.upper.slot;
+      if (task.found_pairs != nullptr) (*task.found_pairs)[hint_] = slot;
+      if (bounds.upper.squared <= enough) {
+        kernel_.accept(bounds.upper.squared);
+        continue;
+      }
+      const std::size_t worst = bounds.worst_corner();
+      search_.note_vertex(a_.corners[slot][worst], bounds.nearest[worst]);
+      kernel_.offer(corners[worst], bounds.nearest[worst], slot);
+      search_.offer_lower(kernel_.lower());
+      open_.push_back({bounds.upper.squared, slot, hint_});
+    }
+  }
+
+  /// The furthest child first: it raises the lower bound that culls the others.
+  void push_children(const NodeOfA& node) {
+    const std::size_t first = stack_.size();
+    for (std::uint32_t k = 0; k < node_width; ++k) {
+      const std::uint32_t child = node.index * node_width + k;
+      const auto [from, to] = slots_below(a_, node.level - 1, child);
+      if (from == to) break;
+      stack_.push_back({node_bound_squared(node.level - 1, child), node.level - 1, child});
+    }
+    std::stable_sort(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end());
+  }
+
+  OneSidedSearch& search_;
+  const Bvh::Data& a_;
+  SearchKernel& kernel_;
+  std::uint32_t hint_ = 0;  ///< slot of B
+  std::vector<NodeOfA> stack_;
+  std::vector<OpenTriangle> open_;
+};
+
 }  // namespace
 
-/// Eq. 8-9 for one node; `hint` is a triangle of B to start from, and returns the one that was used.
-double OneSidedSearch::node_bound_squared(SearchKernel& kernel, std::uint32_t level, std::uint32_t index,
-                                          std::uint32_t& hint) const {
-  const Box box = node_box(a_, level, index);
-  std::array<Vec3, 8> corners;
-  for (std::uint32_t i = 0; i < 8; ++i)
-    corners[i] = map_({(i & 1) ? box.hi.x : box.lo.x, (i & 2) ? box.hi.y : box.lo.y, (i & 4) ? box.hi.z : box.lo.z});
-  hint = kernel.nearest(map_(0.5 * (box.lo + box.hi)), hint, 0).slot;
-  return kernel.farthest_squared(corners, hint);
-}
-
-/// Culling on B for the triangles of a leaf. Those whose upper bound is above the target wait for subdivision; their
-/// corners raise the lower bound.
-void OneSidedSearch::cull_leaf_on_b(SearchKernel& kernel, std::uint32_t block, std::uint32_t& hint) {
-  const std::uint32_t end = std::min(a_.triangle_count(), (block + 1) * block_width);
-  for (std::uint32_t slot = block * block_width; slot < end && !decided(); ++slot) {
-    const Triangle& t = a_.corners[slot];
-    const TriangleCorners corners{vertex(t[0]), vertex(t[1]), vertex(t[2])};
-    const std::uint32_t paired = task_.known_pairs != nullptr ? (*task_.known_pairs)[slot] : no_slot;
-    const std::array<std::uint32_t, 2> hints{hint, paired == no_slot ? hint : paired};
-    const double enough = exhausted_ ? std::numeric_limits<double>::infinity() : kernel.accepted_squared();
-    const GroupBounds bounds = kernel.cull_on_b(corners, hints, enough);
-    hint = bounds.upper.slot;
-    if (task_.found_pairs != nullptr) (*task_.found_pairs)[hint] = slot;
-    if (bounds.upper.squared <= enough) {
-      kernel.accept(bounds.upper.squared);
-      continue;
-    }
-    const std::size_t worst = bounds.worst_corner();
-    if (bounds.nearest[worst].squared > farthest_nearest_.squared) {
-      farthest_nearest_ = bounds.nearest[worst];
-      farthest_vertex_ = t[worst];
-    }
-    kernel.offer(corners[worst], bounds.nearest[worst], slot);
-    if (kernel.lower().lower > lower_.lower) lower_ = own_lower_ = kernel.lower();
-    open_.push_back({bounds.upper.squared, slot, hint});
-  }
-}
-
-void OneSidedSearch::cross_cull() {
-  if (decided()) return;
-  SearchKernel& kernel = *kernels_.front();
-  kernel.begin(lower_);
-  std::uint32_t hint = 0;
-  std::vector<NodeOfA> stack;
-  const std::uint32_t root = a_.levels() - 1;
-  stack.push_back({node_bound_squared(kernel, root, 0, hint), root, 0});
-  Clock::duration on_b{};
-  std::uint64_t settled = 0;
-  while (!stack.empty() && !decided()) {
-    const NodeOfA node = stack.back();
-    stack.pop_back();
-    const auto [begin, end] = slots_below(a_, node.level, node.index);
-    if (node.bound_squared <= kernel.accepted_squared() || out_of_budget()) {
-      kernel.accept(node.bound_squared);
-      stats_.culled_by_node += end - begin;
-      settled += end - begin;
-    } else if (node.level == 0) {
-      const auto start = Clock::now();
-      cull_leaf_on_b(kernel, node.index, hint);
-      on_b += Clock::now() - start;
-      settled += end - begin;
-    } else {
-      const std::size_t first = stack.size();
-      for (std::uint32_t k = 0; k < node_width; ++k) {
-        const std::uint32_t child = node.index * node_width + k;
-        const auto [from, to] = slots_below(a_, node.level - 1, child);
-        if (from == to) break;
-        stack.push_back({node_bound_squared(kernel, node.level - 1, child, hint), node.level - 1, child});
-      }
-      // The furthest child first: it raises the lower bound that culls the others.
-      std::stable_sort(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.end());
-    }
-    report_progress(0.3 * static_cast<double>(settled) / a_.triangle_count());
-  }
-  upper_squared_ = std::max(upper_squared_, kernel.upper_squared());
-  const double seconds = std::chrono::duration<double>(on_b).count();
-  stats_.phases.culling_on_b += seconds;
-  stats_.phases.culling_on_a -= seconds;  // `run` counts the whole step there
+std::vector<OpenTriangle> cross_cull(OneSidedSearch& search) {
+  if (search.decided()) return {};
+  return CrossCulling(search).run();
 }
 
 }  // namespace meshbound

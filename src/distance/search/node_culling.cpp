@@ -5,8 +5,9 @@
 #include <cmath>
 #include <queue>
 
-#include "bvh/build.h"
-#include "distance/search/one_sided_search.h"
+#include "distance/search/node_boxes.h"
+#include "distance/search/steps.h"
+#include "numeric/no_index.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
@@ -16,7 +17,7 @@ constexpr std::uint32_t sampled_blocks = 64;
 
 /// Radius of blocks, in units of the target, from which a sweep over all triangles costs less than the queries that
 /// cull nodes: measured on models that approach each other (section 7.1 of the paper).
-constexpr double largest_block = 0.2;
+constexpr double max_block_radius = 0.2;
 
 /// Nodes that are opened at a time, the worst first. What one of them finds may spare opening the next: with 8 there
 /// are up to a third more queries, with 4 at most an eighth.
@@ -58,7 +59,7 @@ class NodeTest {
   /// larger than the target, which a query would hardly meet.
   double bound_squared(SearchKernel& kernel, std::uint32_t level, std::uint32_t index, std::uint32_t& slot) const {
     const Box box = node_box(a_, level, index);
-    const std::array<Vec3, 8> corners = corners_of(box);
+    const std::array<Vec3, 8> corners = corners_of(box, map_);
     const double by_hint = kernel.farthest_squared(corners, slot);
     if (by_hint <= accepted_squared_) return by_hint;
     const Ball ball = ball_around(box);
@@ -71,120 +72,150 @@ class NodeTest {
   }
 
  private:
-  [[nodiscard]] std::array<Vec3, 8> corners_of(const Box& box) const {
-    std::array<Vec3, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i)
-      corners[i] = map_(
-          {(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y, (i & 4) != 0 ? box.hi.z : box.lo.z});
-    return corners;
-  }
-
   const Bvh::Data& a_;
   const Mapping& map_;
   double accepted_squared_;
   double scale_ = 1;
 };
 
-}  // namespace
+/// What is asked of B: how far at most a node of A is, or which triangle is nearest to a vertex of it.
+struct Question {
+  std::uint32_t level, index;       ///< of the node
+  std::uint32_t vertex = no_index;  ///< of A; `no_index`: the node is meant
+  std::uint32_t slot;               ///< of B: a hint, then the triangle that gives the answer
+  double squared = 0;               ///< the answer
 
-double OneSidedSearch::sampled_block_radius() const {
-  const auto n = a_.block_count();
+  [[nodiscard]] bool is_of_node() const { return vertex == no_index; }
+};
+
+/// One run of the algorithm.
+class NodeCulling {
+ public:
+  NodeCulling(OneSidedSearch& search, const Remaining& remaining, SearchKernel& kernel)
+      : search_(search), a_(search.a()), remaining_(remaining), kernel_(kernel) {}
+
+  /// The slots that are left, ascending.
+  std::vector<std::uint32_t> run() {
+    queue_.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
+    while (!queue_.empty() && !search_.decided() && !search_.out_of_budget()) {
+      open_worst();
+      answer();
+      take_answers();
+    }
+    search_.offer_upper_squared(kernel_.upper_squared());
+    for (; !queue_.empty(); queue_.pop()) keep_slots_below(queue_.top().level, queue_.top().index);
+    std::sort(left_.begin(), left_.end());
+    return std::move(left_);
+  }
+
+ private:
+  /// Opens the worst nodes that are not near enough.
+  void open_worst() {
+    questions_.clear();
+    for (std::size_t opened = 0; opened < opened_at_once && !queue_.empty(); queue_.pop()) {
+      const NodeOfA& node = queue_.top();
+      if (node.bound_squared <= kernel_.accepted_squared()) {
+        kernel_.accept(node.bound_squared);
+        record(node);
+        continue;
+      }
+      open(node);
+      ++opened;
+    }
+  }
+
+  /// Asks for the bounds of the children of a node. A leaf is too far for its size: its vertices may raise the lower
+  /// bound.
+  void open(const NodeOfA& node) {
+    if (node.level == 0) {
+      keep_slots_below(0, node.index);
+      for (const std::uint32_t v : a_.corners[node.index * block_width])
+        questions_.push_back({.level = 0, .index = node.index, .vertex = v, .slot = node.slot});
+      return;
+    }
+    for (std::uint32_t child = node.index * node_width; child < (node.index + 1) * node_width; ++child) {
+      const auto [begin, end] = slots_below(a_, node.level - 1, child);
+      if (begin == end) break;
+      if (remaining_.holds_any(begin, end))
+        questions_.push_back({.level = node.level - 1, .index = child, .slot = node.slot});
+    }
+  }
+
+  /// Each by itself, whatever thread answers it.
+  void answer() {
+    const double accepted_squared = kernel_.accepted_squared();
+    const NodeTest test(a_, search_.map(), accepted_squared);
+    for_each_range(questions_.size(), questions_per_task, [&](std::size_t begin, std::size_t end) {
+      SearchKernel& kernel = search_.own_kernel();
+      for (std::size_t i = begin; i < end; ++i) {
+        Question& question = questions_[i];
+        if (question.is_of_node()) {
+          question.squared = test.bound_squared(kernel, question.level, question.index, question.slot);
+        } else {
+          const Nearest nearest = kernel.nearest(search_.vertex(question.vertex), question.slot, accepted_squared);
+          question.squared = nearest.squared;
+          question.slot = nearest.slot;
+        }
+      }
+    });
+  }
+
+  void take_answers() {
+    for (const Question& question : questions_) {
+      if (question.is_of_node()) {
+        queue_.push({question.squared, question.level, question.index, question.slot});
+      } else if (question.squared > kernel_.accepted_squared()) {
+        const double upper = kernel_.upper_squared();
+        search_.offer_vertex(question.vertex, {question.squared, question.slot});
+        kernel_.begin(search_.lower());
+        kernel_.accept(upper);
+      }
+    }
+  }
+
+  void record(const NodeOfA& node) {
+    if (!search_.recorder().is_on()) return;
+    const auto [begin, end] = slots_below(a_, node.level, node.index);
+    for (std::uint32_t slot = begin; slot < end; ++slot)
+      if (remaining_.holds(slot)) search_.recorder().triangle(slot, node.bound_squared, node.slot);
+  }
+
+  void keep_slots_below(std::uint32_t level, std::uint32_t index) {
+    const auto [begin, end] = slots_below(a_, level, index);
+    for (std::uint32_t slot = begin; slot < end; ++slot)
+      if (remaining_.holds(slot)) left_.push_back(slot);
+  }
+
+  OneSidedSearch& search_;
+  const Bvh::Data& a_;
+  const Remaining& remaining_;
+  SearchKernel& kernel_;  ///< of the thread that heads the team
+  std::priority_queue<NodeOfA> queue_;
+  std::vector<Question> questions_;
+  std::vector<std::uint32_t> left_;
+};
+
+/// The mean radius of a few leaves of A, in B's frame.
+double sampled_block_radius(const OneSidedSearch& search) {
+  const Bvh::Data& a = search.a();
+  const auto n = a.block_count();
   const std::uint32_t samples = std::min(n, sampled_blocks);
   double sum = 0;
   for (std::uint32_t i = 0; i < samples; ++i)
-    sum += ball_around(node_box(a_, 0, static_cast<std::uint32_t>(std::uint64_t{i} * n / samples))).radius;
-  return length(map_.rows[0]) * sum / samples;
+    sum += ball_around(node_box(a, 0, static_cast<std::uint32_t>(std::uint64_t{i} * n / samples))).radius;
+  return length(search.map().rows[0]) * sum / samples;
 }
 
-void OneSidedSearch::cull_nodes() {
-  if (decided() || stats_.matched == stats_.triangles) return;
-  SearchKernel& kernel = *kernels_.front();
-  kernel.begin(lower_);
-  if (sampled_block_radius() > largest_block * std::sqrt(kernel.accepted_squared())) return;
-  std::priority_queue<NodeOfA> queue;
-  queue.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
-  std::vector<NodeQuestion> questions;
-  while (!queue.empty() && !decided() && !out_of_budget()) {
-    questions.clear();
-    for (std::size_t opened = 0; opened < opened_at_once && !queue.empty(); queue.pop()) {
-      const NodeOfA node = queue.top();
-      if (node.bound_squared <= kernel.accepted_squared()) {
-        kernel.accept(node.bound_squared);
-        remember_node(node.level, node.index, node.bound_squared, node.slot);
-        continue;
-      }
-      open_node(node.level, node.index, node.slot, questions);
-      ++opened;
-    }
-    answer(questions, kernel.accepted_squared());
-    for (const NodeQuestion& question : questions) {
-      if (question.vertex == NodeQuestion::no_vertex) {
-        queue.push({question.squared, question.level, question.index, question.slot});
-      } else if (question.squared > kernel.accepted_squared()) {
-        const double upper = kernel.upper_squared();
-        offer_vertex(question.vertex, {question.squared, question.slot});
-        kernel.begin(lower_);
-        kernel.accept(upper);
-      }
-    }
-  }
-  upper_squared_ = std::max(upper_squared_, kernel.upper_squared());
-  for (; !queue.empty(); queue.pop()) keep_slots_below(queue.top().level, queue.top().index);
-  std::sort(left_.begin(), left_.end());
-  culled_ = true;
-  stats_.culled_by_node = stats_.triangles - stats_.matched - stats_.proven_before - left_.size();
-}
+}  // namespace
 
-/// Asks for the bounds of the children of a node. A leaf is too far for its size: its vertices may raise the lower
-/// bound.
-void OneSidedSearch::open_node(std::uint32_t level, std::uint32_t index, std::uint32_t slot,
-                               std::vector<NodeQuestion>& questions) {
-  if (level == 0) {
-    keep_slots_below(0, index);
-    for (const std::uint32_t v : a_.corners[index * block_width])
-      questions.push_back({.level = 0, .index = index, .vertex = v, .slot = slot});
-    return;
-  }
-  for (std::uint32_t child = index * node_width; child < (index + 1) * node_width; ++child) {
-    const auto [begin, end] = slots_below(a_, level - 1, child);
-    if (begin == end) break;
-    if (!alive_.empty() &&
-        std::find(alive_.begin() + begin, alive_.begin() + end, std::uint8_t{1}) == alive_.begin() + end)
-      continue;
-    questions.push_back({.level = level - 1, .index = child, .slot = slot});
-  }
-}
-
-/// Each by itself, whatever thread answers it.
-void OneSidedSearch::answer(std::vector<NodeQuestion>& questions, double accepted_squared) {
-  const NodeTest test(a_, map_, accepted_squared);
-  for_each_range(questions.size(), questions_per_task, [&](std::size_t begin, std::size_t end) {
-    SearchKernel& kernel = own_kernel();
-    for (std::size_t i = begin; i < end; ++i) {
-      NodeQuestion& question = questions[i];
-      if (question.vertex == NodeQuestion::no_vertex) {
-        question.squared = test.bound_squared(kernel, question.level, question.index, question.slot);
-      } else {
-        const Nearest nearest = kernel.nearest(vertex(question.vertex), question.slot, accepted_squared);
-        question.squared = nearest.squared;
-        question.slot = nearest.slot;
-      }
-    }
-  });
-}
-
-void OneSidedSearch::remember_node(std::uint32_t level, std::uint32_t index, double squared, std::uint32_t face) {
-  if (task_.memory == nullptr) return;
-  const double bound = proven_model_length(squared, 0);
-  const auto [begin, end] = slots_below(a_, level, index);
-  for (std::uint32_t slot = begin; slot < end; ++slot)
-    if (is_alive(slot)) task_.memory->improve(slot, bound, face);
-}
-
-void OneSidedSearch::keep_slots_below(std::uint32_t level, std::uint32_t index) {
-  const auto [begin, end] = slots_below(a_, level, index);
-  for (std::uint32_t slot = begin; slot < end; ++slot)
-    if (is_alive(slot)) left_.push_back(slot);
+Remaining cull_nodes(OneSidedSearch& search, Remaining remaining) {
+  DistanceStats& stats = search.stats();
+  if (search.decided() || stats.matched == stats.triangles) return remaining;
+  SearchKernel& kernel = search.begin_own_batch();
+  if (sampled_block_radius(search) > max_block_radius * std::sqrt(kernel.accepted_squared())) return remaining;
+  std::vector<std::uint32_t> left = NodeCulling(search, remaining, kernel).run();
+  stats.culled_by_node = stats.triangles - stats.matched - stats.proven_before - left.size();
+  return {search.a().triangle_count(), std::move(left)};
 }
 
 }  // namespace meshbound

@@ -4,37 +4,36 @@
 #include <algorithm>
 #include <cmath>
 
-#include "distance/search/one_sided_search.h"
+#include "distance/search/steps.h"
 #include "distance/shortcuts/point_like.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
 
-void run_after_probe(OneSidedSearch& search) {
-  search.run(&OneSidedSearch::drop_identical, &PhaseSeconds::matching);
-  search.run(&OneSidedSearch::drop_proven, &PhaseSeconds::matching);
-  search.run(&OneSidedSearch::cull_nodes, &PhaseSeconds::culling_on_a);
-  search.run(&OneSidedSearch::sweep, &PhaseSeconds::culling_on_b);
-  search.run(&OneSidedSearch::query_vertices, &PhaseSeconds::culling_on_b);
-  search.run(&OneSidedSearch::bound_triangles, &PhaseSeconds::culling_on_b);
-  search.run(&OneSidedSearch::refine_rest, &PhaseSeconds::subdivision);
-}
-
-void run_steps(OneSidedSearch& search, Method method) {
-  if (method == Method::CrossCulling) {
-    search.run(&OneSidedSearch::cross_cull, &PhaseSeconds::culling_on_a);
-    search.run(&OneSidedSearch::refine_rest, &PhaseSeconds::subdivision);
-  } else {
-    search.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
-    run_after_probe(search);
-  }
-}
-
-OneSidedDistance finish(OneSidedSearch& search) {
-  run_after_probe(search);
-  search.remember_hints();
+OneSidedDistance run_after_probe(OneSidedSearch& search, bool touches_b) {
+  using Phase = PhaseSeconds;
+  Remaining remaining = search.timed(&Phase::matching, [&] { return drop_identical(search, touches_b); });
+  remaining = search.timed(&Phase::matching, [&] { return drop_proven(search, std::move(remaining)); });
+  remaining = search.timed(&Phase::culling_on_a, [&] { return cull_nodes(search, std::move(remaining)); });
+  remaining = search.timed(&Phase::culling_on_b, [&] { return sweep(search, std::move(remaining)).listed(); });
+  const VertexDistances vertices =
+      search.timed(&Phase::culling_on_b, [&] { return query_vertices(search, remaining); });
+  std::vector<OpenTriangle> open =
+      search.timed(&Phase::culling_on_b, [&] { return bound_triangles(search, remaining, vertices); });
+  search.timed(&Phase::subdivision, [&] { refine(search, std::move(open)); });
+  remember_hints(search, vertices);
   return search.result();
+}
+
+OneSidedDistance run_cross_culling(OneSidedSearch& search) {
+  std::vector<OpenTriangle> open = search.timed(&PhaseSeconds::culling_on_a, [&] { return cross_cull(search); });
+  search.timed(&PhaseSeconds::subdivision, [&] { refine(search, std::move(open)); });
+  return search.result();
+}
+
+bool run_probe(OneSidedSearch& search) {
+  return search.timed(&PhaseSeconds::culling_on_a, [&] { return probe(search); });
 }
 
 Mapping mapping_of(const OneSidedTask& task) {
@@ -44,7 +43,7 @@ Mapping mapping_of(const OneSidedTask& task) {
 /// How many times further a few vertices of B must be for its direction to come first: below it they tell too little.
 constexpr double clearly_further = 2;
 
-bool fits_frame(const Mapping& map) { return map.magnitude <= largest_magnitude; }
+bool fits_frame(const Mapping& map) { return map.magnitude <= max_magnitude; }
 
 /// B is a point, or tiny beside A or its distance from it.
 OneSidedDistance search_point_like(const OneSidedTask& task) {
@@ -53,7 +52,7 @@ OneSidedDistance search_point_like(const OneSidedTask& task) {
   const bool wanted = task.decide_only ? upper <= task.tolerance : upper - lower <= task.error_bound;
   result.outcome = wanted ? Outcome::Converged : Outcome::PrecisionReached;
   if (task.decide_only && lower > task.tolerance) result.outcome = Outcome::ExceedsTolerance;
-  result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - task.start).count();
+  result.stats.seconds = seconds_since(task.start);
   return result;
 }
 
@@ -63,9 +62,12 @@ OneSidedDistance search_one_sided(const OneSidedTask& task) {
   const Mapping map = mapping_of(task);
   if (!fits_frame(map)) return search_point_like(task);
   OneSidedSearch search(task, map);
-  with_team(search.threads(), [&] { run_steps(search, task.options.method); });
-  search.remember_hints();
-  return search.result();
+  OneSidedDistance result;
+  with_team(search.threads(), [&] {
+    result = task.options.method == Method::CrossCulling ? run_cross_culling(search)
+                                                         : run_after_probe(search, run_probe(search));
+  });
+  return result;
 }
 
 std::pair<OneSidedDistance, OneSidedDistance> search_both(const OneSidedTask& forward, const OneSidedTask& back) {
@@ -79,18 +81,17 @@ std::pair<OneSidedDistance, OneSidedDistance> search_both(const OneSidedTask& fo
   OneSidedSearch there(forward, forward_map), here(back, back_map);
   std::pair<OneSidedDistance, OneSidedDistance> results;
   with_team(there.threads(), [&] {
-    there.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
-    here.run(&OneSidedSearch::probe, &PhaseSeconds::culling_on_a);
+    const bool forward_touches = run_probe(there), back_touches = run_probe(here);
     const double seen_there = there.proven_lower(), seen_here = here.proven_lower();
     if (seen_here > clearly_further * seen_there) {
-      results.second = finish(here);
+      results.second = run_after_probe(here, back_touches);
       there.raise_known_lower(results.second.bounds.lower);
-      results.first = finish(there);
+      results.first = run_after_probe(there, forward_touches);
     } else {
       there.raise_known_lower(seen_here);
-      results.first = finish(there);
+      results.first = run_after_probe(there, forward_touches);
       here.raise_known_lower(results.first.bounds.lower);
-      results.second = finish(here);
+      results.second = run_after_probe(here, back_touches);
     }
   });
   return results;

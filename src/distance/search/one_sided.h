@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "meshbound/distance.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 
@@ -28,7 +28,7 @@ struct OneSidedTask {
   std::vector<std::uint32_t>* found_pairs = nullptr;
   const DistanceOptions& options;
   SearchMemory* memory = nullptr;  ///< proofs and hints of earlier searches, used and updated; null: none
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  StopToken::Clock::time_point start = StopToken::Clock::now();
 };
 
 OneSidedDistance search_one_sided(const OneSidedTask& task);

@@ -14,6 +14,20 @@ Eigen::Vector3d to_world(const PlacedModel& model, const Vec3& working) {
   return model.pose * Eigen::Vector3d(p.x, p.y, p.z);
 }
 
+/// The furthest point that was found, in coordinates of its triangle, which the next search may see in another frame.
+/// Near enough is good enough: any v, w >= 0 with v + w <= 1 are a point of the triangle.
+StartPoint start_point(const TriangleCorners& t, const LowerBound& lower) {
+  const Vec3 a = t[0], ab = t[1] - a, ac = t[2] - a, ap = lower.point - a;
+  const double aa = dot(ab, ab), bb = dot(ac, ac), mixed = dot(ab, ac), d1 = dot(ab, ap), d2 = dot(ac, ap);
+  const double determinant = aa * bb - mixed * mixed;
+  double v = 0, w = 0;
+  if (determinant > 0) {
+    v = std::clamp((bb * d1 - mixed * d2) / determinant, 0.0, 1.0);
+    w = std::clamp((aa * d2 - mixed * d1) / determinant, 0.0, 1.0 - v);
+  }
+  return {lower.from_slot, v, w};
+}
+
 }  // namespace
 
 /// The point that realises the best lower bound of this direction, else the furthest vertex met: where the other
@@ -67,7 +81,7 @@ void OneSidedSearch::fill_stats() {
   stats_.culled_on_a_percent = 100 * (1 - static_cast<double>(stats_.walked) / static_cast<double>(stats_.triangles));
   const double all = static_cast<double>(stats_.closest_point_queries) * b_.triangle_count();
   stats_.culled_on_b_percent = all > 0 ? std::max(0.0, 100 * (1 - static_cast<double>(tested) / all)) : 100;
-  stats_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - task_.start).count();
+  stats_.seconds = seconds_since(task_.start);
 }
 
 /// No two points of the models are further apart than this: diagonals of boxes, without any search.
@@ -88,11 +102,11 @@ OneSidedDistance OneSidedSearch::result() {
   if (decided())
     upper = farthest_apart();
   else if (stats_.matched + stats_.proven_before < stats_.triangles)
-    upper = proven_length(upper_squared_, deepest);
+    upper = goal_.proven_upper(upper_squared_, deepest);
   result.bounds.lower = b_.frame.length_down(std::max(0.0, lower.lower));
-  result.bounds.upper = std::max({b_.frame.length_up(upper), kept_upper_, result.bounds.lower});
+  result.bounds.upper = std::max({b_.frame.length_up(upper), known_upper_, result.bounds.lower});
   result.witness = witness_at(lower);
-  remember_start(lower);
+  if (task_.memory != nullptr) task_.memory->start = start_point(triangle(lower.from_slot), lower);
   const double proven = std::max(result.bounds.lower, known_lower_);
   const bool narrow = result.bounds.upper - proven <= task_.error_bound && !task_.decide_only;
   if (decided())

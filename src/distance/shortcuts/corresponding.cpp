@@ -10,14 +10,14 @@
 namespace meshbound {
 namespace {
 
-/// Squared lengths that neither underflow nor overflow on the way.
+/// Bounds of squared lengths whose computation neither underflows nor overflows.
 constexpr double min_squared = 0x1p-960, max_squared = 0x1p960;
 
 bool is_exact_enough(double squared) { return squared > min_squared && squared < max_squared; }
 
 /// An upper bound of the length of a difference of two points, exact for 0. The coordinates carry u each, the sum of
-/// their squares 3u more, its root half of that and u: less than 8u. Where squares do not serve the sum of the
-/// coordinates does.
+/// their squares 3u more, its root half of that and u: less than 8u. Where squares would underflow or overflow, the sum
+/// of the coordinates' magnitudes is taken.
 double length_up(const Eigen::Vector3d& difference, double squared) {
   const double norm = is_exact_enough(squared) ? std::sqrt(squared) : difference.lpNorm<1>();
   return norm > 0 ? next_up(norm * (1 + 8 * unit_roundoff)) : 0;
@@ -57,12 +57,13 @@ bool include(const MeshView& a, const MeshView& b, std::uint32_t triangle, doubl
 /// The triangles of a mesh with a point within `reach` of p in each coordinate; all others are further than that.
 struct Vicinity {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> source;  ///< of its triangles
+  std::vector<std::uint32_t> source;  ///< by its triangles: index in the whole mesh
 };
 
 Vicinity vicinity(const MeshView& mesh, const Eigen::Vector3d& p, double reach) {
   const Eigen::Array3d low = (p.array() - reach).unaryExpr(&next_down), high = (p.array() + reach).unaryExpr(&next_up);
-  // By vertex, bits 0-2: below in that coordinate, 3-5: above. A triangle whose corners share one is not near.
+  // By vertex, bits 0-2: below `low` in that coordinate, 3-5: above `high`. A triangle whose corners share a bit is
+  // not near.
   std::vector<std::uint8_t> beyond(mesh.vertex_count());
   for (std::size_t v = 0; v < beyond.size(); ++v) {
     const Eigen::Array3d x = mesh.vertex(v);
@@ -86,7 +87,7 @@ Vicinity vicinity(const MeshView& mesh, const Eigen::Vector3d& p, double reach) 
 /// One direction: the furthest corner is measured against the triangles around it.
 OneSidedDistance from_corner(const MeshView& from, const MeshView& to, const Furthest& furthest, std::uint32_t corner) {
   const Eigen::Vector3d p = from.vertex(from.triangle(furthest.triangle)[corner]);
-  // Twice the distance of a point that is there: the closest one is inside, whatever the rounding.
+  // Twice the distance of a point that is known to be on `to`: the closest point is inside, whatever the rounding.
   const Vicinity near = vicinity(to, p, 2 * furthest.distance);
   const TriangleMesh point{{p}, {{0, 0, 0}}};
   const BvhOptions one_thread{1};

@@ -5,13 +5,13 @@
 #include <atomic>
 #include <cstring>
 
-#include "distance/shortcuts/exact_match.h"
+#include "distance/shortcuts/triangle_table.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
 
-/// Vertices or triangles looked up: some ten microseconds of work.
+/// Vertices or triangles that one task looks up: some ten microseconds of work.
 constexpr std::size_t found_per_task = 2048;
 
 template <class T>
@@ -38,8 +38,8 @@ std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, s
     for (std::size_t slot = begin; slot < end; ++slot) {
       const Triangle& t = a.corners[slot];
       const Triangle there{twin[t[0]], twin[t[1]], twin[t[2]]};
-      if (there[0] == no_match || there[1] == no_match || there[2] == no_match) continue;
-      if (triangles.find(there) == no_match) continue;
+      if (there[0] == no_index || there[1] == no_index || there[2] == no_index) continue;
+      if (triangles.find(there) == no_index) continue;
       alive[slot] = 0;
       ++own_count;
     }
@@ -49,10 +49,7 @@ std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, s
 }
 
 bool same_triangle(const Bvh::Data& a, const Triangle& t, const Bvh::Data& b, const Triangle& u) {
-  const auto same = [&](std::uint32_t v, std::uint32_t w) {
-    const Vec3 &p = a.vertices[v], &q = b.vertices[w];
-    return p.x == q.x && p.y == q.y && p.z == q.z;
-  };
+  const auto same = [&](std::uint32_t v, std::uint32_t w) { return same_position(a.vertices[v], b.vertices[w]); };
   Triangle order{0, 1, 2};
   do {
     if (same(t[0], u[order[0]]) && same(t[1], u[order[1]]) && same(t[2], u[order[2]])) return true;

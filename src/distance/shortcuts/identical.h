@@ -16,7 +16,7 @@ std::uint64_t drop_identical_triangles(const Bvh::Data& a, const Bvh::Data& b, s
 bool same_triangle(const Bvh::Data& a, const Triangle& t, const Bvh::Data& b, const Triangle& u);
 
 /// A slot that uses a vertex. Vertices are numbered by first use along the slots, so it is looked for outward from the
-/// proportional place: few steps as a rule, O(n) at worst.
+/// proportional slot: few steps as a rule, O(n) at worst.
 std::uint32_t slot_using_vertex(const Bvh::Data& data, std::uint32_t vertex);
 
 }  // namespace meshbound

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "distance/shortcuts/corresponding.h"
-#include "distance/shortcuts/exact_match.h"
+#include "distance/shortcuts/triangle_table.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/distance.h"
 
@@ -29,18 +29,18 @@ class Twins {
   [[nodiscard]] bool has_sample_of(const MeshView& other) const {
     const std::size_t n = other.triangle_count(), samples = std::min(sampled_vertices, n);
     for (std::size_t i = 0; i < samples; ++i)
-      if (vertex_at(other, other.triangle(i * n / samples)[0]) == no_match) return false;
+      if (vertex_at(other, other.triangle(i * n / samples)[0]) == no_index) return false;
     return true;
   }
 
   void index(const MeshView& mesh) { triangles_.emplace(triangles_of(mesh), vertices_, positions_); }
 
-  /// The twin of a triangle, the same one for all that are equal, or `no_match`.
+  /// The twin of a triangle, the same one for all that are equal, or `no_index`.
   [[nodiscard]] std::uint32_t find(const MeshView& other, std::size_t triangle) const {
     Triangle there = other.triangle(triangle);
     for (std::uint32_t& v : there) {
       v = vertex_at(other, v);
-      if (v == no_match) return no_match;
+      if (v == no_index) return no_index;
     }
     return triangles_->find(there);
   }
@@ -56,7 +56,7 @@ class Twins {
   std::optional<TriangleTable> triangles_;
 };
 
-/// Each triangle of A has a twin, and each of B is one. The meshes have equally many triangles.
+/// Whether each triangle of A has a twin in B, and each of B is one. The meshes have equally many triangles.
 bool same_sets(const MeshView& a, const MeshView& b) {
   Twins in_b(b);
   if (!in_b.has_sample_of(a)) return false;
@@ -64,7 +64,7 @@ bool same_sets(const MeshView& a, const MeshView& b) {
   std::vector<std::uint8_t> met(b.triangle_count(), 0);
   for (std::size_t i = 0; i < a.triangle_count(); ++i) {
     const std::uint32_t twin = in_b.find(a, i);
-    if (twin == no_match) return false;
+    if (twin == no_index) return false;
     met[twin] = 1;
   }
   for (std::size_t i = 0; i < b.triangle_count(); ++i)
@@ -82,7 +82,7 @@ bool same_corners(const MeshView& a, Triangle t, const MeshView& b, Triangle u) 
   return false;
 }
 
-/// Of the same surface.
+/// The result for two meshes that `same_sets` or `same_arrays` found to have the same triangles.
 OneSidedDistance zero_distance(const MeshView& from, const MeshView& to) {
   OneSidedDistance result;
   result.bounds = {0, 0};
