@@ -11,6 +11,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
+#include "proof/edge_neighbours.h"
 #include "reference/small_meshes.h"
 #include "simplify/candidate_faces.h"
 #include "simplify/cover_assignment.h"
@@ -197,7 +198,8 @@ TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
     SCOPED_TRACE(shape.name);
     std::vector<Vec3> vertices;
     for (const Vector3d& p : shape.mesh.vertices) vertices.push_back({p.x(), p.y(), p.z()});
-    ParityProof degree(vertices, shape.mesh.triangles);
+    const auto neighbours = edge_neighbours(vertices, shape.mesh.triangles);
+    ParityProof parity(vertices, shape.mesh.triangles, neighbours);
     const Bvh original(shape.mesh);
     std::mt19937 random(11);
     std::normal_distribution<double> noise(0, 0.5 * shape.tolerance);
@@ -214,7 +216,7 @@ TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
       std::array<Vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k)
         corners[k] = {face.vertices[k].x(), face.vertices[k].y(), face.vertices[k].z()};
-      if (!degree.covers(corners, shape.tolerance, 2, t)) continue;
+      if (!parity.covers(corners, shape.tolerance, 2, t)) continue;
       ++covered;
       EXPECT_NE(check_one_sided_tolerance(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
     }

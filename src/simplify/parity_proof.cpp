@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proof/edge_neighbours.h"
-
 namespace meshbound {
 namespace {
 
@@ -19,11 +17,9 @@ constexpr std::size_t largest_patch = 20000;
 
 }  // namespace
 
-ParityProof::ParityProof(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
-    : vertices_(vertices),
-      triangles_(triangles),
-      neighbours_(edge_neighbours(vertices, triangles)),
-      patch_(triangles.size(), largest_patch) {}
+ParityProof::ParityProof(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+                         const std::vector<std::array<std::uint32_t, 3>>& neighbours)
+    : vertices_(vertices), triangles_(triangles), neighbours_(neighbours), patch_(triangles.size(), largest_patch) {}
 
 /// Axes, T' and its sides. False where the face is too thin, or the tolerance too small for doubles at this size.
 bool ParityProof::set_view(const std::array<Vec3, 3>& face, double tolerance, double magnitude) {

@@ -20,8 +20,9 @@ class ParityProof {
   /// creases of machined parts, out of the prism.
   static constexpr double shrink_share = 1e-3;
 
-  /// O(n log n). The arguments must outlive this.
-  ParityProof(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
+  /// Of the original, and its `edge_neighbours`. O(n). The arguments must outlive this.
+  ParityProof(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+              const std::vector<std::array<std::uint32_t, 3>>& neighbours);
 
   /// True proves that `face` lies within `tolerance` of the original (but for CandidateFaces::rounding_slack of the
   /// largest coordinate); false says nothing. P grows from `seed` over the edges that project onto the face.
@@ -33,7 +34,7 @@ class ParityProof {
 
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& triangles_;
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;
+  const std::vector<std::array<std::uint32_t, 3>>& neighbours_;
   ParityPatch patch_;
   FaceView view_;
   Window<3> window_;                    ///< T'

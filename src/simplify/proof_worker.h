@@ -21,10 +21,11 @@ class ProofWorkers::Worker {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  explicit Worker(const DecimationState& state)
+  /// `neighbours` are those of the original's edges, the same for all threads.
+  Worker(const DecimationState& state, const std::vector<std::array<std::uint32_t, 3>>& neighbours)
       : state_(state),
         cover_(state.vertices, state.triangles),
-        degree_(state.vertices, state.triangles),
+        parity_(state.vertices, state.triangles, neighbours),
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
     affected_marks_.reserve(state.triangles.size());
@@ -80,7 +81,7 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
     near = triangle_near(face, middle_of(corners), near);
-    if (degree_.covers(corners, limit, state_.magnitude, near)) return true;
+    if (parity_.covers(corners, limit, state_.magnitude, near)) return true;
     return proximity_.triangle_within({to_eigen(corners[0]), to_eigen(corners[1]), to_eigen(corners[2])}, limit,
                                       near) == Verdict::Within;
   }
@@ -356,7 +357,7 @@ class ProofWorkers::Worker {
   };
   const DecimationState& state_;
   ForwardCover cover_;
-  ParityProof degree_;
+  ParityProof parity_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
   MarkedIds found_marks_, affected_marks_, vertex_marks_;

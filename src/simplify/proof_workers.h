@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,7 @@ class ProofWorkers {
   [[nodiscard]] Worker& of_thread(std::size_t thread) { return *workers_[thread]; }
 
  private:
+  const std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
