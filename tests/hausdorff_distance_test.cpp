@@ -69,6 +69,23 @@ TEST(HausdorffDistance, IsTheLargerDirection) {
   expect_distance(both(plane, moved(plane, {0, 0, 0.5})), plane, {0.5, 0.5});
 }
 
+/// A point has no diagonal to take a share of: the default is one of both meshes' together, as it is for the tools.
+TEST(HausdorffDistance, HasADefaultErrorBoundWhereTheFirstMeshIsAPoint) {
+  const TriangleMesh point = single_triangle({3, 4, 0}, {3, 4, 0}, {3, 4, 0});
+  const TriangleMesh triangle = single_triangle({0, 0, 0}, {-1, 0, 0}, {0, -1, 0});
+  const Bvh tree_a(point), tree_b(triangle);
+  EXPECT_DOUBLE_EQ(default_error_bound(tree_a, tree_b), 1e-6 * std::hypot(4, 5));
+  EXPECT_DOUBLE_EQ(default_error_bound(point, triangle, bounding_box_diagonal(point)), 1e-6 * std::hypot(4, 5));
+  const Eigen::Isometry3d beyond(Eigen::Translation3d(0, 0, 12));
+  EXPECT_DOUBLE_EQ(default_error_bound(tree_a, {tree_b, beyond}), 1e-6 * std::hypot(4, 5, 12));
+  for (const HausdorffDistance& result : {hausdorff_distance(tree_a, tree_b), hausdorff_distance(point, triangle)}) {
+    EXPECT_EQ(result.a_to_b.outcome, Outcome::Converged);
+    EXPECT_EQ(result.b_to_a.outcome, Outcome::Converged);
+    EXPECT_LE(result.bounds.lower, std::hypot(3, 5));
+    EXPECT_GE(result.bounds.upper, std::hypot(3, 5));
+  }
+}
+
 /// The same triangles, numbered, ordered and turned otherwise.
 TriangleMesh renumbered(const TriangleMesh& mesh) {
   TriangleMesh result;

@@ -14,22 +14,27 @@ namespace meshbound {
 /// Copies nothing and owns nothing; the buffers must outlive the view. Cheap to copy, safe to read from many threads.
 class MeshView {
  public:
-  MeshView(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor): a mesh is a view of itself
+  /// A mesh is a view of itself.
+  MeshView(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor)
 
-  /// `stride` is the distance in bytes from one vertex to the next; `indices` holds three per triangle, tightly packed.
+  /// `stride` is the distance in bytes from one vertex to the next; `indices` holds three per triangle, tightly packed:
+  /// 3 `triangle_count` of them. Nothing is looked at here; `validate` checks what the view shows.
   MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
            std::size_t triangle_count);
+  /// @overload
   MeshView(const double* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
            std::size_t triangle_count);
+  /// @overload
   MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint32_t* indices,
            std::size_t triangle_count);
+  /// @overload
   MeshView(const float* positions, std::size_t vertex_count, std::size_t stride, const std::uint16_t* indices,
            std::size_t triangle_count);
 
-  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
-  [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
-  [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;
-  [[nodiscard]] Triangle triangle(std::size_t i) const;
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }      ///< used by a triangle or not
+  [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }  ///< degenerate ones included
+  [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;  ///< i < `vertex_count()`; a float is exact as a double
+  [[nodiscard]] Triangle triangle(std::size_t i) const;       ///< i < `triangle_count()`
 
  private:
   const std::byte* positions_ = nullptr;
