@@ -185,6 +185,16 @@ TEST(ParityCheck, HoldsOverASheetAndNotForATighterTolerance) {
   EXPECT_FALSE(proves(sheet, 0.021, 0, face)) << "a seed that is not below the face";
 }
 
+/// Over a side of a cube: the walls at its edges are out of reach, and must not be taken for a part of it where doubles
+/// near the coordinates are coarser than what the face is drawn in by.
+TEST(ParityCheck, HoldsFarFromTheOrigin) {
+  for (const double away : {0.0, 1.0}) {
+    const TriangleMesh cube = reference::moved(reference::cube(0.5), away * Eigen::Vector3d(8769869, -655627, -669836));
+    const Triangle& t = cube.triangles[0];
+    EXPECT_TRUE(proves(cube, 1e-6, 0, {cube.vertices[t[0]], cube.vertices[t[1]], cube.vertices[t[2]]})) << away;
+  }
+}
+
 TEST(ParityCheck, SeesAHole) {
   const TriangleMesh sheet = reference::unit_square(7);
   const std::uint32_t seed = below_middle(sheet);

@@ -13,6 +13,7 @@
 
 namespace meshbound {
 
+/// How a tree is built.
 struct BvhOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The tree is the same for every value.
 };
@@ -25,8 +26,8 @@ class Bvh {
  public:
   /// Throws `InvalidInput` as `validate` does.
   explicit Bvh(const MeshView& mesh, const BvhOptions& options = {});
-  Bvh(Bvh&&) noexcept;
-  Bvh& operator=(Bvh&&) noexcept;
+  Bvh(Bvh&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+  Bvh& operator=(Bvh&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
   ~Bvh();
 
   /// Takes over the vertices of the same mesh after they have moved, at any distance and scale: O(n), without sorting
@@ -42,12 +43,13 @@ class Bvh {
   /// so, building anew pays. O(n / 4).
   [[nodiscard]] double growth() const;
 
-  [[nodiscard]] std::size_t triangle_count() const;
-  [[nodiscard]] const Eigen::AlignedBox3d& bounding_box() const;
-  [[nodiscard]] double bounding_box_diagonal() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
+  [[nodiscard]] std::size_t triangle_count() const;  ///< of the mesh, degenerate and duplicate ones included
+  [[nodiscard]] const Eigen::AlignedBox3d& bounding_box() const;  ///< of the vertices that triangles use, model units
+  [[nodiscard]] double bounding_box_diagonal() const;             ///< its length, model units
+  [[nodiscard]] std::size_t memory_bytes() const;                 ///< what the tree occupies
 
   struct Data;
+  /// The tree itself, for the code of this library.
   [[nodiscard]] const Data& data() const { return *data_; }
 
  private:
@@ -65,15 +67,17 @@ class Bvh {
 /// The answer of a closest-point query: `point` lies on the mesh up to rounding, and the distance from the query to the
 /// mesh lies within `distance`.
 struct ClosestPoint {
-  SurfacePoint point;
-  Bounds distance;
+  SurfacePoint point;  ///< model coordinates
+  Bounds distance;     ///< model units
 };
 
-/// Expected O(log n). `query` must be finite and within `largest_coordinate`; throws `InvalidInput` otherwise. A thread
-/// begins its search at the triangle that it found last in the same tree, so queries near one another are fast; answers
-/// do not depend on it. Of triangles equally near, the same one is named each time. Any number of threads may call it.
+/// The point of the mesh that is closest to `query` (model coordinates). Expected O(log n). `query` must be finite and
+/// within `largest_coordinate`; throws `InvalidInput` otherwise. A thread begins its search at the triangle that it
+/// found last in the same tree, so queries near one another are fast; answers do not depend on it. Of triangles equally
+/// near, the same one is named each time. Any number of threads may call it.
 [[nodiscard]] ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query);
 
+/// How many queries are answered at once.
 struct QueryOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The answers are the same for every value.
 };
@@ -87,10 +91,12 @@ struct QueryOptions {
 
 /// A tree under a rigid motion; the tree itself stays as it was built. `bvh` must outlive this.
 struct PlacedModel {
+  /// `model_pose` takes model coordinates to world coordinates. What measures with it throws `InvalidInput` where it is
+  /// not a rigid motion.
   PlacedModel(const Bvh& model, const Eigen::Isometry3d& model_pose = Eigen::Isometry3d::Identity())  // NOLINT
       : bvh(&model), pose(model_pose) {}
-  const Bvh* bvh;
-  Eigen::Isometry3d pose;
+  const Bvh* bvh;          ///< not owned
+  Eigen::Isometry3d pose;  ///< from model to world coordinates
 };
 
 }  // namespace meshbound

@@ -12,6 +12,7 @@
 
 namespace meshbound {
 
+/// How a certificate is made.
 struct CertificateOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The bytes are the same for every value.
   /// Steps of the search for the cuts of one triangle, after which it is given up.
@@ -24,14 +25,16 @@ struct CertificateOptions {
 /// A proof, checkable without any of our code, that the symmetric Hausdorff distance between two meshes is at most a
 /// tolerance. The format is documented in tools/schema/certificate-1.md; `verify_certificate` checks it.
 struct Certificate {
-  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> bytes;  ///< the file, checksum included
+  /// What one direction of the proof consists of.
   struct Direction {
     std::uint64_t pieces = 0;     ///< that the triangles were cut into
-    std::uint64_t by_parity = 0;  ///< those of them proven by the degree of a projection
-    std::uint64_t cuts = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t by_parity = 0;  ///< those of them with a parity proof: nothing but a seed triangle is written down
+    std::uint64_t cuts = 0;       ///< that made the pieces
+    std::uint64_t bytes = 0;      ///< of this direction
   };
-  Direction original_to_simplified, simplified_to_original;
+  Direction original_to_simplified;  ///< every point of the original is near the simplified mesh
+  Direction simplified_to_original;  ///< and the reverse
 };
 
 /// Proves, for any two triangle soups, that each lies within `tolerance` (model units) of the other: vertices and

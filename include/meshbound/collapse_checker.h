@@ -21,7 +21,7 @@ namespace meshbound {
 ///       checker.commit();
 ///     }
 ///
-/// Vertices are the numbers of the mesh at the start. A collapse is also refused where it would leave no 2-manifold
+/// Vertices are indices in the mesh at the start. A collapse is also refused where it would leave no 2-manifold
 /// (link condition), turn a face by more than a right angle or make one that is next to nothing, move a locked vertex,
 /// or change more than 48 faces. The state is a proof, rounding included, for the points as they were given; measure
 /// the result all the same (`check_tolerance`) where it matters. Not thread-safe. Memory: O(original); a collapse takes
@@ -32,12 +32,12 @@ class CollapseChecker {
   /// `InvalidInput` where it is not, for what `validate` refuses, and for a tolerance that is no length. Model units.
   /// O(n log n).
   CollapseChecker(const TriangleMesh& original, double tolerance);
-  CollapseChecker(CollapseChecker&&) noexcept;
-  CollapseChecker& operator=(CollapseChecker&&) noexcept;
+  CollapseChecker(CollapseChecker&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+  CollapseChecker& operator=(CollapseChecker&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
   ~CollapseChecker();
 
-  /// Whether the bound holds after the collapse of the edge between the vertices u and v into `point`. `commit` makes
-  /// this collapse part of the mesh; any other call goes on from the mesh as it was before.
+  /// Whether the bound holds after the collapse of the edge between the vertices u and v into `point`. After `commit`
+  /// the mesh has this collapse; any other call goes on from the mesh as it was before.
   [[nodiscard]] bool admits(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& point);
   /// The first point of these for which the bound holds: `wanted`, where the largest sampled distance is least, the
   /// ends. With a locked end, that one. None: the edge is refused, and again until something near has changed.
@@ -47,23 +47,24 @@ class CollapseChecker {
   /// but for some edges at a border v. Throws `Error` where nothing was admitted.
   std::uint32_t commit();
 
-  /// The vertex stays where it is: collapses of its edges go to its place.
+  /// The vertex stays where it is: collapses of its edges go to its position.
   void lock(std::uint32_t vertex);
-  [[nodiscard]] bool is_locked(std::uint32_t vertex) const;
+  [[nodiscard]] bool is_locked(std::uint32_t vertex) const;  ///< whether `lock` was called for it
   /// By triangle of the original, model units, beside `tolerance`: as `SimplifyOptions::face_tolerances`. Before the
   /// first collapse; throws `InvalidInput` for another number of them or one that is no length.
   void limit_triangles(std::span<const double> tolerances);
   /// Goes on with a larger tolerance. Throws `InvalidInput` for a smaller one.
   void grow_tolerance(double tolerance);
 
-  [[nodiscard]] double tolerance() const;
+  [[nodiscard]] double tolerance() const;   ///< model units
   [[nodiscard]] std::size_t faces() const;  ///< that are left
+  /// What became of the collapses that were asked for.
   struct Counts {
-    std::uint64_t performed = 0;
-    std::uint64_t refused = 0;   ///< tested, and not admitted
-    std::uint64_t repeated = 0;  ///< refused without a test: nothing near has changed since the last one
+    std::uint64_t performed = 0;  ///< admitted and committed
+    std::uint64_t refused = 0;    ///< tested, and not admitted
+    std::uint64_t repeated = 0;   ///< refused without a test: nothing near has changed since the last one
   };
-  [[nodiscard]] const Counts& counts() const;
+  [[nodiscard]] const Counts& counts() const;  ///< since the start
 
  private:
   class Impl;

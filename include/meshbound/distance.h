@@ -19,7 +19,9 @@ namespace meshbound {
 
 /// Limits after which a computation ends with what it has proven so far.
 struct Budget {
+  /// From the call on; an infinite number is no limit.
   double seconds = std::numeric_limits<double>::infinity();
+  /// Cuts of pieces in one direction.
   std::uint64_t subdivisions = std::numeric_limits<std::uint64_t>::max();
 };
 
@@ -29,17 +31,25 @@ enum class Method {
   CrossCulling  ///< the paper's own: culling on A and on B, Voronoi subdivision (sections 4 and 5)
 };
 
+/// What is asked of a measurement, and what it may cost.
 struct DistanceOptions {
-  Method method = Method::CellWalking;
-  /// Wanted width of the interval, model units. Absent: 1e-6 of the bounding-box diagonal of the first model.
+  Method method = Method::CellWalking;  ///< how triangles are covered
+  /// Wanted width of the interval, model units. Absent: `default_error_bound`.
   std::optional<double> error_bound;
   /// When given, the upper bound is also refined until it is at most this wherever the truth allows it.
   std::optional<double> tolerance;
-  Budget budget;
+  Budget budget;                                  ///< of the whole call
   int threads = 0;                                ///< 0: as many as OpenMP has. Results are the same for every value.
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread, a few times a second at most
 };
+
+/// The width of an interval that is asked for where no other is given, model units: 1e-6 of the bounding-box diagonal
+/// of A, the original; of both models together where A is a single point. O(1), or O(n) where A is a point.
+[[nodiscard]] double default_error_bound(const PlacedModel& a, const PlacedModel& b);
+/// That width for meshes without trees; `diagonal` is that of A (`bounding_box_diagonal`). Indices must be
+/// in range, as `validate` checks.
+[[nodiscard]] double default_error_bound(const MeshView& a, const MeshView& b, double diagonal);
 
 /// How a computation ended.
 enum class Outcome {
@@ -59,69 +69,79 @@ struct PhaseSeconds {
 
 /// What the search did. Percentages as in Table 2 of the paper.
 struct DistanceStats {
-  std::uint64_t triangles = 0;           ///< of the model that is searched ("A" of the one-sided distance)
-  std::uint64_t matched = 0;             ///< dropped because the other model has the identical triangle
-  std::uint64_t proven_before = 0;       ///< dropped because `LevelChecker` kept a proof from an earlier level
-  std::uint64_t culled_by_node = 0;      ///< dropped with a whole tree node (paper, Alg. 1)
-  std::uint64_t culled_by_vertices = 0;  ///< dropped by the closest triangles of their vertices (paper, 4.4)
-  std::uint64_t walked = 0;              ///< needed the walk over the cells of the other model
-  std::uint64_t closest_point_queries = 0;
-  std::uint64_t nodes_visited = 0;     ///< tree nodes opened by those queries
-  std::uint64_t triangles_tested = 0;  ///< point-triangle distances evaluated by those queries
-  std::uint64_t subdivisions = 0;      ///< cuts of a piece into two (cell walking) or four (cross-culling)
-  std::uint32_t deepest_subdivision = 0;
-  std::uint64_t pieces = 0;        ///< bounded on the walk, whole triangles included
-  std::uint64_t resolved = 0;      ///< pieces inside a cell but nearer to another triangle at a corner
-  std::uint64_t enclosed = 0;      ///< pieces that a translation takes through a closed B (paper, Lemma 4)
+  std::uint64_t triangles = 0;              ///< of the model that is searched ("A" of the one-sided distance)
+  std::uint64_t matched = 0;                ///< dropped because the other model has the identical triangle
+  std::uint64_t proven_before = 0;          ///< dropped because `LevelChecker` kept a proof from an earlier level
+  std::uint64_t culled_by_node = 0;         ///< dropped with a whole tree node (paper, Alg. 1)
+  std::uint64_t culled_by_vertices = 0;     ///< dropped by the closest triangles of their vertices (paper, 4.4)
+  std::uint64_t walked = 0;                 ///< needed the walk over the cells of the other model
+  std::uint64_t closest_point_queries = 0;  ///< traversals of the other model's tree
+  std::uint64_t nodes_visited = 0;          ///< tree nodes opened by those queries
+  std::uint64_t triangles_tested = 0;       ///< point-triangle distances evaluated by those queries
+  std::uint64_t subdivisions = 0;           ///< cuts of a piece into two (cell walking) or four (cross-culling)
+  std::uint32_t deepest_subdivision = 0;    ///< cuts behind any piece
+  std::uint64_t pieces = 0;                 ///< bounded on the walk, whole triangles included
+  std::uint64_t resolved = 0;               ///< pieces inside a cell but nearer to another triangle at a corner
+  std::uint64_t enclosed = 0;               ///< pieces that a translation takes through a closed B (paper, Lemma 4)
   std::uint64_t given_up = 0;      ///< pieces left as they stood: beyond the precision of doubles, or of the budget
   double culled_on_a_percent = 0;  ///< triangles of A never subdivided
   double culled_on_b_percent = 0;  ///< mean share of B's triangles that a query did not touch
-  double seconds = 0;
-  PhaseSeconds phases;
+  double seconds = 0;              ///< from the call on
+  PhaseSeconds phases;             ///< of them
 };
 
+/// h(A, B): how far A is from B.
 struct OneSidedDistance {
-  Bounds bounds;
-  Witness witness;  ///< realises `bounds.lower` up to rounding
-  Outcome outcome = Outcome::Converged;
-  DistanceStats stats;
+  Bounds bounds;                         ///< model units, world coordinates
+  Witness witness;                       ///< realises `bounds.lower` up to rounding
+  Outcome outcome = Outcome::Converged;  ///< how the search ended
+  DistanceStats stats;                   ///< what it did
 };
 
-/// The direction that is searched second, from B unless a few points show that it is clearly further, is refined only
-/// as far as the lower bound of the first leaves the maximum open (paper, section 6): converged means of it that its
-/// upper bound is within the error bound of the larger of both lower bounds.
+/// H(A, B), and both directions. The direction that is searched second, from B unless a few points show that it is
+/// clearly further, is refined only as far as the lower bound of the first leaves the maximum open (paper, section 6):
+/// converged means of it that its upper bound is within the error bound of the larger of both lower bounds.
 struct HausdorffDistance {
-  Bounds bounds;  ///< the maximum of both directions
-  OneSidedDistance a_to_b;
-  OneSidedDistance b_to_a;
+  Bounds bounds;            ///< the maximum of both directions, model units
+  OneSidedDistance a_to_b;  ///< h(A, B)
+  OneSidedDistance b_to_a;  ///< h(B, A)
 };
 
+/// Whether a distance is at most a tolerance.
 struct ToleranceCheck {
-  Verdict verdict = Verdict::Undecided;
-  double tolerance = 0;
-  Bounds bounds;
-  OneSidedDistance a_to_b;
-  OneSidedDistance b_to_a;  ///< not searched (bounds [0, inf]) when a_to_b already exceeds
+  Verdict verdict = Verdict::Undecided;  ///< of `bounds`
+  double tolerance = 0;                  ///< model units
+  Bounds bounds;                         ///< as far as they had to be narrowed, model units
+  OneSidedDistance a_to_b;               ///< searched first
+  OneSidedDistance b_to_a;               ///< not searched (bounds [0, inf]) when a_to_b already exceeds
 };
 
-/// Throws `InvalidInput` for an error bound or tolerance that is negative or not a number, and for a pose that is not a
-/// rigid motion.
+/// Measures h(A, B) to an interval of at most the error bound, where the budget and the precision of doubles allow it
+/// (`Outcome`). Positions and lengths are in world coordinates, that is model units under the poses. Deterministic for
+/// any number of threads, but for a budget of time and `cancel`. Throws `InvalidInput` for an error bound or tolerance
+/// that is negative or not a number, and for a pose that is not a rigid motion. Any number of threads may call it, also
+/// with the same trees. Time: about O((n_A + n_B) log n_B) where the surfaces are close or far apart for their size; it
+/// grows with 1 / error bound where A runs along points that are equally far from several triangles of B. Source: the
+/// paper, with the cell walk of src/distance/kernel/cell_walker.h instead of its subdivision.
 [[nodiscard]] OneSidedDistance one_sided_hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
                                                             const DistanceOptions& options = {});
+
+/// Measures H(A, B): both directions, of which the second is narrowed only as far as it may be the larger one (paper,
+/// section 6). Guarantees, errors, complexity and threads as above.
 [[nodiscard]] HausdorffDistance hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
                                                    const DistanceOptions& options = {});
 
-/// What needs no tree: meshes of the same triangles (`same_surface`), at distance 0; and meshes whose triangles
-/// correspond in order, with corners at most `limit` apart (a copy rounded to float, a mesh that has moved a little),
-/// whatever the numbers of vertices and the turns of triangles. Absent where neither holds, which mostly takes no
-/// longer than a look. The upper bound is at most `limit`, model units; statistics are of what was looked at. Throws as
-/// `Bvh`, except that it does not look at meshes of different numbers of triangles. O(n). Any number of threads may
+/// H(A, B) where it needs no tree: for meshes of the same triangles (`same_surface`), at distance 0; and meshes whose
+/// triangles correspond in order, with corners at most `limit` apart (a copy rounded to float, a mesh that has moved a
+/// little), whatever the numbers of vertices and the turns of triangles. Absent where neither holds, which mostly takes
+/// no longer than a look. The upper bound is at most `limit`, model units; statistics are of what was looked at. Throws
+/// as `Bvh`, except that it does not look at meshes of different numbers of triangles. O(n). Any number of threads may
 /// call it.
 [[nodiscard]] std::optional<HausdorffDistance> distance_without_trees(const MeshView& a, const MeshView& b,
                                                                       double limit);
 
-/// The same as above for two meshes where they are: builds their trees only where `distance_without_trees` does not
-/// tell the distance to the error bound (and the tolerance, if any). Throws as `Bvh` and as above. O(n log n) for the
+/// Measures H(A, B) for two meshes where they are: builds their trees only where `distance_without_trees` does not tell
+/// the distance to the error bound (and the tolerance, if any). Throws as `Bvh` and as above. O(n log n) for the
 /// trees. Any number of threads may call it.
 [[nodiscard]] HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b,
                                                    const DistanceOptions& options = {});
@@ -130,11 +150,18 @@ struct ToleranceCheck {
 /// are one coordinate. Throws as `Bvh`. O(n), and hardly more than a look where the meshes differ in size.
 [[nodiscard]] bool same_surface(const MeshView& a, const MeshView& b);
 
-/// Decides H(A,B) <= tolerance: stops at the first point known to be further, refines nothing below it.
+/// Decides H(A, B) <= tolerance (model units): stops at the first point known to be further, refines nothing below it.
+/// `options.error_bound` and `options.tolerance` are not looked at. Errors and threads as `hausdorff_distance`; faster
+/// than it wherever the distance is not next to the tolerance.
 [[nodiscard]] ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                              const DistanceOptions& options = {});
+
+/// Decides H(A, B) <= tolerance for two meshes where they are; trees are built only where `distance_without_trees` does
+/// not tell. Throws as `Bvh` too.
 [[nodiscard]] ToleranceCheck check_tolerance(const MeshView& a, const MeshView& b, double tolerance,
                                              const DistanceOptions& options = {});
+
+/// Decides h(A, B) <= tolerance as `check_tolerance` decides H; `b_to_a` of the result is empty.
 [[nodiscard]] ToleranceCheck check_one_sided_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
                                                        const DistanceOptions& options = {});
 

@@ -10,12 +10,13 @@
 
 namespace meshbound {
 
+/// Whether triangles keep their own tolerances, and where not.
 struct FaceToleranceCheck {
   /// `Within`: proven. `Exceeds`: `original_triangle` has a point that is further from the simplified mesh than it may
   /// be. `Undecided`: neither, for the triangle that is named.
   Verdict verdict = Verdict::Within;
-  std::optional<std::uint32_t> original_triangle;
-  std::optional<std::uint32_t> simplified_triangle;
+  std::optional<std::uint32_t> original_triangle;    ///< index of the one that exceeds or is undecided
+  std::optional<std::uint32_t> simplified_triangle;  ///< index of the one that is undecided
 };
 
 /// Checks afresh, with nothing but the two meshes, that triangles of an original keep tolerances of their own:

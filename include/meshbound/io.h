@@ -9,6 +9,7 @@
 
 namespace meshbound {
 
+/// The formats that are read and written.
 enum class FileFormat { Off, Obj, Ply, Stl };
 
 /// From the extension of `path`, upper or lower case. Throws `InvalidInput` when it is none of ours.
@@ -17,27 +18,28 @@ enum class FileFormat { Off, Obj, Ply, Stl };
 /// What a file tells about its mesh beyond the triangles. A `TriangleMesh` does not hold it, so whoever writes the mesh
 /// again loses it. Counts of what stands in the file, used by a face or not.
 struct DroppedAttributes {
-  std::size_t texture_coordinates = 0;
-  std::size_t normals = 0;           ///< other than the facet normals of STL, which follow from the corners
-  std::size_t colours = 0;           ///< of vertices and faces
-  std::size_t materials = 0;         ///< names in `usemtl`, or libraries where there are none; texture files (PLY)
-  std::size_t groups = 0;            ///< names of groups and objects (OBJ); solids where a file has several (STL)
-  std::size_t smoothing_groups = 0;  ///< OBJ
-  std::size_t facet_attributes = 0;  ///< binary STL: facets whose attribute bytes are not 0
-  std::size_t other_properties = 0;  ///< PLY: properties of any other name, once each
+  std::size_t texture_coordinates = 0;  ///< `vt` (OBJ), and vertices or corners with such coordinates
+  std::size_t normals = 0;              ///< other than the facet normals of STL, which follow from the corners
+  std::size_t colours = 0;              ///< of vertices and faces
+  std::size_t materials = 0;            ///< names in `usemtl`, or libraries where there are none; texture files (PLY)
+  std::size_t groups = 0;               ///< names of groups and objects (OBJ); solids where a file has several (STL)
+  std::size_t smoothing_groups = 0;     ///< OBJ
+  std::size_t facet_attributes = 0;     ///< binary STL: facets whose attribute bytes are not 0
+  std::size_t other_properties = 0;     ///< PLY: properties of any other name, once each
 
-  [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;
+  [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;  ///< the same counts of all
 };
 
 /// A mesh as read, and what the reader had to do to make triangles of it.
 struct MeshFile {
-  TriangleMesh mesh;
+  TriangleMesh mesh;                      ///< model units, as in the file
   std::size_t triangulated_polygons = 0;  ///< faces of more than three corners, split into triangles
   std::size_t decoded_strips = 0;         ///< triangle strips (PLY `tristrips`)
   std::size_t ignored_elements = 0;       ///< faces of fewer than three corners, lines and points
-  DroppedAttributes dropped;
+  DroppedAttributes dropped;              ///< what the file holds beyond that
 };
 
+/// How a file is read.
 struct ReadOptions {
   const std::atomic<bool>* cancel = nullptr;  ///< reading ends with `Interrupted` soon after this is set; not owned
 };
@@ -49,6 +51,7 @@ struct ReadOptions {
 /// range. O(size), one pass, never allocates more than the file can justify.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
+/// How a file is written.
 struct WriteOptions {
   bool ascii = false;             ///< PLY and STL: text instead of binary
   bool single_precision = false;  ///< every coordinate is rounded to a float, as it always is in STL; PLY stores floats

@@ -26,18 +26,20 @@ class LevelChecker {
   /// Uses a tree that must outlive this. After a refit of the tree, or when another tree is moved into it, everything
   /// is checked anew.
   explicit LevelChecker(const Bvh& original);
-  LevelChecker(LevelChecker&&) noexcept;
-  LevelChecker& operator=(LevelChecker&&) noexcept;
+  LevelChecker(LevelChecker&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+  LevelChecker& operator=(LevelChecker&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
   ~LevelChecker();
 
   /// Decides H(original, level) <= tolerance; `a` of the result is the original. Throws as `Bvh` and `check_tolerance`;
   /// then what was kept stays as it was. O(n log n) for the level's tree, and the search for what changed.
   [[nodiscard]] ToleranceCheck check(const MeshView& level, double tolerance, const DistanceOptions& options = {});
 
-  /// Measures H(original, level). The kept bounds save work where they lie below the distance plus the error bound.
+  /// Measures H(original, level); `a` of the result is the original. The kept bounds save work where they lie below the
+  /// distance plus the error bound. Throws as `Bvh` and `hausdorff_distance`; then what was kept stays as it was. O(n
+  /// log n) for the level's tree, and the search for what changed.
   [[nodiscard]] HausdorffDistance measure(const MeshView& level, const DistanceOptions& options = {});
 
-  [[nodiscard]] const Bvh& original() const;
+  [[nodiscard]] const Bvh& original() const;       ///< its tree
   [[nodiscard]] std::size_t memory_bytes() const;  ///< of what is kept, without the original's tree
 
  private:

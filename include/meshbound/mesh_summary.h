@@ -16,17 +16,17 @@ struct MeshSummary {
   double bbox_diagonal = 0;    ///< of the vertices that triangles use, model units
 };
 
-/// O(n) time and memory. Here and below every index must be in range, as `validate` checks. Safe to call from several
-/// threads.
+/// The facts about a mesh. O(n) time and memory. Here and below every index must be in range, as `validate` checks.
+/// Safe to call from several threads.
 [[nodiscard]] MeshSummary summarise(const MeshView& mesh);
 
-/// Bounding box of the vertices that triangles use; empty when there are none.
+/// Bounding box of the vertices that triangles use, model units; empty when there are none. O(n).
 [[nodiscard]] Eigen::AlignedBox3d used_bounding_box(const MeshView& mesh);
 
-/// Length of the diagonal of a box, without overflow or underflow in between; 0 when it is empty.
+/// Length of the diagonal of a box, rounded, without overflow or underflow in between; 0 when it is empty.
 [[nodiscard]] double diagonal_of(const Eigen::AlignedBox3d& box);
 
-/// `diagonal_of` the `used_bounding_box`.
+/// `diagonal_of` the `used_bounding_box`: what lengths in percent are relative to. O(n).
 [[nodiscard]] double bounding_box_diagonal(const MeshView& mesh);
 
 }  // namespace meshbound

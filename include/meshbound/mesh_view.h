@@ -25,7 +25,8 @@ concept IndexType = std::same_as<T, std::uint16_t> || std::same_as<T, std::uint3
 /// threads. Indices are checked by `validate`, which every function of the library calls on what it is given.
 class MeshView {
  public:
-  MeshView(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor): a mesh is a view of itself
+  /// A mesh is a view of itself.
+  MeshView(const TriangleMesh& mesh);  // NOLINT(google-explicit-constructor)
 
   /// `positions` holds x, y, z of each vertex, `indices` three vertices of each triangle; both are tightly packed
   /// contiguous ranges, such as std::vector, std::array or std::span. Throws `InvalidInput` when one of the sizes is
@@ -57,10 +58,10 @@ class MeshView {
         single_precision_(std::same_as<Coordinate, float>),
         short_indices_(std::same_as<Index, std::uint16_t>) {}
 
-  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
-  [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }
-  [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;
-  [[nodiscard]] Triangle triangle(std::size_t i) const;
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }      ///< used by a triangle or not
+  [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }  ///< degenerate ones included
+  [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;  ///< i < `vertex_count()`; a float is exact as a double
+  [[nodiscard]] Triangle triangle(std::size_t i) const;       ///< i < `triangle_count()`
 
  private:
   /// A third of `size`; throws `InvalidInput`, naming `what`, when that is no whole number.

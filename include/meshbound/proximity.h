@@ -15,20 +15,22 @@ namespace meshbound {
 /// thread; the tree itself may be shared. `bvh` must outlive this.
 class Proximity {
  public:
-  explicit Proximity(const Bvh& bvh);
-  Proximity(Proximity&&) noexcept;
-  Proximity& operator=(Proximity&&) noexcept;
+  explicit Proximity(const Bvh& bvh);          ///< O(n)
+  Proximity(Proximity&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+  Proximity& operator=(Proximity&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
   ~Proximity();
 
   /// `Within` proves that every point of the triangle is at most `tolerance` from the mesh, `Exceeds` that one is
   /// further (rounding included both ways). `Undecided` after `max_subdivisions` cuts or where doubles cannot tell.
-  /// `hint` is a triangle of the mesh to try first and returns the one that served last; any value below the number of
-  /// triangles is right, a good one is faster.
+  /// Model units and coordinates. Throws `InvalidInput` for a tolerance that is no length and for corners that are not
+  /// finite or beyond `largest_coordinate`. Expected O(log n), and the cuts. `hint` is a triangle of the mesh to try
+  /// first and returns the one that served last; any value below the number of triangles is right, a good one is
+  /// faster.
   [[nodiscard]] Verdict triangle_within(const std::array<Eigen::Vector3d, 3>& triangle, double tolerance,
                                         std::uint32_t& hint, std::uint64_t max_subdivisions = 10000);
 
   /// Upper bound of the distance from `point` to the mesh, `hint` as above: the least one, or the first that is at most
-  /// `enough`.
+  /// `enough`. Model units and coordinates. Throws `InvalidInput` as above for the point. Expected O(log n).
   [[nodiscard]] double upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint, double enough = 0);
 
  private:

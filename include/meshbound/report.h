@@ -19,18 +19,19 @@ namespace meshbound {
 
 /// Which program made a document, when, and for which command.
 struct Provenance {
-  std::string tool, version;
+  std::string tool;                  ///< such as "lod_chain"
+  std::string version;               ///< as `--version` says it
   std::string date;                  ///< UTC, such as "2026-11-22T08:40:00Z"
   std::vector<std::string> command;  ///< the words of the command line, the program's own name first
 };
 
 /// A mesh file that a report speaks of.
 struct MeshReport {
-  std::string path;
-  MeshSummary summary;
-  std::size_t triangulated_polygons = 0;  ///< see `MeshFile`
-  std::size_t decoded_strips = 0;
-  std::size_t ignored_elements = 0;
+  std::string path;                               ///< as it was given
+  MeshSummary summary;                            ///< facts about its triangles
+  std::size_t triangulated_polygons = 0;          ///< see `MeshFile`
+  std::size_t decoded_strips = 0;                 ///< see `MeshFile`
+  std::size_t ignored_elements = 0;               ///< see `MeshFile`
   std::optional<DroppedAttributes> dropped = {};  ///< of a mesh that is written again
   std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
 };
@@ -41,8 +42,8 @@ struct MeshReport {
 
 /// The point that is furthest from the other mesh among those that a search has met.
 struct WorstSpot {
-  bool on_a = true;  ///< the point is on A (the original), else on B (the simplified mesh)
-  SurfacePoint point;
+  bool on_a = true;      ///< the point is on A (the original), else on B (the simplified mesh)
+  SurfacePoint point;    ///< the one that is furthest
   SurfacePoint nearest;  ///< on the other mesh
   /// `lower`: this point is at least so far from the other mesh. `upper`: no point of either mesh is further, in the
   /// directions that were asked for.
@@ -57,102 +58,117 @@ struct WorstSpot {
 struct DistanceReport {
   std::optional<Provenance> provenance;
   std::string verdict;  ///< "done" (the interval is as narrow as wanted), "within", "exceeds" or "undecided"
-  Outcome outcome = Outcome::Converged;  ///< of the whole question
-  std::string reason;                    ///< why the outcome is "budget" or "precision"; else empty
-  std::optional<double> error_bound;     ///< wanted width of the interval; absent when only a decision was asked for
-  std::optional<double> tolerance;       ///< of the decision, if one was asked for
-  MeshReport a;
-  MeshReport b;
-  Bounds bounds;
-  OneSidedDistance a_to_b;
+  Outcome outcome = Outcome::Converged;    ///< of the whole question
+  std::string reason;                      ///< why the outcome is "budget" or "precision"; else empty
+  std::optional<double> error_bound;       ///< wanted width of the interval; absent when only a decision was asked for
+  std::optional<double> tolerance;         ///< of the decision, if one was asked for
+  MeshReport a;                            ///< the original
+  MeshReport b;                            ///< the mesh that is compared with it
+  Bounds bounds;                           ///< of the distance that was asked for, model units
+  OneSidedDistance a_to_b;                 ///< h(A, B)
   std::optional<OneSidedDistance> b_to_a;  ///< absent when only one side was asked for
-  std::optional<WorstSpot> worst;
-  bool worst_was_wanted = false;                 ///< by `--worst`: the text names it whatever the verdict
+  std::optional<WorstSpot> worst;          ///< see `worst_spot`
+  bool worst_was_wanted = false;           ///< by `--worst`: the text names it whatever the verdict
   std::optional<double> transform_displacement;  ///< rounding of the transformed vertices of B, within the bounds
+  /// Wall-clock time of the phases.
   struct Seconds {
-    double read = 0, build = 0, query = 0, total = 0;
-  } seconds;
-  int threads = 1;
+    double read = 0;   ///< both files
+    double build = 0;  ///< both trees
+    double query = 0;  ///< the search
+    double total = 0;  ///< from the start of the tool
+  } seconds;           ///< that it took
+  int threads = 1;     ///< that were used
 };
 
 /// How the distance of a result was decided.
 enum class DecidedBy {
-  Measurement,       ///< the first
-  SecondMethod,      ///< another method of measuring the same mesh
-  SmallerTolerance,  ///< of a mesh made for a slightly smaller tolerance
-  SmallerLevel,      ///< of the next smaller tolerance: nothing else was decided
-  Original           ///< which stands in the place of a result: nothing else was decided
+  Measurement,       ///< by the first measurement
+  SecondMethod,      ///< by another method of measuring the same mesh
+  SmallerTolerance,  ///< by measuring a mesh that was made for a slightly smaller tolerance
+  SmallerLevel,      ///< by the level of the next smaller tolerance, which stands for it: nothing else was decided
+  Original           ///< of the original, which is written as the result: nothing else was decided
 };
 
 /// One level of detail that was written.
 struct LevelReport {
-  double tolerance = 0;
-  DecidedBy decided_by = DecidedBy::Measurement;
-  std::string path;
-  std::size_t faces = 0;
-  HausdorffDistance distance;  ///< a: the original, b: the level as written
-  std::string sha256 = {};     ///< of the file, hexadecimal; empty: not computed
+  double tolerance = 0;                           ///< model units
+  DecidedBy decided_by = DecidedBy::Measurement;  ///< of `distance`
+  std::string path;                               ///< of its file
+  std::size_t faces = 0;                          ///< triangles
+  HausdorffDistance distance;                     ///< a: the original, b: the level as written
+  std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
 };
 
 /// A proof that was written for `verify_certificate`.
 struct CertificateReport {
-  std::string path;
-  std::size_t bytes = 0;
+  std::string path;       ///< of its file
+  std::size_t bytes = 0;  ///< its size
 };
 
 /// What `simplify_with_bound` says: schema "meshbound/simplify/1".
 struct SimplifyReport {
-  std::optional<Provenance> provenance;
-  Verdict verdict = Verdict::Undecided;
-  DecidedBy decided_by = DecidedBy::Measurement;
-  double tolerance = 0;
-  MeshReport original;
-  MeshReport simplified;       ///< as written
-  HausdorffDistance distance;  ///< a: the original, b: the simplified mesh as written
-  std::string stopped_by;      ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
+  std::optional<Provenance> provenance;           ///< of the document
+  Verdict verdict = Verdict::Undecided;           ///< of `distance`
+  DecidedBy decided_by = DecidedBy::Measurement;  ///< how `distance` was found
+  double tolerance = 0;                           ///< model units
+  MeshReport original;                            ///< as read
+  MeshReport simplified;                          ///< as written
+  HausdorffDistance distance;                     ///< a: the original, b: the simplified mesh as written
+  std::string stopped_by;  ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
+  /// What `SimplifyOptions::prune` dropped.
   struct Pruned {
-    std::size_t components = 0, faces = 0;  ///< as of when they were dropped
-  } pruned;
-  std::string effort;  ///< "normal" or "high"
-  std::string driver;  ///< "cgal" or "core"
-  std::vector<LevelReport> levels;
+    std::size_t components = 0;                 ///< whole ones
+    std::size_t faces = 0;                      ///< of these when they were dropped
+  } pruned;                                     ///< by this run
+  std::string effort;                           ///< "normal" or "high"
+  std::string driver;                           ///< "cgal" or "core"
+  std::vector<LevelReport> levels;              ///< of smaller tolerances, ascending
   std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
+  /// What became of the collapses that were tried.
   struct Collapses {
-    std::uint64_t performed = 0, refused = 0;
+    std::uint64_t performed = 0;        ///< in the result
+    std::uint64_t refused = 0;          ///< by samples or by a proof
     std::uint64_t proven_together = 0;  ///< of those performed; the key is "estimated"
     std::uint64_t taken_back = 0;       ///< of those that samples admitted, since the proof of all failed there
     std::uint64_t proven_alone = 0;     ///< of those performed
-  } collapses;
+  } collapses;                          ///< of the whole run
+  /// Wall-clock time of the phases.
   struct Seconds {
-    double read = 0, simplify = 0, certify = 0, certificate = 0, write = 0, total = 0;
-  } seconds;
-  std::size_t locked_vertices = 0;
-  int threads = 1;
+    double read = 0;                ///< the original
+    double simplify = 0;            ///< collapses and their proofs
+    double certify = 0;             ///< measuring what was written
+    double certificate = 0;         ///< making certificates
+    double write = 0;               ///< meshes and certificates
+    double total = 0;               ///< from the start of the tool
+  } seconds;                        ///< that it took
+  std::size_t locked_vertices = 0;  ///< that options kept from moving
+  int threads = 1;                  ///< that were used
 };
 
 /// What `lod_chain` says: schema "meshbound/lod/1".
 struct LodReport {
   /// From which the tolerances came, if they were not given.
   struct View {
-    double pixels = 1;  ///< of the finest level
-    Screen screen;
+    double pixels = 1;  ///< that a deviation may cover, for the finest level
+    Screen screen;      ///< that it is seen on
   };
+  /// A level of the chain.
   struct Level : LevelReport {
-    std::string file;  ///< the last part of `path`: where the report lies beside the levels, it needs no more
-    std::size_t vertices = 0;
+    std::string file;                     ///< the file name of `path`, enough where the report lies beside the levels
+    std::size_t vertices = 0;             ///< of the level as written
     std::optional<double> pixels;         ///< that the tolerance covers at `view_distance`
     std::optional<double> view_distance;  ///< the one that the tolerance was made for
     std::string stopped_by;               ///< as in `SimplifyReport`
   };
-  std::optional<Provenance> provenance;
-  Verdict verdict = Verdict::Undecided;
-  std::string driver;  ///< "cgal" or "core"
-  MeshReport original;
-  std::optional<View> view;
-  std::vector<Level> levels;  ///< those that were proven, ascending by tolerance
-  SimplifyReport::Seconds seconds;
-  std::size_t locked_vertices = 0;
-  int threads = 1;
+  std::optional<Provenance> provenance;  ///< of the document
+  Verdict verdict = Verdict::Undecided;  ///< of all levels together
+  std::string driver;                    ///< "cgal" or "core"
+  MeshReport original;                   ///< as read
+  std::optional<View> view;              ///< absent where tolerances were given
+  std::vector<Level> levels;             ///< those that were proven, ascending by tolerance
+  SimplifyReport::Seconds seconds;       ///< that it took
+  std::size_t locked_vertices = 0;       ///< that options kept from moving
+  int threads = 1;                       ///< that were used
 };
 
 /// "within", "exceeds" or "undecided".
@@ -166,7 +182,9 @@ struct LodReport {
 
 /// One JSON document, indented, with a newline at its end. Bytes of a path that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string to_json(const DistanceReport& report);
+/// @overload
 [[nodiscard]] std::string to_json(const SimplifyReport& report);
+/// @overload
 [[nodiscard]] std::string to_json(const LodReport& report);
 
 }  // namespace meshbound

@@ -15,8 +15,9 @@
 
 namespace meshbound {
 
+/// What a view is drawn on, in the direction of its height.
 struct Screen {
-  double height_pixels = 1080;
+  double height_pixels = 1080;        ///< of the whole height
   double vertical_field_of_view = 1;  ///< the whole angle from the lower to the upper edge, radians, below pi
 };
 
@@ -25,7 +26,7 @@ struct Screen {
 /// This and the functions below are pure, O(1) for each distance, and safe to call from several threads.
 [[nodiscard]] double screen_space_tolerance(const Screen& screen, double pixels, double view_distance);
 
-/// The same for several distances, in their order.
+/// `screen_space_tolerance` for several distances, in their order.
 [[nodiscard]] std::vector<double> screen_space_tolerances(const Screen& screen, double pixels,
                                                           std::span<const double> view_distances);
 

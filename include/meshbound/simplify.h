@@ -59,16 +59,17 @@ enum class EndedBy {
 /// "cancelled".
 [[nodiscard]] std::string to_string(EndedBy reason);
 
+/// What is asked of a simplification, and what it may cost.
 struct SimplifyOptions {
   /// Bound of the symmetric Hausdorff distance to the original, model units. Must be given.
   double tolerance = std::numeric_limits<double>::quiet_NaN();
   std::optional<std::size_t> target_faces;  ///< decimation ends at this many faces if the tolerance allows it
   std::optional<double> target_ratio;       ///< the same as a share of the original's faces, 0 to 1
-  OnExceed on_exceed = OnExceed::Skip;
+  OnExceed on_exceed = OnExceed::Skip;      ///< at a collapse that would exceed the tolerance
   /// Smaller tolerances at which the mesh is handed out as well, in any order. One run with growing tolerance makes
   /// all, each bounded against the original itself. Targets apply to `tolerance` only.
   std::vector<double> levels;
-  Effort effort = Effort::Normal;
+  Effort effort = Effort::Normal;  ///< time for fewer faces
   /// Whole components whose every point lies within the tolerance of what remains are dropped, the smallest first. Not
   /// those with locked vertices or, with `preserve_boundary`, with a border.
   bool prune = false;
@@ -81,7 +82,7 @@ struct SimplifyOptions {
   /// within face_tolerances[k] of the result, and every point of the result within face_tolerances[g] of the original
   /// triangle g nearest to it. The verdict of a level includes them (`check_face_tolerances`).
   std::vector<double> face_tolerances;
-  Precision precision = Precision::Double;
+  Precision precision = Precision::Double;  ///< of the result's coordinates
   /// Make the certificate of each level that was measured to be within its tolerance.
   bool certificate = false;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
@@ -91,50 +92,61 @@ struct SimplifyOptions {
   std::shared_ptr<const CollapseDriver> driver;   ///< none: our own
 };
 
+/// A simplified mesh and its distance from the original.
 struct SimplifiedLevel {
-  double tolerance = 0;
-  TriangleMesh mesh;
-  /// By vertex and triangle of `mesh`: one of the original that it comes from, for data that the caller wants to carry
-  /// along. A vertex may have moved from where it was there, a triangle stands for others besides.
-  std::vector<std::uint32_t> source_vertex, source_triangle;
-  EndedBy ended_by = EndedBy::NothingFits;
+  double tolerance = 0;  ///< that it was made for, model units
+  TriangleMesh mesh;     ///< model units
+  /// By vertex of `mesh`: the vertex of the original that it comes from, for data that the caller wants to carry along.
+  /// It may have moved from there.
+  std::vector<std::uint32_t> source_vertex;
+  /// By triangle of `mesh`: one of the triangles of the original that it stands for.
+  std::vector<std::uint32_t> source_triangle;
+  EndedBy ended_by = EndedBy::NothingFits;  ///< why decimation did not go further
   /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.
   std::optional<HausdorffDistance> distance;
-  Verdict verdict = Verdict::Undecided;
+  Verdict verdict = Verdict::Undecided;    ///< of that distance
   std::optional<Certificate> certificate;  ///< of the original and `mesh`, when it was asked for
   std::uint64_t collapses_performed = 0;   ///< since the beginning of the run
-  std::uint64_t collapses_refused = 0;
+  std::uint64_t collapses_refused = 0;     ///< since the beginning of the run
 
+  /// Number of triangles.
   [[nodiscard]] std::size_t faces() const { return mesh.triangles.size(); }
 };
 
 /// How the collapses of a run came about, for those who tune it.
 struct CollapseCounts {
-  std::uint64_t tried = 0;            ///< edges, against samples of the original
-  std::uint64_t refused = 0;          ///< of these
-  std::uint64_t proven_together = 0;  ///< collapses that samples admitted, and one proof of all of them held
-  std::uint64_t taken_back = 0;       ///< of those that samples admitted, since that proof failed there
-  std::uint64_t proven_alone = 0;     ///< collapses, and other changes, that were proven one by one
-  std::uint64_t unproven = 0;         ///< of those tried in this way: taken back
-  std::uint64_t originals_tested = 0, faces_tested = 0;  ///< by proofs
+  std::uint64_t tried = 0;             ///< edges, against samples of the original
+  std::uint64_t refused = 0;           ///< of these
+  std::uint64_t proven_together = 0;   ///< collapses that samples admitted, and one proof of all of them held
+  std::uint64_t taken_back = 0;        ///< of those that samples admitted, since that proof failed there
+  std::uint64_t proven_alone = 0;      ///< collapses, and other changes, that were proven one by one
+  std::uint64_t unproven = 0;          ///< of those tried in this way: taken back
+  std::uint64_t originals_tested = 0;  ///< triangles of the original, by proofs
+  std::uint64_t faces_tested = 0;      ///< faces of the result, by proofs
 
+  /// Adds what another run counted.
   CollapseCounts& operator+=(const CollapseCounts& other);
 };
 
+/// All levels of a run, and facts about it.
 struct SimplifyResult {
   std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
   std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
-  std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: part of every level as they are
+  std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: in every level as they are
   std::size_t pruned_components = 0;      ///< dropped as wholes, `SimplifyOptions::prune`
   std::size_t pruned_faces = 0;           ///< that these had when they were dropped
   std::size_t locked_vertices = 0;        ///< that no collapse may move: by the options that lock some
   bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
   bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
-  CollapseCounts counts;
+  CollapseCounts counts;                  ///< of all levels together
+  /// Wall-clock time of the phases.
   struct Seconds {
-    double prepare = 0, simplify = 0, measure = 0;
-  } seconds;
+    double prepare = 0;   ///< the manifold, the original's tree and samples
+    double simplify = 0;  ///< collapses and their proofs
+    double measure = 0;   ///< the distance of each level, and certificates
+  } seconds;              ///< that it took
 
+  /// The level of `SimplifyOptions::tolerance`.
   [[nodiscard]] const SimplifiedLevel& last() const { return levels.back(); }
 };
 

@@ -18,12 +18,14 @@ class Stopped : public Error {
 /// The default never stops. A look takes about 25 ns, so a loop of shorter steps looks once in a few of them. Any
 /// number of threads may ask the same token.
 struct StopToken {
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< never set back
 
-  Clock::time_point deadline = Clock::time_point::max();
-  const std::atomic<bool>* cancel = nullptr;  ///< may be null; must outlive the computation
+  Clock::time_point deadline = Clock::time_point::max();  ///< the largest one: none
+  const std::atomic<bool>* cancel = nullptr;              ///< may be null; must outlive the computation
 
+  /// Whether the flag is set.
   [[nodiscard]] bool cancelled() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+  /// Whether the flag is set or the deadline has passed.
   [[nodiscard]] bool stopped() const {
     return cancelled() || (deadline != Clock::time_point::max() && Clock::now() >= deadline);
   }
@@ -36,7 +38,7 @@ struct StopToken {
     if (deadline == Clock::time_point::max()) return std::numeric_limits<double>::infinity();
     return std::max(0.0, std::chrono::duration<double>(deadline - Clock::now()).count());
   }
-  /// The same flag with the time that lies `seconds` from `from`; infinite: no limit.
+  /// A token with this flag and the time that lies `seconds` after `from` as its deadline; infinite: none.
   [[nodiscard]] StopToken until(Clock::time_point from, double seconds) const {
     StopToken token = *this;
     constexpr double no_limit = 1e9;  // seconds; about 30 years, and no overflow
@@ -46,5 +48,10 @@ struct StopToken {
     return token;
   }
 };
+
+/// Seconds from `start` until now.
+[[nodiscard]] inline double seconds_since(StopToken::Clock::time_point start) {
+  return std::chrono::duration<double>(StopToken::Clock::now() - start).count();
+}
 
 }  // namespace meshbound

@@ -10,7 +10,7 @@ namespace meshbound {
 
 /// A mesh whose vertices went through an affine map, and what rounding did to them.
 struct TransformedMesh {
-  TriangleMesh mesh;
+  TriangleMesh mesh;  ///< the images, each coordinate rounded once
   /// No used vertex is further than this from its image in real arithmetic, model units. A triangle is the convex hull
   /// of its vertices, so no point of the surface is either, and no Hausdorff distance to another mesh changes by more:
   /// see `widened`. Exactly 0 where every result is a double, as under the identity, permutations and sign changes.

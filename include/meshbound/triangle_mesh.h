@@ -7,6 +7,7 @@
 
 namespace meshbound {
 
+/// The corners of a triangle as indices of vertices.
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// An indexed triangle soup. Nothing is assumed of it: it may be open, non-manifold, self-intersecting, of many

@@ -43,8 +43,8 @@ ManifoldCopy manifold_copy(const TriangleMesh& soup) {
   for (const auto& f : manifold.faces) polygons.push_back({f[0], f[1], f[2]});
   ManifoldCopy copy;
   PMP::polygon_soup_to_polygon_mesh(points, polygons, copy.mesh);
-  copy.triangle_of_face = std::move(manifold.triangle_of);
-  copy.vertex_of_vertex = std::move(manifold.vertex_of);
+  copy.source_triangle = std::move(manifold.triangle_of);
+  copy.source_vertex = std::move(manifold.vertex_of);
   copy.dropped_triangles = manifold.dropped_triangles;
   copy.split = manifold.split;
   return copy;

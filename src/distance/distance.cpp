@@ -15,25 +15,31 @@
 namespace meshbound {
 namespace {
 
-/// Default error bound, as a fraction of the diagonal of the first model.
-constexpr double default_error_bound = 1e-6;
+/// Default error bound, as a share of the size of the models.
+constexpr double default_error_share = 1e-6;
 
 double checked(double length, const char* name) {
   if (!(length >= 0)) throw InvalidInput(std::string(name) + " must be a length of 0 or more");
   return length;
 }
 
-double error_bound_of(const PlacedModel& a, const DistanceOptions& options) {
-  return checked(options.error_bound.value_or(default_error_bound * a.bvh->bounding_box_diagonal()), "the error bound");
+double error_bound_of(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options) {
+  return options.error_bound ? checked(*options.error_bound, "the error bound") : default_error_bound(a, b);
+}
+
+/// Box of a model where its pose puts it, up to rounding.
+Eigen::AlignedBox3d placed_box(const PlacedModel& model) {
+  const Bvh::Data& data = model.bvh->data();
+  Eigen::AlignedBox3d box;
+  for (const Vec3& working : data.vertices) {
+    const Vec3 p = data.frame.to_model(working);
+    box.extend(model.pose * Eigen::Vector3d(p.x, p.y, p.z));
+  }
+  return box;
 }
 
 double tolerance_of(const DistanceOptions& options) {
   return checked(options.tolerance.value_or(std::numeric_limits<double>::infinity()), "the tolerance");
-}
-
-Verdict verdict_of(const Bounds& bounds, double tolerance) {
-  if (bounds.upper <= tolerance) return Verdict::Within;
-  return bounds.lower > tolerance ? Verdict::Exceeds : Verdict::Undecided;
 }
 
 OneSidedTask decision(const PlacedModel& a, const PlacedModel& b, double tolerance, const DistanceOptions& options) {
@@ -57,10 +63,20 @@ ToleranceCheck checked_one_sided(const OneSidedTask& task) {
 
 }  // namespace
 
+double default_error_bound(const PlacedModel& a, const PlacedModel& b) {
+  const double diagonal = a.bvh->bounding_box_diagonal();
+  return default_error_share * (diagonal > 0 ? diagonal : diagonal_of(placed_box(a).merged(placed_box(b))));
+}
+
+double default_error_bound(const MeshView& a, const MeshView& b, double diagonal) {
+  if (diagonal > 0) return default_error_share * diagonal;
+  return default_error_share * diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
+}
+
 OneSidedDistance one_sided_hausdorff_distance(const PlacedModel& a, const PlacedModel& b,
                                               const DistanceOptions& options) {
   OneSidedTask task{.a = a, .b = b, .options = options};
-  task.error_bound = error_bound_of(a, options);
+  task.error_bound = error_bound_of(a, b, options);
   task.tolerance = tolerance_of(options);
   return search_one_sided(task);
 }
@@ -68,7 +84,7 @@ OneSidedDistance one_sided_hausdorff_distance(const PlacedModel& a, const Placed
 HausdorffDistance hausdorff_distance(const PlacedModel& a, const PlacedModel& b, const DistanceOptions& options,
                                      const HausdorffMemory& memory) {
   OneSidedTask task{.a = a, .b = b, .options = options, .memory = memory.a_to_b};
-  task.error_bound = error_bound_of(a, options);
+  task.error_bound = error_bound_of(a, b, options);
   task.tolerance = tolerance_of(options);
   OneSidedTask back{.a = b, .b = a, .options = options, .memory = memory.b_to_a};
   back.error_bound = task.error_bound;
@@ -97,8 +113,9 @@ HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b, const
   if (options.error_bound) checked(*options.error_bound, "the error bound");
   if (options.method == Method::CellWalking && a.triangle_count() == b.triangle_count()) {
     validate(a);
+    validate(b);
     const double error_bound =
-        options.error_bound ? *options.error_bound : default_error_bound * diagonal_of(used_bounding_box(a));
+        options.error_bound ? *options.error_bound : default_error_bound(a, b, bounding_box_diagonal(a));
     if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
   }
   const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});

@@ -79,9 +79,8 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
     return kernel.lower().lower > impl_->current.tolerance ? Verdict::Exceeds : Verdict::Undecided;
   }
   kernel.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
-  if (kernel.lower().lower > impl_->current.tolerance) return Verdict::Exceeds;
-  const double upper = impl_->current.proven_upper(kernel.upper_squared(), deepest_cut);
-  return upper <= impl_->current.tolerance ? Verdict::Within : Verdict::Undecided;
+  return verdict_of({kernel.lower().lower, impl_->current.proven_upper(kernel.upper_squared(), deepest_cut)},
+                    impl_->current.tolerance);
 }
 
 double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint, double enough) {

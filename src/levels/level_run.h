@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <chrono>
 #include <optional>
 
 #include "simplify/decimation.h"
@@ -34,10 +33,6 @@ class LevelRun {
   std::optional<Decimation> decimation_;
   std::optional<EndedBy> stopped_;  ///< before anything was decimated: the original itself stands for every level
 };
-
-[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The levels of a run, ascending, not measured. Throws as `simplify_with_bound`.
 [[nodiscard]] SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options);

@@ -9,15 +9,6 @@
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {
-namespace {
-
-Verdict verdict_of(const Bounds& bounds, double tolerance) {
-  if (bounds.upper <= tolerance) return Verdict::Within;
-  return bounds.lower > tolerance ? Verdict::Exceeds : Verdict::Undecided;
-}
-
-}  // namespace
-
 void check_options(const SimplifyOptions& options) {
   const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
   if (!is_length(options.tolerance))

@@ -42,9 +42,7 @@ const HausdorffDistance& GatedOutput::measure(const Bvh& original, const Distanc
   const TriangleMesh mesh = written_mesh();
   summary_ = summarise(mesh);
   distance_ = hausdorff_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
-  verdict_ = distance_.bounds.upper <= *options.tolerance  ? Verdict::Within
-             : distance_.bounds.lower > *options.tolerance ? Verdict::Exceeds
-                                                           : Verdict::Undecided;
+  verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   return distance_;
 }
 

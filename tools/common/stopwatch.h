@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <chrono>
 #include <utility>
+
+#include "meshbound/stop_token.h"
 
 namespace meshbound::tools {
 
 class Stopwatch {
  public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  [[nodiscard]] double seconds() const { return seconds_since(start_); }
   /// Seconds since the last lap.
   double lap() {
     const double now = seconds();
@@ -17,7 +16,7 @@ class Stopwatch {
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  StopToken::Clock::time_point start_ = StopToken::Clock::now();
   double last_ = 0;
 };
 

@@ -2,21 +2,16 @@
 #include "hausdorff/answer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "meshbound/report.h"
+#include "meshbound/stop_token.h"
 #include "meshbound/transform.h"
 
 namespace meshbound::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-Verdict verdict_of(const Bounds& bounds, double tolerance) {
-  if (bounds.upper <= tolerance) return Verdict::Within;
-  return bounds.lower > tolerance ? Verdict::Exceeds : Verdict::Undecided;
-}
+using Clock = StopToken::Clock;
 
 Answer answer_of(const Bounds& bounds, const OneSidedDistance& a_to_b, const OneSidedDistance& b_to_a,
                  const Question& question) {
@@ -35,8 +30,7 @@ ToleranceCheck check(const Bvh& a, const Bvh& b, double tolerance, const Questio
 
 /// The options with what is left of their time at `now` when they were valid at `start`.
 DistanceOptions continued(DistanceOptions options, Clock::time_point start) {
-  const double used = std::chrono::duration<double>(Clock::now() - start).count();
-  options.budget.seconds = std::max(0.0, options.budget.seconds - used);
+  options.budget.seconds = std::max(0.0, options.budget.seconds - seconds_since(start));
   return options;
 }
 

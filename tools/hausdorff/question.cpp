@@ -3,21 +3,12 @@
 
 #include <algorithm>
 
+#include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/transform.h"
 
 namespace meshbound::tools {
-namespace {
-
-/// Default width of the interval: 1e-6 of the diagonal of A; of both meshes together when A is a single point.
-double default_error_bound(const TriangleMesh& a, const TriangleMesh& b, double diagonal) {
-  if (diagonal > 0) return 1e-6 * diagonal;
-  const Eigen::AlignedBox3d box = used_bounding_box(a).merged(used_bounding_box(b));
-  return 1e-6 * (box.max() - box.min()).stableNorm();
-}
-
-}  // namespace
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY or STL")->required();

@@ -102,7 +102,8 @@ ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) cons
   const std::size_t n = piece_->size();
   const Vec<Number> middle = middle_of<Number>(n, corner_at);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec<Number> p = Number(scale_) * ((corner_at(i) + Number(drawn_in_) * (middle - corner_at(i))) - view.origin);
+    // The large terms first: far from the origin an interval of their difference is as narrow as the triangle asks.
+    const Vec<Number> p = Number(scale_) * ((corner_at(i) - view.origin) + Number(drawn_in_) * (middle - corner_at(i)));
     view.window.push_back({dot(view.x_axis, p), dot(view.y_axis, p), Number(0)});
   }
   return view;

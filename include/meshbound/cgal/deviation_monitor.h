@@ -29,6 +29,7 @@
 
 namespace meshbound::cgal {
 
+/// A proof that follows one mesh through runs of `edge_collapse`. Not thread-safe. Memory: O(original).
 template <class Mesh, class VertexPointMap = typename boost::property_map<Mesh, CGAL::vertex_point_t>::type>
 class DeviationMonitor {
   using Graph = boost::graph_traits<Mesh>;
@@ -42,11 +43,12 @@ class DeviationMonitor {
   class Visitor;
   template <class Base>
   class Placement;
-  using Counts = CollapseChecker::Counts;
+  using Counts = CollapseChecker::Counts;  ///< what became of collapses
 
   /// The original is `mesh` as it is now. Throws `InvalidInput` where a face is not a triangle or an edge has length
   /// zero (CGAL collapses these without asking a filter; weld the vertices first), and as `CollapseChecker` does.
   DeviationMonitor(Mesh& mesh, double tolerance) : DeviationMonitor(mesh, tolerance, get(CGAL::vertex_point, mesh)) {}
+  /// Follows a mesh whose points stand in a property map of the caller's.
   DeviationMonitor(Mesh& mesh, double tolerance, VertexPointMap points)
       : mesh_(mesh),
         points_(points),
@@ -59,9 +61,10 @@ class DeviationMonitor {
   DeviationMonitor(const DeviationMonitor&) = delete;
   DeviationMonitor& operator=(const DeviationMonitor&) = delete;
 
-  [[nodiscard]] Filter filter() { return Filter(*this); }
-  [[nodiscard]] StopPredicate stop_predicate() { return StopPredicate(*this); }
-  [[nodiscard]] Visitor visitor() { return Visitor(*this); }
+  [[nodiscard]] Filter filter() { return Filter(*this); }                        ///< for `parameters::filter`
+  [[nodiscard]] StopPredicate stop_predicate() { return StopPredicate(*this); }  ///< second argument of `edge_collapse`
+  [[nodiscard]] Visitor visitor() { return Visitor(*this); }                     ///< for `parameters::visitor`
+  /// For `parameters::get_placement`: see `Placement`.
   template <class Base>
   [[nodiscard]] Placement<Base> placement(const Base& base) {
     return Placement<Base>(*this, base);
@@ -89,8 +92,8 @@ class DeviationMonitor {
 
   /// For the next run, with a larger tolerance against the same original. Throws `InvalidInput` for a smaller one.
   void grow_tolerance(double tolerance) { checker_.grow_tolerance(tolerance); }
-  [[nodiscard]] std::size_t faces() const { return checker_.faces(); }
-  [[nodiscard]] const Counts& counts() const { return checker_.counts(); }
+  [[nodiscard]] std::size_t faces() const { return checker_.faces(); }      ///< that are left
+  [[nodiscard]] const Counts& counts() const { return checker_.counts(); }  ///< since the start
 
  private:
   [[nodiscard]] static Eigen::Vector3d to_eigen(const Point& p) {
@@ -128,8 +131,9 @@ class DeviationMonitor {
 template <class Mesh, class VertexPointMap>
 class DeviationMonitor<Mesh, VertexPointMap>::Filter {
  public:
-  explicit Filter(DeviationMonitor& monitor) : monitor_(&monitor) {}
+  explicit Filter(DeviationMonitor& monitor) : monitor_(&monitor) {}  ///< a handle; `monitor` must outlive it
 
+  /// The placement if the collapse keeps the bound there, else none.
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
     if (!monitor_->visited_)
@@ -149,8 +153,10 @@ template <class Mesh, class VertexPointMap>
 template <class Base>
 class DeviationMonitor<Mesh, VertexPointMap>::Placement {
  public:
-  Placement(DeviationMonitor& monitor, const Base& base) : monitor_(&monitor), base_(base) {}
+  Placement(DeviationMonitor& monitor, const Base& base)
+      : monitor_(&monitor), base_(base) {}  ///< a handle; `monitor` must outlive it
 
+  /// The point for the vertex of a collapse.
   template <class Profile>
   auto operator()(const Profile& profile) const -> decltype(std::declval<const Base&>()(profile)) {
     auto placement = base_(profile);
@@ -168,11 +174,13 @@ class DeviationMonitor<Mesh, VertexPointMap>::Placement {
   Base base_;
 };
 
+/// Ends a run where `should_stop` says so.
 template <class Mesh, class VertexPointMap>
 class DeviationMonitor<Mesh, VertexPointMap>::StopPredicate {
  public:
-  explicit StopPredicate(DeviationMonitor& monitor) : monitor_(&monitor) {}
+  explicit StopPredicate(DeviationMonitor& monitor) : monitor_(&monitor) {}  ///< a handle; `monitor` must outlive it
 
+  /// Whether the run ends before the next collapse.
   template <class Cost, class Profile, class Size>
   bool operator()(const Cost&, const Profile&, Size, Size) const {
     return monitor_->should_stop && monitor_->should_stop(monitor_->faces());
@@ -182,27 +190,34 @@ class DeviationMonitor<Mesh, VertexPointMap>::StopPredicate {
   DeviationMonitor* monitor_;
 };
 
+/// Commits the proofs of collapses that are made. The functions are those that CGAL asks of a visitor.
 template <class Mesh, class VertexPointMap>
 class DeviationMonitor<Mesh, VertexPointMap>::Visitor {
  public:
-  explicit Visitor(DeviationMonitor& monitor) : monitor_(&monitor) {}
+  explicit Visitor(DeviationMonitor& monitor) : monitor_(&monitor) {}  ///< a handle; `monitor` must outlive it
 
+  /// The filter may be asked from now on.
   template <class AnyMesh>
   void OnStarted(AnyMesh&) const {
     monitor_->visited_ = true;
   }
+  /// The filter may not be asked any more.
   template <class AnyMesh>
   void OnFinished(AnyMesh&) const {
     monitor_->visited_ = false;
   }
+  /// Nothing is to be done here.
   template <class Profile>
   void OnStopConditionReached(const Profile&) const {}
+  /// Nothing is to be done here.
   template <class Profile, class OptionalCost>
   void OnCollected(const Profile&, const OptionalCost&) const {}
+  /// The edge whose placement is asked for next, for `Placement`.
   template <class Profile, class OptionalCost, class Size>
   void OnSelected(const Profile& profile, const OptionalCost&, Size, Size) const {
     monitor_->selected_ = profile.v0_v1();
   }
+  /// Nothing is to be done here.
   template <class Profile>
   void OnNonCollapsable(const Profile&) const {}
 

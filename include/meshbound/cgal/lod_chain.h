@@ -18,8 +18,10 @@ using meshbound::LodSink;
 /// `meshbound::LodChain`, driven by `edge_collapse_driver()` unless `options.driver` is another.
 class LodChain : public meshbound::LodChain {
  public:
+  /// As the constructor of `meshbound::LodChain`.
   explicit LodChain(TriangleMesh original, const LodOptions& options = {})
       : meshbound::LodChain(std::move(original), with_edge_collapse(options)) {}
+  /// As the constructor of `meshbound::LodChain` for a view.
   explicit LodChain(const MeshView& original, const LodOptions& options = {})
       : meshbound::LodChain(original, with_edge_collapse(options)) {}
 };
@@ -28,7 +30,7 @@ class LodChain : public meshbound::LodChain {
 std::size_t build_lod_chain(const MeshView& original, std::span<const double> tolerances, const LodOptions& options,
                             const LodSink& sink);
 
-/// The same for any triangulated face graph of CGAL.
+/// `build_lod_chain` for any triangulated face graph of CGAL, whose faces count in the order of the graph.
 template <class FaceGraph>
 requires(!std::is_convertible_v<const FaceGraph&, MeshView>) std::size_t
     build_lod_chain(const FaceGraph& original, std::span<const double> tolerances, const LodOptions& options,

@@ -47,7 +47,7 @@ template <class FaceGraph, class LockMap>
   return locked;
 }
 
-/// The same for any triangulated face graph of CGAL.
+/// `simplify_with_bound` for any triangulated face graph of CGAL; vertices and faces count in the order of the graph.
 template <class FaceGraph>
 requires(!std::is_same_v<FaceGraph, TriangleMesh>) [[nodiscard]] SimplifyResult
     simplify_with_bound(const FaceGraph& original, const SimplifyOptions& options) {

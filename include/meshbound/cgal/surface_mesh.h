@@ -18,6 +18,7 @@ namespace meshbound::cgal {
 /// The mesh type that the compiled part of this library works on. `Simple_cartesian<double>`: nothing here needs exact
 /// predicates, and it is faster than the filtered kernels.
 using Kernel = CGAL::Simple_cartesian<double>;
+/// Vertices and faces with points of `Kernel`.
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// Copies a face graph with the given vertex point map; vertices and faces in the order of the graph's ranges.
@@ -41,6 +42,7 @@ template <class FaceGraph, class VertexPointMap>
   return mesh;
 }
 
+/// Copies a face graph with its own points, `CGAL::vertex_point`; as above.
 template <class FaceGraph>
 [[nodiscard]] TriangleMesh to_triangle_mesh(const FaceGraph& graph) {
   return to_triangle_mesh(graph, get(CGAL::vertex_point, graph));
@@ -52,9 +54,9 @@ template <class FaceGraph>
 
 /// A 2-manifold made from a triangle soup for decimation.
 struct ManifoldCopy {
-  SurfaceMesh mesh;
-  std::vector<std::uint32_t> triangle_of_face;  ///< by face index: the triangle of the soup
-  std::vector<std::uint32_t> vertex_of_vertex;  ///< by vertex index: a vertex of the soup with the same coordinates
+  SurfaceMesh mesh;                            ///< a 2-manifold
+  std::vector<std::uint32_t> source_triangle;  ///< by face index: the triangle of the soup
+  std::vector<std::uint32_t> source_vertex;    ///< by vertex index: a vertex of the soup with the same coordinates
   std::size_t dropped_triangles = 0;  ///< duplicates, and those with two equal corners; geometry of the soup only
   bool split = false;                 ///< vertices were duplicated or triangles turned over to make it manifold
 };

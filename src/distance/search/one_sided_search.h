@@ -8,7 +8,6 @@
 #include "distance/search/one_sided.h"
 #include "distance/search/proof_recorder.h"
 #include "geometry/mapping.h"
-#include "numeric/clock.h"
 #include "proof/goal.h"
 
 namespace meshbound {
