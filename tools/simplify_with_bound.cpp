@@ -280,8 +280,8 @@ std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double t
   return folder;
 }
 
-/// Proves the files as they read. A result whose certificate is not complete in time gives way to the original, which is
-/// certified in one pass.
+/// Proves the files as they read. A result whose certificate is not complete in time gives way to the original, which
+/// is certified in one pass.
 void Run::write_certificates() {
   if (certificates_.empty()) return;
   watch_.lap();

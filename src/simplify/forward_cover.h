@@ -47,7 +47,7 @@ class ForwardCover {
   /// The same where nothing is known: by the candidate nearest to the middle of the triangle of those that hold it, or
   /// in pieces, small candidates too.
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
-  /// The same for a part of a triangle, in at most `max_cuts`. None where no candidate holds some corner of it.
+  /// Faces that together cover a piece of a triangle, in at most `max_cuts`. None if no candidate holds some corner.
   [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int max_cuts);
   /// A corner of the triangle that no candidate of `allowed` holds.
   [[nodiscard]] std::optional<std::uint32_t> corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);

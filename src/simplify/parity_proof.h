@@ -20,7 +20,7 @@ class ParityProof {
   /// creases of machined parts, out of the prism.
   static constexpr double shrink_share = 1e-3;
 
-  /// Of the original, and its `edge_neighbours`. O(n). The arguments must outlive this.
+  /// Takes the corners and triangles of the original and its `edge_neighbours`. O(n). The arguments must outlive this.
   ParityProof(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
               const std::vector<std::array<std::uint32_t, 3>>& neighbours);
 

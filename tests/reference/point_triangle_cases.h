@@ -37,8 +37,8 @@ struct PointTriangleCase {
 /// + distance). Every constant of the engine's error model is rounded up; it must stay far below any tolerance.
 inline constexpr double width_of_plain_cases = 0x1p10;
 
-/// That width where a direction or a height is mostly rounding: points next to the surface, slivers, needles. The bounds
-/// hold there too, but the closest point that the engine constructs may be this far from the true one.
+/// That width where a direction or a height is mostly rounding: points next to the surface, slivers, needles. The
+/// bounds hold there too, but the closest point that the engine constructs may be this far from the true one.
 inline constexpr double width_of_thin_cases = 0x1p13;
 
 /// That width for a query so far away that the triangle is little more than a point beside the distance.

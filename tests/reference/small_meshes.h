@@ -26,8 +26,8 @@ namespace meshbound::reference {
 /// Icosahedron split `levels` times, vertices on the unit sphere up to rounding.
 [[nodiscard]] TriangleMesh icosphere(int levels);
 
-/// Distance from the centre to the nearest point of a mesh whose vertices lie on the unit sphere around it: the smallest
-/// height of its face planes, up to rounding. All its points lie between this radius and 1.
+/// Distance from the centre to the nearest point of a mesh whose vertices lie on the unit sphere around it: the
+/// smallest height of its face planes, up to rounding. All its points lie between this radius and 1.
 [[nodiscard]] double inscribed_radius(const TriangleMesh& mesh);
 
 /// Every triangle into four by its edge midpoints.
