@@ -53,7 +53,8 @@ std::string kind_names() {
 
 TriangleMesh mesh_of_size(std::string_view kind, std::size_t faces) {
   if (faces < 1000 || faces > 100'000'000)
-    throw InvalidInput("a mesh of " + std::to_string(faces) + " faces is not made; give a size of 1,000 to 100,000,000");
+    throw InvalidInput("a mesh of " + std::to_string(faces) +
+                       " faces is not made; give a size of 1,000 to 100,000,000");
   const std::size_t half = integer_root(faces / 2);
   const std::size_t quarter = integer_root(faces / 4);
   if (kind == "icosphere") return icosphere_of_size(faces);

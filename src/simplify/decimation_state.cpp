@@ -93,7 +93,6 @@ void DecimationState::grow_tolerance(double to) {
   tolerance = to;
   limit = provable(to);
   std::fill(refused_at.begin(), refused_at.end(), 0);
-  std::fill(hope.begin(), hope.end(), Hope::WithMoreTolerance);
   std::fill(share.begin(), share.end(), 1.0F);
 }
 

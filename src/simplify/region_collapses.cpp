@@ -79,7 +79,7 @@ void RegionCollapses::collapse_all() {
     for (const Corner e : edges_before_) queue.erase(e);
     mesh().for_each_corner(kept(), [&](Corner c) {
       for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))})
-        if (is_open(e)) queue.put(e, edge_cost(state_, e));
+        if (is_owned(e)) queue.put(e, edge_cost(state_, e));
       return true;
     });
   }

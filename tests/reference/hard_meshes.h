@@ -36,7 +36,8 @@ inline constexpr unsigned hard_shapes = 6;
 /// A copy of a mesh in which each triangle has vertices of its own.
 [[nodiscard]] TriangleMesh unwelded(const TriangleMesh& mesh);
 
-/// The mesh with its triangles as they are, of which some corners have a vertex of their own. A coordinate of 0 is -0 there.
+/// The mesh with its triangles as they are, of which some corners have a vertex of their own. A coordinate of 0 is -0
+/// there.
 [[nodiscard]] TriangleMesh with_seams(const TriangleMesh& mesh, Choices& choices);
 
 }  // namespace meshbound::reference

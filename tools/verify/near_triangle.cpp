@@ -8,7 +8,8 @@ struct Weights {
   double b = 0, c = 0;  ///< of the second and third corner
 };
 
-/// The point of the triangle nearest to p, up to rounding: Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+/// The point of the triangle nearest to p, up to rounding: Ericson, Real-Time Collision Detection (2005),
+/// section 5.1.5.
 Weights weights_of_closest(const Eigen::Vector3d& p, const Corners& t) {
   const Eigen::Vector3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
   const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
