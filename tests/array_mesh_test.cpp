@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simplify/array_mesh.h"
+#include "simplify/mesh/array_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "datasets/analytic_meshes.h"
-#include "simplify/manifold_soup.h"
+#include "simplify/mesh/manifold_soup.h"
 #include "simplify/propose.h"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "meshbound/bvh.h"
 #include "simplify/decimation_state.h"
-#include "simplify/manifold_soup.h"
+#include "simplify/mesh/manifold_soup.h"
 
 namespace meshbound::test {
 

@@ -7,7 +7,7 @@
 
 #include "manifold_soup_cases.h"
 #include "meshbound/cgal/surface_mesh.h"
-#include "simplify/manifold_soup.h"
+#include "simplify/mesh/manifold_soup.h"
 
 namespace {
 

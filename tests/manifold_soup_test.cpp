@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simplify/manifold_soup.h"
+#include "simplify/mesh/manifold_soup.h"
 
 #include <gtest/gtest.h>
 

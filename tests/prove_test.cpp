@@ -12,7 +12,7 @@
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
 #include "reference/small_meshes.h"
-#include "simplify/indexed_manifold.h"
+#include "simplify/mesh/indexed_manifold.h"
 
 namespace meshbound {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "meshbound/cgal/surface_mesh.h"
-#include "simplify/indexed_manifold.h"
-#include "simplify/quadric.h"
+#include "simplify/mesh/indexed_manifold.h"
+#include "simplify/mesh/quadric.h"
 
 namespace meshbound::cgal {
 namespace {

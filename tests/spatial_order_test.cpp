@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simplify/spatial_order.h"
+#include "simplify/mesh/spatial_order.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "simplify/manifold_soup.h"
+#include "simplify/mesh/manifold_soup.h"
 
 namespace meshbound::cgal {
 namespace {

@@ -6,7 +6,7 @@
 
 namespace meshbound {
 
-/// The levels of one original, one after the other: a decimation, and what stands in its place where the time ended
+/// The levels of one original, one after the other: a decimation, and what replaces it where the time ended
 /// before there was one. Not thread-safe.
 class LevelRun {
  public:

@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/change_prover.h"
 
+#include <algorithm>
+
 #include "simplify/proof_worker.h"
 #include "simplify/repair.h"
 
 namespace meshbound {
 
+bool ChangeProver::is_near(std::uint32_t face) {
+  if (state_.mesh.is_removed(face)) return true;
+  ++faces_tested;
+  return workers_.of_thread(thread_).is_near(face, state_.nearest[face]);
+}
+
 bool ChangeProver::prove(const Split& split, Region& region) {
   ProofWorkers::Worker& worker = workers_.of_thread(thread_);
   const auto stamps = region.log.stamps_of(region.log.last_number());
-  bool holds = worker.cover_change(stamps, split, region.id);
-  met_seam_ = !holds && worker.meets_seam();
+  const bool is_covered = worker.cover_change(stamps, split, region.id);
   originals_tested += worker.affected();
-  for (const EditLog::Stamp& stamp : stamps) {
-    if (!holds) break;
-    if (state_.mesh.is_removed(stamp.face)) continue;
-    holds = worker.is_near(stamp.face, state_.nearest[stamp.face]);
-    ++faces_tested;
-  }
-  if (!holds) {
-    ++unproven;
-    undo_last(state_, region);
-    return false;
-  }
-  return true;
+  const auto is_near_original = [&](const EditLog::Stamp& stamp) { return is_near(stamp.face); };
+  if (is_covered && std::all_of(stamps.begin(), stamps.end(), is_near_original)) return true;
+  ++unproven;
+  undo_last(state_, region);
+  return false;
 }
+
+bool ChangeProver::met_seam() const { return workers_.of_thread(thread_).meets_seam(); }
 
 void ChangeProver::accept(Region& region) {
   ++proven;
   workers_.of_thread(thread_).assign_covers(state_.cover);
   for (const EditLog::Stamp& stamp : region.log.stamps_of(region.log.last_number())) state_.stamp[stamp.face] = 0;
-  region.log.edits.clear();
-  region.log.stamps.clear();
+  region.log.clear();
 }
 
 bool ChangeProver::prove_group(const Split& split, Region& region) {
@@ -39,23 +40,16 @@ bool ChangeProver::prove_group(const Split& split, Region& region) {
   changed_.clear();
   for (const EditLog::Stamp& stamp : region.log.stamps)
     if (stamp.before == 0) changed_.push_back(stamp.face);
-  bool holds = worker.cover_group(changed_, split, region.id);
+  const bool is_covered = worker.cover_group(changed_, split, region.id);
   originals_tested += worker.affected();
-  for (const std::uint32_t face : changed_) {
-    if (!holds) break;
-    if (state_.mesh.is_removed(face)) continue;
-    holds = worker.is_near(face, state_.nearest[face]);
-    ++faces_tested;
-  }
-  if (!holds) {
+  if (!is_covered || !std::all_of(changed_.begin(), changed_.end(), [&](std::uint32_t f) { return is_near(f); })) {
     ++unproven;
     return false;
   }
   ++proven;
   worker.assign_group(state_.cover);
   for (const std::uint32_t face : changed_) state_.stamp[face] = 0;
-  region.log.edits.clear();
-  region.log.stamps.clear();
+  region.log.clear();
   return true;
 }
 

@@ -22,8 +22,8 @@ class ChangeProver {
   }
   /// In two steps: until `accept`, `undo_last` may still take back a change that holds.
   bool prove(const Split& split, Region& region);
-  /// Whether the last change might have been proven with the help of faces of other regions.
-  [[nodiscard]] bool met_seam() const { return met_seam_; }
+  /// Whether the last change failed, but might have been proven with the help of faces of other regions.
+  [[nodiscard]] bool met_seam() const;
   void accept(Region& region);
   /// Makes all changes of the region that are not proven yet, many around one place, part of what is proven. False
   /// where that fails; they are as they were then.
@@ -32,10 +32,11 @@ class ChangeProver {
   std::uint64_t proven = 0, unproven = 0, originals_tested = 0, faces_tested = 0;
 
  private:
+  [[nodiscard]] bool is_near(std::uint32_t face);
+
   DecimationState& state_;
   ProofWorkers& workers_;
   std::size_t thread_;
-  bool met_seam_ = false;
   std::vector<std::uint32_t> changed_;  ///< by a group
 };
 

@@ -12,7 +12,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "simplify/change_prover.h"
-#include "simplify/indexed_manifold.h"
+#include "simplify/mesh/indexed_manifold.h"
 #include "simplify/propose.h"
 #include "simplify/prove.h"
 #include "simplify/repair.h"
@@ -219,7 +219,7 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
 std::uint32_t CollapseChecker::Impl::commit() {
   if (!admitted_) throw Error("a collapse that was not admitted: ask the collapse checker first");
   prover_.accept(region());
-  proposer_.settle(region());
+  proposer_.assign_samples(region());
   const std::uint32_t kept = proposer_.star().kept;
   model_[kept] = admitted_->point;
   state_.mesh.for_each_corner(kept, [&](Corner c) {

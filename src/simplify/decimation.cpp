@@ -11,8 +11,8 @@
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
-#include "simplify/edge_queue.h"
-#include "simplify/manifold_soup.h"
+#include "simplify/mesh/edge_queue.h"
+#include "simplify/mesh/manifold_soup.h"
 #include "simplify/prune.h"
 
 namespace meshbound {
@@ -95,7 +95,7 @@ void Decimation::sort_start_points() {
   });
 }
 
-/// The first vertex of the original, by index, at this place.
+/// The first vertex of the original, by index, at this position.
 std::optional<std::uint32_t> Decimation::first_at(Vec3 p) const {
   const auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p,
                                    [&](std::uint32_t v, Vec3 q) { return is_before(vertices_[v], q); });
@@ -103,14 +103,14 @@ std::optional<std::uint32_t> Decimation::first_at(Vec3 p) const {
   return *at;
 }
 
-/// By vertex of the mesh: several vertices of the original, at the same place, may have become one, or one several.
+/// By vertex of the mesh: several vertices of the original, at one position, may have become one, or one several.
 std::vector<std::uint8_t> Decimation::locked() const {
   const ArrayMesh& mesh = state_->mesh;
   std::vector<std::uint8_t> locked(mesh.vertex_count(), 0);
   if (!options_.locked_vertices.empty()) {
     if (options_.locked_vertices.size() != input_vertices_)
       throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
-    std::vector<std::uint8_t> locked_at(vertices_.size(), 0);  // by first vertex at the place
+    std::vector<std::uint8_t> locked_at(vertices_.size(), 0);  // by first vertex at the position
     for (std::size_t v = 0; v < order_.vertex.size(); ++v)
       if (options_.locked_vertices[order_.vertex[v]]) locked_at[*first_at(vertices_[v])] = 1;
     for (std::uint32_t v = 0; v < locked.size(); ++v) locked[v] = locked_at[*first_at(mesh.position(v))];

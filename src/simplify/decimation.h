@@ -5,7 +5,7 @@
 
 #include "meshbound/simplify.h"
 #include "simplify/decimate.h"
-#include "simplify/spatial_order.h"
+#include "simplify/mesh/spatial_order.h"
 #include "simplify/working_frame.h"
 
 namespace meshbound {
@@ -43,7 +43,7 @@ class Decimation {
   WorkingFrame frame_;
   double largest_ = 0;                         ///< coordinate of the model
   std::vector<Vec3> vertices_;                 ///< of the original, in the frame
-  std::vector<std::uint32_t> by_start_point_;  ///< these sorted by place
+  std::vector<std::uint32_t> by_start_point_;  ///< the vertices sorted by position
   Bvh tree_;                                   ///< in the frame
   std::optional<DecimationState> state_;
   std::optional<DecimationThreads> threads_;

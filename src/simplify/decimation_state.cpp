@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "numeric/rounding.h"
-#include "simplify/edge_queue.h"
+#include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
-#include "simplify/forward_cover.h"
+#include "simplify/mesh/edge_queue.h"
 
 namespace meshbound {
 
@@ -81,7 +81,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
       hope(3 * mesh.face_count(), Hope::WithMoreTolerance),
-      place_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
+      index_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
       cover(triangles.size()),
       nearest(source_triangle) {
   for (const Vec3 p : vertices) magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y), std::abs(p.z)});

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "meshbound/bvh.h"
-#include "simplify/array_mesh.h"
-#include "simplify/cover_assignment.h"
-#include "simplify/local_tolerance.h"
-#include "simplify/quadric.h"
+#include "simplify/cover/cover_assignment.h"
+#include "simplify/cover/local_tolerance.h"
+#include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/quadric.h"
 
 namespace meshbound {
 
@@ -39,21 +39,21 @@ class Samples {
       sample = samples_[sample].face;
     return samples_[sample].face;
   }
-  /// Those of a face form a list, without the ones that go with others.
+  /// The samples of a face form a list; those that go with others are not in it.
   [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
   [[nodiscard]] std::uint32_t following(std::uint32_t sample) const { return samples_[sample].following; }
 
   /// The sample is going to be asked for.
   void prefetch(std::uint32_t sample) const { __builtin_prefetch(&samples_[sample]); }
 
-  /// The samples of the face are to be given to others.
+  /// Empties the list of the face; its samples must be given to other faces then.
   void clear(std::uint32_t face) { first_[face] = none; }
   void give_to(std::uint32_t sample, std::uint32_t face) {
     samples_[sample].face = face;
     samples_[sample].following = first_[face];
     first_[face] = sample;
   }
-  /// In place of `give_to`, for good.
+  /// The sample keeps to the face of `other` from now on, and is in no list.
   void go_with(std::uint32_t sample, std::uint32_t other) {
     samples_[sample].face = other;
     samples_[sample].following = goes_with;
@@ -95,7 +95,8 @@ struct EditLog {
   std::vector<Stamp> stamps;
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
-  /// What change `number` has touched.
+  void clear() { edits.clear(), stamps.clear(); }
+  /// The faces that change `number` has touched.
   [[nodiscard]] std::span<const Stamp> stamps_of(std::uint32_t number) const {
     const std::size_t k = number - before - 1, begin = edits[k].first_stamp;
     const std::size_t end = k + 1 < edits.size() ? edits[k + 1].first_stamp : stamps.size();
@@ -136,11 +137,12 @@ struct DecimationState {
   const Bvh& tree;                                             ///< of the original
 
   ArrayMesh mesh;
-  std::size_t faces = 0;                                      ///< that are left
-  std::vector<std::uint32_t> source_vertex, source_triangle;  ///< by vertex and face: of the original
-  std::vector<std::uint8_t> locked;                           ///< by vertex
-  std::vector<Quadric> quadrics;                              ///< by vertex
-  std::vector<float> share;                                   ///< by vertex: of the tolerance that samples may reach
+  std::size_t faces = 0;  ///< those left
+  std::vector<std::uint32_t> source_vertex,
+      source_triangle;               ///< by vertex and face: where it comes from in the original
+  std::vector<std::uint8_t> locked;  ///< by vertex
+  std::vector<Quadric> quadrics;     ///< by vertex
+  std::vector<float> share;          ///< by vertex: share of the tolerance that samples may reach
   Samples samples;
 
   double magnitude = 0;  ///< largest coordinate of the original
@@ -153,8 +155,8 @@ struct DecimationState {
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the beginning
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  std::vector<Hope> hope;                          ///< by edge: of one that was refused
-  std::vector<std::uint32_t> place_in_queue;       ///< by edge
+  std::vector<Hope> hope;                          ///< by edge: what may help one that was refused
+  std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
   /// All proofs hold for a larger tolerance as well, and what was refused may fit now. Not for a smaller one.
   void grow_tolerance(double to);

@@ -22,7 +22,7 @@ class DecimationThreads {
   ProofWorkers workers;
   std::vector<std::unique_ptr<Proposer>> proposers;    ///< by thread
   std::vector<std::unique_ptr<ChangeProver>> provers;  ///< by thread
-  CollapseCounts together;                             ///< of what was proven together
+  CollapseCounts together;                             ///< counts of what was proven together
 };
 
 }  // namespace meshbound

@@ -9,7 +9,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "meshbound/proximity.h"
-#include "simplify/local_tolerance.h"
+#include "simplify/cover/local_tolerance.h"
 
 namespace meshbound {
 namespace {

@@ -3,11 +3,10 @@
 
 namespace meshbound::internal {
 
-/// For tests of what stands behind proposals, and nothing else: samples may reach this multiple of what they ought to.
+/// For tests only: samples may reach this multiple of what they ought to, so that proofs must find the fault.
 extern double sample_fault;
 
-/// For tests of what stands behind proofs, and nothing else: while this is not 1, decimation proves this multiple of
-/// its tolerance, and so admits what it must refuse.
+/// For tests only: decimation proves this multiple of its tolerance, so that the final measurement must find the fault.
 extern double proof_fault;
 
 }  // namespace meshbound::internal

@@ -224,7 +224,7 @@ void LocalEdit::make() {
   }
 }
 
-void LocalEdit::settle() {
+void LocalEdit::assign_samples() {
   // The faces of a group share no samples with others, so that these can be given back.
   if (grouped_) (void)samples_.hold(faces_, {}, HUGE_VAL);
   for (const std::uint32_t face : taken_) state_.samples.clear(face);

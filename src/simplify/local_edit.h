@@ -8,16 +8,17 @@
 
 #include "meshbound/proximity.h"
 #include "simplify/decimation_state.h"
-#include "simplify/marked_ids.h"
-#include "simplify/normal_guard.h"
+#include "simplify/mesh/marked_ids.h"
+#include "simplify/mesh/normal_guard.h"
 #include "simplify/propose.h"
 #include "simplify/regions.h"
 #include "simplify/star_samples.h"
 
 namespace meshbound {
 
-/// One change of a few faces: a vertex moved, an edge flipped or collapsed. It is gathered, placed, measured against
-/// the samples around it, made, and settled, or taken back by whoever could not prove it. One for each thread.
+/// One change of a few faces: a vertex moved, an edge flipped or collapsed. Its faces are gathered and placed, compared
+/// with the samples around them, and changed; then they get the samples, or the caller takes the change back because it
+/// could not prove it. One for each thread.
 class LocalEdit {
  public:
   using Corners = std::array<Vec3, 3>;
@@ -26,16 +27,16 @@ class LocalEdit {
   /// Changes are made in this region from now on. Both arguments must stay where they are until the last change.
   void enter(const Split& split, Region& region);
 
-  /// Each takes the faces around, as they are. False where borders, locks, the region or the topology forbid the
+  /// Gather the faces around as they are. False where borders, locks, the region or the topology forbid the
   /// change. A collapse takes no border edge either.
   [[nodiscard]] bool gather_move(std::uint32_t vertex);
   [[nodiscard]] bool gather_flip(Corner edge);
   [[nodiscard]] bool gather_collapse(Corner edge);
 
-  /// The faces that stay as they would be with the vertex at `point` or the edge turned. False where one is folded.
+  /// The faces that stay as they would be with the vertex at `point` or the edge flipped. False where one is folded.
   [[nodiscard]] bool place(Vec3 point);
   [[nodiscard]] bool place_flipped();
-  /// Gathers and places a flip. False as for these, and where the deviation would not be lower.
+  /// Gathers and places a flip. False where that is not possible, and where the deviation would not be lower.
   [[nodiscard]] bool flip_lowers_deviation(Corner edge);
   /// The vertex that moves comes first in each of these faces.
   [[nodiscard]] std::span<const Corners> faces() const { return corners_; }
@@ -45,18 +46,19 @@ class LocalEdit {
   /// The sum over the samples, and over points on the edges that change, of (distance / tolerance)^6: a high power
   /// follows the largest distance and stays smooth. A guide, not a bound.
   [[nodiscard]] DeviationSums deviation();
-  /// The part of the samples alone.
+  /// The part of that sum that stands for samples.
   [[nodiscard]] DeviationSums sampled_deviation() const;
   /// Whether samples and points on the edges that change are within `share` of what has to be proven. Looks at far more
   /// points of the edges than `deviation`: most proofs of an edit that looks good fail between the samples.
   [[nodiscard]] bool fits(double share);
 
-  /// Makes the change as it was placed last; then, where it is to stay, gives the samples to the faces nearest to them.
+  /// Makes the change as it was placed last.
   void make();
-  void settle();
+  /// Gives the samples to the faces nearest to them, where the change is to stay.
+  void assign_samples();
 
-  /// A group is a collapse, gathered and placed, with changes around it that make room for it: they are settled at
-  /// once, and stay or are taken back together.
+  /// A group is a collapse, gathered and placed, with changes around it that make room for it: their samples are
+  /// assigned at once, and they stay or are taken back together.
   void begin_group();
   /// As `fits`, for all faces of the group.
   [[nodiscard]] bool group_fits(double share);
@@ -81,7 +83,7 @@ class LocalEdit {
   Region* region_ = nullptr;
   StarSamples samples_;
   Proximity proximity_;
-  SampleKernel kernel_ = fastest_sample_kernel();
+  SampleKernel kernel_ = simplify_kernels().samples;
 
   Edit::Kind kind_ = Edit::Kind::Move;
   EdgeStar star_;  ///< of a collapse
@@ -89,8 +91,8 @@ class LocalEdit {
   Vec3 origin_;
   std::vector<std::uint32_t> taken_, numbers_, beside_;  ///< faces that change, those of them that stay, and others
   std::vector<GuardedFace> before_;                      ///< faces that stay
-  std::vector<Corners> corners_;                         ///< of these as they would be
-  std::vector<SampleFace> faces_;                        ///< the same relative to the origin
+  std::vector<Corners> corners_;                         ///< of the faces that stay, as they would be
+  std::vector<SampleFace> faces_;                        ///< `corners_` relative to the origin
   std::vector<std::uint32_t> hints_;                     ///< by point of the edges: an original triangle near it
 
   bool grouped_ = false;

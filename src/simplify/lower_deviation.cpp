@@ -9,7 +9,7 @@ namespace {
 /// The curvature across the normal vanishes where the surface is flat; this share of the mean one is added to all.
 constexpr double damping = 1e-3;
 constexpr double shorter_step = 0.35;
-/// A step goes at most this share of the mean length of the edges.
+/// Longest step, as a share of the mean length of the edges.
 constexpr double max_step = 0.5;
 
 double mean_edge(std::span<const LocalEdit::Corners> faces) {

@@ -17,8 +17,8 @@ struct LoweredDeviation {
   DeviationSums lowest;
 };
 
-/// Looks for the place of a vertex where the sampled deviation around is least, by Newton's method from where `edit`
-/// has placed it, at `start`.
+/// Looks for the position of a vertex where the sampled deviation around it is smallest, by Newton's method from
+/// `start`, where `edit` has placed it.
 [[nodiscard]] LoweredDeviation lower_deviation(LocalEdit& edit, Vec3 start, double tolerance,
                                                const DeviationSearch& search);
 

@@ -55,13 +55,13 @@ MinimaxStep minimax_step(const LinearDeviations& deviations, const DeviationKern
     }
     const auto shares = shares_of_step(doublings);
     const auto after = kernel.largest_along(deviations, move, step, shares);
-    const auto least = std::min_element(after.begin(), after.end());
-    if (!(*least < largest)) {
+    const auto best = std::min_element(after.begin(), after.end());
+    if (!(*best < largest)) {
       if (doublings == max_doublings) break;
       continue;
     }
-    largest = *least;
-    const float share = shares[static_cast<std::size_t>(least - after.begin())];
+    largest = *best;
+    const float share = shares[static_cast<std::size_t>(best - after.begin())];
     for (std::size_t i = 0; i < 3; ++i) move[i] += share * step[i];
   }
   result.there = largest;

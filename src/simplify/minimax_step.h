@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "simplify/linear_deviations.h"
+#include "simplify/kernel/deviation_kernel.h"
 
 namespace meshbound {
 
-/// Where a vertex should go so that the largest of some deviations, linear in its motion, is least: a Chebyshev problem
-/// in three unknowns, by Newton's method on p-norms of growing p. Deviations are in tolerances; one below
+/// The motion of a vertex that minimises the largest of some deviations, which are linear in it: a Chebyshev problem in
+/// three unknowns, solved by Newton's method on p-norms of growing p. Deviations are in tolerances; one below
 /// `low_deviation` is good enough.
 struct MinimaxStep {
   float here = 0;   ///< the largest deviation without a move
-  float there = 0;  ///< after `move`; where no move makes it small, a number that none goes below
+  float there = 0;  ///< after `move`; where no move makes it small, a lower bound for every move
   DeviationKernel::Move move = {};
 };
 [[nodiscard]] MinimaxStep minimax_step(const LinearDeviations& deviations, const DeviationKernel& kernel,

@@ -7,10 +7,10 @@
 #include <tuple>
 
 #include "meshbound/proximity.h"
-#include "simplify/face_box.h"
-#include "simplify/forward_cover.h"
-#include "simplify/marked_ids.h"
-#include "simplify/parity_proof.h"
+#include "simplify/cover/face_box.h"
+#include "simplify/cover/forward_cover.h"
+#include "simplify/cover/parity_proof.h"
+#include "simplify/mesh/marked_ids.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
 
@@ -86,16 +86,12 @@ class ProofWorkers::Worker {
                                       near) == Verdict::Within;
   }
 
-  /// Covers of the originals that relied on these faces, which have just been changed, by place in `affected`. False
-  /// where one was not found.
+  /// Covers of the originals that relied on these faces, which have just been changed, by index below `affected()`.
+  /// False where one was not found.
   bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
     meets_seam_ = false;
-    affected_.clear();
-    affected_marks_.clear();
-    for (const EditLog::Stamp& stamp : changed) {
-      for (const std::uint32_t t : state_.cover.originals_of(stamp.face))
-        if (affected_marks_.insert(t)) affected_.push_back(t);
-    }
+    begin_affected();
+    for (const EditLog::Stamp& stamp : changed) add_affected(stamp.face);
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_) {
@@ -138,10 +134,11 @@ class ProofWorkers::Worker {
       used_[i] = cover_.cover(affected_[i], all, added);
       if (used_[i] == 0) return false;
     }
+    meets_seam_ = false;
     return true;
   }
   [[nodiscard]] std::size_t affected() const { return affected_.size(); }
-  /// Whether `cover_change` might have found a cover with the help of faces of other regions.
+  /// Whether `cover_change` failed, but might have found a cover with the help of faces of other regions.
   [[nodiscard]] bool meets_seam() const { return meets_seam_; }
   void assign_covers(CoverAssignment& cover) {
     for (std::size_t i = 0; i < affected_.size(); ++i) {
@@ -153,13 +150,10 @@ class ProofWorkers::Worker {
 
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
   bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
-    affected_.clear();
-    affected_marks_.clear();
+    begin_affected();
     ids_.clear();
     ends_.clear();
-    for (const std::uint32_t face : changed)
-      for (const std::uint32_t t : state_.cover.originals_of(face))
-        if (affected_marks_.insert(t)) affected_.push_back(t);
+    for (const std::uint32_t face : changed) add_affected(face);
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     for (const std::uint32_t t : affected_) {
       const auto faces = state_.cover.faces_of(t);
@@ -176,7 +170,15 @@ class ProofWorkers::Worker {
   }
 
  private:
-  /// The faces around the first `count` of those found.
+  void begin_affected() {
+    affected_.clear();
+    affected_marks_.clear();
+  }
+  void add_affected(std::uint32_t face) {
+    for (const std::uint32_t t : state_.cover.originals_of(face))
+      if (affected_marks_.insert(t)) affected_.push_back(t);
+  }
+  /// Enters the faces around the first `count` of those found.
   template <class Owned>
   void enter_ring(std::size_t count, const Owned& owned) {
     vertex_marks_.clear();
@@ -246,7 +248,7 @@ class ProofWorkers::Worker {
     return !drafted_.empty();
   }
 
-  /// Faces that hang together with those at the corners and whose boxes meet `reach`.
+  /// Finds the faces that hang together with those at the corners and whose boxes meet `reach`.
   void find_around(const std::array<std::uint32_t, 3>& at, const Eigen::AlignedBox3d& reach) {
     found_.clear();
     found_marks_.clear();
@@ -316,7 +318,7 @@ class ProofWorkers::Worker {
     }
   }
 
-  /// Chooses, of the faces around, those that hold most of the corners, then those nearest to the middle.
+  /// Chooses among the faces around those that hold most corners, then those nearest to the middle.
   void choose_candidates(const Corners& corners) {
     const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
     chosen_.clear();
@@ -326,12 +328,10 @@ class ProofWorkers::Worker {
     const double squared_tolerance = state_.tolerance * state_.tolerance;
     std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
     for (const std::uint32_t f : chosen_) {
-      const Corners c = state_.mesh.triangle(f);
-      const CornerTriangle<double> triangle{c[0], c[1] - c[0], c[2] - c[0]};
-      const auto squared_distance = [&](Vec3 p) { return closest_on_triangle(triangle, p).squared_distance; };
+      const Corners face = state_.mesh.triangle(f);
       const auto lost = std::count_if(corners.begin(), corners.end(),
-                                      [&](Vec3 p) { return squared_distance(p) > squared_tolerance; });
-      ranked.emplace_back(lost, squared_distance(middle_of(corners)), f);
+                                      [&](Vec3 p) { return squared_distance(face, p) > squared_tolerance; });
+      ranked.emplace_back(lost, squared_distance(face, middle_of(corners)), f);
     }
     std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
     std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
@@ -341,10 +341,10 @@ class ProofWorkers::Worker {
 
   /// An original triangle at the sample nearest to the middle of a face: one that lies above it, if any does.
   [[nodiscard]] std::uint32_t triangle_near(std::uint32_t face, Vec3 middle, std::uint32_t best) {
-    double least = HUGE_VAL;
+    double min_squared = HUGE_VAL;
     for (std::uint32_t s = state_.samples.first(face); s != Samples::none; s = state_.samples.following(s)) {
       const double squared = squared_length(state_.samples.at(s) - middle);
-      if (squared < least) least = squared, best = state_.samples.triangle_near(s);
+      if (squared < min_squared) min_squared = squared, best = state_.samples.triangle_near(s);
     }
     (void)proximity_.upper_distance(to_eigen(middle), best);
     return best;
@@ -362,8 +362,8 @@ class ProofWorkers::Worker {
   std::array<Prepared, 64> prepared_;
   MarkedIds found_marks_, affected_marks_, vertex_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, ids_, drafted_;
-  std::vector<std::size_t> ends_;       ///< by place in `affected_`: of its faces in `ids_`
-  std::vector<std::size_t> in_pieces_;  ///< places in `affected_`
+  std::vector<std::size_t> ends_;       ///< by index in `affected_`: the end of its faces in `ids_`
+  std::vector<std::size_t> in_pieces_;  ///< indices in `affected_`
   std::vector<FaceMask> used_;
   bool meets_seam_ = false;
   std::vector<Part> parts_;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "simplify/box_tree.h"
+#include "simplify/cover/box_tree.h"
 #include "simplify/decimation_state.h"
 
 namespace meshbound {
@@ -17,7 +17,7 @@ class FaceBoxes {
  public:
   /// O(n log n).
   explicit FaceBoxes(const ArrayMesh& mesh);
-  /// Those that meet `box`.
+  /// Appends the faces whose boxes meet `box`.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 
  private:

@@ -14,40 +14,40 @@ double internal::sample_fault = 1;
 
 namespace {
 
-/// Placements are moved to where the largest sampled distance is least at most this often.
-/// Once where a proof of many collapses is still to come.
+/// A placement takes at most so many steps towards where the largest sampled distance is smallest; fewer where a proof
+/// of many collapses is still to come.
 constexpr int max_minimax_steps = 3, max_minimax_steps_together = 2;
 
-/// So many samples tell for most edges that there is nothing to gain.
+/// For most edges so many samples show that no placement fits.
 constexpr std::size_t few_samples = 24;
 
-/// Root mean square of the distances from the planes that an edge stands for, in tolerances, beyond which it is refused
-/// at once: one in a hundred of the collapses that are accepted lies beyond, or fewer.
+/// Root mean square of the distances from the planes in the quadrics of an edge, in tolerances, beyond which the edge
+/// is refused at once: at most one in a hundred of the collapses that are accepted lies beyond.
 constexpr double max_deviation_from_planes = 2;
-/// And up to which the place where it is least is likely to do.
+/// Root mean square up to which the placement of least cost is likely to fit.
 constexpr double likely_deviation_from_planes = 0.6;
-/// Where proofs are still to come, edges beyond are left for later: they are near the limit.
+/// Where collapses are proven together, edges beyond this are left for later: they are near the limit.
 constexpr double max_deviation_together = 1.2;
 
 /// Beyond this deviation, in limits, a first step is hardly ever followed by one that ends below 1.
 constexpr double hopeful_deviation = 1.05;
 
-/// A place is good enough where distances are this share of the limit: closest points move with it.
+/// A placement is good enough where distances are this share of the limit: closest points move with it.
 constexpr double good_share = 0.9;
 
-/// Where a place could not be proven, another one is looked for where distances are this share of the limit.
+/// Where a placement could not be proven, another one is looked for where distances are this share of the limit.
 constexpr double lower_share = 0.7;
 
 /// Beyond this deviation, in tolerances, hardly any edge is accepted after a change around it.
 constexpr float max_deviation_after_change = 1.25F;
 
-/// For an edge whose samples are this far away, in tolerances, where its vertex is placed best.
+/// What may help an edge whose samples are this far away, in tolerances, from its best placement.
 Hope hope_of(float deviation) {
   if (deviation > max_deviation_after_change) return Hope::OfOtherEnds;
   return deviation > hopeless_deviation ? Hope::AfterChange : Hope::WithMoreTolerance;
 }
 
-/// Two faces that stay have three vertices in common: they are the others of a tetrahedron.
+/// Whether the two faces that stay are those of a tetrahedron: they have three vertices in common.
 bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
   return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
 }
@@ -229,7 +229,7 @@ std::optional<Vec3> Proposer::lower_placement(Vec3 than) {
   return minimax(than, lower_share * limit_);
 }
 
-/// Samples from all of the star.
+/// Takes a few samples from all parts of the star.
 void Proposer::take_few() {
   const SamplePoints& points = samples_.points();
   const std::size_t stride = points.size() / few_samples;
@@ -237,7 +237,7 @@ void Proposer::take_few() {
   for (std::size_t i = 0; i < points.size(); i += stride) few_.add(points.at(i));
 }
 
-/// From a placement to where the largest distance is least, or below `low`.
+/// The placement, reached from `point`, where the largest distance is smallest or below `low`.
 std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   lowered_ = true;
   if (!set_faces(point)) {
@@ -283,7 +283,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   return fits(point) ? std::optional(point) : std::nullopt;
 }
 
-/// The distance of the vertex from the original is a deviation like those of samples from the faces.
+/// Adds the distance of the vertex from the original to the deviations.
 void Proposer::add_vertex(Vec3 point) {
   const Vec3 offset = (1 / full_limit_) * samples_.offset_from_original(point);
   const double deviation = length(offset);
@@ -306,8 +306,8 @@ void Proposer::collapse(Region& region, Vec3 point) {
   apply_collapse(state_, region, star_, point);
 }
 
-/// Each sample to the face that was found nearest to it.
-void Proposer::settle(Region& region) {
+/// Gives each sample to the face that was found nearest to it.
+void Proposer::assign_samples(Region& region) {
   DecimationState& s = state_;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   for (const std::uint32_t face : star_.removed) s.samples.clear(face);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "simplify/decimation_state.h"
-#include "simplify/linear_deviations.h"
-#include "simplify/normal_guard.h"
+#include "simplify/kernel/kernels.h"
+#include "simplify/mesh/normal_guard.h"
 #include "simplify/regions.h"
 #include "simplify/star_samples.h"
 
@@ -37,7 +37,7 @@ struct PointsOnEdge {
 /// Makes a collapse that has been noted.
 void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point);
 
-/// What a collapse costs by the quadrics of its ends.
+/// The cost of a collapse by the quadrics of its ends.
 [[nodiscard]] float edge_cost(const DecimationState& state, Corner edge);
 
 /// Tries changes against the samples around them, and makes them. One for each thread.
@@ -46,25 +46,26 @@ class Proposer {
   explicit Proposer(DecimationState& state);
 
   /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance:
-  /// at `wanted`, or where its cost is least, or else where the largest distance is. None where no such place is found.
+  /// at `wanted`, or where its cost is least, or where the largest distance is smallest. None where no such point is
+  /// found.
   [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share, std::optional<Vec3> wanted);
   /// Changes from now on are those of this region. Both must outlive them.
   void enter(const Split& split, const Region& region);
   /// Whether all vertices around an edge belong to the region. An edge with too many faces around it may count as
   /// outside: it can not be collapsed either.
   [[nodiscard]] bool is_inside(Corner edge) const;
-  /// Whether it was for the bound that the last edge was refused, and where its vertex was to go.
+  /// Whether the last edge was refused because of the bound, and where its vertex was to go.
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
   /// What the edge that was refused last needs.
   [[nodiscard]] Hope hope() const { return hope_; }
-  /// Another place for the edge that was asked for last, where the largest distance is smaller: for one that could not
-  /// be proven.
+  /// Another placement for the edge that was asked for last, where the largest distance is smaller: for one that could
+  /// not be proven.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
-  /// Makes the collapse that was found last, and then, where it is to stay, gives the samples to the faces that are
-  /// left.
+  /// Makes the collapse that was found last.
   void collapse(Region& region, Vec3 point);
-  void settle(Region& region);
+  /// Gives the samples to the faces that are left by that collapse, where it is to stay.
+  void assign_samples(Region& region);
   [[nodiscard]] const EdgeStar& star() const { return star_; }
 
   struct Counts {
@@ -90,21 +91,21 @@ class Proposer {
   const Split* split_ = nullptr;  ///< of the last edge
   std::uint32_t region_ = 0;
   StarSamples samples_;
-  DeviationKernel deviation_kernel_ = fastest_deviation_kernel();
+  DeviationKernel deviation_kernel_ = simplify_kernels().deviations;
   EdgeStar star_;
   std::vector<GuardedFace> before_;    ///< the faces that move
-  double limit_ = 0, full_limit_ = 0;  ///< of samples, with the share that they may reach, and of the tolerance
+  double limit_ = 0, full_limit_ = 0;  ///< what samples may reach, and all of the tolerance
   bool is_together_ = false;           ///< proofs are still to come
-  bool lowered_ = false;               ///< the last place is one where the largest distance is least
-  bool gathered_ = false;              ///< the samples
+  bool lowered_ = false;               ///< the last placement is one where the largest distance is smallest
+  bool gathered_ = false;              ///< samples of the star are in `samples_`
   Hope hope_ = Hope::WithMoreTolerance;
   bool by_bound_ = false;  ///< samples were asked
-  Vec3 tried_;             ///< the first place
+  Vec3 tried_;             ///< the first placement
   Vec3 origin_;
   std::vector<Vec3> borders_;  ///< other ends of border edges
   SamplePoints few_;
   std::vector<SampleFace> faces_;       ///< that stay, as they would be
-  std::vector<std::uint32_t> numbers_;  ///< of these in the mesh
+  std::vector<std::uint32_t> numbers_;  ///< numbers of `faces_` in the mesh
   std::vector<std::uint32_t> taken_;    ///< all faces of the star
   std::vector<std::uint32_t> beside_;   ///< faces around the star, of the same region
   LinearDeviations deviations_;

@@ -28,10 +28,10 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
   std::iota(open_originals_.begin(), open_originals_.end(), 0u);
 }
 
-std::span<const std::uint32_t> Proof::draft(std::uint32_t place) const {
-  if (!faces_[place].empty()) return faces_[place];
-  if (only_face_[place] == ArrayMesh::none) return {};
-  return {&only_face_[place], 1};
+std::span<const std::uint32_t> Proof::draft(std::uint32_t index) const {
+  if (!faces_[index].empty()) return faces_[index];
+  if (only_face_[index] == ArrayMesh::none) return {};
+  return {&only_face_[index], 1};
 }
 
 bool Proof::is_stale(std::uint32_t original) const {
@@ -71,7 +71,7 @@ void Proof::run(const StopToken& stop) {
     if (is_near[i] == 0) unproven_.faces.push_back(open_faces_[i]);
 }
 
-/// Originals that samples have not led to a cover.
+/// Covers the originals that samples have not led to a cover.
 void Proof::cover_anywhere() {
   std::vector<std::uint32_t> lost;
   for (const std::uint32_t at : open_originals_)

@@ -28,12 +28,12 @@ class Proof {
  public:
   Proof(DecimationState& state, ProofWorkers& workers);
 
-  /// Proves what is still open. Throws `Stopped`; the state is as it was then.
+  /// Proves what is still open. Throws `Stopped` where `stop` asks for it; the state is then as it was.
   void run(const StopToken& stop);
   /// What was found not to hold. Empty: all is proven.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
-  /// These faces, in order, have been changed again, most of them back to what they were: what was proven with them is
-  /// open.
+  /// Opens what was proven with these faces, which are in ascending order: they have been changed again, most of them
+  /// back to what they were.
   void reopen(const std::vector<std::uint32_t>& changed);
   /// Makes the proof that of the state, which has nothing unproven from then on.
   void commit();
@@ -43,15 +43,15 @@ class Proof {
  private:
   void cover_anywhere();
   [[nodiscard]] bool is_stale(std::uint32_t original) const;
-  /// The faces that cover the original at a place in `originals_`; none: open.
-  [[nodiscard]] std::span<const std::uint32_t> draft(std::uint32_t place) const;
+  /// The faces that cover `originals_[index]`; none: open.
+  [[nodiscard]] std::span<const std::uint32_t> draft(std::uint32_t index) const;
 
   DecimationState& state_;
   ProofWorkers& workers_;
   std::vector<std::uint32_t> originals_;           ///< to be covered anew; none: not any more
-  std::vector<std::uint32_t> only_face_;           ///< by place there: that covers it alone, or none
-  std::vector<std::vector<std::uint32_t>> faces_;  ///< by place there: that cover it together
-  std::vector<std::uint32_t> open_originals_;      ///< places there
+  std::vector<std::uint32_t> only_face_;           ///< by index in `originals_`: the face that covers it alone, or none
+  std::vector<std::vector<std::uint32_t>> faces_;  ///< by index in `originals_`: faces that cover it together
+  std::vector<std::uint32_t> open_originals_;      ///< indices in `originals_`
   std::vector<std::uint32_t> open_faces_;
   Unproven unproven_;
 };

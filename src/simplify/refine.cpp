@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "numeric/first_error.h"
-#include "simplify/edge_queue.h"
 #include "simplify/lower_deviation.h"
+#include "simplify/mesh/edge_queue.h"
 #include "simplify/region_collapses.h"
 #include "simplify/relaxed_collapse.h"
 
@@ -101,7 +101,7 @@ class Refiner {
     if (!edit_.fits(1)) return false;
     edit_.make();
     if (!prover_.prove_or_undo(*split_, *region_)) return false;
-    edit_.settle();
+    edit_.assign_samples();
     return true;
   }
 
@@ -172,7 +172,7 @@ void Refiner::shake(std::uint32_t vertex) {
 
 void Refiner::collapse_relaxed() {
   const ArrayMesh& mesh = state_.mesh;
-  EdgeQueue queue(state_.place_in_queue);
+  EdgeQueue queue(state_.index_in_queue);
   for_each_edge([&](Corner edge) {
     if (split_->owns(region_->id, mesh.end(edge))) queue.put(edge, edge_cost(state_, edge));
   });

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "simplify/edge_queue.h"
+#include "simplify/mesh/edge_queue.h"
 
 namespace meshbound {
 
@@ -37,7 +37,7 @@ bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[m
 bool RegionCollapses::make(Vec3 point) {
   proposer_.collapse(region_, point);
   if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_)) return false;
-  proposer_.settle(region_);
+  proposer_.assign_samples(region_);
   mesh().for_each_corner(kept(), [&](Corner c) {
     state_.refused_at[mesh().edge(c)] = state_.refused_at[mesh().edge(previous_corner(c))] = 0;
     return true;
@@ -70,7 +70,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
 }
 
 void RegionCollapses::collapse_all() {
-  EdgeQueue queue(state_.place_in_queue);
+  EdgeQueue queue(state_.index_in_queue);
   for_each_edge([&](Corner e) {
     if (is_open(e)) queue.put(e, edge_cost(state_, e));
   });

@@ -10,12 +10,12 @@
 
 namespace meshbound {
 
-/// Collapses of one region of a mesh, each near enough by the samples around it, and proven before the next where there
-/// is a prover: what a driver asks for and commits.
+/// The collapses of one region of a mesh, which a driver asks for and commits. Each is near enough by the samples
+/// around it, and proven before the next where there is a prover.
 class RegionCollapses {
  public:
   struct Limits {
-    double share = 1;                                    ///< of the tolerance, that samples may reach
+    double share = 1;                                    ///< share of the tolerance that samples may reach
     std::function<bool(std::size_t removed)> must_stop;  ///< asked with the number of faces gone from the region
     /// Asked where a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
     /// None: they go on.
@@ -34,7 +34,7 @@ class RegionCollapses {
   [[nodiscard]] bool is_open(Corner edge) const;
   /// Whether the edge was refused in this run, and its star is still the same.
   [[nodiscard]] bool is_refused(Corner edge) const;
-  /// Calls `visit(edge)` for each edge of the region, and others that begin in it.
+  /// Calls `visit(edge)` for each edge that begins in the region.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
     if (split_.region_of.empty()) {

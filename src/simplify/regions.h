@@ -14,7 +14,7 @@ namespace meshbound {
 /// Which region a face belongs to is noted at the split: its corners may be read by the thread of that region only.
 struct Split {
   std::vector<std::uint32_t> region_of;       ///< by vertex; empty: all belong to one region
-  std::vector<std::uint32_t> region_of_face;  ///< by face: that of all its vertices, `none` if they differ; or empty
+  std::vector<std::uint32_t> region_of_face;  ///< by face: region of all its vertices, `none` if they differ; or empty
   std::vector<Region> regions;
 
   [[nodiscard]] bool owns(std::uint32_t region, std::uint32_t vertex) const {
@@ -25,7 +25,7 @@ struct Split {
   }
 };
 
-/// `split` knows so many ways to cut one mesh.
+/// Number of ways in which `split` can cut a mesh.
 inline constexpr int shifts_of_split = 3;
 
 /// Cuts a mesh into regions of about equal numbers of vertices, each between planes, and none of fewer than
@@ -33,7 +33,7 @@ inline constexpr int shifts_of_split = 3;
 /// other directions, so that few vertices lie at seams of all of them. All vertices around one with
 /// many faces are of one region. O(n log n).
 [[nodiscard]] Split split(const DecimationState& state, int shift, std::size_t min_vertices);
-/// One region of all.
+/// The split into a single region.
 [[nodiscard]] Split whole(const DecimationState& state);
 /// Takes over what was changed in the regions, in their order.
 void merge(DecimationState& state, Split split);

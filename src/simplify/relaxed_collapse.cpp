@@ -26,7 +26,7 @@ bool RelaxedCollapse::run(const Split& split, Region& region, Corner edge) {
   const std::uint32_t kept = state_.mesh.start(edge);
   edit_.begin_group();
   edit_.make();
-  edit_.settle();
+  edit_.assign_samples();
   if (!make_room(kept) || !edit_.group_fits(1) || !prover_.prove_group(split, region)) {
     edit_.undo_group();
     return false;
@@ -66,11 +66,11 @@ void RelaxedCollapse::flip_around(std::uint32_t kept) {
   for (const Corner edge : edges_) {
     if (!edit_.flip_lowers_deviation(edge)) continue;
     edit_.make();
-    edit_.settle();
+    edit_.assign_samples();
   }
 }
 
-/// Moves a vertex to where the deviation is least. Returns the largest sampled distance that is left, squared.
+/// Moves a vertex to where the deviation is smallest. Returns the largest sampled distance that is left, squared.
 double RelaxedCollapse::relax(std::uint32_t vertex, const DeviationSearch& search) {
   if (!edit_.gather_move(vertex)) return 0;
   const Vec3 start = edit_.origin();
@@ -78,7 +78,7 @@ double RelaxedCollapse::relax(std::uint32_t vertex, const DeviationSearch& searc
   const LoweredDeviation found = lower_deviation(edit_, start, state_.tolerance, search);
   if (squared_length(found.point - start) > 0) {
     edit_.make();
-    edit_.settle();
+    edit_.assign_samples();
   }
   return found.lowest.worst_squared;
 }

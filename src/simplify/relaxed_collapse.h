@@ -9,7 +9,7 @@
 
 namespace meshbound {
 
-/// Collapses edges for which no place of the one vertex that is left keeps the bound: vertices around it move and edges
+/// Collapses edges for which no placement of the vertex that is left keeps the bound: vertices around it move and edges
 /// around it flip to where the sampled deviation is lower, and all this together is proven, or taken back. Worth its
 /// time where nothing else fits any more.
 class RelaxedCollapse {

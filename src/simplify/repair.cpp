@@ -7,8 +7,7 @@
 #include <queue>
 #include <span>
 
-#include "geometry/point_triangle.h"
-#include "simplify/face_box.h"
+#include "simplify/cover/face_box.h"
 
 namespace meshbound {
 namespace {
@@ -123,13 +122,12 @@ class Undoing {
   void give_samples(std::uint32_t number) {
     for (const std::uint32_t s : samples_) {
       const Vec3 p = state_.samples.at(s);
-      double least = HUGE_VAL;
+      double min_squared = HUGE_VAL;
       std::uint32_t best = ArrayMesh::none;
       for (const EditLog::Stamp& stamp : stamps_of(number)) {
         if (state_.mesh.is_removed(stamp.face)) continue;
-        const auto [a, b, c] = state_.mesh.triangle(stamp.face);
-        const double squared = closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, p).squared_distance;
-        if (squared < least) least = squared, best = stamp.face;
+        const double squared = squared_distance(state_.mesh.triangle(stamp.face), p);
+        if (squared < min_squared) min_squared = squared, best = stamp.face;
       }
       state_.samples.give_to(s, best);
     }
@@ -149,15 +147,14 @@ class NearestFaces {
   std::uint32_t to(std::uint32_t vertex) {
     const std::uint32_t known = state_.samples.face_of(vertex);
     const double squared_reach = state_.tolerance * state_.tolerance;
-    if (known != Samples::none && !state_.mesh.is_removed(known) && squared_distance(known, vertex) <= squared_reach)
+    if (known != Samples::none && !state_.mesh.is_removed(known) && squared_from(known, vertex) <= squared_reach)
       return known;
     return search(vertex);
   }
 
  private:
-  [[nodiscard]] double squared_distance(std::uint32_t face, std::uint32_t vertex) const {
-    const auto [a, b, c] = state_.mesh.triangle(face);
-    return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, state_.vertices[vertex]).squared_distance;
+  [[nodiscard]] double squared_from(std::uint32_t face, std::uint32_t vertex) const {
+    return squared_distance(state_.mesh.triangle(face), state_.vertices[vertex]);
   }
   /// Where samples do not know: in boxes that grow until they meet a face that is nearer than what they reach.
   std::uint32_t search(std::uint32_t vertex) {
@@ -166,11 +163,11 @@ class NearestFaces {
     for (double reach = state_.tolerance;; reach *= growth_of_reach) {
       found_.clear();
       boxes_->find(grown(Eigen::AlignedBox3d(p, p), reach), found_);
-      double least = HUGE_VAL;
+      double min_squared = HUGE_VAL;
       std::uint32_t best = 0;
       for (const std::uint32_t f : found_)
-        if (const double squared = squared_distance(f, vertex); squared < least) least = squared, best = f;
-      if (least <= reach * reach || reach > 4 * state_.magnitude) return best;
+        if (const double squared = squared_from(f, vertex); squared < min_squared) min_squared = squared, best = f;
+      if (min_squared <= reach * reach || reach > 4 * state_.magnitude) return best;
     }
   }
   static constexpr double growth_of_reach = 4;

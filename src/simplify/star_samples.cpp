@@ -7,6 +7,7 @@
 
 #include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
+#include "simplify/cover/face_box.h"
 
 namespace meshbound {
 namespace {
@@ -31,7 +32,7 @@ void StarSamples::begin(Vec3 origin) {
   ids_.clear();
 }
 
-/// One of each list at a time: where the next one is known only from the last, many are fetched at once.
+/// Takes one sample of each list at a time: lists wait for memory at each sample, and so they wait together.
 void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
   const Samples& samples = state_.samples;
   next_.clear();
@@ -81,8 +82,7 @@ std::uint32_t StarSamples::face_beside(std::uint32_t sample, std::span<const std
                                        float squared_limit) const {
   const Vec3 p = state_.samples.at(sample);
   for (const std::uint32_t face : beside) {
-    const auto [a, b, d] = state_.mesh.triangle(face);
-    if (closest_on_triangle(CornerTriangle<double>{a, b - a, d - a}, p).squared_distance <= squared_limit) return face;
+    if (squared_distance(state_.mesh.triangle(face), p) <= squared_limit) return face;
   }
   return ArrayMesh::none;
 }
@@ -110,14 +110,14 @@ Vec3 StarSamples::offset_from_original(Vec3 point) {
   return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, point).offset;
 }
 
-/// An original triangle at the sample nearest to a point.
+/// The original triangle of the sample nearest to a point.
 std::uint32_t StarSamples::triangle_near(Vec3 point) const {
   std::uint32_t best = ids_[0];
-  double least = HUGE_VAL;
+  double min_squared = HUGE_VAL;
   const std::size_t stride = ids_.size() / 32 + 1;
   for (std::size_t i = 0; i < ids_.size(); i += stride) {
     const double squared = squared_length(state_.samples.at(ids_[i]) - point);
-    if (squared < least) least = squared, best = ids_[i];
+    if (squared < min_squared) min_squared = squared, best = ids_[i];
   }
   return state_.samples.triangle_near(best);
 }
@@ -139,7 +139,7 @@ void StarSamples::give(std::span<const std::uint32_t> numbers) {
   }
 }
 
-/// The places of points in the order of a space-filling curve through their box: neighbours in it lie near each other.
+/// The indices of points in the order of a space-filling curve through their box: neighbours in it lie near each other.
 void StarSamples::sort_along_curve() {
   Eigen::AlignedBox3f box;
   for (const SamplePoints::Block& block : points_.blocks)

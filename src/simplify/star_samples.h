@@ -6,11 +6,11 @@
 
 #include "meshbound/proximity.h"
 #include "simplify/decimation_state.h"
-#include "simplify/sample_kernel.h"
+#include "simplify/kernel/kernels.h"
 
 namespace meshbound {
 
-/// The samples of a few faces, measured against the faces that a change would put in their place. One for each thread.
+/// The samples of a few faces, compared with the faces that a change would replace them by. One for each thread.
 class StarSamples {
  public:
   explicit StarSamples(DecimationState& state) : state_(state), proximity_(state.tree) {}
@@ -27,9 +27,9 @@ class StarSamples {
   [[nodiscard]] bool hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
-  /// Whether points between that vertex and `end`, at so many equal steps, are within `limit` of the original.
+  /// Whether `points` points between that vertex and `end`, in equal steps, are within `limit` of the original.
   [[nodiscard]] bool is_edge_near_original(Vec3 vertex, Vec3 end, int points, double limit);
-  /// From the point of the original nearest to the vertex that was asked for last to it.
+  /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
   /// Gives each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the faces
   /// whose samples were added must have been cleared.
@@ -46,7 +46,7 @@ class StarSamples {
 
   DecimationState& state_;
   Proximity proximity_;
-  SampleKernel kernel_ = fastest_sample_kernel();
+  SampleKernel kernel_ = simplify_kernels().samples;
   std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;
   std::vector<std::uint32_t> next_;  ///< samples of each face that is being added

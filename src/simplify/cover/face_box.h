@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// Boxes of triangles in the working frame, and distances from them.
+#pragma once
+#include <Eigen/Geometry>
+#include <array>
+
+#include "geometry/point_triangle.h"
+#include "geometry/vec3.h"
+
+namespace meshbound {
+
+inline Eigen::Vector3d to_eigen(Vec3 p) { return {p.x, p.y, p.z}; }
+inline Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& corners) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3 p : corners) box.extend(to_eigen(p));
+  return box;
+}
+inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
+  return {box.min().array() - by, box.max().array() + by};
+}
+
+/// As computed, for guides; a proof asks `PreparedTriangle`.
+inline double squared_distance(const std::array<Vec3, 3>& corners, Vec3 p) {
+  const auto& [a, b, c] = corners;
+  return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, p).squared_distance;
+}
+
+}  // namespace meshbound

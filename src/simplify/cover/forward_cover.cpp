@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/cover/forward_cover.h"
+
+#include <algorithm>
+
+namespace meshbound {
+namespace {
+
+/// Pieces shorter than this share of the tolerance are not cut further: between points that close, a face that holds
+/// one and not the other is at the tolerance, and a cover that needs it is too tight to look for.
+constexpr double shortest_edge_share = 1e-3;
+
+/// Cuts keep away from the ends, so that pieces shrink.
+constexpr double nearest_cut = 0.05;
+
+/// An edge whose ends share a face is cut only when the others do too: it weighs as if it were this much shorter.
+constexpr double held_edge_weight = 1e-3;
+
+FaceMask lowest(FaceMask mask) { return mask & (~mask + 1); }
+
+}  // namespace
+
+ForwardCover::ForwardCover(const std::vector<Vec3>& vertices,
+                           const std::vector<std::array<std::uint32_t, 3>>& triangles)
+    : vertices_(vertices), triangles_(triangles), cache_(vertices.size()) {}
+
+void ForwardCover::begin(double tolerance) {
+  candidates_.clear(tolerance);
+  const double shortest = shortest_edge_share * tolerance;
+  shortest_squared_edge_ = shortest * shortest;
+  ++round_;
+}
+
+int ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
+  const int k = candidates_.size();
+  if (k == CandidateFaces::capacity) return no_room;
+  faces_[static_cast<std::size_t>(k)] = face;
+  candidates_.add(corners);
+  return k;
+}
+
+void ForwardCover::replace_first(std::span<const std::array<Vec3, 3>> corners) {
+  for (std::size_t k = 0; k < corners.size(); ++k) candidates_.replace(static_cast<int>(k), corners[k]);
+  replaced_ = first(static_cast<int>(corners.size()));
+  ++replacement_;
+}
+
+FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
+  CachedMask& cached = cache_[vertex];
+  if (cached.round != round_) {
+    cached = {round_, replacement_, 0, 0};
+  } else if (cached.replacement != replacement_) {
+    cached.replacement = replacement_;
+    cached.known &= ~replaced_;
+    cached.mask &= ~replaced_;
+  }
+  if (const FaceMask missing = allowed & ~cached.known; missing != 0) {
+    cached.mask |= candidates_.holding(vertices_[vertex], missing);
+    cached.known |= missing;
+  }
+  return cached.mask & allowed;
+}
+
+std::optional<std::uint32_t> ForwardCover::corner_out_of_reach(std::uint32_t triangle, FaceMask allowed) {
+  const auto& corners = triangles_[triangle];
+  const auto at = std::find_if(corners.begin(), corners.end(), [&](std::uint32_t v) { return !holds(v, allowed); });
+  return at == corners.end() ? std::nullopt : std::optional(*at);
+}
+
+FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
+  const auto& t = triangles_[triangle];
+  const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
+  return lowest((common & preferred) != 0 ? common & preferred : common);
+}
+
+FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
+  const FaceMask one = cover_whole(triangle, allowed, preferred);
+  return one != 0 ? one : cover_in_pieces(triangle, allowed, Asked::LikelyOnes);
+}
+
+FaceMask ForwardCover::cover_thoroughly(std::uint32_t triangle, FaceMask allowed) {
+  const auto& t = triangles_[triangle];
+  const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
+  if (common == 0) {
+    const FaceMask pieces = cover_in_pieces(triangle, allowed, Asked::LikelyOnes);
+    return pieces != 0 ? pieces : cover_in_pieces(triangle, allowed, Asked::All);
+  }
+  if (common == lowest(common)) return common;
+  return candidates_.nearest((1.0 / 3) * (vertices_[t[0]] + vertices_[t[1]] + vertices_[t[2]]), common);
+}
+
+FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed, Asked asked) {
+  const auto& t = triangles_[triangle];
+  Piece whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    whole.corners[i] = vertices_[t[i]];
+    whole.masks[i] = mask_of(t[i], allowed);
+    if (whole.masks[i] == 0) return 0;
+  }
+  return cover_in_pieces(whole, allowed, asked, deepest_cut);
+}
+
+std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corners, int max_cuts) {
+  const FaceMask all = first(size());
+  Piece whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    whole.corners[i] = corners[i];
+    whole.masks[i] = candidates_.holding(corners[i], all);
+    if (whole.masks[i] == 0) return std::nullopt;
+  }
+  return cover_in_pieces(whole, all, Asked::All, max_cuts);
+}
+
+FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int max_cuts) {
+  ++splits;
+  open_.assign(1, whole);
+  FaceMask used = 0;
+  for (int spent = 0; !open_.empty();) {
+    const Piece piece = open_.back();
+    open_.pop_back();
+    const FaceMask common = piece.masks[0] & piece.masks[1] & piece.masks[2];
+    if (common != 0) {
+      if ((common & used) == 0) used |= lowest(common);
+      continue;
+    }
+    if (++spent > max_cuts || !cut(piece, allowed, asked)) return 0;
+  }
+  return used;
+}
+
+bool ForwardCover::cut(const Piece& piece, FaceMask allowed, Asked asked) {
+  std::size_t from = 0;
+  double longest = -1, squared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const double edge = squared_length(piece.corners[j] - piece.corners[i]);
+    const double weight = (piece.masks[i] & piece.masks[j]) != 0 ? held_edge_weight * edge : edge;
+    if (weight > longest) longest = weight, squared = edge, from = i;
+  }
+  if (squared < shortest_squared_edge_) return false;
+  const std::size_t to = (from + 1) % 3;
+  const Vec3 p = piece.corners[from], q = piece.corners[to];
+  double share = 0.5;
+  if ((piece.masks[from] & piece.masks[to]) == 0) {
+    const Reach reach = candidates_.reach(p, q, piece.masks[from], piece.masks[to]);
+    share = std::clamp((reach.forth + 1 - reach.back) / 2, nearest_cut, 1 - nearest_cut);
+  }
+  const Vec3 middle = p + share * (q - p);
+  ++cuts;
+  // A candidate that holds no corner holds no part that is cut here, unless it is smaller than the piece: it is asked
+  // only when the others fail.
+  const FaceMask likely = asked == Asked::All ? allowed : piece.masks[0] | piece.masks[1] | piece.masks[2];
+  FaceMask mask = candidates_.holding(middle, likely);
+  if (mask == 0) mask = candidates_.holding(middle, allowed & ~likely);
+  if (mask == 0) return false;
+  const std::size_t other = 3 - from - to;
+  const Vec3 apex = piece.corners[other];
+  const FaceMask at_apex = piece.masks[other], at_from = piece.masks[from], at_to = piece.masks[to];
+  open_.push_back({{p, middle, apex}, {at_from, mask, at_apex}});
+  open_.push_back({{middle, q, apex}, {mask, at_to, at_apex}});
+  return true;
+}
+
+}  // namespace meshbound

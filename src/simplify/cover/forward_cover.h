@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simplify/cover/candidate_faces.h"
+
+namespace meshbound {
+
+/// Finds covers of original triangles by candidate faces: the forward half of a proof.
+///
+/// A piece is covered when the masks of its three corners share a bit: that face is within the tolerance of the corners
+/// and, the distance to a triangle being convex, of the whole piece. Otherwise the piece is cut in two where it leaves
+/// the faces that hold its ends. The cover fails at once when no candidate holds a corner: then the original has a
+/// point there that is too far from all of them.
+///
+/// Cut points are rounded, so the two parts meet in a point beside the piece; the displacement, `cut_error` for each
+/// cut on the way down, is part of the rounding slack of the proof (`deepest_cut`).
+class ForwardCover {
+ public:
+  static constexpr int deepest_cut = 64;  ///< cuts spent on one original triangle
+
+  ForwardCover(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
+
+  /// Begins a new set of candidates; masks of earlier ones are forgotten.
+  void begin(double tolerance);
+  /// Index of the new candidate, `no_room` when there are 64 already.
+  int add(const std::array<Vec3, 3>& corners, std::uint32_t face);
+  static constexpr int no_room = -1;
+  /// Replaces the corners of the first candidates; what is known of the others stays.
+  void replace_first(std::span<const std::array<Vec3, 3>> corners);
+  [[nodiscard]] int size() const { return candidates_.size(); }
+  [[nodiscard]] std::uint32_t face(int k) const { return faces_[static_cast<std::size_t>(k)]; }
+  /// Candidates [0, size).
+  [[nodiscard]] static FaceMask first(int size) {
+    return size == CandidateFaces::capacity ? ~FaceMask{0} : (FaceMask{1} << size) - 1;
+  }
+
+  /// Mask of the candidates used when the triangle is covered by those of `allowed`, 0 when it is not. `preferred` are
+  /// tried first.
+  [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// As `cover`, by a single candidate, without cutting the triangle.
+  [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// As `cover`, where nothing is known: of the candidates that hold the triangle the one nearest to its middle, or
+  /// pieces, for which small candidates are tried as well.
+  [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
+  /// Mask of the candidates that together cover a part of a triangle with at most `max_cuts` cuts, 0 when they do not.
+  /// None if no candidate holds some corner.
+  [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int max_cuts);
+  /// The first corner of the triangle that no candidate of `allowed` holds, if there is one.
+  [[nodiscard]] std::optional<std::uint32_t> corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
+  /// True when some candidate of `allowed` is within the tolerance of the vertex.
+  [[nodiscard]] bool holds(std::uint32_t vertex, FaceMask allowed) { return mask_of(vertex, allowed) != 0; }
+
+  std::uint64_t splits = 0, cuts = 0;
+
+ private:
+  struct Piece {
+    std::array<Vec3, 3> corners;
+    std::array<FaceMask, 3> masks;
+  };
+  [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, FaceMask allowed);
+  enum class Asked { LikelyOnes, All };  ///< whether a point of a cut is near candidates that hold no corner, too
+  [[nodiscard]] FaceMask cover_in_pieces(std::uint32_t triangle, FaceMask allowed, Asked asked);
+  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int max_cuts);
+  [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
+
+  struct CachedMask {
+    std::uint32_t round = 0, replacement = 0;
+    FaceMask known = 0;  ///< candidates that have been asked
+    FaceMask mask = 0;
+  };
+
+  const std::vector<Vec3>& vertices_;
+  const std::vector<std::array<std::uint32_t, 3>>& triangles_;
+  CandidateFaces candidates_;
+  std::array<std::uint32_t, CandidateFaces::capacity> faces_{};
+  double shortest_squared_edge_ = 0;
+  std::uint32_t round_ = 0, replacement_ = 0;
+  FaceMask replaced_ = 0;
+  std::vector<CachedMask> cache_;
+  std::vector<Piece> open_;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+/// Compiled once per instruction set (numeric/isa.h).
+#pragma once
+#include <bit>
+#include <cmath>
+
+#include "simplify/kernel/deviation_kernel.h"
+#include "simplify/kernel/sample_kernel_impl.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+/// Nearer than this share of the tolerance, the way to the closest point is rounding: the normal of the face is not.
+constexpr float min_way = 0.02F;
+
+inline Vec<float> unit_normal(const SampleFace& face) {
+  const Vec<float> n = cross(face.ab, face.ac);
+  const float squared = dot(n, n);
+  return squared > 0 ? (1 / std::sqrt(squared)) * n : n;
+}
+
+inline void linearise(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
+                      LinearDeviations& deviations) {
+  deviations.blocks.resize(points.blocks.size());
+  for (std::size_t i = 0; i < points.blocks.size(); ++i) {
+    const auto [at, face] = closest_of(points.blocks[i], faces);
+    const Float8 x = at.x * by_tolerance, y = at.y * by_tolerance, z = at.z * by_tolerance;
+    Float8 deviation = square_root(x * x + y * y + z * z);
+    const Float8 by_deviation = 1.0F / deviation;
+    Float8 way_x = by_deviation * x, way_y = by_deviation * y, way_z = by_deviation * z;
+    for (unsigned on_face = lane_bits(~(deviation > min_way)); on_face != 0; on_face &= on_face - 1) {
+      const int k = std::countr_zero(on_face);
+      const Vec<float> normal = unit_normal(faces[static_cast<std::size_t>(face[k])]);
+      way_x[k] = normal.x, way_y[k] = normal.y, way_z[k] = normal.z;
+      deviation[k] = dot(normal, {x[k], y[k], z[k]});
+    }
+    const Float8 weight = load8(points.blocks[i].weight), share = weight * at.share;
+    LinearDeviations::Block& block = deviations.blocks[i];
+    store8(block.deviation, weight * deviation);
+    store8(block.x, share * way_x);
+    store8(block.y, share * way_y);
+    store8(block.z, share * way_z);
+  }
+}
+
+inline float sum_of_lanes(Float8 eight) {
+  float sum = 0;
+  for (int k = 0; k < 8; ++k) sum += eight[k];
+  return sum;
+}
+
+inline WeightedSums weighted_sums(const LinearDeviations& deviations, const DeviationKernel::Move& move, float scale,
+                                  int doublings) {
+  Float8 weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+  for (const LinearDeviations::Block& block : deviations.blocks) {
+    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
+    const Float8 h = load8(block.deviation) - x * move[0] - y * move[1] - z * move[2];
+    Float8 power = (h * scale) * (h * scale), w = power;  // to the power of 2^k - 1 after k rounds
+    for (int k = 1; k < doublings; ++k) power = power * power, w = w * power;
+    const Float8 wx = w * x, wy = w * y, wz = w * z;
+    weight += w, square += w * h * h;
+    rx += wx * h, ry += wy * h, rz += wz * h;
+    xx += wx * x, yy += wy * y, zz += wz * z;
+    xy += wx * y, yz += wy * z, zx += wz * x;
+  }
+  return {sum_of_lanes(weight),
+          sum_of_lanes(square),
+          {sum_of_lanes(rx), sum_of_lanes(ry), sum_of_lanes(rz)},
+          {sum_of_lanes(xx), sum_of_lanes(yy), sum_of_lanes(zz), sum_of_lanes(xy), sum_of_lanes(yz), sum_of_lanes(zx)}};
+}
+
+inline std::array<float, DeviationKernel::shares> largest_along(
+    const LinearDeviations& deviations, const DeviationKernel::Move& move, const DeviationKernel::Move& step,
+    const std::array<float, DeviationKernel::shares>& share) {
+  Float8 largest[DeviationKernel::shares] = {};
+  for (const LinearDeviations::Block& block : deviations.blocks) {
+    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
+    const Float8 h = load8(block.deviation) - x * move[0] - y * move[1] - z * move[2];
+    const Float8 change = x * step[0] + y * step[1] + z * step[2];
+    for (std::size_t k = 0; k < DeviationKernel::shares; ++k) {
+      const Float8 after = h - change * share[k];
+      largest[k] = maximum(largest[k], maximum(after, -after));
+    }
+  }
+  std::array<float, DeviationKernel::shares> result = {};
+  for (std::size_t k = 0; k < DeviationKernel::shares; ++k) {
+    for (int lane = 0; lane < 8; ++lane) result[k] = largest[k][lane] > result[k] ? largest[k][lane] : result[k];
+  }
+  return result;
+}
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound

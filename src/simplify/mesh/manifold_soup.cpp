@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/mesh/manifold_soup.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "mesh/weld.h"
+#include "meshbound/error.h"
+
+namespace meshbound {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t max_triangles = 0xffffffff / 3;
+constexpr std::uint32_t unset = 0xffffffff;
+
+constexpr std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+constexpr std::uint32_t previous(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+
+std::uint32_t& at(std::vector<Corners>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
+std::uint32_t at(const std::vector<Corners>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
+
+/// Calls `use` with a span of the items of each vertex, in the order of the vertices. `for_each_item(add)` calls
+/// `add(vertex, item)` for each item, twice the same.
+template <class Item, class ForEachItem, class Use>
+void for_each_vertex(std::size_t vertices, const ForEachItem& for_each_item, const Use& use) {
+  std::vector<std::uint32_t> end(vertices + 1, 0);  // the begin of each vertex until its items are put in
+  for_each_item([&](std::uint32_t v, const Item&) { ++end[v + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Item> items(end.back());
+  for_each_item([&](std::uint32_t v, const Item& item) { items[end[v]++] = item; });
+  std::size_t begin = 0;
+  for (const std::size_t stop : std::span(end).first(vertices)) {
+    if (stop != begin) use(std::span(items).subspan(begin, stop - begin));
+    begin = stop;
+  }
+}
+
+/// By vertex: the first vertex that has its coordinates.
+std::vector<std::uint32_t> first_of_equal(const MeshView& soup) {
+  Welder welder;
+  std::vector<std::uint32_t> first_of_number, first(soup.vertex_count());
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    const std::uint32_t number = welder.index_of(soup.vertex(v));
+    if (number == first_of_number.size()) first_of_number.push_back(v);
+    first[v] = first_of_number[number];
+  }
+  return first;
+}
+
+class ManifoldBuilder {
+ public:
+  explicit ManifoldBuilder(const MeshView& soup) : soup_(soup), first_(first_of_equal(soup)) {}
+
+  ManifoldSoup build() && {
+    take_distinct_triangles();
+    if (!join_edges()) orient();
+    split_vertices();
+    close_slits();
+    return std::move(result_);
+  }
+
+ private:
+  /// A triangle, seen from the lowest of its corners.
+  struct Repetition {
+    std::uint32_t middle, highest, triangle;
+  };
+  /// An edge of a face, seen from the lower of its ends.
+  struct Side {
+    std::uint32_t high, corner;
+  };
+
+  [[nodiscard]] Corners welded(std::uint32_t triangle) const {
+    const Triangle corners = soup_.triangle(triangle);
+    return {first_[corners[0]], first_[corners[1]], first_[corners[2]]};
+  }
+
+  void take_distinct_triangles();
+  [[nodiscard]] bool join_edges();
+  void orient();
+  void turn_over(const std::vector<std::uint8_t>& turned);
+  void split_vertices();
+  void close_slits();
+
+  [[nodiscard]] bool runs_upward(std::uint32_t corner) const {
+    return at(result_.faces, corner) < at(result_.faces, next(corner));
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    at(result_.twin, a) = b;
+    at(result_.twin, b) = a;
+  }
+  void cut(std::uint32_t corner) {
+    at(result_.twin, at(result_.twin, corner)) = no_twin;
+    at(result_.twin, corner) = no_twin;
+  }
+  /// The corner at the same vertex across the edge that leaves `corner`, or across the one that enters it.
+  [[nodiscard]] std::uint32_t across_leaving(std::uint32_t corner) const {
+    const std::uint32_t twin = at(result_.twin, corner);
+    return twin == no_twin ? no_twin : next(twin);
+  }
+  [[nodiscard]] std::uint32_t across_entering(std::uint32_t corner) const { return at(result_.twin, previous(corner)); }
+
+  MeshView soup_;
+  std::vector<std::uint32_t> first_;  ///< by vertex of the soup: the first one with its coordinates
+  ManifoldSoup result_;               ///< until `split_vertices`, corners are vertices of the soup
+};
+
+/// Triangles with three different corners, the first one of each set of corners.
+void ManifoldBuilder::take_distinct_triangles() {
+  const auto triangles = static_cast<std::uint32_t>(soup_.triangle_count());
+  std::vector<std::uint8_t> dropped(triangles, 0);
+  const auto for_each_triangle = [&](const auto& add) {
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+      auto [a, b, c] = welded(t);
+      if (a > b) std::swap(a, b);
+      if (b > c) std::swap(b, c);
+      if (a > b) std::swap(a, b);
+      if (a == b || b == c)
+        dropped[t] = 1;
+      else
+        add(a, Repetition{b, c, t});
+    }
+  };
+  for_each_vertex<Repetition>(first_.size(), for_each_triangle, [&](std::span<Repetition> here) {
+    const auto corners = [](const Repetition& r) { return std::tuple(r.middle, r.highest); };
+    std::sort(here.begin(), here.end(), [&](const Repetition& a, const Repetition& b) {
+      return std::tuple(corners(a), a.triangle) < std::tuple(corners(b), b.triangle);
+    });
+    for (std::size_t i = 1; i < here.size(); ++i)
+      if (corners(here[i]) == corners(here[i - 1])) dropped[here[i].triangle] = 1;
+  });
+  result_.dropped_triangles = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), 1));
+  result_.triangle_of.reserve(triangles - result_.dropped_triangles);
+  result_.faces.reserve(triangles - result_.dropped_triangles);
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    if (dropped[t] != 0) continue;
+    result_.triangle_of.push_back(t);
+    result_.faces.push_back(welded(t));
+  }
+  if (result_.faces.empty())
+    throw InvalidInput("there is no surface to simplify: every triangle has two equal corners");
+}
+
+/// Twins across edges of exactly two faces. True when both run in opposite directions, everywhere.
+bool ManifoldBuilder::join_edges() {
+  const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
+  result_.twin.assign(result_.faces.size(), {no_twin, no_twin, no_twin});
+  const auto for_each_side = [&](const auto& add) {
+    for (std::uint32_t c = 0; c < corners; ++c) {
+      const std::uint32_t from = at(result_.faces, c), to = at(result_.faces, next(c));
+      add(std::min(from, to), Side{std::max(from, to), c});
+    }
+  };
+  bool oriented = true;
+  for_each_vertex<Side>(first_.size(), for_each_side, [&](std::span<Side> here) {
+    std::sort(here.begin(), here.end(),
+              [](const Side& a, const Side& b) { return std::tuple(a.high, a.corner) < std::tuple(b.high, b.corner); });
+    for (std::size_t i = 0, end = 0; i < here.size(); i = end) {
+      while (end < here.size() && here[end].high == here[i].high) ++end;
+      if (end - i != 2) continue;
+      join(here[i].corner, here[i + 1].corner);
+      oriented = oriented && runs_upward(here[i].corner) != runs_upward(here[i + 1].corner);
+    }
+  });
+  return oriented;
+}
+
+/// A flood fill over each component, breadth first.
+void ManifoldBuilder::orient() {
+  constexpr std::uint8_t unseen = 2;
+  std::vector<std::uint8_t> turned(result_.faces.size(), unseen);
+  std::vector<std::uint32_t> component;
+  for (std::uint32_t first = 0; first < result_.faces.size(); ++first) {
+    if (turned[first] != unseen) continue;
+    component.assign(1, first);
+    turned[first] = 0;
+    std::size_t turned_faces = 0;
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      const std::uint32_t f = component[i];
+      for (std::uint32_t c = 3 * f; c < 3 * f + 3; ++c) {
+        const std::uint32_t twin = at(result_.twin, c);
+        if (twin == no_twin) continue;
+        const bool agree = runs_upward(c) != runs_upward(twin);
+        const auto wanted = static_cast<std::uint8_t>(turned[f] ^ (agree ? 0 : 1));
+        std::uint8_t& neighbour = turned[twin / 3];
+        if (neighbour == unseen) {
+          neighbour = wanted;
+          turned_faces += wanted;
+          component.push_back(twin / 3);
+        } else if (neighbour != wanted) {
+          cut(c);
+        }
+      }
+    }
+    if (2 * turned_faces <= component.size()) continue;
+    for (const std::uint32_t f : component) turned[f] ^= 1;
+  }
+  turn_over(turned);
+}
+
+void ManifoldBuilder::turn_over(const std::vector<std::uint8_t>& turned) {
+  for (std::uint32_t f = 0; f < result_.faces.size(); ++f) {
+    for (std::uint32_t& twin : result_.twin[f])
+      if (twin != no_twin && turned[twin / 3] != 0) twin += 2 - 2 * (twin % 3);
+    if (turned[f] == 0) continue;
+    std::swap(result_.faces[f][1], result_.faces[f][2]);
+    std::swap(result_.twin[f][0], result_.twin[f][2]);
+    result_.split = true;
+  }
+}
+
+/// A vertex for each fan or ring of faces.
+void ManifoldBuilder::split_vertices() {
+  const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
+  std::vector<Corners> vertex(result_.faces.size(), {unset, unset, unset});
+  std::vector<bool> has_vertex(first_.size(), false);
+  for (std::uint32_t first = 0; first < corners; ++first) {
+    if (at(vertex, first) != unset) continue;
+    const auto number = static_cast<std::uint32_t>(result_.vertex_of.size());
+    const std::uint32_t of = at(result_.faces, first);
+    result_.vertex_of.push_back(of);
+    if (has_vertex[of]) result_.split = true;
+    has_vertex[of] = true;
+    std::uint32_t c = first;
+    do {
+      at(vertex, c) = number;
+      c = across_leaving(c);
+    } while (c != no_twin && c != first);
+    if (c == first) continue;
+    for (c = across_entering(first); c != no_twin; c = across_entering(c)) at(vertex, c) = number;
+  }
+  result_.faces = std::move(vertex);
+}
+
+/// Joins the two ends of a fan where they are one edge that `join_edges` left cut: two of the faces at an edge of more
+/// than two, which hang together around both of its vertices. A fan has one leaving and one entering edge at its ends,
+/// so this never finds two pairs.
+void ManifoldBuilder::close_slits() {
+  const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
+  for (std::uint32_t first = 0; first < corners; ++first) {
+    if (at(result_.twin, first) != no_twin) continue;
+    std::uint32_t last = first;
+    for (std::uint32_t c = first; c != no_twin; c = across_entering(c)) last = c;
+    const std::uint32_t entering = previous(last);
+    if (at(result_.faces, entering) == at(result_.faces, next(first))) join(first, entering);
+  }
+}
+
+}  // namespace
+
+ManifoldSoup manifold_soup(const MeshView& soup) {
+  if (soup.triangle_count() > max_triangles)
+    throw InvalidInput("the mesh has " + std::to_string(soup.triangle_count()) +
+                       " triangles; decimation takes 2^32 / 3 of them at most, simplify it in pieces");
+  return ManifoldBuilder(soup).build();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// The quadric error metric of Garland and Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH
+/// 1997, with planes weighted as CGAL's `GarlandHeckbert_plane_policies` weights them.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "simplify/mesh/array_mesh.h"
+
+namespace meshbound {
+
+/// Sum of squared distances to planes, x.A x + 2 b.x + c with a symmetric A.
+struct Quadric {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  ///< A
+  double x = 0, y = 0, z = 0;                             ///< b
+  double constant = 0;
+
+  /// `weight` times the squared distance to the plane through `p` with the unit vector `normal`.
+  static Quadric of_plane(Vec3 normal, Vec3 p, double weight);
+  Quadric& operator+=(const Quadric& other);
+  Quadric& operator-=(const Quadric& other);
+  [[nodiscard]] double at(Vec3 p) const;
+  /// The weights of all planes together.
+  [[nodiscard]] double planes() const { return xx + yy + zz; }
+  /// Where it is least; none where A is singular.
+  [[nodiscard]] std::optional<Vec3> minimum() const;
+};
+
+/// By vertex: the planes of the faces around it, and through border edges, perpendicular to their face.
+[[nodiscard]] std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh);
+
+struct Placement {
+  Vec3 point;
+  double cost = 0;
+};
+/// Where the sum of the quadrics of an edge's ends, at p and q, is least. Where that is too far away to be believed,
+/// the best of the middle and the ends.
+[[nodiscard]] Placement best_placement(const Quadric& of_p, const Quadric& of_q, Vec3 p, Vec3 q);
+
+}  // namespace meshbound
