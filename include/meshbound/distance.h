@@ -71,7 +71,7 @@ struct PhaseSeconds {
 struct DistanceStats {
   std::uint64_t triangles = 0;              ///< of the model that is searched ("A" of the one-sided distance)
   std::uint64_t matched = 0;                ///< dropped because the other model has the identical triangle
-  std::uint64_t proven_before = 0;          ///< dropped because `LevelChecker` kept a proof from an earlier level
+  std::uint64_t proven_before = 0;          ///< dropped by what `LevelChecker` or `MovingPair` had proven before
   std::uint64_t culled_by_node = 0;         ///< dropped with a whole tree node (paper, Alg. 1)
   std::uint64_t culled_by_vertices = 0;     ///< dropped by the closest triangles of their vertices (paper, 4.4)
   std::uint64_t walked = 0;                 ///< needed the walk over the cells of the other model

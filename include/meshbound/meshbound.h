@@ -14,6 +14,7 @@
 #include "meshbound/lod_chain.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/motion.h"
 #include "meshbound/proximity.h"
 #include "meshbound/report.h"
 #include "meshbound/screen_space.h"

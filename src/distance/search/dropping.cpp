@@ -38,7 +38,7 @@ Remaining drop_identical(OneSidedSearch& search, bool touches_b) {
 
 Remaining drop_proven(OneSidedSearch& search, Remaining remaining) {
   const OneSidedTask& task = search.task();
-  if (task.memory == nullptr || search.decided()) return remaining;
+  if (!search.recorder().is_on() || search.decided()) return remaining;
   const double lower = search.b().frame.length_down(std::max(0.0, search.lower().lower));
   double target = task.decide_only ? task.tolerance : lower + task.error_bound;
   if (lower <= task.tolerance) target = std::min(target, task.tolerance);

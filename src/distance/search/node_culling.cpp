@@ -6,8 +6,10 @@
 #include <queue>
 
 #include "distance/search/node_boxes.h"
+#include "distance/search/search_memory.h"
 #include "distance/search/steps.h"
 #include "numeric/no_index.h"
+#include "numeric/rounding.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
@@ -30,7 +32,8 @@ struct NodeOfA {
   double bound_squared;  ///< of the distance of all its triangles to B
   std::uint32_t level;
   std::uint32_t index;
-  std::uint32_t slot;  ///< the triangle of B that gives the bound
+  std::uint32_t slot;        ///< the triangle of B that gives the bound
+  bool is_of_front = false;  ///< the bound is one of an earlier search, and is to be found anew before it is opened
 
   bool operator<(const NodeOfA& other) const {
     if (bound_squared != other.bound_squared) return bound_squared < other.bound_squared;
@@ -92,23 +95,58 @@ struct Question {
 class NodeCulling {
  public:
   NodeCulling(OneSidedSearch& search, const Remaining& remaining, SearchKernel& kernel)
-      : search_(search), a_(search.a()), remaining_(remaining), kernel_(kernel) {}
+      : search_(search), a_(search.a()), remaining_(remaining), kernel_(kernel) {
+    SearchMemory* const memory = search.task().memory;
+    if (memory != nullptr && memory->rigid && remaining.is_whole()) front_ = &memory->front;
+  }
 
   /// The slots that are left, ascending.
   std::vector<std::uint32_t> run() {
-    queue_.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
+    if (front_ != nullptr && is_coherent(*front_, search_))
+      begin_at_front();
+    else
+      queue_.push({std::numeric_limits<double>::infinity(), a_.levels() - 1, 0, 0});
     while (!queue_.empty() && !search_.decided() && !search_.out_of_budget()) {
       open_worst();
       answer();
       take_answers();
     }
     search_.offer_upper_squared(kernel_.upper_squared());
-    for (; !queue_.empty(); queue_.pop()) keep_slots_below(queue_.top().level, queue_.top().index);
+    for (; !queue_.empty(); queue_.pop()) {
+      keep_slots_below(queue_.top().level, queue_.top().index);
+      add_to_front(queue_.top());
+    }
     std::sort(left_.begin(), left_.end());
+    if (front_ != nullptr) *front_ = {std::move(new_front_), search_.map(), search_.goal().slack, true};
     return std::move(left_);
   }
 
+  /// Triangles in nodes that were near enough by the front alone.
+  [[nodiscard]] std::uint64_t near_by_front() const { return near_by_front_; }
+
  private:
+  void begin_at_front() {
+    const double drift = drift_since(*front_, search_), accepted = std::sqrt(kernel_.accepted_squared());
+    double largest = 0;
+    for (const NodeFront::Node& node : front_->nodes) {
+      const double upper = next_up(node.upper + drift);
+      if (upper > accepted) {
+        queue_.push({upper * upper, node.level, node.index, node.slot, true});
+        continue;
+      }
+      const auto [begin, end] = slots_below(a_, node.level, node.index);
+      near_by_front_ += end - begin;
+      largest = std::max(largest, upper);
+      new_front_.push_back({upper, node.level, node.index, node.slot});
+    }
+    search_.offer_known_upper(search_.b().frame.length_up(largest));
+  }
+
+  void add_to_front(const NodeOfA& node) {
+    if (front_ == nullptr) return;
+    new_front_.push_back({search_.goal().proven_upper(node.bound_squared, 0), node.level, node.index, node.slot});
+  }
+
   /// Opens the worst nodes that are not near enough.
   void open_worst() {
     questions_.clear();
@@ -117,6 +155,7 @@ class NodeCulling {
       if (node.bound_squared <= kernel_.accepted_squared()) {
         kernel_.accept(node.bound_squared);
         record(node);
+        add_to_front(node);
         continue;
       }
       open(node);
@@ -124,10 +163,15 @@ class NodeCulling {
     }
   }
 
-  /// Asks for the bounds of the children of a node. A leaf is too far for its size: its vertices may raise the lower
-  /// bound.
+  /// Asks for the bounds of the children of a node, or of itself where its bound is an old one. A leaf is too far for
+  /// its size: its vertices may raise the lower bound.
   void open(const NodeOfA& node) {
+    if (node.is_of_front) {
+      questions_.push_back({.level = node.level, .index = node.index, .slot = node.slot});
+      return;
+    }
     if (node.level == 0) {
+      add_to_front(node);
       keep_slots_below(0, node.index);
       for (const std::uint32_t v : a_.corners[node.index * block_width])
         questions_.push_back({.level = 0, .index = node.index, .vertex = v, .slot = node.slot});
@@ -193,6 +237,9 @@ class NodeCulling {
   std::priority_queue<NodeOfA> queue_;
   std::vector<Question> questions_;
   std::vector<std::uint32_t> left_;
+  NodeFront* front_ = nullptr;  ///< of the search before, replaced in the end; null: none is kept
+  std::vector<NodeFront::Node> new_front_;
+  std::uint64_t near_by_front_ = 0;
 };
 
 /// The mean radius of a few leaves of A, in B's frame.
@@ -206,14 +253,26 @@ double sampled_block_radius(const OneSidedSearch& search) {
   return length(search.map().rows[0]) * sum / samples;
 }
 
+/// Whether nothing has moved so far since the last search that A could now be beyond the target.
+bool is_near_as_before(OneSidedSearch& search, double target) {
+  const SearchMemory* const memory = search.task().memory;
+  if (memory == nullptr || !memory->rigid || !is_within(memory->front, search, target)) return false;
+  search.offer_known_upper(search.b().frame.length_up(target));
+  search.stats().proven_before += search.stats().triangles - search.stats().matched;
+  return true;
+}
+
 }  // namespace
 
 Remaining cull_nodes(OneSidedSearch& search, Remaining remaining) {
   DistanceStats& stats = search.stats();
   if (search.decided() || stats.matched == stats.triangles) return remaining;
   SearchKernel& kernel = search.begin_own_batch();
+  if (is_near_as_before(search, std::sqrt(kernel.accepted_squared()))) return {search.a().triangle_count(), {}};
   if (sampled_block_radius(search) > max_block_radius * std::sqrt(kernel.accepted_squared())) return remaining;
-  std::vector<std::uint32_t> left = NodeCulling(search, remaining, kernel).run();
+  NodeCulling culling(search, remaining, kernel);
+  std::vector<std::uint32_t> left = culling.run();
+  stats.proven_before += culling.near_by_front();
   stats.culled_by_node = stats.triangles - stats.matched - stats.proven_before - left.size();
   return {search.a().triangle_count(), std::move(left)};
 }

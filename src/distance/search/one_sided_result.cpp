@@ -93,6 +93,18 @@ double OneSidedSearch::farthest_apart() const {
   return (length(centre_a - centre_b) + radius_a + radius_b) * (1 + 0x1p-20) + goal_.largest_slack();
 }
 
+/// All of A is within `upper` of B, model units: what the next search under other poses may build upon.
+void OneSidedSearch::remember_front(double upper) {
+  if (task_.memory == nullptr || !task_.memory->rigid || decided()) return;
+  NodeFront& front = task_.memory->front;
+  const double working = next_up(std::ldexp(upper, -b_.frame.exponent));
+  if (front.is_new) {
+    for (NodeFront::Node& node : front.nodes) node.upper = std::min(node.upper, working);
+  } else if (stats_.proven_before < stats_.triangles) {
+    front = {{{working, a_.levels() - 1, 0, 0}}, map_, goal_.slack};
+  }
+}
+
 OneSidedDistance OneSidedSearch::result() {
   OneSidedDistance result;
   const LowerBound lower = proven_witness();
@@ -106,6 +118,7 @@ OneSidedDistance OneSidedSearch::result() {
   result.bounds.lower = b_.frame.length_down(std::max(0.0, lower.lower));
   result.bounds.upper = std::max({b_.frame.length_up(upper), known_upper_, result.bounds.lower});
   result.witness = witness_at(lower);
+  remember_front(result.bounds.upper);
   if (task_.memory != nullptr) task_.memory->start = start_point(triangle(lower.from_slot), lower);
   const double proven = std::max(result.bounds.lower, known_lower_);
   const bool narrow = result.bounds.upper - proven <= task_.error_bound && !task_.decide_only;

@@ -49,9 +49,11 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
       map_(map),
       goal_(make_goal(task, map)),
       recorder_(task.memory, b_, goal_),
+      has_hints_(task.memory != nullptr),
       cuts_left_(task.options.budget.subdivisions),
       last_progress_(task.start) {
   for (int i = 0; i < thread_count(task); ++i) kernels_.push_back(make_search_kernel(b_, goal_));
+  if (task.memory != nullptr) task.memory->front.is_new = false;
   raise_known_lower(task.known_lower);
   stats_.triangles = a_.triangle_count();
 }

@@ -50,6 +50,15 @@ class OneSidedSearch {
     return {vertex(t[0]), vertex(t[1]), vertex(t[2])};
   }
 
+  // What an earlier search has left.
+
+  /// A slot of B that was near a vertex of A, or `no_slot`.
+  [[nodiscard]] std::uint32_t hint_before(std::uint32_t v) const {
+    return has_hints_ ? task_.memory->hints[v] : no_slot;
+  }
+  /// The models have moved so far that the triangle of a neighbour is a better hint.
+  void forget_hints() { has_hints_ = false; }
+
   // What is proven.
 
   /// A lower bound already known of the quantity that is wanted, model units (`OneSidedTask::known_lower`).
@@ -121,6 +130,7 @@ class OneSidedSearch {
   [[nodiscard]] Witness witness_at(const LowerBound& lower) const;
   [[nodiscard]] LowerBound proven_witness();
   [[nodiscard]] double farthest_apart() const;
+  void remember_front(double upper);
   void fill_stats();
 
   const OneSidedTask& task_;
@@ -130,6 +140,7 @@ class OneSidedSearch {
   Goal goal_;
   std::vector<std::unique_ptr<SearchKernel>> kernels_;  ///< one per thread
   ProofRecorder recorder_;
+  bool has_hints_;
   double known_lower_ = 0;             ///< model units
   LowerBound lower_;                   ///< never below `known_lower_`
   LowerBound own_lower_;               ///< proven for this direction

@@ -14,16 +14,19 @@ constexpr std::uint32_t vertices_per_chunk = 16;
 
 /// The furthest point of the search before is often still the furthest. It is constructed with less than 21 u M of
 /// rounding; a lower bound uses 32 of the 128 u M in the slack, so that is allowed for.
-void probe_start(OneSidedSearch& search) {
+/// Whether it lies on B.
+bool probe_start(OneSidedSearch& search) {
   const SearchMemory* memory = search.task().memory;
-  if (memory == nullptr || !memory->start) return;
+  if (memory == nullptr || !memory->start) return false;
   const StartPoint& start = *memory->start;
   const auto [a, b, c] = search.triangle(start.slot);
   const Vec3 p = a + start.v * (b - a) + start.w * (c - a);
   const std::uint32_t hint = memory->hints[search.a().corners[start.slot][0]];
   SearchKernel& kernel = search.begin_own_batch();
-  kernel.offer(p, kernel.nearest(p, hint != no_slot ? hint : 0, 0), start.slot);
+  const Nearest nearest = kernel.nearest(p, hint != no_slot ? hint : 0, 0);
+  kernel.offer(p, nearest, start.slot);
   search.offer_lower(kernel.lower());
+  return nearest.squared <= search.goal().slack * search.goal().slack;
 }
 
 /// The vertices of a mesh that was simplified lie on the original, its triangles do not.
@@ -45,7 +48,13 @@ void probe_centroids(OneSidedSearch& search) {
 }  // namespace
 
 bool probe(OneSidedSearch& search) {
-  probe_start(search);
+  const bool start_touches_b = probe_start(search);
+  if (search.decided()) return start_touches_b;
+  if (const SearchMemory* memory = search.task().memory; memory != nullptr && memory->rigid) {
+    // The furthest point has come nearer by no more than the models have moved: other points could gain no more.
+    if (is_coherent(memory->front, search)) return start_touches_b;
+    search.forget_hints();
+  }
   const std::size_t n = search.a().vertices.size(), count = std::min<std::size_t>(max_vertices, n);
   const auto probed = [&](std::size_t i) { return static_cast<std::uint32_t>(i * n / count); };
   std::array<Nearest, max_vertices> nearest;

@@ -7,7 +7,10 @@
 namespace meshbound {
 
 ProofRecorder::ProofRecorder(SearchMemory* memory, const Bvh::Data& b, const Goal& goal)
-    : memory_(memory), b_(b), goal_(goal), scale_to_model_(std::ldexp(1.0, b.frame.exponent)) {}
+    : memory_(memory != nullptr && !memory->rigid ? memory : nullptr),
+      b_(b),
+      goal_(goal),
+      scale_to_model_(std::ldexp(1.0, b.frame.exponent)) {}
 
 /// `Goal::proven_upper` in model units. The scale is a power of two: without `ldexp` where the product is a normal
 /// number.

@@ -8,8 +8,8 @@
 
 namespace meshbound {
 
-/// Leaves the proofs of a search for later ones; without a memory it does nothing. Threads may record different
-/// triangles of A at the same time, except by `covers`.
+/// Leaves the proofs of a search for later ones; without a memory that keeps proofs it does nothing. Threads may record
+/// different triangles of A at the same time, except by `covers`.
 class ProofRecorder {
  public:
   /// `memory` may be null; all must outlive this. `goal` gives the rounding, in the frame of B.

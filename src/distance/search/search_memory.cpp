@@ -4,7 +4,8 @@
 namespace meshbound {
 
 void SearchMemory::reset(const Bvh::Data& a) {
-  proofs.assign(a.triangle_count(), {});
+  proofs.assign(rigid ? 0 : a.triangle_count(), {});
+  front = {};
   faces.clear();
   hints.assign(a.vertices.size(), no_slot);
   start.reset();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
+#include "distance/search/node_front.h"
 #include "proof/cover_record.h"
 
 namespace meshbound {
@@ -41,23 +42,22 @@ struct StartPoint {
   double v = 0, w = 0;
 };
 
-/// What one search leaves for the next one of the same direction. `proofs` must be true, the rest are hints.
+/// What one search leaves for the next one of the same direction. `proofs` and `front` must be true, the rest are
+/// hints.
 struct SearchMemory {
+  bool rigid = false;  ///< true: only the poses of both models change, so a front is kept instead of proofs
+  NodeFront front;
   bool names_faces = true;           ///< false: B never changes, so proofs need not say what they rest on
   std::vector<Proof> proofs;         ///< by A's slot
   std::vector<std::uint32_t> faces;  ///< slots of B
   std::vector<std::uint32_t> hints;  ///< by A's vertex: a slot of B near it, or `no_slot`
   std::optional<StartPoint> start;   ///< the furthest point found
 
-  /// Without proofs, for a model A of that size.
+  /// Without proofs and without a front, for a model A of that size. `rigid` stays as it is.
   void reset(const Bvh::Data& a);
   /// Replaces the proof of a triangle if the new bound is lower. `used` are slots of B.
   void improve(std::uint32_t slot, double bound, std::span<const std::uint32_t> used);
   void improve(std::uint32_t slot, double bound, std::uint32_t used);
 };
-
-inline std::uint32_t hint_before(const SearchMemory* memory, std::uint32_t vertex) {
-  return memory != nullptr ? memory->hints[vertex] : no_slot;
-}
 
 }  // namespace meshbound

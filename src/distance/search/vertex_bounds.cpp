@@ -44,7 +44,7 @@ void query_chunk(const OneSidedSearch& search, const VertexDistances& vertices, 
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t v = vertices.asked_all ? i : vertices.asked[i];
     if (i % steps_between_looks == 0) hurried = hurried || search.goal().out_of_time();
-    if (const std::uint32_t before = hint_before(search.task().memory, v); before != no_slot) hint = before;
+    if (const std::uint32_t before = search.hint_before(v); before != no_slot) hint = before;
     const double enough = hurried ? std::numeric_limits<double>::infinity() : kernel.accepted_squared();
     const Nearest nearest = kernel.nearest(search.vertex(v), hint, enough);
     vertices.nearest[v] = {nearest.squared, nearest.slot};
