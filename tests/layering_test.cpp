@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 /// and may use everything before it.
 constexpr std::array layers = std::to_array<std::string_view>(
     {"numeric", "geometry", "mesh", "bvh", "proof", "distance/paper", "distance/kernel", "distance/shortcuts",
-     "distance/search", "distance", "distance/levels", "scene", "simplify/kernel", "simplify/mesh", "simplify/cover",
-     "simplify", "certificate", "levels", "report", "cgal"});
+     "distance/search", "distance", "distance/levels", "penetration", "scene", "simplify/kernel", "simplify/mesh",
+     "simplify/cover", "simplify", "certificate", "levels", "report", "cgal"});
 constexpr std::size_t longest_file = 600;
 
 struct SourceFile {

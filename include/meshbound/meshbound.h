@@ -15,6 +15,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/motion.h"
+#include "meshbound/penetration_depth.h"
 #include "meshbound/proximity.h"
 #include "meshbound/report.h"
 #include "meshbound/screen_space.h"

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+/// A simultaneous descent of two trees: the pairs of leaves whose boxes overlap.
+#pragma once
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "bvh/bvh_data.h"
+#include "geometry/mapping.h"
+#include "numeric/simd.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+/// The same box in all lanes.
+struct FloatBox {
+  Float8 lo[3], hi[3];
+};
+
+inline Box child_box(const BvhNode& node, std::uint32_t child) {
+  return {{node.lo[0][child], node.lo[1][child], node.lo[2][child]},
+          {node.hi[0][child], node.hi[1][child], node.hi[2][child]}};
+}
+
+/// The box around the image of a box, grown by `margin` and rounded outward.
+inline FloatBox mapped_box(const Mapping& map, const Box& box, double margin) {
+  const Vec3 middle = map(0.5 * (box.lo + box.hi)), half = 0.5 * (box.hi - box.lo);
+  const double centre[3] = {middle.x, middle.y, middle.z};
+  FloatBox image;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3& row = map.rows[axis];
+    const double reach = std::fabs(row.x) * half.x + std::fabs(row.y) * half.y + std::fabs(row.z) * half.z + margin;
+    // Two roundings of a float on each side are less than 2^-22 of the larger magnitude.
+    const double slack = (std::fabs(centre[axis]) + reach) * 0x1p-22;
+    image.lo[axis] = broadcast8(static_cast<float>(centre[axis] - reach - slack));
+    image.hi[axis] = broadcast8(static_cast<float>(centre[axis] + reach + slack));
+  }
+  return image;
+}
+
+/// A bit for each child of the node whose box meets the box.
+inline unsigned overlapping_children(const BvhNode& node, const FloatBox& box) {
+  unsigned lanes = 0xff;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Float8 lo = *reinterpret_cast<const Float8*>(node.lo[axis]),
+                 hi = *reinterpret_cast<const Float8*>(node.hi[axis]);
+    lanes &= lane_bits(lo <= box.hi[axis]) & lane_bits(box.lo[axis] <= hi);
+  }
+  return lanes;
+}
+
+/// A node of each of two trees; level 0 are the leaves.
+struct NodePair {
+  std::uint32_t level_a, a, level_b, b;
+};
+
+/// The box of a node below the root, in the working frame of its tree.
+inline Box box_below_root(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
+  return child_box(data.nodes[data.level_begin[level + 1] + index / node_width], index % node_width);
+}
+
+/// Calls `on_leaves(block_a, block_b)` for all pairs of leaves whose boxes overlap, perhaps for more, until it returns
+/// false; returns whether it never did. `map` leads from the working frame of b to that of a. In a tree compared with
+/// itself (`is_same`) each pair comes once, with block_a <= block_b. `stack` is scratch memory.
+template <class OnLeaves>
+bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map, bool is_same,
+                     std::vector<NodePair>& stack, std::uint64_t& compared, OnLeaves&& on_leaves) {
+  const double scale = std::fabs(map.rows[0].x) + std::fabs(map.rows[0].y) + std::fabs(map.rows[0].z);
+  const double margin = map.error + a.frame.error + 2 * scale * b.frame.error + 0x1p-40 * map.magnitude;
+  stack.assign(1, {a.levels() - 1, 0, b.levels() - 1, 0});
+  while (!stack.empty()) {
+    const NodePair pair = stack.back();
+    stack.pop_back();
+    if (pair.level_a == 0 && pair.level_b == 0) {
+      if (!on_leaves(pair.a, pair.b)) return false;
+      continue;
+    }
+    // The nodes that are opened; for a leaf its parent, of which only the leaf is looked at.
+    const bool opens_a = pair.level_a > 0, opens_b = pair.level_b > 0;
+    const std::uint32_t first_a = opens_a ? pair.a * node_width : pair.a / node_width * node_width;
+    const std::uint32_t child_level_a = opens_a ? pair.level_a - 1 : 0, child_level_b = opens_b ? pair.level_b - 1 : 0;
+    const BvhNode& node_a = a.nodes[a.level_begin[child_level_a + 1] + first_a / node_width];
+    const unsigned lanes_a = opens_a ? 0xff : 1U << (pair.a % node_width);
+    const std::uint32_t first_b = opens_b ? pair.b * node_width : pair.b;
+    for (std::uint32_t child_b = first_b; child_b < (opens_b ? first_b + node_width : first_b + 1); ++child_b) {
+      const Box box = box_below_root(b, child_level_b, child_b);
+      if (!(box.lo.x <= box.hi.x)) break;  // the rest of the node is empty
+      ++compared;
+      unsigned hits = overlapping_children(node_a, mapped_box(map, box, margin)) & lanes_a;
+      for (; hits != 0; hits &= hits - 1) {
+        const std::uint32_t child_a = first_a + static_cast<std::uint32_t>(std::countr_zero(hits));
+        if (!is_same || child_a <= child_b) stack.push_back({child_level_a, child_a, child_level_b, child_b});
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+/// What makes a mesh the boundary of a solid. Each check throws `InvalidInput` with a line that names triangles of the
+/// mesh as it was given, and a place.
+#pragma once
+#include "penetration/closed_model_data.h"
+
+namespace meshbound {
+
+/// Fills `edges` and `edges_of`: each edge has two triangles, which run along it in opposite directions.
+void require_closed(ClosedModel::Data& model);
+
+/// No triangle is without area, and no two meet but in common vertices and edges.
+void require_no_crossing(const ClosedModel::Data& model);
+
+/// Each component bounds a content of the right sign: positive where an even number of other components is around it.
+void require_outward(const ClosedModel::Data& model);
+
+}  // namespace meshbound

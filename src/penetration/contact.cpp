@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "penetration/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/rounding.h"
+
+namespace meshbound {
+namespace {
+
+double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+const mpz_class& coordinate(const ExactPoint& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+
+/// Sign of the turn p, q, r seen along an axis, where doubles can tell it; else 0. A computed difference is off by
+/// h = 2 `error` and a relative u, so each product of the two by at most h (|.| + |.| + h) and 3 u.
+int certain_turn(const Vec3& p, const Vec3& q, const Vec3& r, int axis, double error) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double ax = coordinate(q, i) - coordinate(p, i), ay = coordinate(q, j) - coordinate(p, j);
+  const double bx = coordinate(r, i) - coordinate(p, i), by = coordinate(r, j) - coordinate(p, j);
+  const double h = 2 * error, sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
+  const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
+  const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;
+  const double turn = ax * by - ay * bx;
+  if (turn > bound) return 1;
+  return turn < -bound ? -1 : 0;
+}
+
+/// The axis along which a triangle looks largest.
+int dominant_axis(const Vec3& p, const Vec3& q, const Vec3& r) {
+  const Vec3 n = cross(q - p, r - p);
+  const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+  return x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+}
+
+/// The line through an edge of s leaves s on one side and t on the other, seen along an axis, without touching t but
+/// in vertices that both triangles have. Only what doubles can tell.
+bool an_edge_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t, int axis, double error) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PairVertex from = s[k], to = s[next_corner(k)], apex = s[next_corner(next_corner(k))];
+    const int own = certain_turn(pair.local(from), pair.local(to), pair.local(apex), axis, error);
+    if (own == 0) return false;
+    const bool separates = std::all_of(t.begin(), t.end(), [&](const PairVertex& v) {
+      const bool shared = v.side == from.side && (v.vertex == from.vertex || v.vertex == to.vertex);
+      return shared || certain_turn(pair.local(from), pair.local(to), pair.local(v), axis, error) == -own;
+    });
+    if (separates) return true;
+  }
+  return false;
+}
+
+bool are_separate(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
+  const double error = std::max(pair.error(0), pair.error(1));
+  const int axis = dominant_axis(pair.local(s[0]), pair.local(s[1]), pair.local(s[2]));
+  return an_edge_separates(pair, s, t, axis, error) || an_edge_separates(pair, t, s, axis, error);
+}
+
+int exact_turn(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r, int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const mpz_class turn = (coordinate(q, i) - coordinate(p, i)) * (coordinate(r, j) - coordinate(p, j)) -
+                         (coordinate(q, j) - coordinate(p, j)) * (coordinate(r, i) - coordinate(p, i));
+  return sgn(turn);
+}
+
+/// For a segment and a triangle in one plane, seen along an axis that the plane does not hold.
+bool flat_segment_meets(const ExactPoint& p, const ExactPoint& q, const std::array<const ExactPoint*, 3>& t, int axis) {
+  // One of the four lines (through the segment, through an edge of the triangle) separates the two, or they meet.
+  const int own = exact_turn(*t[0], *t[1], *t[2], axis);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ExactPoint &from = *t[k], &to = *t[next_corner(k)];
+    if (exact_turn(from, to, p, axis) == -own && exact_turn(from, to, q, axis) == -own) return false;
+  }
+  const int a = exact_turn(p, q, *t[0], axis), b = exact_turn(p, q, *t[1], axis), c = exact_turn(p, q, *t[2], axis);
+  return !((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0));
+}
+
+bool segment_meets(PlacedPair& pair, PairVertex p, PairVertex q, const PairTriangle& t) {
+  const int at_p = pair.orientation(t[0], t[1], t[2], p), at_q = pair.orientation(t[0], t[1], t[2], q);
+  if (at_p != 0 && at_p == at_q) return false;
+  if (at_p == 0 && at_q == 0) {
+    const ExactPoint &a = pair.exact(t[0]), &b = pair.exact(t[1]), &c = pair.exact(t[2]);
+    const ExactPoint normal = cross(b - a, c - a);
+    const int axis = sgn(normal.x) != 0 ? 0 : (sgn(normal.y) != 0 ? 1 : 2);
+    return flat_segment_meets(pair.exact(p), pair.exact(q), {&a, &b, &c}, axis);
+  }
+  int least = 1, largest = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int turn = pair.orientation(p, q, t[k], t[next_corner(k)]);
+    least = std::min(least, turn);
+    largest = std::max(largest, turn);
+  }
+  return least >= 0 || largest <= 0;
+}
+
+/// All corners of s are strictly on one side of the plane of t.
+bool plane_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
+  const int first = pair.orientation(t[0], t[1], t[2], s[0]);
+  return first != 0 && pair.orientation(t[0], t[1], t[2], s[1]) == first &&
+         pair.orientation(t[0], t[1], t[2], s[2]) == first;
+}
+
+/// The corners that s shares with t come first, in the order of s.
+std::size_t shared_first(Triangle& s, const Triangle& t) {
+  const auto middle = std::stable_partition(
+      s.begin(), s.end(), [&](std::uint32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); });
+  return static_cast<std::size_t>(middle - s.begin());
+}
+
+/// For triangles with a common edge (a, b): they also meet elsewhere where both lie in one plane, on the same side of
+/// the edge.
+bool folded(PlacedPair& pair, PairVertex a, PairVertex b, PairVertex c, PairVertex d) {
+  if (pair.orientation(a, b, c, d) != 0) return false;
+  const ExactPoint &p = pair.exact(a), &q = pair.exact(b), &r = pair.exact(c), &s = pair.exact(d);
+  const ExactPoint normal = cross(q - p, r - p);
+  const int axis = sgn(normal.x) != 0 ? 0 : (sgn(normal.y) != 0 ? 1 : 2);
+  return exact_turn(p, q, r, axis) == exact_turn(p, q, s, axis);
+}
+
+}  // namespace
+
+bool triangles_meet(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
+  if (plane_separates(pair, s, t) || plane_separates(pair, t, s)) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (segment_meets(pair, s[k], s[next_corner(k)], t) || segment_meets(pair, t[k], t[next_corner(k)], s)) return true;
+  return false;
+}
+
+bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t) {
+  Triangle first = s, second = t;
+  const std::size_t shared = shared_first(first, second);
+  shared_first(second, first);
+  if (shared >= 2 && first[0] != second[0]) std::swap(second[0], second[1]);
+  if (shared == 3) return true;
+  const auto vertices = [](const Triangle& u) { return PairTriangle{{{0, u[0]}, {0, u[1]}, {0, u[2]}}}; };
+  const PairTriangle p = vertices(first), q = vertices(second);
+  if (are_separate(pair, p, q)) return false;
+  if (shared == 2) return folded(pair, p[0], p[1], p[2], q[2]);
+  // From a common corner, whatever both have goes on to where one of them ends: at the edge across from the corner.
+  if (shared == 1) return segment_meets(pair, p[1], p[2], q) || segment_meets(pair, q[1], q[2], p);
+  return triangles_meet(pair, p, q);
+}
+
+}  // namespace meshbound

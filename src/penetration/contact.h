@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+/// Whether triangles meet, decided exactly and without any perturbation: touching counts.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "penetration/box_pairs.h"
+#include "penetration/placed_pair.h"
+
+namespace meshbound {
+
+using PairTriangle = std::array<PairVertex, 3>;
+
+/// Whether two triangles that share no vertex have a point in common.
+[[nodiscard]] bool triangles_meet(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t);
+
+/// Whether two triangles of a model (`pair` holds it on both sides, unmoved) have a point in common besides a vertex or
+/// an edge that both have.
+[[nodiscard]] bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t);
+
+/// Calls `on_triangles(a, b)` for a triangle of each side, for all pairs whose leaves have boxes that overlap, until it
+/// returns false; returns whether it never did. `is_same`: the sides are one model at one place, and each pair of its
+/// triangles is to come once.
+template <class OnTriangles>
+bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>& stack, std::uint64_t& compared,
+                          OnTriangles&& on_triangles) {
+  const std::uint32_t side = pair.tree_side();
+  const Bvh::Data &a = pair.model(side).tree.data(), &b = pair.model(1 - side).tree.data();
+  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, stack, compared,
+                         [&](std::uint32_t block_a, std::uint32_t block_b) {
+                           const std::uint32_t end_a = std::min((block_a + 1) * block_width, a.triangle_count()),
+                                               end_b = std::min((block_b + 1) * block_width, b.triangle_count());
+                           for (std::uint32_t i = block_a * block_width; i < end_a; ++i)
+                             for (std::uint32_t j = block_b * block_width; j < end_b; ++j) {
+                               const std::uint32_t s = a.triangle_of_slot[i], t = b.triangle_of_slot[j];
+                               if (!(side == 0 ? on_triangles(s, t) : on_triangles(t, s))) return false;
+                             }
+                           return true;
+                         });
+}
+
+}  // namespace meshbound

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+/// The curves in which the surfaces of two placed models cross, by what crosses what: which edge goes through which
+/// triangle, in which order along the edge, and how these nodes are joined inside the triangles.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "numeric/no_index.h"
+#include "penetration/box_pairs.h"
+#include "penetration/placed_pair.h"
+
+namespace meshbound {
+
+/// Where an edge of one side goes through a triangle of the other. Three triangles meet there: the two of the edge
+/// (slots 0 and 1, as in `ModelEdge`) and the one that is gone through (slot 2).
+struct CurveNode {
+  std::uint32_t side = 0;      ///< of the edge
+  std::uint32_t edge = 0;      ///< index in the model of `side`
+  std::uint32_t triangle = 0;  ///< index in the other model
+  bool leaves = false;         ///< from its first vertex on, the edge goes out of the other model here
+  std::uint32_t rank = 0;      ///< position in `EdgeNodes` of the edge
+  /// By slot: the segment that begins here in that triangle; `no_index` where one ends.
+  std::array<std::uint32_t, 3> next{no_index, no_index, no_index};
+  /// By slot: the cycle around a piece of that triangle that comes through here (pieces.h).
+  std::array<std::uint32_t, 3> cycle{no_index, no_index, no_index};
+  Vec3 position;     ///< local
+  double error = 0;  ///< `position` is at most this far from the node, local
+};
+
+/// What a triangle of side 0 and one of side 1 have in common. In the triangle of side 0, seen against its normal, the
+/// inside of side 1 is on the left on the way from `ends[0]` to `ends[1]`; in that of side 1 the inside of side 0 is on
+/// the left on the way back.
+struct CurveSegment {
+  std::array<std::uint32_t, 2> triangles{};  ///< by side
+  std::array<std::uint32_t, 2> ends{};       ///< nodes
+
+  [[nodiscard]] std::uint32_t begin(std::uint32_t side) const { return ends[side]; }
+  [[nodiscard]] std::uint32_t end(std::uint32_t side) const { return ends[1 - side]; }
+};
+
+class CrossingCurves {
+ public:
+  /// Finds all of them. `pair` must have been placed.
+  void find(PlacedPair& pair);
+
+  std::vector<CurveNode> nodes;
+  std::vector<CurveSegment> segments;
+  std::array<std::vector<std::uint32_t>, 2> crossed;  ///< by side: triangles with segments, ascending
+  std::uint64_t node_pairs = 0, triangle_pairs = 0;   ///< compared
+
+  /// Segments in a triangle; empty for one that is not crossed.
+  [[nodiscard]] std::span<const std::uint32_t> segments_in(std::uint32_t side, std::uint32_t triangle) const;
+  /// Nodes on an edge, from its first vertex to its second.
+  [[nodiscard]] std::span<const std::uint32_t> nodes_on(std::uint32_t side, std::uint32_t edge) const;
+  [[nodiscard]] bool is_crossed(std::uint32_t side, std::uint32_t triangle) const {
+    return segment_ranges_[side].has(triangle);
+  }
+
+ private:
+  struct Range {
+    std::uint32_t begin = 0, end = 0;
+  };
+
+  void cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t);
+  std::uint32_t node(std::uint32_t side, std::uint32_t edge, std::uint32_t triangle, bool leaves);
+  void link(const PlacedPair& pair, std::uint32_t segment);
+  void group_segments(const PlacedPair& pair);
+  void group_nodes(PlacedPair& pair);
+
+  std::unordered_map<std::uint64_t, std::uint32_t> node_at_;
+  std::vector<NodePair> stack_;
+  std::array<std::vector<std::uint32_t>, 2> segment_order_;
+  std::array<SparseArray<Range>, 2> segment_ranges_;
+  std::vector<std::uint32_t> node_order_;
+  std::array<SparseArray<Range>, 2> node_ranges_;
+};
+
+/// The slot of a triangle at a node that lies on one of its edges.
+[[nodiscard]] inline std::size_t slot_at_edge(const ClosedModel::Data& model, const CurveNode& node,
+                                              std::uint32_t triangle) {
+  return model.edges[node.edge].triangle[0] == triangle ? 0 : 1;
+}
+
+/// The exact position of a node: numerator / denominator, the latter positive, in the unit of `PlacedPair::exact`.
+struct ExactNode {
+  ExactPoint numerator;
+  mpz_class denominator;
+};
+[[nodiscard]] ExactNode exact_position(PlacedPair& pair, const CurveNode& node);
+
+/// Sets `position` and `error`.
+void set_position(PlacedPair& pair, CurveNode& node);
+
+/// Whether node `a` comes before node `b` on the edge that both lie on, from its first vertex on.
+[[nodiscard]] bool comes_before(PlacedPair& pair, const CurveNode& a, const CurveNode& b);
+
+}  // namespace meshbound

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/penetration_depth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "geometry/frame.h"
+#include "meshbound/error.h"
+#include "meshbound/stop_token.h"
+#include "meshbound/transform.h"
+#include "numeric/rounding.h"
+#include "penetration/contact.h"
+#include "penetration/parity.h"
+#include "penetration/volumes.h"
+
+namespace meshbound {
+namespace {
+
+constexpr double default_error_share = 1e-6;
+
+/// What a thread keeps from call to call.
+struct Scratch {
+  PlacedPair pair;
+  CrossingCurves curves;
+  Pieces pieces;
+  VolumeFinder volumes;
+  std::vector<NodePair> stack;
+};
+
+Scratch& scratch() {
+  thread_local Scratch own;
+  return own;
+}
+
+double checked(double length, const char* name) {
+  if (!(length >= 0)) throw InvalidInput(std::string(name) + " must be a length of 0 or more");
+  return length;
+}
+
+/// A patch as a mesh in local coordinates.
+TriangleMesh local_mesh(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, const Patch& patch) {
+  thread_local SparseArray<std::uint32_t> index_of_vertex, index_of_node;
+  index_of_vertex.clear(pair.model(side).positions.size());
+  index_of_node.clear(curves.nodes.size());
+  TriangleMesh mesh;
+  for (const PatchTriangle& t : patch.triangles) {
+    Triangle& triangle = mesh.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PieceCorner corner = t.corners[k];
+      SparseArray<std::uint32_t>& index = corner.is_node ? index_of_node : index_of_vertex;
+      if (!index.has(corner.index)) {
+        index.set(corner.index, static_cast<std::uint32_t>(mesh.vertices.size()));
+        const Vec3 p = corner.is_node ? curves.nodes[corner.index].position : pair.local({side, corner.index});
+        mesh.vertices.emplace_back(p.x, p.y, p.z);
+      }
+      triangle[k] = index[corner.index];
+    }
+  }
+  return mesh;
+}
+
+/// Measures the volumes that were found, one after another.
+class Measurement {
+ public:
+  Measurement(Scratch& memory, const PenetrationOptions& options, double error_bound)
+      : memory_(memory), options_(options), error_bound_(error_bound) {
+    frame_.exponent = memory.pair.exponent();
+  }
+
+  PenetrationVolume operator()(const IntersectionVolume& volume, StopToken stop) {
+    PenetrationVolume result;
+    result.overlap = volume.overlap;
+    result.faces_on_a = volume.patches[0].faces;
+    result.faces_on_b = volume.patches[1].faces;
+    result.volume = content_of(volume);
+    const std::array<TriangleMesh, 2> meshes{local_mesh(memory_.pair, memory_.curves, 0, volume.patches[0]),
+                                             local_mesh(memory_.pair, memory_.curves, 1, volume.patches[1])};
+    const double displacement = next_up(volume.patches[0].displacement + volume.patches[1].displacement);
+    measure(meshes, displacement, stop, volume, result);
+    if (options_.keep_parts) result.parts = parts_of(meshes, volume);
+    return result;
+  }
+
+ private:
+  void measure(const std::array<TriangleMesh, 2>& meshes, double displacement, const StopToken& stop,
+               const IntersectionVolume& volume, PenetrationVolume& result) {
+    DistanceOptions options;
+    options.threads = options_.threads;
+    options.cancel = options_.cancel;
+    options.budget = options_.budget;
+    options.budget.seconds = stop.seconds_left();
+    const double wanted = std::ldexp(error_bound_, -frame_.exponent);
+    // Displaced parts widen the interval on both sides.
+    options.error_bound = std::max(wanted - 2 * displacement, wanted / 2);
+    const auto [tree_a, tree_b] = build_trees(meshes[0], meshes[1], {options_.threads});
+    OneSidedDistance a_to_b, b_to_a;
+    Bounds local;
+    if (options_.decide) {
+      ToleranceCheck check = check_tolerance(tree_a, tree_b, std::ldexp(*options_.decide, -frame_.exponent), options);
+      local = check.bounds;
+      a_to_b = check.a_to_b;
+      b_to_a = check.b_to_a;
+    } else {
+      HausdorffDistance distance = hausdorff_distance(tree_a, tree_b, options);
+      local = distance.bounds;
+      a_to_b = distance.a_to_b;
+      b_to_a = distance.b_to_a;
+    }
+    local = widened(local, displacement);
+    result.depth = {frame_.length_down(local.lower), frame_.length_up(local.upper)};
+    const bool is_from_a = a_to_b.bounds.lower >= b_to_a.bounds.lower;
+    const OneSidedDistance& leading = is_from_a ? a_to_b : b_to_a;
+    result.on_a = on_model(0, is_from_a ? leading.witness.from : leading.witness.nearest, volume);
+    result.on_b = on_model(1, is_from_a ? leading.witness.nearest : leading.witness.from, volume);
+    conclude(a_to_b, b_to_a, result);
+  }
+
+  void conclude(const OneSidedDistance& a_to_b, const OneSidedDistance& b_to_a, PenetrationVolume& result) const {
+    const bool ran_out = a_to_b.outcome == Outcome::BudgetExhausted || b_to_a.outcome == Outcome::BudgetExhausted;
+    bool is_reached = result.depth.upper - result.depth.lower <= error_bound_;
+    if (options_.decide) {
+      result.verdict = verdict_of(result.depth, *options_.decide);
+      is_reached = result.verdict != Verdict::Undecided;
+    }
+    if (is_reached)
+      result.outcome = result.verdict == Verdict::Exceeds ? Outcome::ExceedsTolerance : Outcome::Converged;
+    else
+      result.outcome = ran_out ? Outcome::BudgetExhausted : Outcome::PrecisionReached;
+  }
+
+  [[nodiscard]] SurfacePoint on_model(std::uint32_t side, const SurfacePoint& local,
+                                      const IntersectionVolume& volume) const {
+    const Eigen::Vector3d& p = local.position;
+    return {memory_.pair.to_world({p.x(), p.y(), p.z()}), source_of(side, local.triangle, volume)};
+  }
+
+  [[nodiscard]] std::uint32_t source_of(std::uint32_t side, std::uint32_t triangle,
+                                        const IntersectionVolume& volume) const {
+    return memory_.pair.model(side).source_triangle[volume.patches[side].triangles[triangle].source];
+  }
+
+  [[nodiscard]] Bounds content_of(const IntersectionVolume& volume) const {
+    const double unit = std::ldexp(1.0, frame_.exponent);
+    const auto cubed = [unit](double x) { return x * unit * unit * unit; };
+    const auto [lower, upper] = volume.content;
+    // The products are exact unless they leave the range of normal numbers.
+    return {std::max(0.0, next_down(cubed(lower))), next_up(cubed(upper))};
+  }
+
+  [[nodiscard]] PenetrationParts parts_of(const std::array<TriangleMesh, 2>& meshes,
+                                          const IntersectionVolume& volume) const {
+    PenetrationParts parts{meshes[0], meshes[1], {}, {}};
+    for (TriangleMesh* mesh : {&parts.on_a, &parts.on_b})
+      for (Eigen::Vector3d& p : mesh->vertices) p = memory_.pair.to_world({p.x(), p.y(), p.z()});
+    for (std::uint32_t i = 0; i < parts.on_a.triangles.size(); ++i)
+      parts.triangle_of_a.push_back(source_of(0, i, volume));
+    for (std::uint32_t i = 0; i < parts.on_b.triangles.size(); ++i)
+      parts.triangle_of_b.push_back(source_of(1, i, volume));
+    return parts;
+  }
+
+  Scratch& memory_;
+  const PenetrationOptions& options_;
+  double error_bound_;
+  Frame frame_;
+};
+
+void measure_all(const std::vector<IntersectionVolume>& found, Scratch& memory, const PenetrationOptions& options,
+                 double error_bound, const StopToken& stop, PenetrationDepth& result) {
+  Measurement measure(memory, options, error_bound);
+  bool ended = false;
+  for (std::size_t i = 0; i < found.size() && !ended; ++i) {
+    result.volumes.push_back(measure(found[i], stop));
+    const Bounds& depth = result.volumes.back().depth;
+    result.depth = {std::max(result.depth.lower, depth.lower), std::max(result.depth.upper, depth.upper)};
+    ended = options.stop_when_deeper && result.volumes.back().verdict == Verdict::Exceeds;
+    if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(found.size()));
+  }
+  if (result.volumes.size() < found.size()) result.depth.upper = std::numeric_limits<double>::infinity();
+  std::stable_sort(result.volumes.begin(), result.volumes.end(),
+                   [](const auto& a, const auto& b) { return a.depth.lower > b.depth.lower; });
+}
+
+}  // namespace
+
+PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClosedModel& b,
+                                   const PenetrationOptions& options) {
+  const auto start = StopToken::Clock::now();
+  const double error_bound = options.error_bound ? checked(*options.error_bound, "the error bound")
+                                                 : default_error_share * a.model->bounding_box_diagonal();
+  if (options.decide) checked(*options.decide, "the depth to decide");
+  const StopToken stop = StopToken{.cancel = options.cancel}.until(start, options.budget.seconds);
+  Scratch& memory = scratch();
+  memory.pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
+  memory.curves.find(memory.pair);
+  if (stop.cancelled()) throw Interrupted("cancelled before the volumes were known");
+  memory.pieces.find(memory.pair, memory.curves);
+  PenetrationDepth result;
+  const std::vector<IntersectionVolume> found =
+      memory.volumes.find(memory.pair, memory.curves, memory.pieces, memory.pieces.shells);
+  if (stop.cancelled()) throw Interrupted("cancelled before the depths were measured");
+  result.stats.seconds_intersecting = seconds_since(start);
+  measure_all(found, memory, options, error_bound, stop, result);
+  result.stats.seconds_measuring = seconds_since(start) - result.stats.seconds_intersecting;
+  result.stats.node_pairs = memory.curves.node_pairs;
+  result.stats.triangle_pairs = memory.curves.triangle_pairs;
+  result.stats.crossings = memory.curves.nodes.size();
+  result.stats.clipped = memory.curves.crossed[0].size() + memory.curves.crossed[1].size();
+  result.stats.exact_decisions = memory.pair.exact_decisions();
+  return result;
+}
+
+PenetrationDepth penetration_depth(const MeshView& a, const MeshView& b, const PenetrationOptions& options) {
+  const ClosedModel model_a(a, {options.threads}), model_b(b, {options.threads});
+  return penetration_depth(PlacedClosedModel(model_a), PlacedClosedModel(model_b), options);
+}
+
+bool in_contact(const PlacedClosedModel& a, const PlacedClosedModel& b) {
+  Scratch& memory = scratch();
+  PlacedPair& pair = memory.pair;
+  pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
+  std::uint64_t compared = 0;
+  const bool are_apart =
+      visit_triangle_pairs(pair, false, memory.stack, compared, [&](std::uint32_t s, std::uint32_t t) {
+        const Triangle &p = pair.model(0).triangles[s], &q = pair.model(1).triangles[t];
+        return !triangles_meet(pair, {{{0, p[0]}, {0, p[1]}, {0, p[2]}}}, {{{1, q[0]}, {1, q[1]}, {1, q[2]}}});
+      });
+  if (!are_apart) return true;
+  for (std::uint32_t side = 0; side < 2; ++side)
+    for (std::uint32_t i = 0; i < pair.model(side).components.size(); ++i)
+      if (may_be_inside(pair, side, i) &&
+          is_inside(pair, {side, pair.model(side).triangles[pair.model(side).components[i].triangle][0]}))
+        return true;
+  return false;
+}
+
+}  // namespace meshbound

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "penetration/piece_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "numeric/rounding.h"
+#include "penetration/pieces.h"
+
+namespace meshbound {
+namespace {
+
+double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+const mpz_class& coordinate(const ExactPoint& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+
+}  // namespace
+
+PiecePlane::PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, std::uint32_t triangle)
+    : pair_(&pair), curves_(&curves), side_(side) {
+  const Triangle& t = pair.model(side).triangles[triangle];
+  const PairVertex p{side, t[0]}, q{side, t[1]}, r{side, t[2]};
+  const Vec3 n = meshbound::cross(pair.local(q) - pair.local(p), pair.local(r) - pair.local(p));
+  int axis = std::fabs(n.x) >= std::fabs(n.y) ? 0 : 1;
+  if (std::fabs(n.z) > std::fabs(coordinate(n, axis))) axis = 2;
+  // 32 u of what is at most 2 covers the roundings of a component, 32 errors those of the vertices.
+  int sign = coordinate(n, axis) > 0 ? 1 : -1;
+  if (std::fabs(coordinate(n, axis)) <= 64 * unit_roundoff + 32 * pair.error(side)) {
+    const ExactPoint exact_normal = cross(pair.exact(q) - pair.exact(p), pair.exact(r) - pair.exact(p));
+    if (sgn(coordinate(exact_normal, axis)) == 0)
+      axis = sgn(exact_normal.x) != 0 ? 0 : (sgn(exact_normal.y) != 0 ? 1 : 2);
+    sign = sgn(coordinate(exact_normal, axis));
+  }
+  first_ = (axis + 1) % 3;
+  second_ = (axis + 2) % 3;
+  if (sign < 0) std::swap(first_, second_);
+}
+
+const Vec3& PiecePlane::position(PieceCorner corner) const {
+  return corner.is_node ? curves_->nodes[corner.index].position : pair_->local({side_, corner.index});
+}
+
+double PiecePlane::error(PieceCorner corner) const {
+  return corner.is_node ? curves_->nodes[corner.index].error : 2 * pair_->error(side_);
+}
+
+double PiecePlane::x(PieceCorner corner) const { return coordinate(position(corner), first_); }
+double PiecePlane::y(PieceCorner corner) const { return coordinate(position(corner), second_); }
+
+PiecePlane::Flat PiecePlane::exact(PieceCorner corner) const {
+  if (!corner.is_node) {
+    const ExactPoint& p = pair_->exact({side_, corner.index});
+    return {coordinate(p, first_), coordinate(p, second_), 1};
+  }
+  const ExactNode node = exact_position(*pair_, curves_->nodes[corner.index]);
+  return {coordinate(node.numerator, first_), coordinate(node.numerator, second_), node.denominator};
+}
+
+int PiecePlane::turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
+  const double ax = x(q) - x(p), ay = y(q) - y(p), bx = x(r) - x(p), by = y(r) - y(p);
+  // As for `orientation`: h is the error of a difference.
+  const double h = error(p) + std::max(error(q), error(r));
+  const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
+  const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
+  const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;
+  const double value = ax * by - ay * bx;
+  if (value > bound) return 1;
+  if (value < -bound) return -1;
+  const Flat a = exact(p), b = exact(q), c = exact(r);
+  const mpz_class determinant =
+      a.w * (b.x * c.y - b.y * c.x) - b.w * (a.x * c.y - a.y * c.x) + c.w * (a.x * b.y - a.y * b.x);
+  return sgn(determinant);
+}
+
+double PiecePlane::area(std::span<const PieceCorner> cycle) const {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < cycle.size(); ++i)
+    sum += (x(cycle[i]) - x(cycle[0])) * (y(cycle[i + 1]) - y(cycle[0])) -
+           (y(cycle[i]) - y(cycle[0])) * (x(cycle[i + 1]) - x(cycle[0]));
+  return sum;
+}
+
+int PiecePlane::area_sign(std::span<const PieceCorner> cycle) const {
+  double extent = 0, largest_error = 0;
+  for (const PieceCorner& corner : cycle) {
+    extent = std::max({extent, std::fabs(x(corner) - x(cycle[0])), std::fabs(y(corner) - y(cycle[0]))});
+    largest_error = std::max(largest_error, error(corner));
+  }
+  const double value = area(cycle), n = static_cast<double>(cycle.size()), h = 2 * largest_error;
+  // Each of n terms is at most 2 extent^2, off by 8 h (extent + h) and a few roundings, and the sum by n more.
+  const double bound = n * (8 * h * (extent + h) + (16 + 2 * n) * unit_roundoff * 2 * extent * extent) + 0x1p-1000;
+  if (value > bound) return 1;
+  if (value < -bound) return -1;
+  mpq_class sum = 0;
+  for (std::size_t i = 0; i < cycle.size(); ++i) {
+    const Flat p = exact(cycle[i]), q = exact(cycle[i + 1 < cycle.size() ? i + 1 : 0]);
+    mpq_class term(p.x * q.y - p.y * q.x, p.w * q.w);
+    term.canonicalize();
+    sum += term;
+  }
+  return sgn(sum);
+}
+
+bool PiecePlane::is_around(std::span<const PieceCorner> outer, std::span<const PieceCorner> inner) const {
+  for (const PieceCorner& p : inner) {
+    bool inside = false, on_line = false;
+    for (std::size_t i = 0; i < outer.size() && !on_line; ++i) {
+      const PieceCorner &a = outer[i], &b = outer[i + 1 < outer.size() ? i + 1 : 0];
+      // An edge counts where it has its ends on different sides of the horizontal line through p; ends on the line are
+      // taken for above it. What is this close to p is left to another corner of `inner`.
+      const double margin = error(a) + error(b) + error(p);
+      const bool a_above = y(a) >= y(p), b_above = y(b) >= y(p);
+      on_line = std::fabs(y(a) - y(p)) <= margin && std::fabs(x(a) - x(p)) <= margin;
+      if (a_above == b_above) continue;
+      const int side = turn(a, b, p);
+      on_line = on_line || side == 0;
+      if ((side > 0) == b_above) inside = !inside;
+    }
+    if (!on_line) return inside;
+  }
+  return false;
+}
+
+}  // namespace meshbound

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+/// The parts of the surface of each of two models that are inside the other: whole triangles, found by flooding from
+/// the curves, and the pieces that the curves cut out of the triangles they go through.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "penetration/curves.h"
+#include "penetration/piece_plane.h"
+#include "penetration/placed_pair.h"
+
+namespace meshbound {
+
+/// A closed line in a triangle that has a piece on its left, seen against the normal.
+struct PieceCycle {
+  std::uint32_t begin = 0, end = 0;  ///< in `Pieces::corners`
+  std::uint32_t piece = no_index;
+  std::uint32_t next_hole = no_index;  ///< the next hole of the piece
+  bool on_border = false;              ///< runs along an edge of the triangle somewhere
+};
+
+/// A connected piece of a triangle.
+struct Piece {
+  std::uint32_t side = 0, triangle = 0;
+  std::uint32_t outer = no_index;  ///< the cycle around it; `no_index`: the whole triangle, perhaps with holes
+  std::uint32_t holes = no_index;  ///< the first of the cycles around its holes
+};
+
+/// Disjoint sets of the numbers 0, 1, ...
+class PieceSets {
+ public:
+  void clear() { parent_.clear(); }
+  void add() { parent_.push_back(static_cast<std::uint32_t>(parent_.size())); }
+  [[nodiscard]] std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::uint32_t i, std::uint32_t j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+class Pieces {
+ public:
+  /// Finds all pieces of both sides, and which of them make one closed surface: a shell of the intersection. Fills
+  /// `cycle` of the nodes.
+  void find(PlacedPair& pair, CrossingCurves& curves);
+
+  std::vector<Piece> pieces;
+  std::vector<PieceCycle> cycles;
+  std::vector<PieceCorner> corners;
+  PieceSets shells;  ///< sets of pieces
+
+  /// The corners of a cycle.
+  [[nodiscard]] std::span<const PieceCorner> corners_of(const PieceCycle& cycle) const {
+    return std::span(corners).subspan(cycle.begin, cycle.end - cycle.begin);
+  }
+
+ private:
+  using EdgePieces = std::array<std::uint32_t, 3>;
+
+  void trace(std::uint32_t side, std::uint32_t triangle);
+  void trace_cycle(std::uint32_t side, std::uint32_t triangle, std::uint32_t segment);
+  std::uint32_t walk_border(std::uint32_t side, std::uint32_t triangle, std::uint32_t node, std::uint32_t cycle);
+  std::uint32_t add_piece(std::uint32_t side, std::uint32_t triangle, std::uint32_t outer);
+  void settle_loops(std::uint32_t side, std::uint32_t triangle);
+  std::uint32_t piece_around(std::uint32_t hole, std::uint32_t side, std::uint32_t triangle);
+  void flood(std::uint32_t side);
+  void flood_across(std::uint32_t side, std::uint32_t piece, std::size_t k);
+  std::uint32_t whole_piece(std::uint32_t side, std::uint32_t triangle);
+  void flood_uncut_components(std::uint32_t side);
+  void join_along_curves();
+
+  PlacedPair* pair_ = nullptr;
+  CrossingCurves* curves_ = nullptr;
+  std::array<std::vector<std::uint8_t>, 2> traced_;  ///< by side and segment
+  std::array<SparseArray<EdgePieces>, 2> at_edges_;  ///< of crossed triangles: the piece along each edge without nodes
+  std::array<SparseArray<std::uint32_t>, 2> whole_;  ///< by triangle: the piece without a curve as its outer cycle
+  std::vector<std::uint32_t> open_;                  ///< pieces to flood from
+  std::vector<std::uint32_t> loops_;                 ///< cycles off the border of the triangle that is traced
+};
+
+}  // namespace meshbound

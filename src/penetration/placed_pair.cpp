@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "penetration/placed_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/magnitude.h"
+#include "meshbound/error.h"
+#include "numeric/rounding.h"
+
+namespace meshbound {
+namespace {
+
+Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Vec3 magnitudes(const Vec3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+Vec3 larger(const Vec3& p, const Vec3& q) { return {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}; }
+
+void require_motion(const Eigen::Isometry3d& pose) {
+  if (!pose.matrix().allFinite()) throw InvalidInput("a pose has an entry that is not finite");
+  if (!(pose.linear().determinant() > 0)) throw InvalidInput("a pose is a reflection; penetration needs rigid motions");
+  if (!(pose.translation().cwiseAbs().maxCoeff() <= largest_coordinate))
+    throw InvalidInput("a pose moves a model out of the range of coordinates (2^1000)");
+}
+
+/// Sign of dot(q - p, cross(r - p, s - p)) for coordinates that are off by at most `error` each; 0 where doubles cannot
+/// tell.
+///
+/// Let d be the largest magnitudes of the three differences by axis, D their product. A computed difference has a
+/// relative error of u besides 2 `error`; the determinant is a sum of 6 products of three differences. Its roundings
+/// are three differences, two products and five additions for each: at most 10 u (1 + 10 u) times the sum of the
+/// magnitudes, which is at most 6 D: less than 64 u D. An error of h = 2 `error` in each difference changes each
+/// product by at most h (d_x d_y + d_y d_z + d_z d_x), with d enlarged by h: 6 of them. Underflow cannot matter where D
+/// is above 1e-200 and no d above 1e60.
+int certain_sign(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, double error) {
+  const Vec3 a = q - p, b = r - p, c = s - p;
+  const double h = 2 * error;
+  const Vec3 d = larger(larger(magnitudes(a), magnitudes(b)), magnitudes(c)) + Vec3{h, h, h};
+  const double product = d.x * d.y * d.z;
+  const double bound =
+      (64 * unit_roundoff * product + 6 * h * (d.x * d.y + d.y * d.z + d.z * d.x)) * (1 + 16 * unit_roundoff);
+  if (!(product > 1e-200) || !(std::max({d.x, d.y, d.z}) < 1e60)) return 0;
+  const double value = dot(a, cross(b, c));
+  if (value > bound) return 1;
+  return value < -bound ? -1 : 0;
+}
+
+}  // namespace
+
+void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose_a, const ClosedModel::Data& b,
+                       const Eigen::Isometry3d& pose_b) {
+  sides_[0].model = &a;
+  sides_[0].pose = pose_a;
+  sides_[1].model = &b;
+  sides_[1].pose = pose_b;
+  for (Side& side : sides_) {
+    side.map.reset();
+    side.points.clear(side.model->positions.size());
+    side.exact_points.clear(side.model->positions.size());
+  }
+  const auto frame = [this](std::uint32_t side) -> const Frame& { return model(side).tree.data().frame; };
+  tree_side_ = frame(1).exponent > frame(0).exponent ? 1 : 0;
+  const std::uint32_t other = 1 - tree_side_;
+  tree_mapping_ = mapping_between(frame(other), sides_[other].pose, frame(tree_side_), sides_[tree_side_].pose);
+  require_motion(pose_a);
+  require_motion(pose_b);
+  is_exact_ready_ = false;
+  exact_decisions_ = 0;
+  set_frame();
+}
+
+/// The origin is the centre of side 0 in the world, so that coordinates are small where the models meet.
+void PlacedPair::set_frame() {
+  const Vec3 center = sides_[0].model->tree.data().frame.center;
+  origin_ = to_vec3(sides_[0].pose * Eigen::Vector3d(center.x, center.y, center.z));
+  double largest = 0;
+  for (Side& side : sides_) {
+    side.center = side.model->tree.data().frame.center;
+    set_offset(side);
+    largest = std::max(largest, 3 * side.model->reach + largest_magnitude_of(side.offset));
+  }
+  std::frexp(largest, &exponent_);
+  for (Side& side : sides_) {
+    const bool is_plain = side.pose.linear() == Eigen::Matrix3d::Identity() && largest_magnitude_of(side.offset) == 0 &&
+                          largest_magnitude_of(side.center) == 0;
+    const double magnitude = 3 * side.model->reach + largest_magnitude_of(side.offset);
+    // One rounding each for the difference with the centre, the products, three additions and the offset itself, which
+    // is of at most `magnitude`; and the rounding of the scaled rotation where that underflows.
+    side.error = is_plain ? 0 : std::ldexp(magnitude, -exponent_) * 10 * unit_roundoff;
+    side.error += 0x1p-1070;
+    const auto row = [&](int i) -> Vec3 {
+      return {std::ldexp(side.pose.linear()(i, 0), -exponent_), std::ldexp(side.pose.linear()(i, 1), -exponent_),
+              std::ldexp(side.pose.linear()(i, 2), -exponent_)};
+    };
+    side.rows = {row(0), row(1), row(2)};
+    side.offset = {std::ldexp(side.offset.x, -exponent_), std::ldexp(side.offset.y, -exponent_),
+                   std::ldexp(side.offset.z, -exponent_)};
+  }
+}
+
+/// R center + t - origin, model units, with a relative error of 2 u.
+void PlacedPair::set_offset(Side& side) {
+  const Vec3 translation = to_vec3(side.pose.translation());
+  if (largest_magnitude_of(side.center) == 0) {
+    side.offset = translation - origin_;
+    return;
+  }
+  prepare_exact();
+  const ExactPoint moved = (*side.map)(side.center) - ExactPoint{in_units(origin_.x, unit_), in_units(origin_.y, unit_),
+                                                                 in_units(origin_.z, unit_)};
+  const auto rounded = [this](const mpz_class& value) {
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+    return std::ldexp(mantissa, static_cast<int>(exponent) + unit_);
+  };
+  side.offset = {rounded(moved.x), rounded(moved.y), rounded(moved.z)};
+}
+
+void PlacedPair::prepare_exact() {
+  if (is_exact_ready_) return;
+  unit_ = std::min({lowest_bit(origin_.x), lowest_bit(origin_.y), lowest_bit(origin_.z)});
+  for (const Side& side : sides_) unit_ = std::min(unit_, ExactMap::image_bit(side.pose, side.model->lowest_bit));
+  for (Side& side : sides_) side.map.emplace(side.pose, side.model->lowest_bit, unit_);
+  is_exact_ready_ = true;
+}
+
+const Vec3& PlacedPair::local(PairVertex v) {
+  Side& side = sides_[v.side];
+  if (side.points.has(v.vertex)) return side.points[v.vertex];
+  const Vec3 p = side.model->positions[v.vertex] - side.center;
+  return side.points.set(v.vertex,
+                         Vec3{dot(side.rows[0], p), dot(side.rows[1], p), dot(side.rows[2], p)} + side.offset);
+}
+
+const ExactPoint& PlacedPair::exact(PairVertex v) {
+  prepare_exact();
+  Side& side = sides_[v.side];
+  if (side.exact_points.has(v.vertex)) return side.exact_points[v.vertex];
+  return side.exact_points.set(v.vertex, (*side.map)(side.model->positions[v.vertex]));
+}
+
+int PlacedPair::exact_unit() {
+  prepare_exact();
+  return unit_;
+}
+
+Eigen::Vector3d PlacedPair::to_world(const Vec3& local) const {
+  return {std::ldexp(local.x, exponent_) + origin_.x, std::ldexp(local.y, exponent_) + origin_.y,
+          std::ldexp(local.z, exponent_) + origin_.z};
+}
+
+Vec3 PlacedPair::to_local(const ExactPoint& numerator, const mpz_class& denominator) {
+  prepare_exact();
+  const auto coordinate = [&](const mpz_class& value, double origin) {
+    mpq_class ratio(value - denominator * in_units(origin, unit_), denominator);
+    ratio.canonicalize();
+    long top = 0, bottom = 0;
+    // The quotient of two integers of any length: scaled so that it is a normal double, then scaled back.
+    const double t = mpz_get_d_2exp(&top, ratio.get_num_mpz_t()), b = mpz_get_d_2exp(&bottom, ratio.get_den_mpz_t());
+    return std::ldexp(t / b, static_cast<int>(top - bottom) + unit_ - exponent_);
+  };
+  return {coordinate(numerator.x, origin_.x), coordinate(numerator.y, origin_.y), coordinate(numerator.z, origin_.z)};
+}
+
+int PlacedPair::orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s) {
+  const double error = std::max(sides_[0].error, sides_[1].error);
+  const int sign = certain_sign(local(p), local(q), local(r), local(s), error);
+  if (sign != 0) return sign;
+  ++exact_decisions_;
+  return sgn(volume_of(exact(p), exact(q), exact(r), exact(s)));
+}
+
+int PlacedPair::sign_of_first(const ExactPoint& normal, int sign) const {
+  for (const mpz_class* coordinate : {&normal.x, &normal.y, &normal.z})
+    if (sgn(*coordinate) != 0) return sign * sgn(*coordinate);
+  return 0;
+}
+
+int PlacedPair::side_of_plane(std::uint32_t side, const Triangle& triangle, std::uint32_t vertex) {
+  const PairVertex p{side, triangle[0]}, q{side, triangle[1]}, r{side, triangle[2]};
+  const int sign = orientation(p, q, r, {1 - side, vertex});
+  if (sign != 0) return sign;
+  // With side 0 moved by t, the volume grows by the product of t with the normal, or shrinks where side 0 has the
+  // triangle.
+  return sign_of_first(cross(exact(q) - exact(p), exact(r) - exact(p)), side == 0 ? -1 : 1);
+}
+
+int PlacedPair::edge_turn(std::uint32_t p0, std::uint32_t q0, std::uint32_t p1, std::uint32_t q1) {
+  const PairVertex p{0, p0}, q{0, q0}, r{1, p1}, s{1, q1};
+  const int sign = orientation(p, q, r, s);
+  if (sign != 0) return sign;
+  // With u = q - p, v = r - p and w = s - p, moving side 0 by t gives u . ((v - t) x (w - t)), which is the volume plus
+  // t . (u x (w - v)).
+  return sign_of_first(cross(exact(q) - exact(p), exact(s) - exact(r)), 1);
+}
+
+bool PlacedPair::is_beyond(std::uint32_t side, const Vec3& p, const Eigen::AlignedBox3d& box) const {
+  const Side &own = sides_[side], &other = sides_[1 - side];
+  const Eigen::Vector3d world = own.pose * Eigen::Vector3d(p.x, p.y, p.z);
+  const Eigen::Vector3d moved = other.pose.linear().transpose() * (world - other.pose.translation());
+  // Some ten roundings of numbers of this magnitude, and poses that miss being rigid by at most 1e-9.
+  const double magnitude = 4 * (own.model->reach + other.model->reach + own.pose.translation().cwiseAbs().maxCoeff() +
+                                other.pose.translation().cwiseAbs().maxCoeff());
+  const double margin = magnitude * 1e-8;
+  const auto outside = (moved.array() < box.min().array() - margin) || (moved.array() > box.max().array() + margin);
+  return outside.any();
+}
+
+bool PlacedPair::goes_through(std::uint32_t side, const Triangle& triangle, std::uint32_t p, std::uint32_t q) {
+  const auto turn = [&](std::size_t k) {
+    const std::uint32_t from = triangle[k], to = triangle[next_corner(k)];
+    // Exchanging the two edges is an even permutation of the four points.
+    return side == 1 ? edge_turn(p, q, from, to) : edge_turn(from, to, p, q);
+  };
+  const int first = turn(0);
+  return turn(1) == first && turn(2) == first;
+}
+
+}  // namespace meshbound

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+/// The vertices of two placed models in one frame, and exact answers to how they lie to one another.
+///
+/// Degenerate positions are resolved by simulation of simplicity (Edelsbrunner, Muecke, "Simulation of Simplicity", ACM
+/// Trans. Graph. 9(1), 1990): side 0 is moved by (e1, e2, e3), each infinitely smaller than the one before it. As both
+/// models are closed and a motion of the whole changes nothing within a model, this is enough: a determinant of points
+/// of both sides vanishes for every such motion only where a triangle has no area or two edges are parallel, and an
+/// edge parallel to a triangle does not cross it.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/mapping.h"
+#include "penetration/closed_model_data.h"
+#include "penetration/exact_point.h"
+
+namespace meshbound {
+
+/// An array by index, most of which is never looked at: what was not set since `clear` counts as absent.
+template <class T>
+class SparseArray {
+ public:
+  void clear(std::size_t size) {
+    if (++epoch_ == 0) stamps_.assign(stamps_.size(), 0), epoch_ = 1;
+    if (stamps_.size() < size) stamps_.resize(size, 0), values_.resize(size);
+  }
+  [[nodiscard]] bool has(std::size_t i) const { return stamps_[i] == epoch_; }
+  [[nodiscard]] T& operator[](std::size_t i) { return values_[i]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return values_[i]; }
+  T& set(std::size_t i, const T& value) {
+    stamps_[i] = epoch_;
+    return values_[i] = value;
+  }
+
+ private:
+  std::uint32_t epoch_ = 0;
+  std::vector<std::uint32_t> stamps_;
+  std::vector<T> values_;
+};
+
+/// A vertex of side 0 or 1.
+struct PairVertex {
+  std::uint32_t side;
+  std::uint32_t vertex;
+};
+
+class PlacedPair {
+ public:
+  /// Throws `InvalidInput` for poses that are no rigid motions.
+  void place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose_a, const ClosedModel::Data& b,
+             const Eigen::Isometry3d& pose_b);
+
+  [[nodiscard]] const ClosedModel::Data& model(std::uint32_t side) const { return *sides_[side].model; }
+  /// The side with the larger model, and the mapping from the working frame of the other's tree to that of its own.
+  [[nodiscard]] std::uint32_t tree_side() const { return tree_side_; }
+  [[nodiscard]] const Mapping& tree_mapping() const { return tree_mapping_; }
+
+  /// Coordinates in the local frame, of magnitude about 1 at most; off by at most `error` each.
+  [[nodiscard]] const Vec3& local(PairVertex v);
+  [[nodiscard]] double error(std::uint32_t side) const { return sides_[side].error; }
+  [[nodiscard]] const ExactPoint& exact(PairVertex v);
+
+  /// Local lengths and points in model units and world coordinates.
+  [[nodiscard]] int exponent() const { return exponent_; }  ///< a local unit is 2^exponent model units
+  [[nodiscard]] Eigen::Vector3d to_world(const Vec3& local) const;
+  /// Local coordinates of numerator / denominator, which is in the unit of `exact`: rounded to nearest or a neighbour.
+  [[nodiscard]] Vec3 to_local(const ExactPoint& numerator, const mpz_class& denominator);
+  /// The sixth of a local unit cubed, in the cubed unit of `exact`, is 2^this.
+  [[nodiscard]] int exact_unit();
+
+  /// Sign of `volume_of` without any perturbation.
+  [[nodiscard]] int orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s);
+  /// 1 where vertex v of the other side lies on the side of the normal of triangle (p, q, r) of `side`, -1 where it
+  /// lies on the other; never 0 for a triangle with area.
+  [[nodiscard]] int side_of_plane(std::uint32_t side, const Triangle& triangle, std::uint32_t vertex);
+  /// Sign of `volume_of` for an edge of side 0 and one of side 1; 0 only for parallel ones.
+  [[nodiscard]] int edge_turn(std::uint32_t p0, std::uint32_t q0, std::uint32_t p1, std::uint32_t q1);
+  /// Whether edge (p, q) of the side other than `side` goes through its triangle, given that p and q lie on different
+  /// sides of its plane.
+  [[nodiscard]] bool goes_through(std::uint32_t side, const Triangle& triangle, std::uint32_t p, std::uint32_t q);
+
+  /// Whether a point of a model, in its own coordinates, lies outside a box in those of the other; false where doubles
+  /// cannot tell.
+  [[nodiscard]] bool is_beyond(std::uint32_t side, const Vec3& p, const Eigen::AlignedBox3d& box) const;
+
+  [[nodiscard]] std::uint64_t exact_decisions() const { return exact_decisions_; }
+
+ private:
+  struct Side {
+    const ClosedModel::Data* model = nullptr;
+    Eigen::Isometry3d pose;
+    std::array<Vec3, 3> rows;  ///< rotation, scaled to the local unit
+    Vec3 center;               ///< taken off model coordinates before the rotation
+    Vec3 offset;               ///< local
+    double error = 0;
+    SparseArray<Vec3> points;
+    SparseArray<ExactPoint> exact_points;
+    std::optional<ExactMap> map;
+  };
+
+  void set_frame();
+  void set_offset(Side& side);
+  void prepare_exact();
+  int sign_of_first(const ExactPoint& normal, int sign) const;
+
+  std::array<Side, 2> sides_;
+  std::uint32_t tree_side_ = 0;
+  Mapping tree_mapping_;
+  Vec3 origin_;  ///< world coordinates of the origin of the local frame
+  int exponent_ = 0;
+  int unit_ = 0;  ///< exact coordinates are multiples of 2^unit
+  bool is_exact_ready_ = false;
+  std::uint64_t exact_decisions_ = 0;
+};
+
+}  // namespace meshbound

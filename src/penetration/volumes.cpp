@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "penetration/volumes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "meshbound/transform.h"
+#include "numeric/rounding.h"
+#include "penetration/parity.h"
+
+namespace meshbound {
+namespace {
+
+/// Triangles of the model that a patch lies on.
+std::size_t count_faces(const std::vector<PatchTriangle>& triangles) {
+  std::vector<std::uint32_t> sources;
+  sources.reserve(triangles.size());
+  for (const PatchTriangle& t : triangles) sources.push_back(t.source);
+  std::sort(sources.begin(), sources.end());
+  return static_cast<std::size_t>(std::unique(sources.begin(), sources.end()) - sources.begin());
+}
+
+/// Directions in which a shell is looked for around a cavity, one after the other until one passes no edge.
+constexpr std::array<Vec3, 6> directions{{{0.31, 0.17, 0.93},
+                                          {-0.71, 0.43, 0.56},
+                                          {0.29, -0.87, 0.41},
+                                          {0.83, 0.37, -0.42},
+                                          {-0.53, -0.61, -0.59},
+                                          {0.11, 0.97, -0.23}}};
+
+}  // namespace
+
+const Vec3& VolumeFinder::position(std::uint32_t side, PieceCorner corner) const {
+  return corner.is_node ? curves_->nodes[corner.index].position : pair_->local({side, corner.index});
+}
+
+double VolumeFinder::error(std::uint32_t side, PieceCorner corner) const {
+  return corner.is_node ? curves_->nodes[corner.index].error : 2 * pair_->error(side);
+}
+
+std::vector<IntersectionVolume> VolumeFinder::find(PlacedPair& pair, const CrossingCurves& curves, const Pieces& pieces,
+                                                   PieceSets& sets) {
+  pair_ = &pair;
+  curves_ = &curves;
+  pieces_ = &pieces;
+  std::vector<Shell> shells;
+  std::unordered_map<std::uint32_t, std::size_t> shell_of;
+  for (std::uint32_t piece = 0; piece < pieces.pieces.size(); ++piece) {
+    const auto [found, is_new] = shell_of.try_emplace(sets.find(piece), shells.size());
+    if (is_new) shells.emplace_back();
+    shells[found->second].pieces.push_back(piece);
+  }
+  for (Shell& shell : shells) gather(shell);
+  std::vector<IntersectionVolume> volumes;
+  for (Shell& shell : shells) {
+    if (shell.sign <= 0) continue;
+    shell.volume = volumes.size();
+    volumes.emplace_back().content = shell.content;
+  }
+  if (volumes.empty()) return volumes;
+  for (Shell& shell : shells) {
+    if (shell.sign >= 0) continue;
+    shell.volume = shell_around(shell, shells);
+    Bounds& content = volumes[shell.volume].content;
+    content = {std::max(0.0, next_down(content.lower + shell.content.lower)),
+               next_up(content.upper + shell.content.upper)};
+  }
+  for (const Shell& shell : shells) {
+    if (shell.sign == 0) continue;
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      Patch& patch = volumes[shell.volume].patches[side];
+      patch.triangles.insert(patch.triangles.end(), shell.triangles[side].begin(), shell.triangles[side].end());
+      patch.displacement = std::max(patch.displacement, shell.excess[side]);
+    }
+  }
+  for (const Shell& shell : shells)
+    if (shell.sign > 0) surround(volumes[shell.volume], shell);
+  for (IntersectionVolume& volume : volumes)
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      Patch& patch = volume.patches[side];
+      patch.faces = count_faces(patch.triangles);
+      double largest = 0;
+      for (const PatchTriangle& t : patch.triangles)
+        for (const PieceCorner& corner : t.corners) largest = std::max(largest, error(side, corner));
+      patch.displacement = next_up(patch.displacement + largest);
+    }
+  return volumes;
+}
+
+void VolumeFinder::gather(Shell& shell) {
+  for (const std::uint32_t piece : shell.pieces) add_triangles(piece, shell);
+  measure_content(shell);
+  if (shell.content.lower <= 0 && shell.content.upper >= 0) {
+    shell.sign = exact_content_sign(shell);
+    if (shell.sign > 0) shell.content.lower = 0;
+    if (shell.sign < 0) shell.content.upper = 0;
+  } else {
+    shell.sign = shell.content.lower > 0 ? 1 : -1;
+  }
+}
+
+void VolumeFinder::add_triangles(std::uint32_t index, Shell& shell) {
+  const Piece& piece = pieces_->pieces[index];
+  const Triangle& t = pair_->model(piece.side).triangles[piece.triangle];
+  const CornerTriple whole{{{false, t[0]}, {false, t[1]}, {false, t[2]}}};
+  std::vector<PatchTriangle>& out = shell.triangles[piece.side];
+  if (piece.outer == no_index && piece.holes == no_index) {
+    out.push_back({piece.triangle, whole});
+    return;
+  }
+  std::vector<std::span<const PieceCorner>> holes;
+  for (std::uint32_t hole = piece.holes; hole != no_index; hole = pieces_->cycles[hole].next_hole)
+    holes.push_back(pieces_->corners_of(pieces_->cycles[hole]));
+  const std::span<const PieceCorner> outer =
+      piece.outer == no_index ? std::span<const PieceCorner>(whole) : pieces_->corners_of(pieces_->cycles[piece.outer]);
+  triangles_.clear();
+  const PiecePlane plane(*pair_, *curves_, piece.side, piece.triangle);
+  shell.excess[piece.side] = std::max(shell.excess[piece.side], triangulate(plane, outer, holes, triangles_));
+  for (const CornerTriple& corners : triangles_) out.push_back({piece.triangle, corners});
+}
+
+/// Six times the content is the sum of the determinants of the triangles. When the corners move by at most d to where
+/// they are exactly, the content changes by at most d times the largest area on the way there.
+void VolumeFinder::measure_content(Shell& shell) {
+  const std::uint32_t first = shell.triangles[0].empty() ? 1 : 0;
+  const Vec3 o = position(first, shell.triangles[first][0].corners[0]);
+  double sum = 0, magnitude = 0, area = 0, edges = 0, displacement = 0, count = 0;
+  for (std::uint32_t side = 0; side < 2; ++side)
+    for (const PatchTriangle& t : shell.triangles[side]) {
+      const Vec3 a = position(side, t.corners[0]) - o, b = position(side, t.corners[1]) - o,
+                 c = position(side, t.corners[2]) - o;
+      sum += dot(a, cross(b, c));
+      magnitude += length(a) * length(b) * length(c);
+      area += length(cross(b - a, c - a));
+      edges += length(b - a) + length(c - b) + length(a - c);
+      count += 1;
+      for (const PieceCorner& corner : t.corners) displacement = std::max(displacement, error(side, corner));
+    }
+  const double moved = displacement * (area + displacement * (2 * edges + 8 * displacement * count));
+  // 32 u for a term whatever the cancellation, n u for the sum; areas and lengths to a few u; all twice for safety.
+  const double error = 2 * (magnitude * unit_roundoff * (32 + count) + 6 * moved) + 0x1p-900;
+  shell.content = {next_down((sum - error) / 6), next_up((sum + error) / 6)};
+}
+
+int VolumeFinder::exact_content_sign(const Shell& shell) {
+  mpq_class sum = 0;
+  for (std::uint32_t side = 0; side < 2; ++side)
+    for (const PatchTriangle& t : shell.triangles[side]) {
+      std::array<ExactNode, 3> p;
+      for (std::size_t k = 0; k < 3; ++k)
+        p[k] = t.corners[k].is_node ? exact_position(*pair_, curves_->nodes[t.corners[k].index])
+                                    : ExactNode{pair_->exact({side, t.corners[k].index}), 1};
+      mpq_class term(dot(p[0].numerator, cross(p[1].numerator, p[2].numerator)),
+                     p[0].denominator * p[1].denominator * p[2].denominator);
+      term.canonicalize();
+      sum += term;
+    }
+  return sgn(sum);
+}
+
+/// Whether a ray crosses a shell an odd number of times, 1 or 0; -1 where rounding could change that.
+int VolumeFinder::parity_of(const Shell& shell, const Vec3& from, const Vec3& direction) const {
+  // Corners are off by far less than this, and coordinates of magnitude 1 make products of at most a few.
+  constexpr double margin = 0x1p-30;
+  int parity = 0;
+  for (std::uint32_t side = 0; side < 2; ++side)
+    for (const PatchTriangle& t : shell.triangles[side]) {
+      const Vec3 a = position(side, t.corners[0]) - from, b = position(side, t.corners[1]) - from,
+                 c = position(side, t.corners[2]) - from;
+      const double u = dot(direction, cross(a, b)), v = dot(direction, cross(b, c)), w = dot(direction, cross(c, a));
+      const double scale = margin * std::max({length(a), length(b), length(c)}) *
+                           std::max({length(b - a), length(c - b), length(a - c)});
+      if (std::min({u, v, w}) < -scale && std::max({u, v, w}) > scale) continue;
+      const double sum = u + v + w;
+      const bool is_hit = std::min({u, v, w}) > scale || std::max({u, v, w}) < -scale;
+      const double along = dot(a, cross(b, c));
+      if (!is_hit || std::fabs(along) <= scale * length(a)) return -1;
+      if ((along > 0) == (sum > 0)) parity = 1 - parity;
+    }
+  return parity;
+}
+
+/// The smallest shell around a cavity. Where rounding hides which that is, the largest shell takes the cavity: it is
+/// then as thin as rounding errors.
+std::size_t VolumeFinder::shell_around(const Shell& cavity, const std::vector<Shell>& shells) {
+  const std::uint32_t side = cavity.triangles[0].empty() ? 1 : 0;
+  const PatchTriangle& t = cavity.triangles[side][0];
+  const Vec3 from =
+      (1.0 / 3) * (position(side, t.corners[0]) + position(side, t.corners[1]) + position(side, t.corners[2]));
+  const Shell *best = nullptr, *largest = nullptr;
+  for (const Shell& shell : shells) {
+    if (shell.sign <= 0) continue;
+    if (largest == nullptr || shell.content.upper > largest->content.upper) largest = &shell;
+    int parity = -1;
+    for (std::size_t i = 0; i < directions.size() && parity < 0; ++i) parity = parity_of(shell, from, directions[i]);
+    if (parity == 1 && (best == nullptr || shell.content.upper < best->content.upper)) best = &shell;
+  }
+  return best != nullptr ? best->volume : largest->volume;
+}
+
+/// A volume without any part of one of the models lies in that model's solid; the component that is next around it
+/// stands for the part.
+void VolumeFinder::surround(IntersectionVolume& volume, const Shell& outer) {
+  for (std::uint32_t side = 0; side < 2; ++side) {
+    if (!volume.patches[side].triangles.empty()) continue;
+    volume.overlap = side == 0 ? Overlap::BInsideA : Overlap::AInsideB;
+    const ClosedModel::Data& model = pair_->model(side);
+    const std::uint32_t vertex = outer.triangles[1 - side][0].corners[0].index;
+    const std::vector<bool> around = components_around(*pair_, {1 - side, vertex});
+    // Of nested components the innermost one reaches least far in any direction.
+    std::uint32_t next = no_index;
+    const auto reach = [&](std::uint32_t i) { return model.positions[model.components[i].extremes[3]].x; };
+    for (std::uint32_t i = 0; i < around.size(); ++i)
+      if (around[i] && (next == no_index || reach(i) < reach(next))) next = i;
+    add_component(volume, side, next);
+  }
+}
+
+void VolumeFinder::add_component(IntersectionVolume& volume, std::uint32_t side, std::uint32_t component) {
+  const ClosedModel::Data& model = pair_->model(side);
+  for (std::uint32_t i = 0; i < model.triangles.size(); ++i) {
+    const Triangle& t = model.triangles[i];
+    if (model.component_of[i] == component)
+      volume.patches[side].triangles.push_back({i, {{{false, t[0]}, {false, t[1]}, {false, t[2]}}}});
+  }
+}
+
+}  // namespace meshbound

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// What is accepted as the boundary of a solid, and what the refusals say.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "meshbound/error.h"
+#include "meshbound/penetration_depth.h"
+#include "reference/small_meshes.h"
+#include "solids.h"
+
+namespace meshbound {
+namespace {
+
+using namespace reference;
+using namespace solids;
+
+/// The line that refuses a mesh; empty where it is accepted.
+std::string refusal(const TriangleMesh& mesh) {
+  try {
+    const ClosedModel model(mesh);
+    return {};
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+}
+
+void expect_refused(const TriangleMesh& mesh, const std::string& reason) {
+  const std::string line = refusal(mesh);
+  EXPECT_NE(line.find(reason), std::string::npos) << "not refused for \"" << reason << "\": \"" << line << "\"";
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
+const TriangleMesh unit = box({0, 0, 0}, {1, 1, 1});
+
+TEST(ClosedModel, AcceptsSolids) {
+  EXPECT_EQ(refusal(unit), "");
+  EXPECT_EQ(refusal(icosphere(3)), "");
+  EXPECT_EQ(refusal(subdivided(subdivided(unit))), "") << "many triangles in one plane";
+  EXPECT_EQ(refusal(scaled(icosphere(2), 1e-160)), "");
+  EXPECT_EQ(refusal(scaled(icosphere(2), 1e150)), "");
+  EXPECT_EQ(refusal(moved(icosphere(2), {1e9, -1e9, 1e9})), "");
+}
+
+TEST(ClosedModel, AcceptsCavitiesAndSolidsWithinCavities) {
+  const TriangleMesh hollow = both(unit, reversed(box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8})));
+  EXPECT_EQ(refusal(hollow), "");
+  const TriangleMesh filled = both(hollow, box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}));
+  EXPECT_EQ(refusal(filled), "");
+  EXPECT_EQ(ClosedModel(filled).component_count(), 3U);
+}
+
+TEST(ClosedModel, JoinsVerticesAtEqualPositions) {
+  std::vector<std::array<Vector3d, 3>> triangles;
+  for (const Triangle& t : unit.triangles)
+    triangles.push_back({unit.vertices[t[0]], unit.vertices[t[1]], unit.vertices[t[2]]});
+  TriangleMesh separate = soup(triangles);
+  separate.vertices[0].x() = -0.0;  // was 0
+  EXPECT_EQ(refusal(separate), "");
+}
+
+TEST(ClosedModel, LeavesOutTrianglesThatRepeatAPosition) {
+  TriangleMesh mesh = unit;
+  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
+  const ClosedModel model(mesh);
+  EXPECT_EQ(model.triangle_count(), 13U);
+  EXPECT_EQ(model.bvh().triangle_count(), 12U);
+}
+
+TEST(ClosedModel, RefusesAHole) {
+  TriangleMesh mesh = unit;
+  mesh.triangles.pop_back();
+  expect_refused(mesh, "the mesh is open: triangle 4 has no neighbour across the edge from (1 0 0) to (1 0 1)");
+}
+
+TEST(ClosedModel, RefusesATriangleThatIsTurned) {
+  TriangleMesh mesh = unit;
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  expect_refused(mesh, "not consistently oriented: triangle 2 and triangle 3");
+}
+
+TEST(ClosedModel, RefusesAnEdgeOfFourTriangles) {
+  expect_refused(both(unit, box({1, 1, 0}, {2, 2, 1})), "not manifold: 4 triangles");
+}
+
+TEST(ClosedModel, RefusesAModelThatIsInsideOut) { expect_refused(reversed(unit), "inside out"); }
+
+TEST(ClosedModel, RefusesACavityThatIsTurned) {
+  expect_refused(both(unit, box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8})), "the component of triangle 12");
+  expect_refused(both(unit, reversed(box({2, 0, 0}, {3, 1, 1}))), "the component of triangle 12");
+}
+
+TEST(ClosedModel, RefusesTrianglesThatCross) {
+  expect_refused(both(unit, box({0.4, 0.4, 0.5}, {0.6, 0.6, 2})), "intersects itself: triangle ");
+}
+
+TEST(ClosedModel, RefusesComponentsThatTouch) {
+  expect_refused(both(unit, box({0.25, 0.25, 1}, {0.75, 0.75, 2})), "intersects itself");
+}
+
+/// A tetrahedron whose apex touches a face of the cube from outside, from inside its interior, and misses it.
+TEST(ClosedModel, RefusesAVertexOnAFace) {
+  const auto spike = [](double tip) {
+    TriangleMesh mesh;
+    mesh.vertices = {{0.5, 0.4, tip}, {0.1, 0.1, 2}, {0.9, 0.1, 2}, {0.5, 0.9, 2}};
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+    return mesh;
+  };
+  EXPECT_EQ(refusal(both(unit, spike(1.0000001))), "");
+  expect_refused(both(unit, spike(1)), "intersects itself");
+  expect_refused(both(unit, spike(0.9999999)), "intersects itself");
+}
+
+TEST(ClosedModel, RefusesAFoldedFlap) {
+  // Two triangles back to back: closed and oriented, without content.
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 1}};
+  expect_refused(mesh, "intersects itself");
+}
+
+TEST(ClosedModel, RefusesATriangleWithoutArea) {
+  // The edge from (0 0 0) to (1 0 0) of the cube, where two triangles meet at both ends and a third at its middle.
+  TriangleMesh mesh = unit;
+  mesh.vertices.emplace_back(0.5, 0, 0);
+  mesh.triangles[1] = {0, 3, 8};
+  mesh.triangles.push_back({8, 3, 1});
+  mesh.triangles.push_back({0, 8, 1});
+  expect_refused(mesh, "triangle 13 has no area");
+}
+
+TEST(ClosedModel, RefusesWhatIsNoMesh) {
+  EXPECT_THROW(ClosedModel{TriangleMesh{}}, InvalidInput);
+  TriangleMesh mesh = unit;
+  mesh.triangles[0][0] = 8;
+  EXPECT_THROW(ClosedModel{mesh}, InvalidInput);
+}
+
+}  // namespace
+}  // namespace meshbound
