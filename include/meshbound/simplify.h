@@ -13,6 +13,7 @@
 #include "meshbound/certificate.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
+#include "meshbound/line_mesh.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -37,6 +38,12 @@ enum class OnExceed {
 enum class Effort {
   Normal,  ///< collapses until nothing fits
   High     ///< then vertices are moved and edges flipped to make room for further collapses, again and again
+};
+
+/// Where a collapse may put its vertex.
+enum class CollapsePlacements {
+  Optimal,  ///< where the cost or the largest distance is least
+  Subset    ///< at one of the two ends: every vertex of every level is one of the original
 };
 
 /// Numbers in which the caller keeps what comes out.
@@ -76,8 +83,17 @@ struct SimplifyOptions {
   bool preserve_boundary = false;  ///< edges with one face stay as they are
   /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.
   std::vector<bool> locked_vertices;
-  /// Edges whose faces' normals are further apart than this stay as they are, both ends locked. Radians, 0 to pi.
+  /// Edges whose faces' normals are further apart than this are creases. Without `line_tolerance` they stay as they
+  /// are, both ends locked. Radians, 0 to pi.
   std::optional<double> feature_angle;
+  /// Where this is set, or `feature_edges` are given, the mesh has feature lines: borders, creases and those edges.
+  /// Line vertices move only along their line, ends and crossings of lines stay, and the symmetric Hausdorff distance
+  /// between the lines of original and result is at most this or `tolerance`, whichever is smaller; the verdict of a
+  /// level includes it. Model units.
+  std::optional<double> line_tolerance;
+  /// Further edges that are lines, by the vertices of the original; pairs that no triangle has as an edge say nothing.
+  std::vector<Edge> feature_edges;
+  CollapsePlacements placements = CollapsePlacements::Optimal;  ///< with `Subset`, `Effort::High` only flips edges
   /// By triangle of the original, model units, empty for none: beside `tolerance`, every point of triangle k stays
   /// within face_tolerances[k] of the result, and every point of the result within face_tolerances[g] of the original
   /// triangle g nearest to it. The verdict of a level includes them (`check_face_tolerances`).
@@ -97,17 +113,19 @@ struct SimplifiedLevel {
   double tolerance = 0;  ///< that it was made for, model units
   TriangleMesh mesh;     ///< model units
   /// By vertex of `mesh`: the vertex of the original that it comes from, for data that the caller wants to carry along.
-  /// It may have moved from there.
+  /// It may have moved from there; with `CollapsePlacements::Subset` it stands exactly there.
   std::vector<std::uint32_t> source_vertex;
   /// By triangle of `mesh`: one of the triangles of the original that it stands for.
   std::vector<std::uint32_t> source_triangle;
+  std::vector<Edge> lines;                  ///< edges of `mesh` that are lines, if the mesh has feature lines
   EndedBy ended_by = EndedBy::NothingFits;  ///< why decimation did not go further
   /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.
   std::optional<HausdorffDistance> distance;
-  Verdict verdict = Verdict::Undecided;    ///< of that distance
-  std::optional<Certificate> certificate;  ///< of the original and `mesh`, when it was asked for
-  std::uint64_t collapses_performed = 0;   ///< since the beginning of the run
-  std::uint64_t collapses_refused = 0;     ///< since the beginning of the run
+  std::optional<HausdorffDistance> line_distance;  ///< between the lines of the original (a) and `lines` (b)
+  Verdict verdict = Verdict::Undecided;            ///< of these distances
+  std::optional<Certificate> certificate;          ///< of the original and `mesh`, when it was asked for
+  std::uint64_t collapses_performed = 0;           ///< since the beginning of the run
+  std::uint64_t collapses_refused = 0;             ///< since the beginning of the run
 
   /// Number of triangles.
   [[nodiscard]] std::size_t faces() const { return mesh.triangles.size(); }
@@ -131,6 +149,7 @@ struct CollapseCounts {
 /// All levels of a run, and facts about it.
 struct SimplifyResult {
   std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
+  std::vector<Edge> lines;                ///< edges of the original that are lines, if it has feature lines
   std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
   std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: in every level as they are
   std::size_t pruned_components = 0;      ///< dropped as wholes, `SimplifyOptions::prune`

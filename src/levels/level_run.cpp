@@ -35,7 +35,10 @@ std::size_t target(const TriangleMesh& original, const SimplifyOptions& options)
 LevelRun::LevelRun(const TriangleMesh& original, const SimplifyOptions& options)
     : original_(original), options_(options) {
   const Clock::time_point start = Clock::now();
-  until_stopped([&] { decimation_.emplace(original, options, stop()); });
+  until_stopped([&] {
+    decimation_.emplace(original, options, stop());
+    lines_ = decimation_->lines();
+  });
   prepare_seconds_ = seconds_since(start);
 }
 
@@ -57,6 +60,7 @@ void LevelRun::until_stopped(const Work& work) {
 
 void LevelRun::take_original(SimplifiedLevel& level) const {
   level.mesh = original_;
+  level.lines = lines_;
   if (options_.precision == Precision::Single)
     for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
   level.source_vertex.resize(original_.vertices.size());
@@ -88,6 +92,7 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
 
 void LevelRun::describe(SimplifyResult& result) const {
   if (decimation_) decimation_->describe(result);
+  result.lines = lines_;
   result.seconds.prepare = prepare_seconds_;
   result.seconds.simplify = simplify_seconds_;
 }

@@ -18,6 +18,8 @@ class LevelRun {
 
   /// Goes on to this tolerance, not smaller than the one before, and to at least `target_faces`. Not measured.
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
+  /// Edges of the original that are lines.
+  [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
   /// Everything of the result but for its levels and times of measurements.
   void describe(SimplifyResult& result) const;
 
@@ -31,6 +33,7 @@ class LevelRun {
   const SimplifyOptions& options_;
   double prepare_seconds_ = 0, simplify_seconds_ = 0;
   std::optional<Decimation> decimation_;
+  std::vector<Edge> lines_;
   std::optional<EndedBy> stopped_;  ///< before anything was decimated: the original itself stands for every level
 };
 

@@ -55,7 +55,7 @@ LodLevel LodChain::next(double tolerance) {
   LodLevel level = impl_->run.next(tolerance, 0);
   const auto start = LevelRun::Clock::now();
   if (!impl_->tree) impl_->tree.emplace(impl_->original, BvhOptions{impl_->options.threads});
-  measure_level(impl_->original, *impl_->tree, level, impl_->options);
+  measure_level(impl_->original, *impl_->tree, impl_->run.lines(), level, impl_->options);
   impl_->measure_seconds += seconds_since(start);
   return level;
 }

@@ -18,6 +18,8 @@ void check_options(const SimplifyOptions& options) {
     if (level > options.tolerance)
       throw InvalidInput("a level is larger than the tolerance; the tolerance is the last level");
   }
+  if (options.line_tolerance && !is_length(*options.line_tolerance))
+    throw InvalidInput("the line tolerance must be a length in model units, 0 or more");
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
   if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))
@@ -25,7 +27,23 @@ void check_options(const SimplifyOptions& options) {
   if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
 }
 
-void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,
+namespace {
+
+/// The distance between the lines of original and level, with the verdict on their tolerance.
+Verdict measure_lines(const TriangleMesh& original, std::span<const Edge> lines, SimplifiedLevel& level,
+                      const SimplifyOptions& options) {
+  DistanceOptions distance;
+  distance.tolerance = std::min(level.tolerance, options.line_tolerance.value_or(level.tolerance));
+  distance.threads = options.threads;
+  distance.cancel = options.cancel;
+  const auto [a, b] = build_trees(line_mesh(original, lines), line_mesh(level.mesh, level.lines), {options.threads});
+  level.line_distance = hausdorff_distance(a, b, distance);
+  return verdict_of(level.line_distance->bounds, *distance.tolerance);
+}
+
+}  // namespace
+
+void measure_level(const TriangleMesh& original, const Bvh& tree, std::span<const Edge> lines, SimplifiedLevel& level,
                    const SimplifyOptions& options) {
   DistanceOptions distance;
   distance.tolerance = level.tolerance;
@@ -41,6 +59,8 @@ void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLeve
   }
   if (!options.face_tolerances.empty() && level.verdict == Verdict::Within)
     level.verdict = check_face_tolerances(original, options.face_tolerances, level.tolerance, level.mesh).verdict;
+  if (!lines.empty() && level.verdict == Verdict::Within)
+    level.verdict = measure_lines(original, lines, level, options);
   if (!options.certificate || level.verdict != Verdict::Within) return;
   CertificateOptions certificate;
   certificate.threads = options.threads;

@@ -9,8 +9,9 @@ namespace meshbound {
 /// Throws `InvalidInput` for options out of range.
 void check_options(const SimplifyOptions& options);
 
-/// Measures the mesh of the level against the original, of which `tree` is, and decides about its tolerances.
-void measure_level(const TriangleMesh& original, const Bvh& tree, SimplifiedLevel& level,
+/// Measures the mesh of the level against the original, of which `tree` is and `lines` are, and decides about its
+/// tolerances.
+void measure_level(const TriangleMesh& original, const Bvh& tree, std::span<const Edge> lines, SimplifiedLevel& level,
                    const SimplifyOptions& options);
 
 }  // namespace meshbound

@@ -38,7 +38,7 @@ SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyO
   SimplifyResult result = decimate_levels(original, options);
   const auto measuring = LevelRun::Clock::now();
   const Bvh tree(original, BvhOptions{options.threads});
-  for (SimplifiedLevel& level : result.levels) measure_level(original, tree, level, options);
+  for (SimplifiedLevel& level : result.levels) measure_level(original, tree, result.lines, level, options);
   result.seconds.measure = seconds_since(measuring);
   return result;
 }

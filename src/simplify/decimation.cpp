@@ -7,10 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
+#include "numeric/no_index.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/prune.h"
@@ -76,6 +79,8 @@ void Decimation::make_state(const StopToken& stop) {
   state_.emplace(vertices_, original_.triangles, tree_, ArrayMesh(std::move(positions), soup.faces, soup.twin),
                  std::move(soup.vertex_of), std::move(soup.triangle_of));
   stop.check();
+  if (has_lines()) set_lines();
+  state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
   state_->locked = locked();
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
   if (!options_.face_tolerances.empty()) {
@@ -121,14 +126,55 @@ std::vector<std::uint8_t> Decimation::locked() const {
 
 void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {
   const ArrayMesh& mesh = state_->mesh;
-  if (!options_.feature_angle && !options_.preserve_boundary) return;
+  const bool locks_creases = options_.feature_angle && !has_lines();
+  if (!locks_creases && !options_.preserve_boundary) return;
   for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
     const bool is_border = mesh.twin(c) == ArrayMesh::none;
-    if (is_border ? !options_.preserve_boundary
-                  : !options_.feature_angle || !is_feature(mesh, c, *options_.feature_angle))
+    if (is_border ? !options_.preserve_boundary : !locks_creases || !is_feature(mesh, c, *options_.feature_angle))
       continue;
     locked[mesh.start(c)] = locked[mesh.end(c)] = 1;
   }
+}
+
+/// By corner of the mesh: whether an option makes a line of the edge that starts there.
+std::vector<std::uint8_t> Decimation::marked_edges() const {
+  const ArrayMesh& mesh = state_->mesh;
+  std::vector<std::uint32_t> index(input_vertices_, no_index);  // of the original, by vertex of the input
+  for (std::uint32_t v = 0; v < order_.vertex.size(); ++v) index[order_.vertex[v]] = v;
+  std::set<Edge> wanted;  // by first vertices at their positions
+  for (const auto& [a, b] : options_.feature_edges) {
+    if (a >= input_vertices_ || b >= input_vertices_)
+      throw InvalidInput("a feature edge refers to vertex " + std::to_string(std::max(a, b)) + ", but there are only " +
+                         std::to_string(input_vertices_));
+    if (index[a] == no_index || index[b] == no_index) continue;
+    const std::uint32_t p = *first_at(vertices_[index[a]]), q = *first_at(vertices_[index[b]]);
+    wanted.insert({std::min(p, q), std::max(p, q)});
+  }
+  std::vector<std::uint8_t> marked(3 * mesh.face_count(), 0);
+  for (Corner c = 0; c < marked.size(); ++c) {
+    if (options_.feature_angle && is_feature(mesh, c, *options_.feature_angle)) marked[c] = 1;
+    if (wanted.empty()) continue;
+    const std::uint32_t p = *first_at(mesh.position(mesh.start(c))), q = *first_at(mesh.position(mesh.end(c)));
+    if (wanted.contains({std::min(p, q), std::max(p, q)})) marked[c] = 1;
+  }
+  return marked;
+}
+
+void Decimation::set_lines() {
+  DecimationState& state = *state_;
+  state.lines = FeatureLines(state.mesh, marked_edges());
+  if (options_.line_tolerance)
+    state.line_tolerance = std::max(0.0, frame_.length_to_frame(*options_.line_tolerance) - room());
+  for (Corner c = 0; c < 3 * state.mesh.face_count(); ++c) {
+    if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))
+      lines_.push_back({source_of(state.mesh.start(c)), source_of(state.mesh.end(c))});
+  }
+}
+
+/// The vertex of the input that a vertex of the mesh comes from, or where it stands if it stands at vertices only.
+std::uint32_t Decimation::source_of(std::uint32_t vertex) const {
+  return order_
+      .vertex[state_->keeps_positions ? *first_at(state_->mesh.position(vertex)) : state_->source_vertex[vertex]];
 }
 
 std::vector<double> Decimation::limits_in_frame() const {
@@ -202,7 +248,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
   };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices, faces, kept;  // by number in the input
   for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
-    if (state.mesh.is_vertex(v)) vertices.emplace_back(order_.vertex[state.source_vertex[v]], v);
+    if (state.mesh.is_vertex(v)) vertices.emplace_back(source_of(v), v);
   for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f)
     if (!state.mesh.is_removed(f)) faces.emplace_back(order_.triangle[state.source_triangle[f]], f);
   for (const std::uint32_t t : state.kept) kept.emplace_back(order_.triangle[t], t);
@@ -210,6 +256,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
   mesh = {};
   into.source_vertex.clear();
   into.source_triangle.clear();
+  into.lines.clear();
   std::vector<std::uint32_t> index(state.mesh.vertex_count());
   for (const auto& [source, v] : sorted(std::move(vertices))) {
     index[v] = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -220,6 +267,10 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     const auto corners = state.mesh.corners(f);
     mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
     into.source_triangle.push_back(source);
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
+      if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))
+        into.lines.push_back({index[state.mesh.start(c)], index[state.mesh.end(c)]});
+    }
   }
   for (const auto& [source, t] : sorted(std::move(kept))) {
     Triangle corners{};

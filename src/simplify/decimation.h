@@ -24,6 +24,8 @@ class Decimation {
   void current_mesh(SimplifiedLevel& into) const;
   [[nodiscard]] CollapseCounts counts() const { return threads_->counts(); }
   void describe(SimplifyResult& result) const;
+  /// Edges of the original that are lines, by its own numbers.
+  [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
 
  private:
   void make_state(const StopToken& stop);
@@ -31,6 +33,10 @@ class Decimation {
   [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
   [[nodiscard]] std::vector<std::uint8_t> locked() const;
   void lock_features(std::vector<std::uint8_t>& locked) const;
+  [[nodiscard]] bool has_lines() const { return options_.line_tolerance || !options_.feature_edges.empty(); }
+  void set_lines();
+  [[nodiscard]] std::vector<std::uint8_t> marked_edges() const;
+  [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
   [[nodiscard]] double room() const;
   [[nodiscard]] Eigen::Vector3d in_model(Vec3 p) const;
@@ -48,6 +54,7 @@ class Decimation {
   std::optional<DecimationState> state_;
   std::optional<DecimationThreads> threads_;
   std::size_t dropped_triangles_ = 0, locked_vertices_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
+  std::vector<Edge> lines_;  ///< of the original, by its own numbers
   bool split_ = false, below_rounding_ = false;
 };
 

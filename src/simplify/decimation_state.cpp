@@ -92,6 +92,7 @@ void DecimationState::grow_tolerance(double to) {
   if (to == tolerance) return;
   tolerance = to;
   limit = provable(to);
+  line_limit = provable(std::min(line_tolerance, to));
   std::fill(refused_at.begin(), refused_at.end(), 0);
   std::fill(share.begin(), share.end(), 1.0F);
 }

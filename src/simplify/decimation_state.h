@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
 #include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/quadric.h"
 
 namespace meshbound {
@@ -82,6 +84,7 @@ struct Edit {
   bool was_locked = false;
   Corner edge = ArrayMesh::none;  ///< collapsed or flipped; for a move a corner of the vertex
   Vec3 position;                  ///< of the start of the edge
+  FeatureLines::Before lines;     ///< at the edge of a collapse
   std::uint32_t first_stamp = 0;  ///< its faces in `EditLog::stamps`
 };
 
@@ -148,6 +151,10 @@ struct DecimationState {
   double magnitude = 0;  ///< largest coordinate of the original
   double tolerance = 0;
   double limit = 0;  ///< what must be found in doubles so that `tolerance` holds
+  FeatureLines lines;
+  double line_tolerance = HUGE_VAL;  ///< of `lines`, where it is smaller than `tolerance`
+  double line_limit = 0;             ///< what must be found in doubles so that both hold for lines
+  bool keeps_positions = false;      ///< vertices stand only where the original has vertices
   std::optional<LocalTolerance> local;
 
   std::vector<std::uint32_t> stamp;  ///< by face: the number of the last change since the last proof, or 0

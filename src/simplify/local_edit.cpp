@@ -60,10 +60,14 @@ void LocalEdit::take_beside(Corner rim) {
   if (across != ArrayMesh::none && owns(state_.mesh.apex(across))) beside_.push_back(across / 3);
 }
 
+bool LocalEdit::may_move(std::uint32_t vertex) const {
+  return !state_.keeps_positions && state_.locked[vertex] == 0 && !state_.lines.is_on_line(vertex) &&
+         !state_.mesh.is_border(vertex) && owns_around(vertex);
+}
+
 bool LocalEdit::gather_move(std::uint32_t vertex) {
   const ArrayMesh& mesh = state_.mesh;
-  if (!mesh.is_vertex(vertex) || state_.locked[vertex] != 0 || mesh.is_border(vertex) || !owns_around(vertex))
-    return false;
+  if (!mesh.is_vertex(vertex) || !may_move(vertex)) return false;
   kind_ = Edit::Kind::Move;
   edge_ = mesh.corner_of(vertex);
   origin_ = mesh.position(vertex);
@@ -84,6 +88,9 @@ bool LocalEdit::gather_flip(Corner edge) {
   if (other == ArrayMesh::none) return false;
   const std::uint32_t a = mesh.start(edge), b = mesh.end(edge), c = mesh.apex(edge), d = mesh.apex(other);
   if (c == d || state_.locked[a] != 0 || state_.locked[b] != 0) return false;
+  for (const Corner e : {edge, other})  // corners of a flipped edge's faces stand for other edges afterwards
+    for (const Corner side : {e, next_corner(e), previous_corner(e)})
+      if (state_.lines.is_line(mesh, side)) return false;
   for (const std::uint32_t v : {a, b, c, d})
     if (!owns(v)) return false;
   for (const std::uint32_t v : {a, b}) {
@@ -110,8 +117,7 @@ bool LocalEdit::gather_flip(Corner edge) {
 bool LocalEdit::gather_collapse(Corner edge) {
   const ArrayMesh& mesh = state_.mesh;
   if (!star_.gather(mesh, edge)) return false;
-  for (const std::uint32_t v : {star_.kept, star_.gone})
-    if (state_.locked[v] != 0 || mesh.is_border(v) || !owns_around(v)) return false;
+  if (!may_move(star_.kept) || !may_move(star_.gone)) return false;
   kind_ = Edit::Kind::Collapse;
   edge_ = edge;
   origin_ = mesh.position(star_.kept);

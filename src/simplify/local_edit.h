@@ -74,6 +74,7 @@ class LocalEdit {
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
   [[nodiscard]] bool owns_around(std::uint32_t vertex) const;
   [[nodiscard]] bool has_edge(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool may_move(std::uint32_t vertex) const;
   void set_faces();
   void touch(std::span<const std::uint32_t> faces);
   void join_group();

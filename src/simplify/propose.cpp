@@ -178,20 +178,52 @@ bool Proposer::are_edges_near(Vec3 point) {
                      [&](Corner c) { return is_edge_near(point, mesh.position(mesh.end(c)), on_edges); });
 }
 
+Proposer::AllowedEnds Proposer::allowed_ends(Corner edge) const {
+  const std::uint32_t start = state_.mesh.start(edge), end = state_.mesh.end(edge);
+  const OnLines on_lines = state_.lines.allowed(state_.mesh, edge);
+  const bool is_free = on_lines == OnLines::Free, is_either = on_lines == OnLines::AtEitherEnd;
+  AllowedEnds ends;
+  ends.start = !is_locked(end) && (is_free || is_either || on_lines == OnLines::AtStart);
+  ends.end = !is_locked(start) && (is_free || is_either || on_lines == OnLines::AtEnd);
+  ends.elsewhere = is_free && ends.start && ends.end && !state_.keeps_positions;
+  if (state_.lines.is_line(state_.mesh, edge)) {
+    const auto is_near = [&](bool to_start) {
+      return state_.line_limit > 0 &&
+             state_.lines.squared_deviation(state_.mesh, edge, to_start) <= state_.line_limit * state_.line_limit;
+    };
+    ends.start = ends.start && is_near(true);
+    ends.end = ends.end && is_near(false);
+  }
+  return ends;
+}
+
+/// The placement at an end of the edge, the cheaper one first.
+std::optional<Vec3> Proposer::placement_at_end(const AllowedEnds& ends) {
+  const std::uint32_t kept = star_.kept, gone = star_.gone;
+  const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
+  const auto cost = [&](Vec3 at) { return state_.quadrics[kept].at(at) + state_.quadrics[gone].at(at); };
+  const bool end_first = ends.end && (!ends.start || cost(q) < cost(p));
+  hope_ = Hope::WithMoreTolerance;
+  lowered_ = true;  // there is no other one
+  for (const bool at_end : {end_first, !end_first}) {
+    if (!(at_end ? ends.end : ends.start)) continue;
+    tried_ = at_end ? q : p;
+    if (fits(tried_)) return tried_;
+  }
+  return std::nullopt;
+}
+
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
   by_bound_ = false;
   hope_ = Hope::AfterChange;
   if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
-  if (is_locked(kept) && is_locked(gone)) return std::nullopt;
+  const AllowedEnds ends = allowed_ends(edge);
+  if (!ends.start && !ends.end && !ends.elsewhere) return std::nullopt;
   begin_star(share);
+  if (!ends.elsewhere) return placement_at_end(ends);
   const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
-  if (is_locked(kept) || is_locked(gone)) {
-    tried_ = is_locked(kept) ? p : q;
-    hope_ = Hope::WithMoreTolerance;
-    return fits(tried_) ? std::optional(tried_) : std::nullopt;
-  }
   const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
   tried_ = wanted ? *wanted : best.point;
   by_bound_ = true;
@@ -294,6 +326,7 @@ void Proposer::add_vertex(Vec3 point) {
 }
 
 void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point) {
+  state.lines.collapse(state.mesh, star.edge, point);
   state.mesh.collapse(star.edge);
   state.mesh.move(star.kept, point);
   state.quadrics[star.kept] += state.quadrics[star.gone];
@@ -338,6 +371,16 @@ bool Proposer::is_inside(Corner edge) const {
 
 float edge_cost(const DecimationState& state, Corner edge) {
   const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
+  const OnLines on_lines = state.lines.allowed(state.mesh, edge);
+  if (on_lines == OnLines::Refused) return HUGE_VALF;
+  if (on_lines != OnLines::Free || state.keeps_positions) {
+    const auto cost = [&](std::uint32_t v) {
+      return state.quadrics[a].at(state.mesh.position(v)) + state.quadrics[b].at(state.mesh.position(v));
+    };
+    if (on_lines == OnLines::AtStart) return static_cast<float>(cost(a));
+    if (on_lines == OnLines::AtEnd) return static_cast<float>(cost(b));
+    return static_cast<float>(std::min(cost(a), cost(b)));
+  }
   return static_cast<float>(
       best_placement(state.quadrics[a], state.quadrics[b], state.mesh.position(a), state.mesh.position(b)).cost);
 }

@@ -75,6 +75,12 @@ class Proposer {
  private:
   void gather_samples();
   [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
+  /// Where the vertex of a collapse may stand.
+  struct AllowedEnds {
+    bool start = false, end = false, elsewhere = false;
+  };
+  [[nodiscard]] AllowedEnds allowed_ends(Corner edge) const;
+  [[nodiscard]] std::optional<Vec3> placement_at_end(const AllowedEnds& ends);
   [[nodiscard]] double limit_around() const;
   [[nodiscard]] bool owns(std::uint32_t face) const;
   [[nodiscard]] bool set_faces(Vec3 point);

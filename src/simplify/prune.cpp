@@ -35,6 +35,7 @@ bool must_stay(const DecimationState& state, const Component& component, bool ke
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       if (state.locked[state.mesh.vertex(c)] != 0) return true;
       if (keeps_borders && state.mesh.twin(c) == ArrayMesh::none) return true;
+      if (state.lines.is_line(state.mesh, c)) return true;
     }
     return false;
   });

@@ -24,6 +24,7 @@ std::size_t take_back(DecimationState& s, const Edit& edit) {
       const std::uint32_t kept = s.mesh.start(edit.edge), gone = s.mesh.end(edit.edge);
       s.quadrics[kept] -= s.quadrics[gone];
       s.locked[kept] = edit.was_locked ? 1 : 0;
+      s.lines.undo_collapse(s.mesh, edit.edge, edit.lines);
       faces = s.mesh.twin(edit.edge) == ArrayMesh::none ? 1 : 2;
       break;
     }
@@ -183,8 +184,8 @@ void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner e
                std::span<const std::uint32_t> faces) {
   EditLog& log = region.log;
   const std::uint32_t number = log.last_number() + 1, at = state.mesh.start(edge);
-  log.edits.push_back(
-      {kind, state.locked[at] != 0, edge, state.mesh.position(at), static_cast<std::uint32_t>(log.stamps.size())});
+  log.edits.push_back({kind, state.locked[at] != 0, edge, state.mesh.position(at), state.lines.before(state.mesh, edge),
+                       static_cast<std::uint32_t>(log.stamps.size())});
   for (const std::uint32_t face : faces) {
     log.stamps.push_back({face, state.stamp[face]});
     state.stamp[face] = number;
