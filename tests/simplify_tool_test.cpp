@@ -318,14 +318,14 @@ TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
   late.write(coarse);
   late.measure(tree, options);
   ASSERT_EQ(late.verdict(), Verdict::Undecided);
-  late.fall_back(&proven, sphere, tree, options);
+  late.fall_back(&proven, sphere, {}, tree, options);
   ASSERT_EQ(late.verdict(), Verdict::Within);
   EXPECT_EQ(late.distance().bounds.upper, proven.distance().bounds.upper);
   late.publish();
   EXPECT_EQ(read_mesh(in("late.off")).mesh.vertices[17], near.vertices[17]);
   first.write(coarse);
   first.measure(tree, options);
-  first.fall_back(nullptr, sphere, tree, options);
+  first.fall_back(nullptr, sphere, {}, tree, options);
   first.publish();
   EXPECT_EQ(read_mesh(in("first.off")).mesh.vertices, sphere.vertices);
 }

@@ -236,6 +236,47 @@ TEST_F(ToolConventions, SayHowManyVerticesAreLocked) {
   EXPECT_EQ(simplify({"--tolerance", "0.02"}).out.find("locked"), std::string::npos);
 }
 
+/// A cube without its top: its border and its edges are lines, which levels and results keep in every format.
+TEST_F(ToolConventions, ToolsThatDecimateKeepAndReportLines) {
+  TriangleMesh open_box = datasets::cube(1, 6);
+  const double top = open_box.vertices[0].z() + 1;
+  std::erase_if(open_box.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return open_box.vertices[v].z() == top; });
+  });
+  write_mesh(in("box.off"), open_box);
+  const std::vector<std::string> options = {"--feature-angle", "80",        "--line-tolerance", "0.1%",
+                                            "--json",          in("r.json")};
+  for (const char* const out : {"out.ply", "out.stl"}) {
+    std::vector<std::string> words = {in("box.off"), in(out), "--tolerance", "0.2"};
+    words.insert(words.end(), options.begin(), options.end());
+    const ToolRun run = run_tool(SIMPLIFY_WITH_BOUND, words);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("\nlines       72 -> 12 edges, tolerance "), std::string::npos) << run.out;
+    const Json json = checked_document(content_of(in("r.json")));
+    EXPECT_EQ(json["lines"]["original_edges"], 72);
+    EXPECT_EQ(json["lines"]["edges"], 12);
+    EXPECT_LE(json["lines"]["distance"]["upper"], json["lines"]["tolerance"]["absolute"]);
+    EXPECT_EQ(json["locked_vertices"], 0);
+    EXPECT_EQ(read_mesh(in(out)).mesh.triangles.size(), 10u);
+  }
+  std::vector<std::string> words = {in("box.off"), in("chain"), "--levels", "0.05,0.2"};
+  words.insert(words.end(), options.begin(), options.end());
+  ASSERT_EQ(run_tool(LOD_CHAIN, words).exit_code, 0);
+  for (const Json& level : checked_document(content_of(in("r.json")))["levels"]) EXPECT_EQ(level["lines"]["edges"], 12);
+  const ToolRun wrong =
+      run_tool(SIMPLIFY_WITH_BOUND, {in("box.off"), in("none.ply"), "--tolerance", "0.2", "--line-tolerance", "-1"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(in("none.ply")));
+}
+
+TEST_F(ToolConventions, VerticesOfASubsetAreThoseOfTheOriginal) {
+  ASSERT_EQ(simplify({"--tolerance", "0.02", "--placement", "subset"}).exit_code, 0);
+  const TriangleMesh original = read_mesh(in("in.off")).mesh, result = read_mesh(in("out.ply")).mesh;
+  EXPECT_LT(result.vertices.size(), original.vertices.size() / 2);
+  for (const Eigen::Vector3d& p : result.vertices)
+    EXPECT_NE(std::find(original.vertices.begin(), original.vertices.end(), p), original.vertices.end());
+}
+
 /// What a terminal would show of a run whose second direction begins at the beginning again.
 TEST(Progress, NeverGoesBack) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);

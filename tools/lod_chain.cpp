@@ -191,6 +191,7 @@ void Run::make_levels() {
   SimplifyOptions options = decimation(outputs_.back(), *bar_);
   options.tolerance = tolerances_.back();
   LevelRun run(original_, options);
+  set_lines(run.lines());
   for (std::size_t i = 0; i < tolerances_.size(); ++i)
     if (!take(i, run.next(tolerances_[i], 0))) break;
   SimplifyResult run_of_all;
@@ -207,12 +208,13 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   if (interrupted_) throw Error("interrupted before every level was proven; nothing was written");
   report_.seconds.simplify += watch_.lap();
   GatedOutput& output = outputs_[index];
-  output.write(level.mesh);
+  if (original_lines_) output.require_lines(&*original_lines_);
+  output.write(level.mesh, level.lines);
   report_.seconds.write += watch_.lap();
   const auto redo = [&](double tolerance) {
     SimplifyOptions again = decimation(output, *bar_);
     again.tolerance = tolerance;
-    return decimate_levels(original_, again).last().mesh;
+    return decimate_levels(original_, again).last();
   };
   const DecidedBy decided_by = prove(output, level.tolerance, *tree_, index > 0 ? &outputs_[index - 1] : nullptr, redo);
   report_.seconds.certify += watch_.lap();
@@ -235,6 +237,7 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
   entry.distance = output.distance();
+  entry.lines = line_report(output);
   const bool was_late = options_.common.has_time_limit && remaining(1) == 0 &&
                         (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
   entry.stopped_by = to_string(was_late ? EndedBy::TimeLimit : level.ended_by);
@@ -271,6 +274,7 @@ void Run::print_summary() const {
   for (const LodReport::Level& level : report_.levels) {
     print_line(level.file, std::to_string(level.faces) + " faces, tolerance " + both_units(level.tolerance, diagonal_));
     print_line("", "distance " + interval(level.distance.bounds));
+    print_lines(level.lines, diagonal_);
     if (level.view_distance)
       print_line("", exact_number(*level.pixels) + (*level.pixels == 1 ? " pixel" : " pixels") +
                          " on the screen from view distance " + short_number(*level.view_distance) + " on");

@@ -198,6 +198,7 @@ void Run::simplify() {
   simplify.tolerance = tolerances_.back();
   simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
   result_ = decimate_levels(original_, simplify);
+  set_lines(result_.lines);
   report_.effort = options_.effort;
   report_.driver = options_.driver;
   report_.locked_vertices = result_.locked_vertices;
@@ -226,14 +227,15 @@ void Run::certify() {
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
     const std::size_t level = std::min(i, tolerances_.size() - 1);  // OUT may repeat the last level
     watch_.lap();
-    outputs_[i].write(result_.levels[level].mesh);
+    if (original_lines_) outputs_[i].require_lines(&*original_lines_);
+    outputs_[i].write(result_.levels[level].mesh, result_.levels[level].lines);
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
     bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
     const auto redo = [&](double tolerance) {
       SimplifyOptions again = decimation_options(bar);
       again.tolerance = tolerance;
-      return decimate_levels(original_, again).last().mesh;
+      return decimate_levels(original_, again).last();
     };
     decided_by_.push_back(prove(outputs_[i], tolerances_[level], original, i > 0 ? &outputs_[i - 1] : nullptr, redo));
     verdict_ = outputs_[i].verdict();
@@ -274,6 +276,8 @@ std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double t
                             {"threads", options_.common.threads}};
   if (options_.target_faces) options["target_faces"] = *options_.target_faces;
   if (options_.feature_angle) options["feature_angle"] = *options_.feature_angle;
+  if (!options_.line_tolerance.empty()) options["line_tolerance"] = options_.line_tolerance;
+  options["placement"] = options_.placement;
   if (target_ratio_) options["target_ratio"] = *target_ratio_;
   if (options_.common.has_time_limit) options["time_limit"] = options_.common.time_limit;
   write_text(folder / "options.json", options.dump(2) + '\n');
@@ -329,9 +333,11 @@ void Run::report() {
   report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
   if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
   report_.distance = out.distance();
+  report_.lines = line_report(out);
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
-                              outputs_[i].distance(), checksums_.empty() ? "" : checksums_[i]});
+                              outputs_[i].distance(), line_report(outputs_[i]),
+                              checksums_.empty() ? "" : checksums_[i]});
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
@@ -382,6 +388,7 @@ void Run::print_summary() const {
     if (const std::string how = explanation(decided_by_[i]); !how.empty())
       print_line("decided", outputs_[i].path().string() + ": " + how);
   }
+  print_lines(report_.lines, diagonal_);
   print_locked(result_.locked_vertices, report_.original.summary);
   if (options_.prune)
     print_line("pruned", std::to_string(result_.pruned_components) + " components of " +

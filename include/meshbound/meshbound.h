@@ -11,6 +11,7 @@
 #include "meshbound/floating_point_scope.h"
 #include "meshbound/io.h"
 #include "meshbound/level_checker.h"
+#include "meshbound/line_mesh.h"
 #include "meshbound/lod_chain.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"

@@ -89,6 +89,14 @@ enum class DecidedBy {
   Original           ///< of the original, which is written as the result: nothing else was decided
 };
 
+/// The feature lines of an original and of a result, see `SimplifyOptions::line_tolerance`.
+struct LineReport {
+  double tolerance = 0;            ///< model units
+  std::size_t original_edges = 0;  ///< of the original's lines
+  std::size_t edges = 0;           ///< of the result's lines
+  HausdorffDistance distance;      ///< a: the original's lines, b: the result's as written
+};
+
 /// One level of detail that was written.
 struct LevelReport {
   double tolerance = 0;                           ///< model units
@@ -96,6 +104,7 @@ struct LevelReport {
   std::string path;                               ///< of its file
   std::size_t faces = 0;                          ///< triangles
   HausdorffDistance distance;                     ///< a: the original, b: the level as written
+  std::optional<LineReport> lines = {};           ///< where there are feature lines
   std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
 };
 
@@ -114,6 +123,7 @@ struct SimplifyReport {
   MeshReport original;                            ///< as read
   MeshReport simplified;                          ///< as written
   HausdorffDistance distance;                     ///< a: the original, b: the simplified mesh as written
+  std::optional<LineReport> lines;                ///< where there are feature lines
   std::string stopped_by;  ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   /// What `SimplifyOptions::prune` dropped.
   struct Pruned {

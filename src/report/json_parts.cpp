@@ -81,6 +81,13 @@ Json symmetric(const HausdorffDistance& distance) {
   return json;
 }
 
+Json lines(const LineReport& lines, double diagonal) {
+  return {{"tolerance", length(lines.tolerance, diagonal)},
+          {"original_edges", lines.original_edges},
+          {"edges", lines.edges},
+          {"distance", symmetric(lines.distance)}};
+}
+
 Json stats(const std::vector<const OneSidedDistance*>& directions) {
   DistanceStats sum;
   double culled_triangles = 0;

@@ -38,6 +38,7 @@ using Json = nlohmann::ordered_json;
 
 /// Bounds of both directions and their maximum; a is the original, b the simplified mesh.
 [[nodiscard]] Json symmetric(const HausdorffDistance& distance);
+[[nodiscard]] Json lines(const LineReport& lines, double diagonal);
 
 /// Statistics over the directions that were searched: sums of counts, and means of percentages weighted by those
 /// counts.

@@ -11,6 +11,7 @@ std::string to_json(const SimplifyReport& from) {
   json["original"] = mesh(from.original);
   json["simplified"] = mesh(from.simplified);
   json["distance"] = symmetric(from.distance);
+  if (from.lines) json["lines"] = lines(*from.lines, from.original.summary.bbox_diagonal);
   json["decided_by"] = to_string(from.decided_by);
   const HausdorffDistance& distance = from.distance;
   if (const auto spot = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a))
@@ -29,6 +30,7 @@ std::string to_json(const SimplifyReport& from) {
     entry["faces"] = level.faces;
     entry["decided_by"] = to_string(level.decided_by);
     entry["distance"] = symmetric(level.distance);
+    if (level.lines) entry["lines"] = lines(*level.lines, from.original.summary.bbox_diagonal);
   }
   if (!from.certificates.empty()) {
     json["certificates"] = Json::array();

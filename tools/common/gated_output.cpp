@@ -25,8 +25,9 @@ Precision GatedOutput::precision() const {
   return format_of(path_) == FileFormat::Stl || options_.single_precision ? Precision::Single : Precision::Double;
 }
 
-void GatedOutput::write(const TriangleMesh& mesh) {
+void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines) {
   restart();
+  lines_ = line_mesh(mesh, lines);
   write_mesh(*file_, path_, rounded_for(path_, mesh, options_), options_);
   file_->complete();
 }
@@ -43,13 +44,28 @@ const HausdorffDistance& GatedOutput::measure(const Bvh& original, const Distanc
   summary_ = summarise(mesh);
   distance_ = hausdorff_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
+  if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
   return distance_;
 }
 
-void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& original, const Bvh& tree,
-                            DistanceOptions options) {
+void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions options) {
+  const auto before = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  };
+  std::vector<Eigen::Vector3d> points = written.vertices;
+  std::sort(points.begin(), points.end(), before);
+  for (const Eigen::Vector3d& p : lines_.vertices)
+    if (!std::binary_search(points.begin(), points.end(), p, before))
+      throw Error("internal error: a vertex of a feature line is not in " + path_.string() + " as it was written");
+  options.tolerance = std::min(original_lines_->tolerance, *options.tolerance);
+  line_distance_ = hausdorff_distance(original_lines_->tree, Bvh(lines_, BvhOptions{options.threads}), options);
+  verdict_ = verdict_of(line_distance_->bounds, *options.tolerance);
+}
+
+void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& original, std::span<const Edge> lines,
+                            const Bvh& tree, DistanceOptions options) {
   if (smaller == nullptr) {
-    write(original);
+    write(original, lines);
     options.budget = {};
     measure(tree, options);
     return;
@@ -59,6 +75,8 @@ void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& orig
   file_->complete();
   verdict_ = smaller->verdict_;
   distance_ = smaller->distance_;
+  lines_ = smaller->lines_;
+  line_distance_ = smaller->line_distance_;
   summary_ = smaller->summary_;
 }
 

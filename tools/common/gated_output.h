@@ -3,16 +3,24 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "mesh/atomic_file.h"
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
+#include "meshbound/line_mesh.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
 
 namespace meshbound::tools {
+
+/// The feature lines of an original, and how far those of a result may be from them, model units.
+struct OriginalLines {
+  Bvh tree;  ///< of their `line_mesh`
+  double tolerance = 0;
+};
 
 /// A mesh file that appears under its name only after what stands in it has been measured: `write` puts it under a
 /// temporary name, `measure` reads that back, `publish` renames it if it was found to be within the tolerance (or sends
@@ -28,23 +36,30 @@ class GatedOutput {
   /// Precision of the coordinates in the file. A mesh that has this precision already is written without any rounding.
   [[nodiscard]] Precision precision() const;
 
-  /// Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
-  void write(const TriangleMesh& mesh);
+  /// From now on a result must keep these lines, too; null: there are none. They must outlive this.
+  void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
+
+  /// `lines` are edges of the mesh. Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
+  void write(const TriangleMesh& mesh, std::span<const Edge> lines = {});
 
   /// What was written, as it reads. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
 
-  /// Distance of the original (a) and the file as it reads (b). `options.tolerance` must be set.
+  /// Distance of the original (a) and the file as it reads (b), and of their lines where these are required; the
+  /// verdict is on both. `options.tolerance` must be set.
   const HausdorffDistance& measure(const Bvh& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
+  [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
+  [[nodiscard]] std::size_t line_edges() const { return lines_.triangles.size(); }
   [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
   [[nodiscard]] std::string checksum() const;                            ///< SHA-256 of the file; before `publish`
 
   /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
   /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the
   /// time limit no longer counts, as an original that is matched with itself costs one pass.
-  void fall_back(const GatedOutput* smaller, const TriangleMesh& original, const Bvh& tree, DistanceOptions options);
+  void fall_back(const GatedOutput* smaller, const TriangleMesh& original, std::span<const Edge> lines, const Bvh& tree,
+                 DistanceOptions options);
 
   /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
   void publish();
@@ -54,6 +69,7 @@ class GatedOutput {
 
  private:
   void restart();
+  void measure_lines(const TriangleMesh& written, DistanceOptions options);
 
   std::filesystem::path path_;  ///< as named by the user
   const std::atomic<bool>& cancel_;
@@ -61,6 +77,9 @@ class GatedOutput {
   std::unique_ptr<AtomicFile> file_;
   Verdict verdict_ = Verdict::Undecided;
   HausdorffDistance distance_;
+  const OriginalLines* original_lines_ = nullptr;
+  TriangleMesh lines_;  ///< of what was written
+  std::optional<HausdorffDistance> line_distance_;
   MeshSummary summary_;
 };
 

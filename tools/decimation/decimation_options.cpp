@@ -18,8 +18,16 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
   app.add_flag("--preserve-boundary", options.preserve_boundary, "Leave edges with one face as they are");
   app.add_option("--feature-angle", options.feature_angle,
                  "Leave edges as they are where the normals of the faces are further apart than this, in degrees; both "
-                 "ends of such an edge are locked, and the output says how many vertices that are")
+                 "ends of such an edge are locked, and the output says how many vertices that are. With "
+                 "--line-tolerance they are lines instead")
       ->check(CLI::Range(0.0, 180.0));
+  app.add_option("--line-tolerance", options.line_tolerance,
+                 "Keep borders, and with --feature-angle creases, within this distance of where they were, both ways: "
+                 "vertices of these lines move only along them");
+  app.add_option("--placement", options.placement,
+                 "Where vertices of the result stand: where they cost least, or only where the original has vertices")
+      ->check(CLI::IsMember({"optimal", "subset"}))
+      ->capture_default_str();
   app.add_option("--error-bound", options.error_bound,
                  "Width of the interval that the distance of a result is measured to, once it is proven to be within "
                  "its tolerance (default: 1% of that)");

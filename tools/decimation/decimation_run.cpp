@@ -61,6 +61,9 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
   options.driver = collapse_driver(shared_.driver, shared_.cost);
   options.preserve_boundary = shared_.preserve_boundary;
   if (shared_.feature_angle) options.feature_angle = *shared_.feature_angle / 180 * std::numbers::pi;
+  if (!shared_.line_tolerance.empty())
+    options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
+  if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   options.precision = output.precision();
   options.time_limit = remaining(simplify_share);
   options.threads = shared_.common.threads;
@@ -103,7 +106,8 @@ DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const Bvh&
   options.budget.seconds = remaining(1);
   if (!is_out_of_time() && decides(output, tree, options)) return DecidedBy::SecondMethod;
   if (!is_out_of_time()) {
-    output.write(redo(smaller_tolerance * tolerance));
+    const SimplifiedLevel again = redo(smaller_tolerance * tolerance);
+    output.write(again.mesh, again.lines);
     options.method = Method::CellWalking;
     options.budget.seconds = remaining(1);
     if (decides(output, tree, options)) return DecidedBy::SmallerTolerance;
@@ -114,8 +118,21 @@ DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const Bvh&
 
 DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const Bvh& tree,
                                    const DistanceOptions& options) const {
-  output.fall_back(smaller, original_, tree, options);
+  output.fall_back(smaller, original_, lines_, tree, options);
   return smaller != nullptr ? DecidedBy::SmallerLevel : DecidedBy::Original;
+}
+
+void DecimationRun::set_lines(std::vector<Edge> lines) {
+  lines_ = std::move(lines);
+  if (lines_.empty()) return;
+  original_lines_.emplace(
+      OriginalLines{Bvh(line_mesh(original_, lines_), BvhOptions{shared_.common.threads}),
+                    parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_)});
+}
+
+std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output) const {
+  if (!original_lines_ || !output.line_distance()) return std::nullopt;
+  return LineReport{original_lines_->tolerance, lines_.size(), output.line_edges(), *output.line_distance()};
 }
 
 int DecimationRun::threads() const {
@@ -147,6 +164,13 @@ void print_locked(std::size_t vertices, const MeshSummary& original) {
   if (vertices == 0) return;
   print_line("locked", std::to_string(vertices) + " of " + std::to_string(original.vertices) +
                            " vertices: ends of edges that are to stay as they are");
+}
+
+void print_lines(const std::optional<LineReport>& lines, double diagonal) {
+  if (!lines) return;
+  print_line("lines", std::to_string(lines->original_edges) + " -> " + std::to_string(lines->edges) +
+                          " edges, tolerance " + both_units(lines->tolerance, diagonal));
+  print_line("", "distance " + interval(lines->distance.bounds));
 }
 
 void print_seconds(const SimplifyReport::Seconds& seconds, int threads) {

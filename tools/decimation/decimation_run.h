@@ -36,8 +36,12 @@ class DecimationRun {
   [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
   /// Seconds of this share of the time limit that are left.
   [[nodiscard]] double remaining(double share) const;
+  /// Notes the lines that outputs must keep: edges of the original.
+  void set_lines(std::vector<Edge> lines);
+  /// Says how far the lines of an output are from those of the original; none where there are no lines.
+  [[nodiscard]] std::optional<LineReport> line_report(const GatedOutput& output) const;
   /// Makes the mesh again for a tolerance, model units.
-  using Redo = std::function<TriangleMesh(double tolerance)>;
+  using Redo = std::function<SimplifiedLevel(double tolerance)>;
   /// Reads back what was written to `output` and measures it against the original, of which `tree` is. Where that
   /// remains undecided it tries harder: another method, a mesh for a slightly smaller tolerance, then the result of
   /// the smaller tolerance before (may be null), then the original itself. A time limit leaves out what takes long.
@@ -54,6 +58,8 @@ class DecimationRun {
   TriangleMesh original_;
   double diagonal_ = 0;
   std::vector<double> tolerances_;
+  std::vector<Edge> lines_;  ///< of the original
+  std::optional<OriginalLines> original_lines_;
 
  private:
   const DecimationOptions& shared_;
@@ -67,6 +73,9 @@ void print_dropped(const MeshReport& original);
 
 /// "locked      12 of 482 vertices: ...", a line on stdout where options lock some.
 void print_locked(std::size_t vertices, const MeshSummary& original);
+
+/// "lines       64 -> 10 edges ...", lines on stdout where there are feature lines.
+void print_lines(const std::optional<LineReport>& lines, double diagonal);
 
 /// "seconds     read 0.010, simplify ...", a line on stdout.
 void print_seconds(const SimplifyReport::Seconds& seconds, int threads);
