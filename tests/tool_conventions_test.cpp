@@ -239,7 +239,8 @@ TEST_F(ToolConventions, SayHowManyVerticesAreLocked) {
 /// A cube without its top: its border and its edges are lines, which levels and results keep in every format.
 TEST_F(ToolConventions, ToolsThatDecimateKeepAndReportLines) {
   TriangleMesh open_box = datasets::cube(1, 6);
-  const double top = open_box.vertices[0].z() + 1;
+  double top = -1;
+  for (const Eigen::Vector3d& p : open_box.vertices) top = std::max(top, p.z());
   std::erase_if(open_box.triangles, [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return open_box.vertices[v].z() == top; });
   });
