@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "meshbound/bvh.h"
+#include "decimation_states.h"
 #include "meshbound/triangle_mesh.h"
-#include "simplify/decimation_state.h"
-#include "simplify/mesh/manifold_soup.h"
 
 namespace meshbound {
 
-/// A mesh as the decimation keeps it, and the arrays of the original that its state refers to.
+/// The state of a decimation at a tolerance, and the mesh that is left of it.
 class DecimationFixture {
  public:
-  DecimationFixture(const TriangleMesh& mesh, double tolerance)
-      : vertices_(positions(mesh)),
-        triangles_(mesh.triangles),
-        soup_(manifold_soup(mesh)),
-        tree_(mesh),
-        state(vertices_, triangles_, tree_, array_mesh(), soup_.vertex_of, soup_.triangle_of) {
+  DecimationFixture(const TriangleMesh& mesh, double tolerance) : state_of_(mesh), state(*state_of_) {
     state.grow_tolerance(tolerance);
     state.set_samples(tolerance);
   }
@@ -47,24 +39,10 @@ class DecimationFixture {
   }
 
  private:
-  static std::vector<Vec3> positions(const TriangleMesh& mesh) {
-    std::vector<Vec3> result;
-    for (const Eigen::Vector3d& p : mesh.vertices) result.push_back({p.x(), p.y(), p.z()});
-    return result;
-  }
-  [[nodiscard]] ArrayMesh array_mesh() const {
-    std::vector<Vec3> points;
-    for (const std::uint32_t v : soup_.vertex_of) points.push_back(vertices_[v]);
-    return {std::move(points), soup_.faces, soup_.twin};
-  }
-
-  std::vector<Vec3> vertices_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
-  ManifoldSoup soup_;
-  Bvh tree_;
+  test::StateOf state_of_;
 
  public:
-  DecimationState state;
+  DecimationState& state;
 };
 
 }  // namespace meshbound

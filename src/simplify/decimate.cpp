@@ -8,6 +8,7 @@
 
 #include "meshbound/distance.h"
 #include "numeric/first_error.h"
+#include "simplify/exceed_check.h"
 #include "simplify/refine.h"
 #include "simplify/region_collapses.h"
 #include "simplify/repair.h"
@@ -91,6 +92,7 @@ class Run {
   std::atomic<EndedBy> ended_by_{EndedBy::NothingFits};
   std::atomic<std::size_t> removed_{0};  ///< faces, from all regions of a split
   FirstError error_;                     ///< of a region: the others end
+  ExceedCheck exceed_check_{state_};
 };
 
 /// Triangles of the original that the mesh was not made from need a face that covers them; those that have none stay.
@@ -244,28 +246,13 @@ void Run::refine() {
   if (!has_ended() && goal_.target_faces > 0 && state_.faces <= goal_.target_faces) ended_by_ = EndedBy::Target;
 }
 
-/// Whether the whole mesh leaves the tolerance by the collapse that was refused last: the local proof may fail where
-/// the bound still holds, with the help of faces that are far along the surface.
+/// Whether the mesh leaves the tolerance by the collapse that was refused last.
 bool Run::truly_exceeds(Region& region, Proposer& proposer) {
-  proposer.collapse(region, proposer.refused_placement());
-  TriangleMesh soup;
-  const auto add = [&](const std::array<Vec3, 3>& corners) {
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    for (const Vec3 p : corners) soup.vertices.emplace_back(p.x, p.y, p.z);
-    soup.triangles.push_back({first, first + 1, first + 2});
-  };
-  for (std::uint32_t f = 0; f < state_.mesh.face_count(); ++f)
-    if (!state_.mesh.is_removed(f)) add(state_.mesh.triangle(f));
-  for (const std::uint32_t t : state_.kept) {
-    const auto& v = state_.triangles[t];
-    add({state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]});
-  }
-  undo_last(state_, region);
   DistanceOptions options;
   options.threads = threads_.count();
   options.cancel = goal_.stop.cancel;
   options.budget.seconds = goal_.stop.seconds_left();
-  return check_tolerance(state_.tree, Bvh(soup), goal_.tolerance, options).verdict != Verdict::Within;
+  return exceed_check_.exceeds(region, proposer, goal_.tolerance, options);
 }
 
 }  // namespace

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/exceed_check.h"
+
+#include <algorithm>
+#include <array>
+
+#include "simplify/cover/face_box.h"
+#include "simplify/repair.h"
+
+namespace meshbound {
+namespace {
+
+/// Boxes are made anew when one in so many faces has changed since.
+constexpr std::size_t faces_per_change = 16;
+
+using Corners = std::array<Vec3, 3>;
+
+void add(TriangleMesh& soup, const Corners& corners) {
+  const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+  for (const Vec3 p : corners) soup.vertices.emplace_back(p.x, p.y, p.z);
+  soup.triangles.push_back({first, first + 1, first + 2});
+}
+
+Corners original_triangle(const DecimationState& state, std::uint32_t t) {
+  const auto& v = state.triangles[t];
+  return {state.vertices[v[0]], state.vertices[v[1]], state.vertices[v[2]]};
+}
+
+/// h(from, to) <= tolerance; nothing is within the tolerance of an empty mesh.
+bool is_within(const TriangleMesh& from, const Bvh& to, double tolerance, const DistanceOptions& options) {
+  return from.triangles.empty() ||
+         check_one_sided_tolerance(Bvh(from), to, tolerance, options).verdict == Verdict::Within;
+}
+
+}  // namespace
+
+/// Lists the faces around vertices that were touched since the boxes were made.
+void ExceedCheck::find_changed(const Region& region) {
+  const ArrayMesh& mesh = state_.mesh;
+  is_changed_.reserve(mesh.face_count());
+  is_changed_.clear();
+  changed_.clear();
+  for (std::uint32_t v = 0; boxes_ && v < mesh.vertex_count(); ++v) {
+    if (state_.touched[v] <= made_at_ || !mesh.is_vertex(v)) continue;
+    mesh.for_each_corner(v, [&](Corner c) {
+      if (is_changed_.insert(c / 3)) changed_.push_back(c / 3);
+      return true;
+    });
+  }
+  if (boxes_ && changed_.size() * faces_per_change <= mesh.face_count()) return;
+  boxes_.emplace(mesh);
+  made_at_ = region.clock;
+  is_changed_.clear();
+  changed_.clear();
+}
+
+std::vector<std::uint32_t> ExceedCheck::faces_near(const Eigen::AlignedBox3d& box, double tolerance) {
+  const Eigen::AlignedBox3d reach = grown(box, tolerance);
+  found_.clear();
+  boxes_->find(reach, found_);
+  std::vector<std::uint32_t> faces;
+  for (const std::uint32_t f : found_)
+    if (!state_.mesh.is_removed(f) && !is_changed_.contains(f)) faces.push_back(f);
+  for (const std::uint32_t f : changed_)
+    if (!state_.mesh.is_removed(f) && box_of(state_.mesh.triangle(f)).intersects(reach)) faces.push_back(f);
+  return faces;
+}
+
+bool ExceedCheck::exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options) {
+  find_changed(region);
+  proposer.collapse(region, proposer.refused_placement());
+  TriangleMesh originals, new_faces, faces;
+  Eigen::AlignedBox3d box;
+  std::vector<std::uint32_t> affected;
+  std::vector<std::uint32_t> star = proposer.star().removed;
+  for (const Corner c : proposer.star().moved) star.push_back(c / 3);
+  for (const std::uint32_t face : star) {
+    if (is_changed_.insert(face)) changed_.push_back(face);
+    if (!state_.mesh.is_removed(face)) add(new_faces, state_.mesh.triangle(face));
+    const auto of_face = state_.cover.originals_of(face);
+    affected.insert(affected.end(), of_face.begin(), of_face.end());
+  }
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  for (const std::uint32_t t : affected) {
+    add(originals, original_triangle(state_, t));
+    box.extend(box_of(original_triangle(state_, t)));
+  }
+  if (!affected.empty()) {
+    // Rounding of the box is far below the tolerance that it grows by, of which the engine decides the rest.
+    for (const std::uint32_t f : faces_near(box, 2 * tolerance)) add(faces, state_.mesh.triangle(f));
+    for (const std::uint32_t t : state_.kept) add(faces, original_triangle(state_, t));
+  }
+  undo_last(state_, region);
+  if (!affected.empty() && (faces.triangles.empty() || !is_within(originals, Bvh(faces), tolerance, options)))
+    return true;
+  return !is_within(new_faces, state_.tree, tolerance, options);
+}
+
+}  // namespace meshbound

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What is found out from the surroundings of a refused collapse is what the whole mesh says.
+#include "simplify/exceed_check.h"
+
+#include <gtest/gtest.h>
+
+#include "datasets/analytic_meshes.h"
+#include "decimation_fixture.h"
+#include "reference/small_meshes.h"
+#include "simplify/change_prover.h"
+#include "simplify/proof_workers.h"
+#include "simplify/region_collapses.h"
+#include "simplify/regions.h"
+#include "simplify/repair.h"
+
+namespace meshbound {
+namespace {
+
+struct Case {
+  const char* name;
+  TriangleMesh mesh;
+  double tolerance;
+};
+
+std::vector<Case> cases() {
+  return {{"terrain", datasets::terrain(1, 16, 7), 0.01},
+          {"thin sheet", datasets::thin_sheet(1, 0.01, 10), 0.02},
+          {"two sheets within the tolerance",
+           reference::both(datasets::terrain(1, 12, 7), reference::moved(datasets::terrain(1, 12, 7), {0, 0, 0.004})),
+           0.01},
+          {"box", datasets::cube(1, 5), 0.05}};
+}
+
+/// The distance of the whole mesh after the collapse, in one piece.
+bool whole_exceeds(DecimationFixture& fixture, const TriangleMesh& original, Region& region, Proposer& proposer,
+                   double tolerance) {
+  proposer.collapse(region, proposer.refused_placement());
+  const TriangleMesh mesh = fixture.result();
+  undo_last(fixture.state, region);
+  return check_tolerance(Bvh(original), Bvh(mesh), tolerance).verdict != Verdict::Within;
+}
+
+TEST(ExceedCheck, SaysWhatTheWholeMeshSays) {
+  std::size_t exceeds = 0, holds = 0;
+  for (const Case& shape : cases()) {
+    DecimationFixture fixture(shape.mesh, shape.tolerance);
+    DecimationState& state = fixture.state;
+    ProofWorkers workers(state, 1);
+    Proposer proposer(state);
+    ChangeProver prover(state, workers, 0);
+    ExceedCheck check(state);
+    Split split = whole(state);
+    Region& region = split.regions.front();
+    proposer.enter(split, region);
+    std::size_t refused = 0;
+    RegionCollapses::Limits limits{1, [](std::size_t) { return false; }, nullptr};
+    limits.ends_at_refusal = [&] {
+      if (++refused % 3 != 0) return false;
+      const bool here = check.exceeds(region, proposer, shape.tolerance, {});
+      EXPECT_EQ(here, whole_exceeds(fixture, shape.mesh, region, proposer, shape.tolerance)) << shape.name;
+      (here ? exceeds : holds) += 1;
+      return false;
+    };
+    RegionCollapses(state, split, region, proposer, &prover, std::move(limits)).collapse_all();
+    EXPECT_LT(fixture.result().triangles.size(), shape.mesh.triangles.size()) << shape.name;
+  }
+  EXPECT_GT(exceeds, 20U);
+  EXPECT_GT(holds, 3U);
+}
+
+}  // namespace
+}  // namespace meshbound
