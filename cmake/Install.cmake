@@ -23,7 +23,7 @@ if(TARGET meshbound_cgal)
     FILES_MATCHING PATTERN "*.h")
 endif()
 
-foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance verify_certificate generate_mesh)
+foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance penetration_depth verify_certificate generate_mesh)
   if(TARGET ${tool})
     install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()

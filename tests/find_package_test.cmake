@@ -14,7 +14,7 @@ if(sanitize)
 endif()
 run("install" ${CMAKE_COMMAND} --install ${build_dir} --prefix ${work_dir}/prefix --config ${config})
 # Everything that the README names runs from the prefix.
-foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance verify_certificate generate_mesh)
+foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance penetration_depth verify_certificate generate_mesh)
   run("run the installed ${tool}" ${work_dir}/prefix/bin/${tool} --version)
 endforeach()
 foreach(file IN ITEMS README.md schema/simplify-1.schema.json schema/certificate-1.md examples/simplify_in_memory.cpp)

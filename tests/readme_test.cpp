@@ -67,7 +67,8 @@ TEST(Documents, ShowOnlyProgramsThatTheTestsCompile) {
 /// The lines of `text` that call one of our tools, without their comments: in blocks of sh, and indented ones.
 std::vector<std::string> commands(const std::string& text) {
   std::vector<std::string> found;
-  const std::regex line("(^|\n)(    )?((simplify_with_bound|lod_chain|verify_certificate|hausdorff_distance) [^\n#]*)");
+  const std::regex line(
+      "(^|\n)(    )?((simplify_with_bound|lod_chain|verify_certificate|hausdorff_distance|penetration_depth) [^\n#]*)");
   for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) found.push_back((*it)[3]);
   return found;
 }

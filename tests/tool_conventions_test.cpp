@@ -46,8 +46,8 @@ class ToolConventions : public testing::Test {
   testing_tools::TemporaryFolder folder_;
 };
 
-const std::vector<std::string> all_tools = {SIMPLIFY_WITH_BOUND, LOD_CHAIN, HAUSDORFF_DISTANCE, VERIFY_CERTIFICATE,
-                                            GENERATE_MESH};
+const std::vector<std::string> all_tools = {SIMPLIFY_WITH_BOUND, LOD_CHAIN,          HAUSDORFF_DISTANCE,
+                                            PENETRATION_DEPTH,   VERIFY_CERTIFICATE, GENERATE_MESH};
 
 TEST_F(ToolConventions, HelpOfEveryToolListsItsExitCodes) {
   for (const std::string& tool : all_tools)

@@ -157,9 +157,9 @@ void require_no_crossing(const ClosedModel::Data& model) {
   place_twice(pair, model);
   require_area(model, pair);
   std::vector<NodePair> stack;
-  std::uint64_t compared = 0;
-  visit_triangle_pairs(pair, true, stack, compared, [&](std::uint32_t s, std::uint32_t t) {
-    if (s == t || !triangles_cross(pair, model.triangles[s], model.triangles[t])) return true;
+  PairCounters counters;
+  visit_triangle_pairs(pair, true, stack, counters, [&](std::uint32_t s, std::uint32_t t) {
+    if (!triangles_cross(pair, model.triangles[s], model.triangles[t])) return true;
     const auto [first, second] = std::minmax(s, t);
     throw InvalidInput("the mesh intersects itself: " + name_of(model, first) + ", at " +
                        place_of(model, model.triangles[first][0]) + ", and " + name_of(model, second) +

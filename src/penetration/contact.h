@@ -19,25 +19,41 @@ using PairTriangle = std::array<PairVertex, 3>;
 /// an edge that both have.
 [[nodiscard]] bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t);
 
-/// Calls `on_triangles(a, b)` for a triangle of each side, for all pairs whose leaves have boxes that overlap, until it
-/// returns false; returns whether it never did. `is_same`: the sides are one model at one place, and each pair of its
-/// triangles is to come once.
+inline bool boxes_meet(const Box& a, const Box& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+         b.lo.z <= a.hi.z;
+}
+
+/// What `visit_triangle_pairs` has looked at.
+struct PairCounters {
+  std::uint64_t node_pairs = 0;
+  std::uint64_t triangle_pairs = 0;
+};
+
+/// Calls `on_triangles(s, t)` for a triangle of each side, for all pairs whose boxes overlap, until it returns false;
+/// returns whether it never did. `is_same`: the sides are one model at one place, and each pair of its triangles is to
+/// come once. `stack` is scratch memory.
 template <class OnTriangles>
-bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>& stack, std::uint64_t& compared,
+bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>& stack, PairCounters& counters,
                           OnTriangles&& on_triangles) {
   const std::uint32_t side = pair.tree_side();
   const Bvh::Data &a = pair.model(side).tree.data(), &b = pair.model(1 - side).tree.data();
-  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, stack, compared,
-                         [&](std::uint32_t block_a, std::uint32_t block_b) {
-                           const std::uint32_t end_a = std::min((block_a + 1) * block_width, a.triangle_count()),
-                                               end_b = std::min((block_b + 1) * block_width, b.triangle_count());
-                           for (std::uint32_t i = block_a * block_width; i < end_a; ++i)
-                             for (std::uint32_t j = block_b * block_width; j < end_b; ++j) {
-                               const std::uint32_t s = a.triangle_of_slot[i], t = b.triangle_of_slot[j];
-                               if (!(side == 0 ? on_triangles(s, t) : on_triangles(t, s))) return false;
-                             }
-                           return true;
-                         });
+  const auto on_leaves = [&](std::uint32_t block_a, std::uint32_t block_b) {
+    const std::uint32_t end_a = std::min((block_a + 1) * block_width, a.triangle_count()),
+                        end_b = std::min((block_b + 1) * block_width, b.triangle_count());
+    for (std::uint32_t i = block_a * block_width; i < end_a; ++i) {
+      const std::uint32_t s = a.triangle_of_slot[i];
+      const Box& box = pair.box(side, s);
+      for (std::uint32_t j = block_b * block_width; j < end_b; ++j) {
+        const std::uint32_t t = b.triangle_of_slot[j];
+        if ((is_same && block_a == block_b && i >= j) || !boxes_meet(box, pair.box(1 - side, t))) continue;
+        ++counters.triangle_pairs;
+        if (!(side == 0 ? on_triangles(s, t) : on_triangles(t, s))) return false;
+      }
+    }
+    return true;
+  };
+  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, stack, counters.node_pairs, on_leaves);
 }
 
 }  // namespace meshbound

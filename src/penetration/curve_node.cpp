@@ -10,10 +10,6 @@
 namespace meshbound {
 namespace {
 
-/// Beyond this a parameter from doubles is too coarse, and the exact one is rounded: some thousand roundings of a
-/// vertex, so that the position of a node hardly widens an interval.
-constexpr double max_parameter_error = 0x1p-42;
-
 /// A share of the way along an edge.
 struct Parameter {
   double value = 0;
@@ -82,17 +78,15 @@ ExactNode exact_position(PlacedPair& pair, const CurveNode& node) {
           drop};
 }
 
-void set_position(PlacedPair& pair, CurveNode& node) {
+void set_position(PlacedPair& pair, double max_error, CurveNode& node) {
   const NodeParts parts = parts_of(pair, node);
   const Parameter t = parameter_of(pair, parts);
-  if (t.error <= max_parameter_error) {
-    const Vec3 p = pair.local(parts.from), q = pair.local(parts.to), d = q - p;
-    node.position = p + t.value * d;
-    // The ends are off by their errors, at most sqrt(3) of them as a length; a cut as in numeric/rounding.h, with
-    // coordinates of magnitude 1 at most.
-    node.error = t.error * length(d) * (1 + 0x1p-40) + 2 * pair.error(node.side) + cut_error;
-    return;
-  }
+  const Vec3 p = pair.local(parts.from), q = pair.local(parts.to), d = q - p;
+  // The ends are off by their errors, at most sqrt(3) of them as a length; a cut as in numeric/rounding.h, with
+  // coordinates of magnitude 1 at most.
+  node.error = t.error * length(d) * (1 + 0x1p-40) + 2 * pair.error(node.side) + cut_error;
+  node.position = p + t.value * d;
+  if (node.error <= max_error) return;
   const ExactNode exact = exact_position(pair, node);
   node.position = pair.to_local(exact.numerator, exact.denominator);
   node.error = 8 * unit_roundoff;  // 3 in the last place of coordinates of magnitude 1 at most

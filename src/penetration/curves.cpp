@@ -6,21 +6,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "penetration/contact.h"
-
 namespace meshbound {
 namespace {
-
-bool boxes_meet(PlacedPair& pair, const Triangle& s, const Triangle& t) {
-  const Vec3 &a = pair.local({0, s[0]}), &b = pair.local({0, s[1]}), &c = pair.local({0, s[2]});
-  const Vec3 &d = pair.local({1, t[0]}), &e = pair.local({1, t[1]}), &f = pair.local({1, t[2]});
-  const double margin = 2 * (pair.error(0) + pair.error(1));
-  const auto overlap = [margin](double p, double q, double r, double u, double v, double w) {
-    return std::min({p, q, r}) <= std::max({u, v, w}) + margin && std::min({u, v, w}) <= std::max({p, q, r}) + margin;
-  };
-  return overlap(a.x, b.x, c.x, d.x, e.x, f.x) && overlap(a.y, b.y, c.y, d.y, e.y, f.y) &&
-         overlap(a.z, b.z, c.z, d.z, e.z, f.z);
-}
 
 /// On which side of the plane of a triangle of `side` the corners of a triangle of the other side are; false where all
 /// are on the same.
@@ -32,25 +19,24 @@ bool straddles(PlacedPair& pair, std::uint32_t side, const Triangle& plane, cons
 
 }  // namespace
 
-void CrossingCurves::find(PlacedPair& pair) {
+void CrossingCurves::find(PlacedPair& pair, double node_error) {
   nodes.clear();
   segments.clear();
   node_at_.clear();
-  node_pairs = triangle_pairs = 0;
-  visit_triangle_pairs(pair, false, stack_, node_pairs, [&](std::uint32_t s, std::uint32_t t) {
+  counters = {};
+  visit_triangle_pairs(pair, false, stack_, counters, [&](std::uint32_t s, std::uint32_t t) {
     cross(pair, s, t);
     return true;
   });
   for (std::uint32_t i = 0; i < segments.size(); ++i) link(pair, i);
   group_segments(pair);
+  for (CurveNode& node : nodes) set_position(pair, node_error, node);
   group_nodes(pair);
 }
 
 /// In general position two triangles have nothing in common, or a segment between two nodes.
 void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
-  ++triangle_pairs;
   const std::array<Triangle, 2> corners{pair.model(0).triangles[s], pair.model(1).triangles[t]};
-  if (!boxes_meet(pair, corners[0], corners[1])) return;
   std::array<std::array<int, 3>, 2> signs;  // by side: of its corners against the plane of the other
   if (!straddles(pair, 1, corners[1], corners[0], signs[0])) return;
   if (!straddles(pair, 0, corners[0], corners[1], signs[1])) return;
@@ -119,7 +105,6 @@ void CrossingCurves::group_segments(const PlacedPair& pair) {
 }
 
 void CrossingCurves::group_nodes(PlacedPair& pair) {
-  for (CurveNode& node : nodes) set_position(pair, node);
   node_order_.resize(nodes.size());
   for (std::uint32_t i = 0; i < node_order_.size(); ++i) node_order_[i] = i;
   std::sort(node_order_.begin(), node_order_.end(), [&](std::uint32_t i, std::uint32_t j) {

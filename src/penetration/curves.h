@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "numeric/no_index.h"
-#include "penetration/box_pairs.h"
+#include "penetration/contact.h"
 #include "penetration/placed_pair.h"
 
 namespace meshbound {
@@ -43,13 +43,14 @@ struct CurveSegment {
 
 class CrossingCurves {
  public:
-  /// Finds all of them. `pair` must have been placed.
-  void find(PlacedPair& pair);
+  /// Finds all of them. `pair` must have been placed. `node_error`: how far the position of a node may be from the node
+  /// before it is computed from integers, local.
+  void find(PlacedPair& pair, double node_error);
 
   std::vector<CurveNode> nodes;
   std::vector<CurveSegment> segments;
   std::array<std::vector<std::uint32_t>, 2> crossed;  ///< by side: triangles with segments, ascending
-  std::uint64_t node_pairs = 0, triangle_pairs = 0;   ///< compared
+  PairCounters counters;
 
   /// Segments in a triangle; empty for one that is not crossed.
   [[nodiscard]] std::span<const std::uint32_t> segments_in(std::uint32_t side, std::uint32_t triangle) const;
@@ -91,8 +92,8 @@ struct ExactNode {
 };
 [[nodiscard]] ExactNode exact_position(PlacedPair& pair, const CurveNode& node);
 
-/// Sets `position` and `error`.
-void set_position(PlacedPair& pair, CurveNode& node);
+/// Sets `position` and `error`; from integers where doubles miss by more than `max_error`, local.
+void set_position(PlacedPair& pair, double max_error, CurveNode& node);
 
 /// Whether node `a` comes before node `b` on the edge that both lie on, from its first vertex on.
 [[nodiscard]] bool comes_before(PlacedPair& pair, const CurveNode& a, const CurveNode& b);

@@ -195,7 +195,9 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
   const StopToken stop = StopToken{.cancel = options.cancel}.until(start, options.budget.seconds);
   Scratch& memory = scratch();
   memory.pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
-  memory.curves.find(memory.pair);
+  // Nodes are off by at most a small part of what is asked for.
+  constexpr double node_share = 1.0 / 64;
+  memory.curves.find(memory.pair, std::max(node_share * std::ldexp(error_bound, -memory.pair.exponent()), 0x1p-46));
   if (stop.cancelled()) throw Interrupted("cancelled before the volumes were known");
   memory.pieces.find(memory.pair, memory.curves);
   PenetrationDepth result;
@@ -205,8 +207,8 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
   result.stats.seconds_intersecting = seconds_since(start);
   measure_all(found, memory, options, error_bound, stop, result);
   result.stats.seconds_measuring = seconds_since(start) - result.stats.seconds_intersecting;
-  result.stats.node_pairs = memory.curves.node_pairs;
-  result.stats.triangle_pairs = memory.curves.triangle_pairs;
+  result.stats.node_pairs = memory.curves.counters.node_pairs;
+  result.stats.triangle_pairs = memory.curves.counters.triangle_pairs;
   result.stats.crossings = memory.curves.nodes.size();
   result.stats.clipped = memory.curves.crossed[0].size() + memory.curves.crossed[1].size();
   result.stats.exact_decisions = memory.pair.exact_decisions();
@@ -222,9 +224,9 @@ bool in_contact(const PlacedClosedModel& a, const PlacedClosedModel& b) {
   Scratch& memory = scratch();
   PlacedPair& pair = memory.pair;
   pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
-  std::uint64_t compared = 0;
+  PairCounters counters;
   const bool are_apart =
-      visit_triangle_pairs(pair, false, memory.stack, compared, [&](std::uint32_t s, std::uint32_t t) {
+      visit_triangle_pairs(pair, false, memory.stack, counters, [&](std::uint32_t s, std::uint32_t t) {
         const Triangle &p = pair.model(0).triangles[s], &q = pair.model(1).triangles[t];
         return !triangles_meet(pair, {{{0, p[0]}, {0, p[1]}, {0, p[2]}}}, {{{1, q[0]}, {1, q[1]}, {1, q[2]}}});
       });

@@ -55,6 +55,7 @@ void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose
   for (Side& side : sides_) {
     side.map.reset();
     side.points.clear(side.model->positions.size());
+    side.boxes.clear(side.model->triangles.size());
     side.exact_points.clear(side.model->positions.size());
   }
   const auto frame = [this](std::uint32_t side) -> const Frame& { return model(side).tree.data().frame; };
@@ -123,12 +124,21 @@ void PlacedPair::prepare_exact() {
   is_exact_ready_ = true;
 }
 
-const Vec3& PlacedPair::local(PairVertex v) {
-  Side& side = sides_[v.side];
-  if (side.points.has(v.vertex)) return side.points[v.vertex];
-  const Vec3 p = side.model->positions[v.vertex] - side.center;
-  return side.points.set(v.vertex,
-                         Vec3{dot(side.rows[0], p), dot(side.rows[1], p), dot(side.rows[2], p)} + side.offset);
+const Vec3& PlacedPair::place_vertex(Side& side, std::uint32_t vertex) {
+  const Vec3 p = side.model->positions[vertex] - side.center;
+  return side.points.set(vertex, Vec3{dot(side.rows[0], p), dot(side.rows[1], p), dot(side.rows[2], p)} + side.offset);
+}
+
+const Box& PlacedPair::place_box(std::uint32_t side, std::uint32_t triangle) {
+  const Triangle& t = model(side).triangles[triangle];
+  const Vec3 a = local({side, t[0]}), b = local({side, t[1]}), c = local({side, t[2]});
+  const double e = 2 * sides_[side].error;
+  const Vec3 margin{e, e, e};
+  const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
+  const auto largest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
+  return sides_[side].boxes.set(
+      triangle, {Vec3{least(a.x, b.x, c.x), least(a.y, b.y, c.y), least(a.z, b.z, c.z)} - margin,
+                 Vec3{largest(a.x, b.x, c.x), largest(a.y, b.y, c.y), largest(a.z, b.z, c.z)} + margin});
 }
 
 const ExactPoint& PlacedPair::exact(PairVertex v) {

@@ -58,7 +58,15 @@ class PlacedPair {
   [[nodiscard]] const Mapping& tree_mapping() const { return tree_mapping_; }
 
   /// Coordinates in the local frame, of magnitude about 1 at most; off by at most `error` each.
-  [[nodiscard]] const Vec3& local(PairVertex v);
+  [[nodiscard]] const Vec3& local(PairVertex v) {
+    Side& side = sides_[v.side];
+    return side.points.has(v.vertex) ? side.points[v.vertex] : place_vertex(side, v.vertex);
+  }
+  /// A box around a triangle, rounding included; local.
+  [[nodiscard]] const Box& box(std::uint32_t side, std::uint32_t triangle) {
+    Side& own = sides_[side];
+    return own.boxes.has(triangle) ? own.boxes[triangle] : place_box(side, triangle);
+  }
   [[nodiscard]] double error(std::uint32_t side) const { return sides_[side].error; }
   [[nodiscard]] const ExactPoint& exact(PairVertex v);
 
@@ -96,10 +104,13 @@ class PlacedPair {
     Vec3 offset;               ///< local
     double error = 0;
     SparseArray<Vec3> points;
+    SparseArray<Box> boxes;  ///< by triangle
     SparseArray<ExactPoint> exact_points;
     std::optional<ExactMap> map;
   };
 
+  const Vec3& place_vertex(Side& side, std::uint32_t vertex);
+  const Box& place_box(std::uint32_t side, std::uint32_t triangle);
   void set_frame();
   void set_offset(Side& side);
   void prepare_exact();

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
 
 #include "common/length.h"
 #include "meshbound/report.h"
@@ -35,6 +37,32 @@ void print_line(const std::string& label, const std::string& text) {
 std::string interval(const Bounds& bounds) {
   if (!std::isfinite(bounds.upper)) return "at least " + exact_number(bounds.lower);
   return "[" + exact_number(bounds.lower) + ", " + exact_number(bounds.upper) + "]";
+}
+
+void print_mesh(const char* name, const MeshReport& mesh) {
+  const MeshSummary& s = mesh.summary;
+  print_line(name, mesh.path + ": " + std::to_string(s.faces) + " triangles, " + std::to_string(s.vertices) +
+                       " vertices, " + std::to_string(s.components) +
+                       (s.components == 1 ? " component, " : " components, ") + (s.closed ? "closed" : "open") +
+                       ", diagonal " + short_number(s.bbox_diagonal));
+  if (mesh.triangulated_polygons > 0)
+    print_line("", std::to_string(mesh.triangulated_polygons) + " polygons split into triangles");
+  if (mesh.decoded_strips > 0) print_line("", std::to_string(mesh.decoded_strips) + " triangle strips decoded");
+  if (mesh.ignored_elements > 0)
+    print_line("", std::to_string(mesh.ignored_elements) + " lines, points or empty faces ignored");
+}
+
+std::string short_point(const Eigen::Vector3d& p) {
+  return "(" + short_number(p.x()) + " " + short_number(p.y()) + " " + short_number(p.z()) + ")";
+}
+
+std::pair<std::string, std::string> told_apart(double larger, double smaller) {
+  char first[32], second[32];
+  for (int digits = 6;; ++digits) {
+    std::snprintf(first, sizeof first, "%.*g", digits, larger);
+    std::snprintf(second, sizeof second, "%.*g", digits, smaller);
+    if (digits == 17 || std::strtod(first, nullptr) > std::strtod(second, nullptr)) return {first, second};
+  }
 }
 
 std::string rounded_seconds(double seconds) {

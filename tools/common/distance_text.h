@@ -3,8 +3,10 @@
 /// digits that read back as the same double.
 #pragma once
 #include <string>
+#include <utility>
 
 #include "meshbound/distance.h"
+#include "meshbound/report.h"
 
 namespace meshbound::tools {
 
@@ -13,6 +15,15 @@ void print_line(const std::string& label, const std::string& text);
 
 /// "[0.0013, 0.0014]", or "at least 0.0013" where there is no upper bound.
 [[nodiscard]] std::string interval(const Bounds& bounds);
+
+/// What was read: file, size, diagonal, and what the reader did. `name` is "A" or "B".
+void print_mesh(const char* name, const MeshReport& mesh);
+
+/// "(-0.988 19.617 2.367)"
+[[nodiscard]] std::string short_point(const Eigen::Vector3d& p);
+
+/// Two numbers with as few digits, six or more, as show which of them is larger.
+[[nodiscard]] std::pair<std::string, std::string> told_apart(double larger, double smaller);
 
 /// "0.012", and "; 2 threads": for lines that tell the time.
 [[nodiscard]] std::string rounded_seconds(double seconds);

@@ -3,31 +3,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <utility>
 
 #include "common/distance_text.h"
 #include "common/length.h"
 
 namespace meshbound::tools {
 namespace {
-
-void print_mesh(const char* name, const MeshReport& mesh) {
-  const MeshSummary& s = mesh.summary;
-  print_line(name, mesh.path + ": " + std::to_string(s.faces) + " triangles, " + std::to_string(s.vertices) +
-                       " vertices, " + std::to_string(s.components) +
-                       (s.components == 1 ? " component, " : " components, ") + (s.closed ? "closed" : "open") +
-                       ", diagonal " + short_number(s.bbox_diagonal));
-  if (mesh.triangulated_polygons > 0)
-    print_line("", std::to_string(mesh.triangulated_polygons) + " polygons split into triangles");
-  if (mesh.decoded_strips > 0) print_line("", std::to_string(mesh.decoded_strips) + " triangle strips decoded");
-  if (mesh.ignored_elements > 0)
-    print_line("", std::to_string(mesh.ignored_elements) + " lines, points or empty faces ignored");
-}
-
-std::string short_point(const Eigen::Vector3d& p) {
-  return "(" + short_number(p.x()) + " " + short_number(p.y()) + " " + short_number(p.z()) + ")";
-}
 
 /// The mesh is named where it is B: a reader of a log expects A, the original.
 std::string spot(const WorstSpot& worst) {
@@ -57,16 +38,6 @@ void print_profile(const char* label, const OneSidedDistance& distance) {
   indent();
   std::printf("matching %.4f s, culling on A %.4f s, on B %.4f s, subdivision %.4f s\n", s.phases.matching,
               s.phases.culling_on_a, s.phases.culling_on_b, s.phases.subdivision);
-}
-
-/// Two numbers with as few digits, six or more, as show which of them is larger.
-std::pair<std::string, std::string> told_apart(double larger, double smaller) {
-  char first[32], second[32];
-  for (int digits = 6;; ++digits) {
-    std::snprintf(first, sizeof first, "%.*g", digits, larger);
-    std::snprintf(second, sizeof second, "%.*g", digits, smaller);
-    if (digits == 17 || std::strtod(first, nullptr) > std::strtod(second, nullptr)) return {first, second};
-  }
 }
 
 std::string failure(const DistanceReport& report) {

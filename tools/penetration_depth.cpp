@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The volumes that two closed meshes have in common, and how deep each is, as proven intervals.
+#include "meshbound/penetration_depth.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/affine_argument.h"
+#include "common/mesh_input.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/provenance.h"
+#include "common/signals.h"
+#include "common/stopwatch.h"
+#include "common/threads.h"
+#include "common/tool_main.h"
+#include "meshbound/error.h"
+#include "meshbound/transform.h"
+#include "penetration/arguments.h"
+#include "penetration/parts_file.h"
+#include "penetration/report.h"
+
+namespace {
+
+using namespace meshbound;
+using namespace meshbound::tools;
+
+/// One of the two meshes on its way to a placed model.
+struct Input {
+  TriangleMesh mesh;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  std::optional<double> displacement;
+  std::unique_ptr<ClosedModel> model;
+};
+
+/// What `penetration_depth` takes as a pose: columns that are orthonormal up to the rounding of a program that made
+/// them, and no reflection.
+bool is_rigid(const Eigen::Affine3d& map) {
+  constexpr double max_drift = 1e-10;
+  const Eigen::Matrix3d linear = map.linear();
+  return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).norm() <= max_drift && linear.determinant() > 0;
+}
+
+/// A rigid motion becomes the pose. Any other map is applied here, each coordinate rounded once; where it reflects, the
+/// triangles are reversed.
+void place(Input& input, const Eigen::Affine3d& map) {
+  if (is_rigid(map)) {
+    input.pose.matrix() = map.matrix();
+    return;
+  }
+  TransformedMesh image = transformed(input.mesh, map);
+  input.mesh = std::move(image.mesh);
+  input.displacement = image.displacement_bound;
+  if (map.linear().determinant() < 0)
+    for (Triangle& t : input.mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// Reads a mesh and places it.
+void load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum, Input& input,
+          MeshReport& report) {
+  input.mesh = read_input(path, with_checksum, report);
+  report.dropped.reset();  // nothing is written again
+  if (!map) return;
+  place(input, *map);
+  if (input.displacement) report.summary = summarise(input.mesh);
+}
+
+/// Checks that a mesh bounds a solid; the message names the file.
+void check(const std::string& path, Input& input) {
+  try {
+    input.model = std::make_unique<ClosedModel>(input.mesh);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path + ": " + error.what());
+  }
+}
+
+PenetrationOptions engine_options(const PenetrationArguments& arguments, const PenetrationReport& report,
+                                  const Stopwatch& watch, ProgressBar& bar) {
+  PenetrationOptions options;
+  options.error_bound = report.error_bound;
+  if (!report.error_bound) options.decide = report.tolerance;
+  options.keep_parts = !arguments.output.empty();
+  options.threads = arguments.common.threads;
+  options.cancel = &interrupted();
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  if (arguments.common.has_time_limit)
+    options.budget.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
+  return options;
+}
+
+/// What is asked, with lengths in model units.
+void fill_question(const PenetrationLengths& lengths, PenetrationReport& report) {
+  constexpr double default_share = 1e-6;
+  const double diagonal = report.a.summary.bbox_diagonal;
+  if (lengths.tolerance) report.tolerance = lengths.tolerance->in_model_units(diagonal);
+  if (lengths.error_bound) report.error_bound = lengths.error_bound->in_model_units(diagonal);
+  if (!lengths.tolerance && !lengths.error_bound) report.error_bound = default_share * diagonal;
+}
+
+void tell(const PenetrationReport& report, const PenetrationArguments& arguments) {
+  if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
+  if (arguments.common.quiet) {
+    const std::string line = closing_line(report);
+    if (!line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
+  } else if (arguments.common.json != "-") {
+    print_report(report);
+  }
+}
+
+int run(const PenetrationArguments& arguments) {
+  Stopwatch watch;
+  const PenetrationLengths lengths = check_arguments(arguments);
+  std::optional<Eigen::Affine3d> map_a, map_b;
+  if (!arguments.transform_a.empty()) map_a = parse_affine("--transform-a", arguments.transform_a);
+  if (!arguments.transform_b.empty()) map_b = parse_affine("--transform-b", arguments.transform_b);
+
+  PenetrationReport report;
+  Input a, b;
+  const bool with_checksums = !arguments.common.json.empty();
+  const int threads = arguments.common.threads;
+  run_both(
+      threads, [&] { load(arguments.a, map_a, with_checksums, a, report.a); },
+      [&] { load(arguments.b, map_b, with_checksums, b, report.b); });
+  report.displacement_a = a.displacement;
+  report.displacement_b = b.displacement;
+  report.seconds.read = watch.lap();
+  run_both(
+      threads, [&] { check(arguments.a, a); }, [&] { check(arguments.b, b); });
+  report.seconds.check = watch.lap();
+
+  fill_question(lengths, report);
+  const PlacedClosedModel placed_a(*a.model, a.pose), placed_b(*b.model, b.pose);
+  {
+    ProgressBar bar("measuring", arguments.common.quiet);
+    report.result = penetration_depth(placed_a, placed_b, engine_options(arguments, report, watch, bar));
+  }
+  report.contact =
+      !report.result.volumes.empty() ? "overlapping" : (in_contact(placed_a, placed_b) ? "touching" : "none");
+  const ExitCode code = conclude(report);
+  if (interrupted() && code == ExitUndecided) throw Error("interrupted before the depths were known");
+  report.seconds.query = watch.lap();
+  if (!arguments.output.empty()) write_parts(arguments.output, report.result);
+  report.seconds.write = watch.lap();
+  report.provenance = provenance();
+  report.threads = threads > 0 ? threads : omp_get_max_threads();
+  report.seconds.total = watch.seconds();
+  tell(report, arguments);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Penetration depth of two closed triangle meshes: each connected volume of their intersection, with the distance "
+      "of its two surfaces as a proven interval [lower, upper] and the deepest points.",
+      "penetration_depth");
+  PenetrationArguments arguments;
+  add_arguments(app, arguments);
+  return tool_main(app, argc, argv, [&arguments] { return run(arguments); });
+}
