@@ -20,10 +20,12 @@ namespace fs = std::filesystem;
 /// Folders of src in dependency order; those of src/distance and src/simplify are rooms of their own, the files beside
 /// them are the entry points of a measurement and the steps of a decimation. `cgal` is what is compiled against CGAL
 /// and may use everything before it.
+// clang-format off
 constexpr std::array layers = std::to_array<std::string_view>(
     {"numeric", "geometry", "mesh", "bvh", "proof", "distance/paper", "distance/kernel", "distance/shortcuts",
      "distance/search", "distance", "distance/levels", "penetration", "scene", "simplify/kernel", "simplify/mesh",
      "simplify/cover", "simplify", "certificate", "levels", "report", "cgal"});
+// clang-format on
 constexpr std::size_t longest_file = 600;
 
 struct SourceFile {

@@ -19,6 +19,8 @@
 #include "common/threads.h"
 #include "common/tool_main.h"
 #include "hausdorff/answer.h"
+#include "hausdorff/motion.h"
+#include "hausdorff/nearest.h"
 #include "hausdorff/question.h"
 #include "hausdorff/text_report.h"
 #include "mesh/atomic_file.h"
@@ -123,6 +125,8 @@ void tell(const DistanceReport& report, const Arguments& arguments) {
 int run(const Arguments& arguments) {
   Stopwatch watch;
   const TypedLengths lengths = parse_lengths(arguments);
+  if (!arguments.nearest.empty()) return run_nearest(arguments);
+  if (!arguments.poses.empty()) return run_motion(arguments);
   check_paths(arguments);
   std::optional<AtomicFile> certificate;
   if (!arguments.certificate.empty())

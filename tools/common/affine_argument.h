@@ -10,4 +10,7 @@ namespace meshbound::tools {
 /// exactly 16 finite numbers, the last four 0 0 0 1; `IoError` when the file cannot be read.
 [[nodiscard]] Eigen::Affine3d parse_affine(const std::string& option, const std::string& numbers_or_file);
 
+/// The map of 16 numbers, row-major. Throws `InvalidInput`, beginning with `where`.
+[[nodiscard]] Eigen::Affine3d parse_affine_numbers(const std::string& where, const std::string& text);
+
 }  // namespace meshbound::tools

@@ -12,7 +12,7 @@ namespace meshbound::tools {
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY or STL")->required();
-  app.add_option("B", arguments.b, "The mesh to compare with it")->required();
+  app.add_option("B", arguments.b, "The mesh to compare with it; not with --nearest");
   app.add_option("--error-bound", arguments.error_bound,
                  "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");
   app.add_option("--tolerance", arguments.tolerance,
@@ -24,6 +24,20 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_flag("--one-sided", arguments.one_sided, "Only from A to B");
   app.add_option("--transform-b", arguments.transform_b,
                  "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
+  app.add_option("--poses", arguments.poses,
+                 "Measure, or decide with --tolerance, at each pose of B in this file: a line of 16 numbers for each, "
+                 "row-major, rigid. Each step begins with what the one before has left");
+  CLI::Option* nearest = app.add_option("--nearest", arguments.nearest,
+                                        "Instead of B: find the meshes below this folder that are most like A, by the "
+                                        "distance after both are moved to the "
+                                        "centroid and scaled to mean radius 1");
+  app.add_flag(
+         "--align", arguments.align,
+         "With --nearest: also turn each mesh so that its principal axes lie on those of A, in the best of 4 ways")
+      ->needs(nearest);
+  app.add_option("--count", arguments.count, "With --nearest: how many are wanted (default 1)")
+      ->needs(nearest)
+      ->check(CLI::Range(1, 1000000));
   app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate");
@@ -41,6 +55,18 @@ TypedLengths parse_lengths(const Arguments& arguments) {
   TypedLengths lengths;
   if (!arguments.error_bound.empty()) lengths.error_bound = parse_length("--error-bound", arguments.error_bound);
   if (!arguments.tolerance.empty()) lengths.tolerance = parse_length("--tolerance", arguments.tolerance);
+  if (arguments.b.empty() == arguments.nearest.empty())
+    throw InvalidInput(arguments.b.empty() ? "B is missing: name a second mesh, or a folder with --nearest (see --help)"
+                                           : "--nearest takes the place of B; leave one of them out");
+  if (!arguments.nearest.empty() &&
+      (arguments.one_sided || arguments.worst || arguments.profile || !arguments.tolerance.empty() ||
+       !arguments.transform_b.empty() || !arguments.poses.empty() || !arguments.certificate.empty()))
+    throw InvalidInput("--nearest goes with --align, --count, --error-bound and --method, not with other questions");
+  if (!arguments.poses.empty() && (arguments.one_sided || arguments.worst || arguments.profile ||
+                                   !arguments.transform_b.empty() || !arguments.certificate.empty()))
+    throw InvalidInput(
+        "--poses goes with --error-bound, --tolerance and --method, not with --one-sided, --worst, --profile, "
+        "--transform-b or --certificate");
   if (arguments.certificate.empty()) return lengths;
   if (arguments.tolerance.empty() || arguments.one_sided || !arguments.transform_b.empty())
     throw InvalidInput("--certificate needs --tolerance, both directions and the meshes as they are in the files");

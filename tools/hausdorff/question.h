@@ -17,6 +17,10 @@ struct Arguments {
   std::string error_bound;
   std::string tolerance;
   std::string transform_b;
+  std::string poses;
+  std::string nearest;
+  bool align = false;
+  std::size_t count = 1;
   bool one_sided = false;
   bool worst = false;
   bool profile = false;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+/// Many models that move: which pairs of them are near each other, asked for again at every step.
+#pragma once
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "meshbound/bvh.h"
+#include "meshbound/distance.h"
+
+namespace meshbound {
+
+/// What became of the pairs of one question.
+struct SceneStats {
+  std::uint64_t pairs = 0;                  ///< of all bodies
+  std::uint64_t skipped_by_boxes = 0;       ///< their bounding boxes differ by more than the tolerance
+  std::uint64_t unmoved = 0;                ///< neither body has moved since the question was answered before
+  std::uint64_t searched = 0;               ///< the rest: `check_tolerance`, from what the step before has left
+  std::uint64_t closest_point_queries = 0;  ///< of them
+};
+
+/// A pair that was not skipped. `a` < `b` are numbers of bodies; `check.a_to_b` is from body a.
+struct ScenePair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  ToleranceCheck check;
+};
+
+/// The answer for all pairs. A pair that is not listed exceeds the tolerance.
+struct SceneCheck {
+  std::vector<ScenePair> pairs;  ///< by a, then by b
+  SceneStats stats;
+};
+
+/// Placed models, called bodies and numbered from 0 in the order in which they were added. What is known of a pair is
+/// kept from question to question (`MovingPair`). Not thread-safe; the trees may be shared, by bodies too.
+/// Memory: some 200 bytes per body, and a `MovingPair` for each pair that the last question did not skip.
+class Scene {
+ public:
+  Scene();
+  Scene(Scene&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
+  Scene& operator=(Scene&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  ~Scene();
+
+  /// Adds a body and returns its number. `model` must outlive this; it may be refitted between questions. Throws
+  /// `InvalidInput` for a pose that is no rigid motion.
+  std::uint32_t add(const Bvh& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+
+  /// Gives a body another pose, model to world. Throws as `add`, and for a number that no body has; the pose is then as
+  /// it was. Expected O(log n) for its box.
+  void move(std::uint32_t body, const Eigen::Isometry3d& pose);
+
+  [[nodiscard]] std::uint32_t size() const;                          ///< bodies
+  [[nodiscard]] const PlacedModel& model(std::uint32_t body) const;  ///< with its pose
+
+  /// Decides for every pair whether its Hausdorff distance is at most the tolerance (model units). Sides of the boxes
+  /// of two bodies in world coordinates lie no further apart than the distance, so a sweep along one axis finds the
+  /// pairs that can be within it; those are decided in parallel by `check_tolerance`, each by one thread.
+  /// `options.budget` counts for all pairs together in time and for each in subdivisions; pairs that it leaves open are
+  /// `Undecided`. Throws as `check_tolerance`. The same answers for any number of threads. O(n log n) for n bodies, and
+  /// the pairs.
+  [[nodiscard]] SceneCheck check_tolerance(double tolerance, const DistanceOptions& options = {});
+
+  /// Pairs of bodies whose boxes in world coordinates are at most `margin` (model units, 0 or more) apart along every
+  /// axis, by a, then by b: all pairs that can touch are among them. Throws `InvalidInput` for another margin.
+  /// O(n log n), and the pairs that overlap along the first axis.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_near(double margin = 0) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "bvh/bvh_data.h"
+#include "meshbound/error.h"
+#include "meshbound/motion.h"
+#include "meshbound/stop_token.h"
+#include "scene/shape.h"
+
+namespace meshbound {
+
+/// One candidate in one alignment, on its way through bounds that become dearer and better.
+struct ShapeTrial {
+  enum class Stage { Extents, Samples };
+
+  double lower;  ///< of the distance, by the stages so far
+  Stage stage;
+  std::uint32_t index;  ///< of the candidate
+  std::uint32_t way;    ///< of its alignments
+
+  bool operator<(const ShapeTrial& other) const {
+    if (lower != other.lower) return lower > other.lower;
+    return index != other.index ? index > other.index : way > other.way;
+  }
+};
+
+class ShapeSearch {
+ public:
+  ShapeSearch(const Shape& query, std::span<const Shape> candidates, const SimilarityOptions& options)
+      : query_(query),
+        candidates_(candidates),
+        options_(options),
+        stop_(StopToken{.cancel = options.distance.cancel}.until(StopToken::Clock::now(),
+                                                                 options.distance.budget.seconds)) {}
+
+  SimilarShapes run() {
+    for (std::uint32_t i = 0; i < candidates_.size(); ++i)
+      for (std::uint32_t way = 0; way < (options_.align ? 4U : 1U); ++way)
+        trials_.push({by_extents(i, way), ShapeTrial::Stage::Extents, i, way});
+    stats().alignments = trials_.size();
+    while (!trials_.empty() && !(trials_.top().lower > wanted_upper_)) {
+      if (stop_.stopped()) {
+        result_.complete = false;
+        break;
+      }
+      const ShapeTrial trial = trials_.top();
+      trials_.pop();
+      if (trial.stage == ShapeTrial::Stage::Extents)
+        trials_.push({std::max(trial.lower, by_samples(trial)), ShapeTrial::Stage::Samples, trial.index, trial.way});
+      else
+        measure(trial);
+    }
+    for (; !trials_.empty() && result_.complete; trials_.pop())
+      ++(trials_.top().stage == ShapeTrial::Stage::Extents ? stats().ended_by_extents : stats().ended_by_samples);
+    if (result_.nearest.size() > options_.count) result_.nearest.resize(options_.count);
+    return std::move(result_);
+  }
+
+ private:
+  /// Rounding of normalised coordinates, of a rotation and of three products: they are below 2^8 for a shape whose mean
+  /// radius is 1 unless it is a needle, and then `size` grows with it.
+  [[nodiscard]] static double rounding(double size) { return 0x1p-40 * std::max(1.0, size); }
+
+  /// Signs of the axes in each of the 4 proper ways.
+  [[nodiscard]] static std::array<double, 3> signs(std::uint32_t way) {
+    const double first = (way & 1) != 0 ? -1 : 1, second = (way & 2) != 0 ? -1 : 1;
+    return {first, second, first * second};
+  }
+
+  [[nodiscard]] Eigen::Isometry3d alignment(std::uint32_t index, std::uint32_t way) const {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    if (!options_.align) return pose;
+    const auto [x, y, z] = signs(way);
+    pose.linear() = query_.axes() * Eigen::Vector3d(x, y, z).asDiagonal() * candidates_[index].axes().transpose();
+    return pose;
+  }
+
+  /// A point that is furthest along an axis has no point of the other shape nearer than the difference.
+  [[nodiscard]] double by_extents(std::uint32_t index, std::uint32_t way) const {
+    const Shape::Impl &mine = *query_.impl_, &theirs = *candidates_[index].impl_;
+    const Extents& a = options_.align ? mine.along_axes : mine.along_world;
+    const Extents& b = options_.align ? theirs.along_axes : theirs.along_world;
+    const std::array<double, 3> sign = signs(options_.align ? way : 0);
+    double largest = 0, size = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double lo = sign[k] > 0 ? b.lo[k] : -b.hi[k], hi = sign[k] > 0 ? b.hi[k] : -b.lo[k];
+      largest = std::max({largest, std::fabs(a.lo[k] - lo), std::fabs(a.hi[k] - hi)});
+      size = std::max({size, std::fabs(a.lo[k]), std::fabs(a.hi[k]), std::fabs(lo), std::fabs(hi)});
+    }
+    return std::max(0.0, largest - rounding(size));
+  }
+
+  /// The largest distance of a few vertices of `from`, moved by `pose`, to the other shape; ends once it is too large.
+  double sample(const Bvh& from, const Bvh& to, const Eigen::Isometry3d& pose, double lower) {
+    constexpr std::size_t samples = 8;
+    const Bvh::Data& data = from.data();
+    const std::size_t count = std::min(samples, data.vertices.size());
+    for (std::size_t i = 0; i < count && !(lower > wanted_upper_); ++i) {
+      const Vec3 p = data.frame.to_model(data.vertices[i * data.vertices.size() / count]);
+      const Eigen::Vector3d query = pose * Eigen::Vector3d(p.x, p.y, p.z);
+      lower = std::max(lower, closest_point(to, query).distance.lower - rounding(query.norm()));
+      ++stats().closest_point_queries;
+    }
+    return lower;
+  }
+
+  double by_samples(const ShapeTrial& trial) {
+    const Bvh &mine = query_.tree(), &theirs = candidates_[trial.index].tree();
+    const Eigen::Isometry3d pose = alignment(trial.index, trial.way);
+    return sample(mine, theirs, pose.inverse(), sample(theirs, mine, pose, trial.lower));
+  }
+
+  void measure(const ShapeTrial& trial) {
+    MovingPair pair(query_.tree(), candidates_[trial.index].tree());
+    const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity(), pose = alignment(trial.index, trial.way);
+    DistanceOptions options = options_.distance;
+    options.tolerance.reset();
+    options.error_bound = options_.error_bound;
+    options.progress = nullptr;
+    options.budget.seconds = stop_.seconds_left();
+    if (std::isfinite(wanted_upper_)) {
+      const ToleranceCheck check = pair.check_tolerance(identity, pose, wanted_upper_, options);
+      count(check.a_to_b);
+      count(check.b_to_a);
+      if (check.verdict == Verdict::Exceeds) {
+        ++stats().ended_by_decision;
+        return;
+      }
+    }
+    const HausdorffDistance distance = pair.hausdorff_distance(identity, pose, options);
+    count(distance.a_to_b);
+    count(distance.b_to_a);
+    ++stats().measured;
+    const bool converged = distance.bounds.upper - distance.bounds.lower <= options_.error_bound;
+    offer({trial.index, distance.bounds, pose, converged});
+  }
+
+  /// Keeps the best alignment of each candidate, ordered by upper bound.
+  void offer(const SimilarShape& shape) {
+    std::vector<SimilarShape>& nearest = result_.nearest;
+    const auto nearer = [](const SimilarShape& x, const SimilarShape& y) {
+      return x.distance.upper != y.distance.upper ? x.distance.upper < y.distance.upper : x.index < y.index;
+    };
+    const auto same = std::find_if(nearest.begin(), nearest.end(),
+                                   [&](const SimilarShape& other) { return other.index == shape.index; });
+    if (same == nearest.end())
+      nearest.push_back(shape);
+    else if (nearer(shape, *same))
+      *same = shape;
+    std::sort(nearest.begin(), nearest.end(), nearer);
+    if (nearest.size() >= options_.count) wanted_upper_ = nearest[options_.count - 1].distance.upper;
+  }
+
+  void count(const OneSidedDistance& side) { stats().closest_point_queries += side.stats.closest_point_queries; }
+  SimilarityStats& stats() { return result_.stats; }
+
+  const Shape& query_;
+  std::span<const Shape> candidates_;
+  const SimilarityOptions& options_;
+  StopToken stop_;
+  std::priority_queue<ShapeTrial> trials_;                         ///< the smallest lower bound first
+  double wanted_upper_ = std::numeric_limits<double>::infinity();  ///< of the last one wanted, once there are so many
+  SimilarShapes result_;
+};
+
+SimilarShapes nearest_shapes(const Shape& query, std::span<const Shape> candidates, const SimilarityOptions& options) {
+  if (options.count == 0) throw InvalidInput("the number of shapes wanted must be 1 or more");
+  if (!(options.error_bound >= 0)) throw InvalidInput("the error bound must be a length of 0 or more");
+  return ShapeSearch(query, candidates, options).run();
+}
+
+}  // namespace meshbound

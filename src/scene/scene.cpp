@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/scene.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "bvh/bvh_data.h"
+#include "meshbound/error.h"
+#include "meshbound/motion.h"
+#include "meshbound/stop_token.h"
+#include "numeric/tasks.h"
+#include "scene/world_box.h"
+
+namespace meshbound {
+namespace {
+
+using BodyPair = std::pair<std::uint32_t, std::uint32_t>;
+using MovePair = std::pair<std::uint64_t, std::uint64_t>;
+
+struct Body {
+  PlacedModel model;
+  std::uint64_t serial;  ///< of the tree that `box` is of
+  WorldBox box;
+  std::uint64_t moves = 0;  ///< counts poses and refits
+
+  void place(const Eigen::Isometry3d& pose) {
+    const PlacedModel placed(*model.bvh, pose);
+    box = world_box(placed);
+    model.pose = pose;
+    serial = model.bvh->data().serial;
+    ++moves;
+  }
+};
+
+/// What is kept of a pair that could not be skipped.
+struct PairMemory {
+  MovingPair moving;
+  MovePair moves;  ///< of both bodies when `check` was made
+  std::optional<ToleranceCheck> check = {};
+};
+
+/// Pairs i < j that `is_near` accepts, by i, then by j: a sweep along the x axis, where the lower sides of the boxes of
+/// a pair are at most `reach(i)` apart for the one with the lower side.
+template <class Reach, class IsNear>
+std::vector<BodyPair> sweep_and_prune(const std::vector<Body>& bodies, Reach&& reach, IsNear&& is_near) {
+  std::vector<std::uint32_t> order(bodies.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto low = [&](std::uint32_t i) { return bodies[i].box.lo.x; };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return low(i) != low(j) ? low(i) < low(j) : i < j; });
+  std::vector<BodyPair> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double end = low(order[i]) + reach(bodies[order[i]].box);
+    for (std::size_t j = i + 1; j < order.size() && !(low(order[j]) > end); ++j)
+      if (is_near(bodies[order[i]].box, bodies[order[j]].box)) pairs.push_back(std::minmax(order[i], order[j]));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// What rounding may hide along the sweep: the error of any two boxes, and of the sums.
+double rounding_of(const std::vector<Body>& bodies) {
+  double largest = 0;
+  for (const Body& body : bodies) {
+    const WorldBox& box = body.box;
+    largest = std::max({largest, 4 * box.error, 0x1p-48 * std::fabs(box.lo.x), 0x1p-48 * std::fabs(box.hi.x)});
+  }
+  return largest;
+}
+
+}  // namespace
+
+struct Scene::Impl {
+  /// Boxes of trees that were refitted since.
+  void update() {
+    for (Body& body : bodies)
+      if (body.serial != body.model.bvh->data().serial) body.place(body.model.pose);
+  }
+
+  /// The memories of these pairs, kept from the last question where it had them.
+  std::vector<PairMemory*> memories_of(const std::vector<BodyPair>& pairs) {
+    std::map<BodyPair, PairMemory> kept;
+    std::vector<PairMemory*> found;
+    for (const BodyPair& pair : pairs) {
+      auto node = memories.extract(pair);
+      if (node.empty())
+        kept.emplace(pair,
+                     PairMemory{MovingPair(*bodies[pair.first].model.bvh, *bodies[pair.second].model.bvh), {}, {}});
+      else
+        kept.insert(std::move(node));
+      found.push_back(&kept.at(pair));
+    }
+    memories = std::move(kept);
+    return found;
+  }
+
+  /// Whether the answer of a pair stands.
+  [[nodiscard]] bool stands(const BodyPair& pair, const PairMemory& memory, double tolerance) const {
+    return memory.check && memory.check->tolerance == tolerance && memory.check->verdict != Verdict::Undecided &&
+           memory.moves == moves_of(pair);
+  }
+  [[nodiscard]] MovePair moves_of(const BodyPair& pair) const {
+    return {bodies[pair.first].moves, bodies[pair.second].moves};
+  }
+
+  std::vector<Body> bodies;
+  std::map<BodyPair, PairMemory> memories;
+};
+
+Scene::Scene() : impl_(std::make_unique<Impl>()) {}
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+std::uint32_t Scene::add(const Bvh& model, const Eigen::Isometry3d& pose) {
+  Body body{model, 0, {}};
+  body.place(pose);
+  impl_->bodies.push_back(body);
+  return size() - 1;
+}
+
+void Scene::move(std::uint32_t body, const Eigen::Isometry3d& pose) {
+  if (body >= size())
+    throw InvalidInput("the scene has " + std::to_string(size()) + " bodies; there is none with number " +
+                       std::to_string(body));
+  impl_->bodies[body].place(pose);
+}
+
+std::uint32_t Scene::size() const { return static_cast<std::uint32_t>(impl_->bodies.size()); }
+
+const PlacedModel& Scene::model(std::uint32_t body) const { return impl_->bodies.at(body).model; }
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> Scene::pairs_near(double margin) const {
+  if (!(margin >= 0)) throw InvalidInput("the margin must be a length of 0 or more");
+  impl_->update();
+  const double rounding = rounding_of(impl_->bodies);
+  return sweep_and_prune(
+      impl_->bodies, [&](const WorldBox& box) { return (box.hi.x - box.lo.x) + margin + rounding; },
+      [&](const WorldBox& a, const WorldBox& b) { return may_be_near(a, b, margin); });
+}
+
+SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& options) {
+  if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
+  impl_->update();
+  const double rounding = rounding_of(impl_->bodies);
+  const std::vector<BodyPair> pairs = sweep_and_prune(
+      impl_->bodies, [&](const WorldBox&) { return tolerance + rounding; },
+      [&](const WorldBox& a, const WorldBox& b) { return !(distance_at_least(a, b) > tolerance); });
+  const std::vector<PairMemory*> memories = impl_->memories_of(pairs);
+  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
+
+  SceneCheck result;
+  for (const BodyPair& pair : pairs) result.pairs.push_back({pair.first, pair.second, {}});
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!impl_->stands(pairs[i], *memories[i], tolerance)) open.push_back(i);
+  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
+    for_each_task(open.size(), [&](std::size_t k) {
+      const std::size_t i = open[k];
+      DistanceOptions own = options;
+      own.threads = 1;
+      own.progress = nullptr;
+      own.budget.seconds = stop.seconds_left();
+      PairMemory& memory = *memories[i];
+      memory.check.reset();
+      memory.check =
+          memory.moving.check_tolerance(model(pairs[i].first).pose, model(pairs[i].second).pose, tolerance, own);
+      memory.moves = impl_->moves_of(pairs[i]);
+    });
+  });
+  for (std::size_t i = 0; i < pairs.size(); ++i) result.pairs[i].check = *memories[i]->check;
+  const std::uint64_t n = size();
+  result.stats.pairs = n > 0 ? n * (n - 1) / 2 : 0;
+  result.stats.skipped_by_boxes = result.stats.pairs - pairs.size();
+  result.stats.unmoved = pairs.size() - open.size();
+  result.stats.searched = open.size();
+  for (const std::size_t i : open)
+    for (const OneSidedDistance* side : {&result.pairs[i].check.a_to_b, &result.pairs[i].check.b_to_a})
+      result.stats.closest_point_queries += side->stats.closest_point_queries;
+  return result;
+}
+
+}  // namespace meshbound

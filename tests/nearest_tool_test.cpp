@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// hausdorff_distance --nearest by its command line: ranks against the known answer, its document against the schema.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "datasets/analytic_meshes.h"
+#include "json_claims.h"
+#include "meshbound/distance.h"
+#include "meshbound/io.h"
+#include "meshbound/transform.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using nlohmann::json;
+using namespace testing_tools;
+namespace fs = std::filesystem;
+
+/// A folder of boxes, each at another scale; the query is a box of 4 x 2 x 1.
+class NearestTool : public testing::Test {
+ protected:
+  NearestTool() {
+    fs::create_directories(shapes_ + "/below");
+    write_mesh(query_, box({4, 2, 1}));
+    write(box({8, 4, 2}), shapes_ + "/twice.off");
+    write(box({4.4, 2, 1}), shapes_ + "/below/longer.PLY");
+    write(box({4, 4, 1}), shapes_ + "/wider.stl");
+    write(box({1, 2, 4}), shapes_ + "/turned.obj");
+    std::ofstream(shapes_ + "/notes.txt") << "no mesh\n";
+  }
+  static TriangleMesh box(const Eigen::Vector3d& size) { return datasets::box(size, {4, 4, 4}); }
+  static void write(const TriangleMesh& mesh, const std::string& path) { write_mesh(path, mesh); }
+  ToolRun run(std::vector<std::string> options) {
+    options.insert(options.begin(), {query_, "--nearest", shapes_});
+    return run_tool(HAUSDORFF_DISTANCE, options);
+  }
+  json document(std::vector<std::string> options) {
+    options.insert(options.end(), {"--json", "-"});
+    const ToolRun result = run(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return checked_document(result.out);
+  }
+  static void expect_refused(const ToolRun& result, const std::string& why) {
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(line_count(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+
+  TemporaryFolder folder_;
+  std::string query_ = folder_ / "query.off";
+  std::string shapes_ = folder_ / "shapes";
+};
+
+TEST_F(NearestTool, RanksWhateverTheScale) {
+  const json found = document({"--count", "3"});
+  EXPECT_EQ(found["candidates"], 4);
+  ASSERT_EQ(found["nearest"].size(), 3u);
+  EXPECT_EQ(found["nearest"][0]["path"], shapes_ + "/twice.off");
+  EXPECT_LE(found["nearest"][0]["distance"]["upper"].get<double>(), 1e-3);
+  EXPECT_EQ(found["nearest"][1]["path"], shapes_ + "/below/longer.PLY");
+  EXPECT_EQ(found["nearest"][2]["path"], shapes_ + "/wider.stl");
+}
+
+TEST_F(NearestTool, FindsWhatIsTurnedWhenAskedAndSaysHow) {
+  const json found = document({"--align", "--count", "2"});
+  EXPECT_EQ(found["stats"]["alignments"], 16);
+  for (const json& shape : found["nearest"]) {
+    EXPECT_LE(shape["distance"]["upper"].get<double>(), 1e-3) << shape;
+    // The map takes the mesh of the file onto that of the query.
+    Eigen::Affine3d map;
+    for (int i = 0; i < 16; ++i) map.matrix()(i / 4, i % 4) = shape["map_to_query"][static_cast<std::size_t>(i)];
+    const TriangleMesh mesh = transformed(read_mesh(shape["path"].get<std::string>()).mesh, map).mesh;
+    EXPECT_LE(hausdorff_distance(mesh, read_mesh(query_).mesh).bounds.upper, 1e-2);
+  }
+}
+
+TEST_F(NearestTool, PrintsTheRanks) {
+  const ToolRun result = run({"--count", "2"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("verdict     done"), std::string::npos) << result.out;
+  EXPECT_LT(result.out.find("twice.off"), result.out.find("longer.PLY")) << result.out;
+}
+
+TEST_F(NearestTool, CountsWhatItCannotReadAndLeavesTheQueryOut) {
+  std::ofstream(shapes_ + "/broken.off") << "OFF\n1 1 0\n0 0 0\n3 0 1 2\n";
+  fs::copy_file(query_, shapes_ + "/copy.off");
+  query_ = shapes_ + "/copy.off";
+  const json found = document({});
+  EXPECT_EQ(found["candidates"], 4);
+  ASSERT_EQ(found["unreadable"].size(), 1u);
+  EXPECT_EQ(found["unreadable"][0]["path"], shapes_ + "/broken.off");
+  EXPECT_EQ(found["nearest"][0]["path"], shapes_ + "/twice.off");
+}
+
+TEST_F(NearestTool, RefusesBadUsageInOneLine) {
+  expect_refused(run({"--tolerance", "1"}), "--nearest goes with");
+  expect_refused(run({"--count", "0"}), "--count");
+  expect_refused(run({"--error-bound", "1%"}), "in units of normalised shapes");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_}), "B is missing");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, query_, "--nearest", shapes_}), "takes the place of B");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, "--nearest", query_}), "is no folder");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, query_, "--align"}), "--align");
+  fs::create_directories(folder_ / "empty");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, "--nearest", folder_ / "empty"}), "there is no OFF");
+}
+
+}  // namespace
+}  // namespace meshbound

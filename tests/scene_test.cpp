@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// A scene gives the answers of all pairs by themselves, and says which of them it did not have to look for.
+#include "meshbound/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/error.h"
+#include "scene/world_box.h"
+
+namespace {
+
+using namespace meshbound;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d translated(const Vector3d& by) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = by;
+  return pose;
+}
+
+class Random {
+ public:
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  Vector3d offset(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  Isometry3d pose(double size, double angle) {
+    Isometry3d pose = translated(offset(size));
+    pose.rotate(Eigen::AngleAxisd(uniform(-angle, angle), offset(1).normalized()));
+    return pose;
+  }
+
+ private:
+  std::mt19937 engine_{11};
+};
+
+DistanceOptions with_threads(int threads) {
+  DistanceOptions options;
+  options.threads = threads;
+  return options;
+}
+
+/// The verdict of each pair by itself against the scene's, for which a pair that is not listed exceeds.
+void expect_what_pairs_say(Scene& scene, double tolerance) {
+  const SceneCheck check = scene.check_tolerance(tolerance, with_threads(2));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Verdict> listed;
+  for (const ScenePair& pair : check.pairs) listed[{pair.a, pair.b}] = pair.check.verdict;
+  EXPECT_EQ(check.stats.skipped_by_boxes + check.stats.unmoved + check.stats.searched, check.stats.pairs);
+  for (std::uint32_t a = 0; a < scene.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < scene.size(); ++b) {
+      const Verdict truth = check_tolerance(scene.model(a), scene.model(b), tolerance).verdict;
+      const auto found = listed.find({a, b});
+      EXPECT_EQ(found == listed.end() ? Verdict::Exceeds : found->second, truth) << a << ' ' << b;
+    }
+  }
+}
+
+class ManyTori : public testing::Test {
+ protected:
+  ManyTori() {
+    for (int i = 0; i < 24; ++i) scene_.add(torus_, random_.pose(0.5, 0.3));
+  }
+  Random random_;
+  const Bvh torus_{datasets::torus(0.35, 0.15, 24, 12)};
+  Scene scene_;
+};
+
+TEST_F(ManyTori, AreAnsweredAsEachPairIs) {
+  for (int step = 0; step < 5; ++step) {
+    expect_what_pairs_say(scene_, 0.3);
+    for (std::uint32_t body = 0; body < scene_.size(); body += 2) {
+      Isometry3d pose = scene_.model(body).pose;
+      pose.translation() += random_.offset(0.02);
+      scene_.move(body, pose);
+    }
+  }
+}
+
+TEST_F(ManyTori, SearchOnlyPairsThatHaveMovedAndCanBeNear) {
+  const SceneStats first = scene_.check_tolerance(0.3).stats;
+  EXPECT_EQ(first.pairs, 24u * 23 / 2);
+  EXPECT_GT(first.skipped_by_boxes, first.pairs / 2);
+  EXPECT_GT(first.searched, 0u);
+  EXPECT_EQ(first.unmoved, 0u);
+  const SceneStats again = scene_.check_tolerance(0.3).stats;
+  EXPECT_EQ(again.unmoved, first.searched);
+  EXPECT_EQ(again.searched, 0u);
+  EXPECT_EQ(again.closest_point_queries, 0u);
+  // Another tolerance is another question, of pairs of which something is known.
+  const SceneStats other = scene_.check_tolerance(0.31).stats;
+  EXPECT_EQ(other.unmoved, 0u);
+  EXPECT_LT(other.closest_point_queries, first.closest_point_queries);
+}
+
+TEST_F(ManyTori, GiveTheSameForAnyNumberOfThreads) {
+  Scene other;
+  for (std::uint32_t body = 0; body < scene_.size(); ++body) other.add(torus_, scene_.model(body).pose);
+  for (int step = 0; step < 3; ++step) {
+    const SceneCheck one = scene_.check_tolerance(0.3, with_threads(1));
+    const SceneCheck many = other.check_tolerance(0.3, with_threads(4));
+    ASSERT_EQ(one.pairs.size(), many.pairs.size());
+    for (std::size_t i = 0; i < one.pairs.size(); ++i) {
+      EXPECT_EQ(one.pairs[i].a, many.pairs[i].a);
+      EXPECT_EQ(one.pairs[i].b, many.pairs[i].b);
+      EXPECT_EQ(one.pairs[i].check.bounds.lower, many.pairs[i].check.bounds.lower);
+      EXPECT_EQ(one.pairs[i].check.bounds.upper, many.pairs[i].check.bounds.upper);
+    }
+    EXPECT_EQ(one.stats.closest_point_queries, many.stats.closest_point_queries);
+    const Isometry3d pose = random_.pose(0.5, 0.3);
+    scene_.move(3, pose);
+    other.move(3, pose);
+  }
+}
+
+/// Against a copy of itself moved by t, a cube is exactly |t| away.
+TEST(Scene, CubesAreWithinTheToleranceByWhichTheyAreMoved) {
+  const Bvh cube(datasets::cube(1, 4));
+  Scene scene;
+  scene.add(cube);
+  scene.add(cube, translated({0.25, 0, 0}));
+  scene.add(cube, translated({0.125, 0, 0}));
+  scene.add(cube, translated({7, 0, 0}));
+  const SceneCheck check = scene.check_tolerance(0.125);
+  ASSERT_EQ(check.pairs.size(), 2u);  // 0 and 2, 1 and 2
+  for (const ScenePair& pair : check.pairs) {
+    EXPECT_NE(pair.check.verdict, Verdict::Exceeds);
+    EXPECT_EQ(pair.b, 2u);
+  }
+  EXPECT_EQ(scene.check_tolerance(0.2).pairs.size(), 2u);
+  EXPECT_EQ(scene.check_tolerance(0.25).pairs.size(), 3u);
+  EXPECT_EQ(scene.check_tolerance(0).pairs.size(), 0u);
+}
+
+TEST(Scene, PairsWhoseBoxesTouchAreNear) {
+  const Bvh cube(datasets::cube(1, 2));
+  Scene scene;
+  for (const double x : {0.0, 1.0, 2.5, 0.5}) scene.add(cube, translated({x, 0, 0}));
+  scene.add(cube, translated({0, 1.25, 0}));
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(scene.pairs_near(), (Pairs{{0, 1}, {0, 3}, {1, 3}}));
+  EXPECT_EQ(scene.pairs_near(0.25), (Pairs{{0, 1}, {0, 3}, {0, 4}, {1, 3}, {1, 4}, {3, 4}}));
+  EXPECT_EQ(scene.pairs_near(0.5), (Pairs{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4}, {3, 4}}));
+  EXPECT_THROW((void)scene.pairs_near(-1), InvalidInput);
+}
+
+TEST(Scene, FollowsARefit) {
+  TriangleMesh mesh = datasets::cube(1, 4);
+  Bvh still(mesh), moving(mesh);
+  Scene scene;
+  scene.add(still);
+  scene.add(moving);
+  EXPECT_EQ(scene.check_tolerance(0.1).pairs.size(), 1u);
+  for (Vector3d& p : mesh.vertices) p.x() += 0.5;
+  moving.refit(mesh);
+  EXPECT_EQ(scene.check_tolerance(0.1).stats.skipped_by_boxes, 1u);
+}
+
+TEST(Scene, RefusesWhatIsNoPoseOrNoBody) {
+  const Bvh cube(datasets::cube(1, 1));
+  Scene scene;
+  scene.add(cube);
+  Isometry3d scaled = Isometry3d::Identity();
+  scaled.linear() *= 2;
+  EXPECT_THROW(scene.add(cube, scaled), InvalidInput);
+  EXPECT_THROW(scene.move(0, scaled), InvalidInput);
+  EXPECT_THROW(scene.move(1, Isometry3d::Identity()), InvalidInput);
+  EXPECT_THROW((void)scene.check_tolerance(-1), InvalidInput);
+  EXPECT_EQ(scene.size(), 1u);
+  EXPECT_TRUE(scene.model(0).pose.matrix().isIdentity(0));
+}
+
+/// The box of a turned model holds every vertex, and each side has one, up to the error that it states.
+TEST(WorldBox, TouchesTheModelOnEverySide) {
+  Random random;
+  const TriangleMesh mesh = datasets::gear(0.5, 0.3, 12, 6, 4);
+  const Bvh tree(mesh);
+  for (int i = 0; i < 50; ++i) {
+    const Isometry3d pose = random.pose(i < 25 ? 1 : 1e6, 3);
+    Eigen::AlignedBox3d truth;
+    for (const Vector3d& p : mesh.vertices) truth.extend(pose * p);
+    const WorldBox box = world_box({tree, pose});
+    const double allowed = box.error + 1e-15 * (1 + pose.translation().norm());
+    EXPECT_LT(box.error, 1e-12 * (1 + pose.translation().norm()));
+    EXPECT_NEAR(box.lo.x, truth.min().x(), allowed);
+    EXPECT_NEAR(box.lo.y, truth.min().y(), allowed);
+    EXPECT_NEAR(box.lo.z, truth.min().z(), allowed);
+    EXPECT_NEAR(box.hi.x, truth.max().x(), allowed);
+    EXPECT_NEAR(box.hi.y, truth.max().y(), allowed);
+    EXPECT_NEAR(box.hi.z, truth.max().z(), allowed);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The nearest shapes are those that measuring every candidate finds, for a fraction of its queries.
+#include "meshbound/similarity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/error.h"
+#include "meshbound/transform.h"
+
+namespace {
+
+using namespace meshbound;
+using Eigen::Vector3d;
+
+class Random {
+ public:
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  Vector3d offset(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  /// Anywhere, at any scale, and turned if asked.
+  Eigen::Affine3d similarity(bool turned) {
+    Eigen::Affine3d map = Eigen::Affine3d::Identity();
+    map.translation() = offset(100);
+    if (turned) map.rotate(Eigen::AngleAxisd(uniform(-3, 3), offset(1).normalized()));
+    map.scale(std::exp(uniform(-5, 5)));
+    return map;
+  }
+
+ private:
+  std::mt19937 engine_{5};
+};
+
+struct Family {
+  std::string name;
+  std::vector<TriangleMesh> members;  ///< the same surface at three resolutions
+};
+
+std::vector<Family> families() {
+  using namespace datasets;
+  std::vector<Family> all;
+  const auto add = [&](const std::string& name, auto&& make) { all.push_back({name, {make(1), make(2), make(3)}}); };
+  const auto n = [](int fineness, int base) { return static_cast<std::uint32_t>(fineness * base); };
+  add("torus", [&](int f) { return torus(1, 0.3, n(f, 20), n(f, 10)); });
+  add("thin torus", [&](int f) { return torus(1, 0.1, n(f, 20), n(f, 10)); });
+  add("gear", [&](int f) { return gear(1, 0.4, 12, n(f, 4), n(f, 2)); });
+  add("cube", [&](int f) { return cube(1, n(f, 4)); });
+  add("sheet", [&](int f) { return thin_sheet(1, 0.02, n(f, 10)); });
+  add("cylinder", [&](int f) { return cylinder(1, 3, n(f, 16)); });
+  add("sphere", [&](int f) { return icosphere(1, f + 1); });
+  for (int x = 1; x <= 4; ++x)
+    for (int y = 1; y <= x; ++y)
+      add("box " + std::to_string(x) + " " + std::to_string(y), [&](int f) {
+        return box(Vector3d(5, x, y), {n(f, 5), n(f, 3), n(f, 2)});
+      });
+  return all;
+}
+
+std::uint64_t queries(const HausdorffDistance& distance) {
+  return distance.a_to_b.stats.closest_point_queries + distance.b_to_a.stats.closest_point_queries;
+}
+
+/// All members of all families, each somewhere else; `family[i]` is that of shape i.
+struct Collection {
+  std::vector<Shape> shapes;
+  std::vector<std::size_t> family;
+
+  explicit Collection(bool turned) {
+    Random random;
+    const std::vector<Family> all = families();
+    for (std::size_t f = 0; f < all.size(); ++f) {
+      for (const TriangleMesh& member : all[f].members) {
+        shapes.emplace_back(transformed(member, random.similarity(turned)).mesh);
+        family.push_back(f);
+      }
+    }
+  }
+};
+
+TEST(Similarity, ShapesThatDifferInPlaceAndScaleOnlyAreAtDistanceZero) {
+  Random random;
+  const TriangleMesh gear = datasets::gear(1, 0.4, 12, 4, 2);
+  const Shape query(gear);
+  std::vector<Shape> one;
+  one.emplace_back(transformed(gear, random.similarity(false)).mesh);
+  const SimilarShapes found = nearest_shapes(query, one);
+  ASSERT_EQ(found.nearest.size(), 1u);
+  EXPECT_LE(found.nearest[0].distance.upper, 1e-3);
+  EXPECT_LE(found.nearest[0].distance.lower, 1e-9);
+  EXPECT_TRUE(found.complete);
+}
+
+/// A rod is turned by a right angle: without aligning, its ends are far from the other one; aligned, it is the same.
+TEST(Similarity, AlignsPrincipalAxesWhenAsked) {
+  const TriangleMesh rod = datasets::box(Vector3d(4, 1, 0.5), {16, 4, 2});
+  Eigen::Affine3d turn = Eigen::Affine3d::Identity();
+  turn.rotate(Eigen::AngleAxisd(std::acos(-1) / 2, Vector3d::UnitZ()));
+  const Shape query(rod);
+  std::vector<Shape> turned;
+  turned.emplace_back(transformed(rod, turn).mesh);
+  EXPECT_GT(nearest_shapes(query, turned).nearest[0].distance.lower, 0.5);
+  SimilarityOptions options;
+  options.align = true;
+  const SimilarShapes aligned = nearest_shapes(query, turned, options);
+  EXPECT_LE(aligned.nearest[0].distance.upper, 1e-3);
+  EXPECT_EQ(aligned.stats.alignments, 4u);
+}
+
+TEST(Similarity, ScaleIsThatOfTheSurfaceNotOfItsTriangles) {
+  const Shape coarse(datasets::torus(1, 0.3, 40, 20)), fine(datasets::torus(1, 0.3, 160, 80));
+  EXPECT_NEAR(coarse.normalisation().linear()(0, 0), fine.normalisation().linear()(0, 0), 0.01);
+  EXPECT_NEAR(coarse.normalisation().linear()(0, 0), 1 / std::sqrt(1 + 2 * 0.09), 0.01);
+}
+
+class FindsTheFamily : public testing::TestWithParam<bool> {};
+
+/// The two other members of the query's family come first, with the distances that measuring all finds, for a tenth of
+/// the queries of measuring all.
+TEST_P(FindsTheFamily, FirstAndWithATenthOfTheQueries) {
+  const bool turned = GetParam();
+  const Collection all(turned);
+  SimilarityOptions options;
+  options.count = 3;
+  options.align = turned;
+  double searched = 0, measured = 0;
+  for (std::size_t q = 0; q < all.shapes.size(); q += 3) {
+    SCOPED_TRACE(q);
+    const Shape& query = all.shapes[q];
+    const SimilarShapes found = nearest_shapes(query, all.shapes, options);
+    ASSERT_EQ(found.nearest.size(), 3u);
+    // Axes are well defined only where all three extents differ.
+    const std::string name = families()[all.family[q]].name;
+    const bool has_axes = name.find("box") == 0 && name[4] != name[6];
+    for (const SimilarShape& shape : found.nearest)
+      if (!turned || has_axes) {
+        EXPECT_EQ(all.family[shape.index], all.family[q]) << name;
+      }
+    EXPECT_EQ(found.nearest[0].index, q);
+    EXPECT_LE(found.nearest[0].distance.lower, 1e-9);
+    searched += static_cast<double>(found.stats.closest_point_queries);
+    if (turned) continue;
+    DistanceOptions to_the_end;
+    to_the_end.error_bound = options.error_bound;
+    double nearest_of_the_rest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < all.shapes.size(); ++i) {
+      const HausdorffDistance distance = hausdorff_distance(query.tree(), all.shapes[i].tree(), to_the_end);
+      measured += static_cast<double>(queries(distance));
+      const auto listed = std::find_if(found.nearest.begin(), found.nearest.end(),
+                                       [&](const SimilarShape& shape) { return shape.index == i; });
+      if (listed == found.nearest.end()) {
+        nearest_of_the_rest = std::min(nearest_of_the_rest, distance.bounds.upper);
+        continue;
+      }
+      EXPECT_LE(listed->distance.lower, distance.bounds.upper);
+      EXPECT_GE(listed->distance.upper, distance.bounds.lower);
+    }
+    EXPECT_GE(nearest_of_the_rest, found.nearest.back().distance.lower - options.error_bound);
+  }
+  if (!turned) {
+    EXPECT_LE(searched, measured / 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Similarity, FindsTheFamily, testing::Bool(),
+                         [](const auto& turned) { return turned.param ? "aligned" : "as_they_lie"; });
+
+TEST(Similarity, IsTheSameForAnyNumberOfThreads) {
+  const Collection all(true);
+  SimilarityOptions one, many;
+  one.align = many.align = true;
+  one.count = many.count = 4;
+  one.distance.threads = 1;
+  many.distance.threads = 3;
+  const SimilarShapes a = nearest_shapes(all.shapes[8], all.shapes, one);
+  const SimilarShapes b = nearest_shapes(all.shapes[8], all.shapes, many);
+  ASSERT_EQ(a.nearest.size(), b.nearest.size());
+  for (std::size_t i = 0; i < a.nearest.size(); ++i) {
+    EXPECT_EQ(a.nearest[i].index, b.nearest[i].index);
+    EXPECT_EQ(a.nearest[i].distance.lower, b.nearest[i].distance.lower);
+    EXPECT_EQ(a.nearest[i].distance.upper, b.nearest[i].distance.upper);
+  }
+  EXPECT_EQ(a.stats.closest_point_queries, b.stats.closest_point_queries);
+}
+
+TEST(Similarity, EveryAlignmentIsAccountedFor) {
+  const Collection all(false);
+  const SimilarityStats stats = nearest_shapes(all.shapes[0], all.shapes).stats;
+  EXPECT_EQ(stats.alignments, all.shapes.size());
+  EXPECT_EQ(stats.ended_by_extents + stats.ended_by_samples + stats.ended_by_decision + stats.measured,
+            stats.alignments);
+  EXPECT_GT(stats.ended_by_extents, stats.alignments / 2);
+}
+
+TEST(Similarity, RefusesWhatHasNoShape) {
+  TriangleMesh point;
+  point.vertices.assign(3, Vector3d(1, 2, 3));
+  point.triangles = {{0, 1, 2}};
+  EXPECT_THROW(Shape{point}, InvalidInput);
+  const Shape cube(datasets::cube(1, 1));
+  SimilarityOptions none;
+  none.count = 0;
+  EXPECT_THROW((void)nearest_shapes(cube, {}, none), InvalidInput);
+  TriangleMesh segment = point;
+  segment.vertices[1].x() = 4;
+  segment.vertices[2].x() = 2;
+  EXPECT_NO_THROW(Shape{segment});
+}
+
+}  // namespace
