@@ -26,3 +26,4 @@
 #include "meshbound/stop_token.h"
 #include "meshbound/transform.h"
 #include "meshbound/triangle_mesh.h"
+#include "meshbound/view_levels.h"

@@ -78,11 +78,11 @@ struct SimilarShapes {
 };
 
 /// Ranks candidates by H(query, candidate). Best first: the candidate with the smallest lower bound so far is looked at
-/// more closely, and the search ends when that bound exceeds the upper bounds of as many shapes as are wanted. Lower
-/// bounds come from the extents along the axes, then from a few closest points, then from a decision against the best
-/// upper bound (Seidl and Kriegel, "Optimal multi-step k-nearest neighbor search", SIGMOD 1998). Throws `InvalidInput`
-/// for a count of 0 and for an error bound that is no length. The same for any number of threads, but for a budget of
-/// time. Trees of candidates are built only for those that the extents leave open.
+/// more closely, and the search ends when that bound exceeds the upper bounds of as many shapes as are wanted, less the
+/// error bound. Lower bounds come from the extents along the axes, then from a few closest points, then from a decision
+/// against the best upper bound (Seidl and Kriegel, "Optimal multi-step k-nearest neighbor search", SIGMOD 1998).
+/// Throws `InvalidInput` for a count of 0 and for an error bound that is no length. The same for any number of threads,
+/// but for a budget of time. Trees of candidates are built only for those that the extents leave open.
 [[nodiscard]] SimilarShapes nearest_shapes(const Shape& query, std::span<const Shape> candidates,
                                            const SimilarityOptions& options = {});
 

@@ -41,7 +41,7 @@ class ShapeSearch {
       for (std::uint32_t way = 0; way < (options_.align ? 4U : 1U); ++way)
         trials_.push({by_extents(i, way), ShapeTrial::Stage::Extents, i, way});
     stats().alignments = trials_.size();
-    while (!trials_.empty() && !(trials_.top().lower > wanted_upper_)) {
+    while (!trials_.empty() && !(trials_.top().lower > limit_)) {
       if (stop_.stopped()) {
         result_.complete = false;
         break;
@@ -98,7 +98,7 @@ class ShapeSearch {
     constexpr std::size_t samples = 8;
     const Bvh::Data& data = from.data();
     const std::size_t count = std::min(samples, data.vertices.size());
-    for (std::size_t i = 0; i < count && !(lower > wanted_upper_); ++i) {
+    for (std::size_t i = 0; i < count && !(lower > limit_); ++i) {
       const Vec3 p = data.frame.to_model(data.vertices[i * data.vertices.size() / count]);
       const Eigen::Vector3d query = pose * Eigen::Vector3d(p.x, p.y, p.z);
       lower = std::max(lower, closest_point(to, query).distance.lower - rounding(query.norm()));
@@ -121,8 +121,8 @@ class ShapeSearch {
     options.error_bound = options_.error_bound;
     options.progress = nullptr;
     options.budget.seconds = stop_.seconds_left();
-    if (std::isfinite(wanted_upper_)) {
-      const ToleranceCheck check = pair.check_tolerance(identity, pose, wanted_upper_, options);
+    if (std::isfinite(limit_)) {
+      const ToleranceCheck check = pair.check_tolerance(identity, pose, limit_, options);
       count(check.a_to_b);
       count(check.b_to_a);
       if (check.verdict == Verdict::Exceeds) {
@@ -151,7 +151,8 @@ class ShapeSearch {
     else if (nearer(shape, *same))
       *same = shape;
     std::sort(nearest.begin(), nearest.end(), nearer);
-    if (nearest.size() >= options_.count) wanted_upper_ = nearest[options_.count - 1].distance.upper;
+    if (nearest.size() >= options_.count)
+      limit_ = std::max(0.0, nearest[options_.count - 1].distance.upper - options_.error_bound);
   }
 
   void count(const OneSidedDistance& side) { stats().closest_point_queries += side.stats.closest_point_queries; }
@@ -161,8 +162,10 @@ class ShapeSearch {
   std::span<const Shape> candidates_;
   const SimilarityOptions& options_;
   StopToken stop_;
-  std::priority_queue<ShapeTrial> trials_;                         ///< the smallest lower bound first
-  double wanted_upper_ = std::numeric_limits<double>::infinity();  ///< of the last one wanted, once there are so many
+  std::priority_queue<ShapeTrial> trials_;  ///< the smallest lower bound first
+  /// Once there are as many shapes as are wanted: what is further than this cannot be nearer than the last of them by
+  /// more than the error bound.
+  double limit_ = std::numeric_limits<double>::infinity();
   SimilarShapes result_;
 };
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "meshbound/error.h"
+#include "meshbound/view_levels.h"
+
+namespace meshbound {
+namespace {
+
+/// Relative room for the rounding of depths, angles and tolerances, which are computed in a few operations of doubles.
+constexpr double rounding = 0x1p-40;
+
+/// Cosine of the angle from the view axis to the corners of the screen. At depth z and angle a a displacement d covers
+/// up to f d / (z cos a) pixels, f d / z being what it covers parallel to the screen on the axis.
+double cosine_to_corner(const ViewCamera& camera) {
+  const double up = std::tan(camera.screen.vertical_field_of_view / 2), right = up * camera.aspect_ratio;
+  return 1 / std::hypot(1.0, up, right);
+}
+
+}  // namespace
+
+double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::AlignedBox3d& box,
+                      const Eigen::Affine3d& pose) {
+  const double length = camera.direction.norm();
+  if (!(length > 0) || !std::isfinite(length)) throw InvalidInput("the direction of a camera must have a length");
+  if (!(camera.aspect_ratio > 0) || !std::isfinite(camera.aspect_ratio))
+    throw InvalidInput("the aspect ratio of a camera must be positive");
+  const double at_one = screen_space_tolerance(camera.screen, pixels, 1) * cosine_to_corner(camera);
+  double nearest = std::numeric_limits<double>::infinity(), furthest = -nearest, size = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p = pose * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - camera.position;
+    const double depth = p.dot(camera.direction) / length;
+    nearest = std::min(nearest, depth);
+    furthest = std::max(furthest, depth);
+    size = std::max(size, p.cwiseAbs().sum() + pose.translation().cwiseAbs().sum() + camera.position.cwiseAbs().sum());
+  }
+  if (furthest < -rounding * size) return std::numeric_limits<double>::infinity();
+  // A point that a deviation t brings nearer has a depth of at least nearest - t: t <= (nearest - t) at_one.
+  return std::max(0.0, (nearest - rounding * size) * (at_one / (1 + at_one)) * (1 - rounding));
+}
+
+}  // namespace meshbound
