@@ -123,7 +123,7 @@ TEST_F(Tori, EachGetsTheCoarsestLevelWhoseErrorIsSmallEnoughAndNoOtherIsMade) {
   EXPECT_LT(choice.triangles, choice.full_triangles / 2);
   EXPECT_EQ(levels.levels_computed, made_);
   EXPECT_EQ(levels.levels_computed + 1, levels.models[0].size());
-  EXPECT_LE(levels.levels_computed, 4u);
+  EXPECT_LE(levels.levels_computed, 5u);
   EXPECT_EQ(levels.levels_computed + levels.levels_skipped, 12u);
 }
 
@@ -141,7 +141,7 @@ TEST_F(Tori, ErrorsGrowAndTrianglesDoNot) {
 }
 
 TEST_F(Tori, NothingIsMadeWhereEveryInstanceIsNearOrHidden) {
-  const ViewLevels levels = choose({{0, at({0, 0, -0.5}), {}}, {0, at({0, 0, 90}), {}}});
+  const ViewLevels levels = choose({{0, at({0, 0, -0.35}), {}}, {0, at({0, 0, 90}), {}}});
   EXPECT_EQ(made_, 0u);
   EXPECT_EQ(levels.levels_computed, 0u);
   EXPECT_EQ(levels.cameras[0].level[0], 0u);
@@ -155,7 +155,7 @@ TEST_F(Tori, ALargerInstanceNeedsAFinerLevel) {
 
 TEST_F(Tori, TheErrorOfAGroupIsThatOfItsWorstPart) {
   const ViewLevels levels = choose(
-      {{0, at({0, 0, -20}), 1}, {0, at({5, 0, -400}, 2), 1}, {0, at({0, 0, -0.5}), 0}, {0, at({0, 0, -900}), {}}});
+      {{0, at({0, 0, -20}), 1}, {0, at({5, 0, -400}, 2), 1}, {0, at({0, 0, -0.35}), 0}, {0, at({0, 0, -900}), {}}});
   ASSERT_EQ(levels.group_errors[0].size(), 2u);
   EXPECT_EQ(levels.group_errors[0][0], 0);
   const ViewChoice& choice = levels.cameras[0];
