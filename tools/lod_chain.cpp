@@ -19,23 +19,27 @@
 #include "decimation/decimation_run.h"
 #include "levels/level_run.h"
 #include "meshbound/error.h"
+#include "view/view_run.h"
 
 namespace meshbound::tools {
 namespace {
 
 struct Options : DecimationOptions {
-  std::string folder, format = "ply";
+  std::string folder, format = "ply", scene;
   std::vector<std::string> levels, distances;
   std::vector<double> pixels;
   std::optional<double> screen_height, fov;
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("IN", options.input, "Mesh to make levels of: OFF, OBJ, PLY or STL")->required();
+  app.add_option("IN", options.input, "Mesh to make levels of: OFF, OBJ, PLY or STL; with --scene leave it out")
+      ->required();
   app.add_option("DIR", options.folder,
                  "Folder for lod_0 (the finest), lod_1, ... and chain.json; made when it is not there. Levels of an "
-                 "earlier run in it that are not written again are removed")
-      ->required();
+                 "earlier run in it that are not written again are removed");
+  app.add_option("--scene", options.scene,
+                 "Instead of IN: a scene of instances and cameras (JSON); makes the levels that they need, and "
+                 "view.json, which says who uses which");
   app.add_option("--levels", options.levels, "Tolerances: model units, or 0.1% of the bounding-box diagonal: T1,T2,...")
       ->delimiter(',');
   app.add_option("--pixels", options.pixels,
@@ -60,6 +64,16 @@ constexpr double default_fov = 60;              // degrees
 
 /// Fields of view below this, in degrees, are those of telescopes; an angle in radians is never above it.
 constexpr double smallest_usual_fov = 5;
+
+/// `lod_chain --scene FILE DIR`.
+int run_scene(const Options& options) {
+  if (!options.folder.empty()) throw InvalidInput("--scene names the models; leave IN out and give DIR alone");
+  if (!options.levels.empty() || !options.pixels.empty() || !options.distances.empty() || options.screen_height ||
+      options.fov)
+    throw InvalidInput(
+        "--scene gives pixels, screen and cameras; leave out --levels, --pixels and what belongs to them");
+  return run_view(options, options.scene, options.input, options.format);
+}
 
 /// One run of the tool, in the order of its phases.
 class Run : DecimationRun {
@@ -115,6 +129,7 @@ int Run::operator()() {
 }
 
 void Run::check_usage() const {
+  if (options_.folder.empty()) throw InvalidInput("DIR is required: the folder for the levels (see --help)");
   const bool has_view =
       !options_.pixels.empty() || !options_.distances.empty() || options_.screen_height || options_.fov;
   if (options_.levels.empty() && !has_view)
@@ -293,5 +308,7 @@ int main(int argc, char** argv) {
   CLI::App app("Makes levels of detail of a triangle mesh and proves how far each is from the original.", "lod_chain");
   meshbound::tools::Options options;
   meshbound::tools::declare(app, options);
-  return meshbound::tools::tool_main(app, argc, argv, [&] { return meshbound::tools::Run(options)(); });
+  return meshbound::tools::tool_main(app, argc, argv, [&] {
+    return options.scene.empty() ? meshbound::tools::Run(options)() : meshbound::tools::run_scene(options);
+  });
 }

@@ -10,6 +10,7 @@ namespace {
 Bounds measure(const Bvh& a, const Bvh& b, const OurTask& task) {
   DistanceOptions options;
   options.threads = task.threads;
+  options.method = task.method;
   if (task.tolerance >= 0) return check_tolerance(a, b, task.tolerance, options).bounds;
   options.error_bound = task.error_bound;
   if (task.one_sided) return one_sided_hausdorff_distance(a, b, options).bounds;

@@ -3,6 +3,7 @@
 #include "child_process.h"
 #include "measure.h"
 #include "meshbound/bounds.h"
+#include "meshbound/distance.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound::bench {
@@ -24,6 +25,7 @@ struct OurTask {
   int threads = 1;
   double limit = 120;  ///< seconds of processor time
   bool one_sided = false;
+  Method method = Method::CellWalking;
 };
 
 /// In a child process of its own.

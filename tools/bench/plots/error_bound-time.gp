@@ -13,7 +13,7 @@ set xrange [1e-9:1e-1]
 set multiplot layout 1,3
 do for [pair in "'bunny / its 50%' 'fandisk / its 50%' 'bunny / its subdivision'"] {
   set title pair
-  plot for [method in "'ours' 'CGAL bounded' 'CGAL sampled'"] 'error_bound.csv' \
+  plot for [method in "'ours' 'cross-culling' 'CGAL bounded' 'CGAL sampled'"] 'error_bound.csv' \
     using ((strcol(1) eq pair && strcol(2) eq method) ? column(3) : NaN):4 with linespoints title method
 }
 unset multiplot
