@@ -182,6 +182,60 @@ TEST(PenetrationDepth, TouchingSharesNoContent) {
   }
 }
 
+/// Sides that lie in one plane bound the volume on both models: neither has to reach across to the far end of it.
+TEST(PenetrationDepth, FlushFacesCountToBothModels) {
+  for (const double sign : {1.0, -1.0}) {
+    for (const double shift : {0.125, 0.5, 0.75}) {
+      const TriangleMesh other = moved(unit, {sign * shift, 0, 0});
+      // On A the face that B covers: its middle is half from the sides, or 1 - shift from the face of B.
+      const double depth = std::min(0.5, 1 - shift);
+      expect_volume(penetration_depth(unit, other), depth, 1 - shift);
+      expect_volume(penetration_depth(other, unit), depth, 1 - shift);
+    }
+  }
+}
+
+TEST(PenetrationDepth, OfAModelAndItself) {
+  const PenetrationDepth equal = penetration_depth(unit, subdivided(unit));
+  expect_volume(equal, 0, 1);
+  EXPECT_EQ(equal.volumes[0].faces_on_a, 12U);
+  EXPECT_EQ(equal.volumes[0].faces_on_b, 48U);
+}
+
+/// A box that stands on the inside of a face: A's part is where it stands, whichever face that is.
+TEST(PenetrationDepth, ABoxOnTheInsideOfAFace) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool top : {false, true}) {
+      Vector3d low(0.375, 0.375, 0.375), high(0.625, 0.625, 0.625);
+      (top ? high : low)[axis] = top ? 1 : 0;
+      const TriangleMesh inner = box(low, high);
+      for (const bool is_swapped : {false, true}) {
+        const PenetrationDepth result = is_swapped ? penetration_depth(inner, unit) : penetration_depth(unit, inner);
+        expect_volume(result, 0.625, 0.25 * 0.25 * 0.625);
+        EXPECT_EQ(result.volumes[0].overlap, Overlap::Crossing);
+        EXPECT_EQ(is_swapped ? result.volumes[0].faces_on_a : result.volumes[0].faces_on_b, 12U);
+        EXPECT_LE(is_swapped ? result.volumes[0].faces_on_b : result.volumes[0].faces_on_a, 2U);
+      }
+    }
+  }
+}
+
+/// A flush face within a triangle that has several pieces inside: only the piece around it gets it.
+TEST(PenetrationDepth, AFlushFaceAmongSeveralPieces) {
+  // Two pegs end in the face z = 1 of A, from below and from above, and a third goes through it.
+  const TriangleMesh pegs =
+      both(both(box({0.125, 0.25, 0.5}, {0.25, 0.375, 1}), box({0.375, 0.5, 0.5}, {0.5, 0.625, 2})),
+           box({0.125, 0.5, 0.75}, {0.25, 0.875, 2}));
+  for (const double height : {0.0, -2.0}) {
+    const TriangleMesh a = box({0, 0, height}, {1, 1, 1});
+    const PenetrationDepth result = penetration_depth(a, pegs);
+    ASSERT_EQ(result.volumes.size(), 3U);
+    expect_holds(result.volumes[0].depth, 0.5, 4e-6);
+    expect_holds(result.volumes[1].depth, 0.5, 4e-6);
+    expect_holds(result.volumes[2].depth, 0.25, 4e-6);
+  }
+}
+
 TEST(PenetrationDepth, ATouchOfOneRoundingIsMeasured) {
   // The smallest overlap that doubles can express beside 1.
   const double thin = 0x1p-53;

@@ -308,5 +308,14 @@ TEST(Property, RandomBytesHoldWhatTheFuzzersCheck) {
   });
 }
 
+TEST(Property, RandomPolyhedraPenetrateAsInRationalArithmetic) {
+  for_all(300, [](std::uint32_t seed) {
+    Random random(seed);
+    std::vector<std::uint8_t> bytes(64);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
+    EXPECT_NO_THROW(fuzz::check_penetration(bytes));
+  });
+}
+
 }  // namespace
 }  // namespace meshbound

@@ -124,17 +124,17 @@ struct PenetrationDepth {
 ///
 /// Which triangles cross, where and in which order is decided exactly, for the images of the vertices under the poses
 /// in real arithmetic. What touches without crossing is decided as if A was moved by an infinitesimal vector; volumes
-/// without content that come of it are left out, so models that only touch have none. A face where both
-/// models lie in one plane counts to one of V_A and V_B, decided likewise. Where
-/// a component of one model lies inside the other, V has no part of the other boundary; its component that is next
-/// around V stands for it (`Overlap`).
+/// without content that come of it are left out, so models that only touch have none. Where faces of both models lie in
+/// one plane, their normals on the same side, what they have in common bounds V on both models and counts to V_A and to
+/// V_B. Where a component of one model lies inside the other, V has no part of the other boundary; its component that
+/// is next around V stands for it (`Overlap`).
 ///
 /// Deterministic for any number of threads, but for a budget of time and `cancel`. Throws `InvalidInput` for lengths
 /// that are negative or not a number and for poses that are not rigid motions; `Interrupted` when it is cancelled
 /// before the volumes are known. Any number of threads may call it, also with the same models; each keeps scratch
 /// memory for its next call. Time: about the triangles near the intersection curves and inside the other model, not
-/// those of the models, plus that of `hausdorff_distance` of the parts; a pair that is far apart takes less than a
-/// microsecond.
+/// those of the models, plus that of `hausdorff_distance` of the parts; a pair that is far apart costs the
+/// comparison of two tree nodes.
 [[nodiscard]] PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClosedModel& b,
                                                  const PenetrationOptions& options = {});
 

@@ -89,7 +89,7 @@ void set_position(PlacedPair& pair, double max_error, CurveNode& node) {
   if (node.error <= max_error) return;
   const ExactNode exact = exact_position(pair, node);
   node.position = pair.to_local(exact.numerator, exact.denominator);
-  node.error = 8 * unit_roundoff;  // 3 in the last place of coordinates of magnitude 1 at most
+  node.error = rounded_error;
 }
 
 bool comes_before(PlacedPair& pair, const CurveNode& a, const CurveNode& b) {

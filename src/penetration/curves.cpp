@@ -22,6 +22,8 @@ bool straddles(PlacedPair& pair, std::uint32_t side, const Triangle& plane, cons
 void CrossingCurves::find(PlacedPair& pair, double node_error) {
   nodes.clear();
   segments.clear();
+  flush_pairs.clear();
+  flush_corners.clear();
   node_at_.clear();
   counters = {};
   visit_triangle_pairs(pair, false, stack_, counters, [&](std::uint32_t s, std::uint32_t t) {
@@ -38,7 +40,11 @@ void CrossingCurves::find(PlacedPair& pair, double node_error) {
 void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
   const std::array<Triangle, 2> corners{pair.model(0).triangles[s], pair.model(1).triangles[t]};
   std::array<std::array<int, 3>, 2> signs;  // by side: of its corners against the plane of the other
-  if (!straddles(pair, 1, corners[1], corners[0], signs[0])) return;
+  const std::uint64_t perturbed = pair.perturbed_decisions();
+  if (!straddles(pair, 1, corners[1], corners[0], signs[0])) {
+    if (pair.perturbed_decisions() == perturbed + 3) note_if_flush(pair, s, t);
+    return;
+  }
   if (!straddles(pair, 0, corners[0], corners[1], signs[1])) return;
   CurveSegment segment{{s, t}, {no_index, no_index}};
   for (std::uint32_t side = 0; side < 2; ++side) {
@@ -59,6 +65,16 @@ void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
   if (segment.ends[0] == no_index || segment.ends[1] == no_index)
     throw std::logic_error("two triangles cross in a segment with one end");
   segments.push_back(segment);
+}
+
+/// For triangles in one plane.
+void CrossingCurves::note_if_flush(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
+  const auto normal = [&pair](std::uint32_t side, const Triangle& corners) {
+    const ExactPoint& p = pair.exact({side, corners[0]});
+    return meshbound::cross(pair.exact({side, corners[1]}) - p, pair.exact({side, corners[2]}) - p);
+  };
+  if (sgn(dot(normal(0, pair.model(0).triangles[s]), normal(1, pair.model(1).triangles[t]))) > 0)
+    flush_pairs.push_back({s, t});
 }
 
 std::uint32_t CrossingCurves::node(std::uint32_t side, std::uint32_t edge, std::uint32_t triangle, bool leaves) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "numeric/no_index.h"
+#include "numeric/rounding.h"
 #include "penetration/contact.h"
 #include "penetration/placed_pair.h"
 
@@ -41,6 +42,22 @@ struct CurveSegment {
   [[nodiscard]] std::uint32_t end(std::uint32_t side) const { return ends[1 - side]; }
 };
 
+/// The exact position of a point: numerator / denominator, the latter positive, in the unit of `PlacedPair::exact`.
+struct ExactNode {
+  ExactPoint numerator;
+  mpz_class denominator;
+};
+
+/// `PlacedPair::to_local` of an exact position is at most this far from it, local: 3 in the last place of coordinates
+/// of magnitude 1 at most.
+inline constexpr double rounded_error = 8 * unit_roundoff;
+
+/// A corner of what two triangles in one plane have in common.
+struct FlushCorner {
+  ExactNode exact;
+  Vec3 position;  ///< local, off by at most `rounded_error`
+};
+
 class CrossingCurves {
  public:
   /// Finds all of them. `pair` must have been placed. `node_error`: how far the position of a node may be from the node
@@ -50,6 +67,9 @@ class CrossingCurves {
   std::vector<CurveNode> nodes;
   std::vector<CurveSegment> segments;
   std::array<std::vector<std::uint32_t>, 2> crossed;  ///< by side: triangles with segments, ascending
+  /// Triangles of side 0 and 1 that lie in one plane with their normals on the same side, and have boxes that overlap.
+  std::vector<std::array<std::uint32_t, 2>> flush_pairs;
+  std::vector<FlushCorner> flush_corners;  ///< filled by `FlushFaces`
   PairCounters counters;
 
   /// Segments in a triangle; empty for one that is not crossed.
@@ -66,6 +86,7 @@ class CrossingCurves {
   };
 
   void cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t);
+  void note_if_flush(PlacedPair& pair, std::uint32_t s, std::uint32_t t);
   std::uint32_t node(std::uint32_t side, std::uint32_t edge, std::uint32_t triangle, bool leaves);
   void link(const PlacedPair& pair, std::uint32_t segment);
   void group_segments(const PlacedPair& pair);
@@ -85,11 +106,6 @@ class CrossingCurves {
   return model.edges[node.edge].triangle[0] == triangle ? 0 : 1;
 }
 
-/// The exact position of a node: numerator / denominator, the latter positive, in the unit of `PlacedPair::exact`.
-struct ExactNode {
-  ExactPoint numerator;
-  mpz_class denominator;
-};
 [[nodiscard]] ExactNode exact_position(PlacedPair& pair, const CurveNode& node);
 
 /// Sets `position` and `error`; from integers where doubles miss by more than `max_error`, local.

@@ -42,18 +42,19 @@ double checked(double length, const char* name) {
 
 /// A patch as a mesh in local coordinates.
 TriangleMesh local_mesh(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, const Patch& patch) {
-  thread_local SparseArray<std::uint32_t> index_of_vertex, index_of_node;
-  index_of_vertex.clear(pair.model(side).positions.size());
-  index_of_node.clear(curves.nodes.size());
+  thread_local std::array<SparseArray<std::uint32_t>, 3> index_of;  // by kind of corner
+  index_of[0].clear(pair.model(side).positions.size());
+  index_of[1].clear(curves.nodes.size());
+  index_of[2].clear(curves.flush_corners.size());
   TriangleMesh mesh;
   for (const PatchTriangle& t : patch.triangles) {
     Triangle& triangle = mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const PieceCorner corner = t.corners[k];
-      SparseArray<std::uint32_t>& index = corner.is_node ? index_of_node : index_of_vertex;
+      SparseArray<std::uint32_t>& index = index_of[static_cast<std::size_t>(corner.kind)];
       if (!index.has(corner.index)) {
         index.set(corner.index, static_cast<std::uint32_t>(mesh.vertices.size()));
-        const Vec3 p = corner.is_node ? curves.nodes[corner.index].position : pair.local({side, corner.index});
+        const Vec3 p = position_of(pair, curves, side, corner);
         mesh.vertices.emplace_back(p.x, p.y, p.z);
       }
       triangle[k] = index[corner.index];
@@ -201,8 +202,7 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
   if (stop.cancelled()) throw Interrupted("cancelled before the volumes were known");
   memory.pieces.find(memory.pair, memory.curves);
   PenetrationDepth result;
-  const std::vector<IntersectionVolume> found =
-      memory.volumes.find(memory.pair, memory.curves, memory.pieces, memory.pieces.shells);
+  const std::vector<IntersectionVolume> found = memory.volumes.find(memory.pair, memory.curves, memory.pieces);
   if (stop.cancelled()) throw Interrupted("cancelled before the depths were measured");
   result.stats.seconds_intersecting = seconds_since(start);
   measure_all(found, memory, options, error_bound, stop, result);

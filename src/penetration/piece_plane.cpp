@@ -16,6 +16,23 @@ const mpz_class& coordinate(const ExactPoint& p, int axis) { return axis == 0 ? 
 
 }  // namespace
 
+const Vec3& position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, PieceCorner corner) {
+  if (corner.kind == PieceCorner::Kind::Vertex) return pair.local({side, corner.index});
+  return corner.kind == PieceCorner::Kind::Node ? curves.nodes[corner.index].position
+                                                : curves.flush_corners[corner.index].position;
+}
+
+double error_of(const PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, PieceCorner corner) {
+  if (corner.kind == PieceCorner::Kind::Vertex) return 2 * pair.error(side);
+  return corner.kind == PieceCorner::Kind::Node ? curves.nodes[corner.index].error : rounded_error;
+}
+
+ExactNode exact_position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, PieceCorner corner) {
+  if (corner.kind == PieceCorner::Kind::Vertex) return {pair.exact({side, corner.index}), 1};
+  return corner.kind == PieceCorner::Kind::Node ? exact_position(pair, curves.nodes[corner.index])
+                                                : curves.flush_corners[corner.index].exact;
+}
+
 PiecePlane::PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, std::uint32_t triangle)
     : pair_(&pair), curves_(&curves), side_(side) {
   const Triangle& t = pair.model(side).triangles[triangle];
@@ -36,23 +53,11 @@ PiecePlane::PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint
   if (sign < 0) std::swap(first_, second_);
 }
 
-const Vec3& PiecePlane::position(PieceCorner corner) const {
-  return corner.is_node ? curves_->nodes[corner.index].position : pair_->local({side_, corner.index});
-}
-
-double PiecePlane::error(PieceCorner corner) const {
-  return corner.is_node ? curves_->nodes[corner.index].error : 2 * pair_->error(side_);
-}
-
 double PiecePlane::x(PieceCorner corner) const { return coordinate(position(corner), first_); }
 double PiecePlane::y(PieceCorner corner) const { return coordinate(position(corner), second_); }
 
 PiecePlane::Flat PiecePlane::exact(PieceCorner corner) const {
-  if (!corner.is_node) {
-    const ExactPoint& p = pair_->exact({side_, corner.index});
-    return {coordinate(p, first_), coordinate(p, second_), 1};
-  }
-  const ExactNode node = exact_position(*pair_, curves_->nodes[corner.index]);
+  const ExactNode node = exact_position_of(*pair_, *curves_, side_, corner);
   return {coordinate(node.numerator, first_), coordinate(node.numerator, second_), node.denominator};
 }
 

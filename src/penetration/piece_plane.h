@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,13 +10,23 @@
 
 namespace meshbound {
 
-/// A corner of a triangle (index of a vertex) or a node of the curves.
+/// A corner of a triangle (index of a vertex), a node of the curves, or a corner of what two triangles in one plane
+/// have in common (flush.h).
 struct PieceCorner {
-  bool is_node = false;
+  enum class Kind : std::uint32_t { Vertex, Node, Flush };
+  Kind kind = Kind::Vertex;
   std::uint32_t index = 0;
 
   friend bool operator==(const PieceCorner&, const PieceCorner&) = default;
 };
+
+/// Local position of a corner on a triangle of `side`, how far that may be from the corner, and the exact position.
+[[nodiscard]] const Vec3& position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
+                                      PieceCorner corner);
+[[nodiscard]] double error_of(const PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
+                              PieceCorner corner);
+[[nodiscard]] ExactNode exact_position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
+                                          PieceCorner corner);
 
 /// The plane of a triangle, for the corners of its pieces: seen along an axis that the plane does not hold, so that the
 /// triangle turns counter-clockwise.
@@ -23,9 +34,8 @@ class PiecePlane {
  public:
   PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, std::uint32_t triangle);
 
-  [[nodiscard]] const Vec3& position(PieceCorner corner) const;
-  /// How far `position` may be from the corner, as a length; local.
-  [[nodiscard]] double error(PieceCorner corner) const;
+  [[nodiscard]] const Vec3& position(PieceCorner corner) const { return position_of(*pair_, *curves_, side_, corner); }
+  [[nodiscard]] double error(PieceCorner corner) const { return error_of(*pair_, *curves_, side_, corner); }
 
   /// Sign of the turn at q on the way from p to r, for the exact positions, without perturbation.
   [[nodiscard]] int turn(PieceCorner p, PieceCorner q, PieceCorner r) const;
@@ -34,6 +44,8 @@ class PiecePlane {
   [[nodiscard]] int area_sign(std::span<const PieceCorner> cycle) const;
   /// Whether a cycle is around another one, neither of which crosses the other.
   [[nodiscard]] bool is_around(std::span<const PieceCorner> outer, std::span<const PieceCorner> inner) const;
+  /// The coordinates that are seen as x and y, 0 to 2.
+  [[nodiscard]] std::array<int, 2> axes() const { return {first_, second_}; }
 
   /// Coordinates as they are seen.
   [[nodiscard]] double x(PieceCorner corner) const;

@@ -43,7 +43,7 @@ void Pieces::trace_cycle(std::uint32_t side, std::uint32_t triangle, std::uint32
   do {
     traced_[side][segment] = 1;
     const std::uint32_t begin = curves_->segments[segment].begin(side), end = curves_->segments[segment].end(side);
-    corners.push_back({true, begin});
+    corners.push_back({PieceCorner::Kind::Node, begin});
     CurveNode& last = curves_->nodes[end];
     if (last.side != side) {
       last.cycle[2] = cycle;
@@ -51,7 +51,7 @@ void Pieces::trace_cycle(std::uint32_t side, std::uint32_t triangle, std::uint32
       continue;
     }
     if (piece == no_index) piece = cycles[cycle].piece = add_piece(side, triangle, cycle);
-    corners.push_back({true, end});
+    corners.push_back({PieceCorner::Kind::Node, end});
     last.cycle[slot_at_edge(pair_->model(side), last, triangle)] = cycle;
     CurveNode& next = curves_->nodes[walk_border(side, triangle, end, cycle)];
     const std::size_t slot = slot_at_edge(pair_->model(side), next, triangle);
@@ -74,7 +74,7 @@ std::uint32_t Pieces::walk_border(std::uint32_t side, std::uint32_t triangle, st
   if (runs_along(edge) ? rank + 1 < on_edge.size() : rank > 0) return on_edge[runs_along(edge) ? rank + 1 : rank - 1];
   for (;;) {
     k = next_corner(k);
-    corners.push_back({false, model.triangles[triangle][k]});
+    corners.push_back({PieceCorner::Kind::Vertex, model.triangles[triangle][k]});
     edge = model.edges_of[triangle][k];
     const std::span<const std::uint32_t> nodes = curves_->nodes_on(side, edge);
     if (!nodes.empty()) return runs_along(edge) ? nodes.front() : nodes.back();

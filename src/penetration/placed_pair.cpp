@@ -65,7 +65,7 @@ void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose
   require_motion(pose_a);
   require_motion(pose_b);
   is_exact_ready_ = false;
-  exact_decisions_ = 0;
+  exact_decisions_ = perturbed_decisions_ = 0;
   set_frame();
 }
 
@@ -179,7 +179,7 @@ int PlacedPair::orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex
   return sgn(volume_of(exact(p), exact(q), exact(r), exact(s)));
 }
 
-int PlacedPair::sign_of_first(const ExactPoint& normal, int sign) const {
+int PlacedPair::sign_of_first(const ExactPoint& normal, int sign) {
   for (const mpz_class* coordinate : {&normal.x, &normal.y, &normal.z})
     if (sgn(*coordinate) != 0) return sign * sgn(*coordinate);
   return 0;
@@ -189,6 +189,7 @@ int PlacedPair::side_of_plane(std::uint32_t side, const Triangle& triangle, std:
   const PairVertex p{side, triangle[0]}, q{side, triangle[1]}, r{side, triangle[2]};
   const int sign = orientation(p, q, r, {1 - side, vertex});
   if (sign != 0) return sign;
+  ++perturbed_decisions_;
   // With side 0 moved by t, the volume grows by the product of t with the normal, or shrinks where side 0 has the
   // triangle.
   return sign_of_first(cross(exact(q) - exact(p), exact(r) - exact(p)), side == 0 ? -1 : 1);

@@ -93,6 +93,11 @@ class PlacedPair {
   /// cannot tell.
   [[nodiscard]] bool is_beyond(std::uint32_t side, const Vec3& p, const Eigen::AlignedBox3d& box) const;
 
+  /// Decisions of `side_of_plane` that only the perturbation made: the vertex lies in the plane.
+  [[nodiscard]] std::uint64_t perturbed_decisions() const { return perturbed_decisions_; }
+  /// 1 where side 0 moves along an exact vector, -1 where it moves against it.
+  [[nodiscard]] static int motion_along(const ExactPoint& vector) { return sign_of_first(vector, 1); }
+
   [[nodiscard]] std::uint64_t exact_decisions() const { return exact_decisions_; }
 
  private:
@@ -114,7 +119,7 @@ class PlacedPair {
   void set_frame();
   void set_offset(Side& side);
   void prepare_exact();
-  int sign_of_first(const ExactPoint& normal, int sign) const;
+  static int sign_of_first(const ExactPoint& normal, int sign);
 
   std::array<Side, 2> sides_;
   std::uint32_t tree_side_ = 0;
@@ -123,7 +128,7 @@ class PlacedPair {
   int exponent_ = 0;
   int unit_ = 0;  ///< exact coordinates are multiples of 2^unit
   bool is_exact_ready_ = false;
-  std::uint64_t exact_decisions_ = 0;
+  std::uint64_t exact_decisions_ = 0, perturbed_decisions_ = 0;
 };
 
 }  // namespace meshbound

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <unordered_map>
 
 #include "meshbound/transform.h"
 #include "numeric/rounding.h"
+#include "penetration/flush.h"
 #include "penetration/parity.h"
 
 namespace meshbound {
@@ -22,6 +23,10 @@ std::size_t count_faces(const std::vector<PatchTriangle>& triangles) {
   return static_cast<std::size_t>(std::unique(sources.begin(), sources.end()) - sources.begin());
 }
 
+CornerTriple whole_triangle(const Triangle& t) {
+  return {{{PieceCorner::Kind::Vertex, t[0]}, {PieceCorner::Kind::Vertex, t[1]}, {PieceCorner::Kind::Vertex, t[2]}}};
+}
+
 /// Directions in which a shell is looked for around a cavity, one after the other until one passes no edge.
 constexpr std::array<Vec3, 6> directions{{{0.31, 0.17, 0.93},
                                           {-0.71, 0.43, 0.56},
@@ -33,22 +38,21 @@ constexpr std::array<Vec3, 6> directions{{{0.31, 0.17, 0.93},
 }  // namespace
 
 const Vec3& VolumeFinder::position(std::uint32_t side, PieceCorner corner) const {
-  return corner.is_node ? curves_->nodes[corner.index].position : pair_->local({side, corner.index});
+  return position_of(*pair_, *curves_, side, corner);
 }
 
 double VolumeFinder::error(std::uint32_t side, PieceCorner corner) const {
-  return corner.is_node ? curves_->nodes[corner.index].error : 2 * pair_->error(side);
+  return error_of(*pair_, *curves_, side, corner);
 }
 
-std::vector<IntersectionVolume> VolumeFinder::find(PlacedPair& pair, const CrossingCurves& curves, const Pieces& pieces,
-                                                   PieceSets& sets) {
+std::vector<IntersectionVolume> VolumeFinder::find(PlacedPair& pair, CrossingCurves& curves, Pieces& pieces) {
   pair_ = &pair;
   curves_ = &curves;
   pieces_ = &pieces;
   std::vector<Shell> shells;
   std::unordered_map<std::uint32_t, std::size_t> shell_of;
   for (std::uint32_t piece = 0; piece < pieces.pieces.size(); ++piece) {
-    const auto [found, is_new] = shell_of.try_emplace(sets.find(piece), shells.size());
+    const auto [found, is_new] = shell_of.try_emplace(pieces.shells.find(piece), shells.size());
     if (is_new) shells.emplace_back();
     shells[found->second].pieces.push_back(piece);
   }
@@ -71,10 +75,21 @@ std::vector<IntersectionVolume> VolumeFinder::find(PlacedPair& pair, const Cross
     if (shell.sign == 0) continue;
     for (std::uint32_t side = 0; side < 2; ++side) {
       Patch& patch = volumes[shell.volume].patches[side];
-      patch.triangles.insert(patch.triangles.end(), shell.triangles[side].begin(), shell.triangles[side].end());
+      // What has no area bounds no content: it is left of a touch that the perturbation made an overlap of.
+      std::copy_if(shell.triangles[side].begin(), shell.triangles[side].end(), std::back_inserter(patch.triangles),
+                   [](const PatchTriangle& t) { return !t.is_flat; });
       patch.displacement = std::max(patch.displacement, shell.excess[side]);
     }
   }
+  const auto patches_of = [&](std::uint32_t piece) -> std::array<Patch, 2>* {
+    const Shell& shell = shells[shell_of.at(pieces.shells.find(piece))];
+    return shell.sign == 0 ? nullptr : &volumes[shell.volume].patches;
+  };
+  for (const FlushFace& face : find_flush_faces(pair, curves, pieces))
+    if (std::array<Patch, 2>* const patches = patches_of(face.piece))
+      for (std::size_t k = 2; k < face.corners.size(); ++k)
+        (*patches)[face.side].triangles.push_back(
+            {face.triangle, {{face.corners[0], face.corners[k - 1], face.corners[k]}}});
   for (const Shell& shell : shells)
     if (shell.sign > 0) surround(volumes[shell.volume], shell);
   for (IntersectionVolume& volume : volumes)
@@ -104,7 +119,7 @@ void VolumeFinder::gather(Shell& shell) {
 void VolumeFinder::add_triangles(std::uint32_t index, Shell& shell) {
   const Piece& piece = pieces_->pieces[index];
   const Triangle& t = pair_->model(piece.side).triangles[piece.triangle];
-  const CornerTriple whole{{{false, t[0]}, {false, t[1]}, {false, t[2]}}};
+  const CornerTriple whole = whole_triangle(t);
   std::vector<PatchTriangle>& out = shell.triangles[piece.side];
   if (piece.outer == no_index && piece.holes == no_index) {
     out.push_back({piece.triangle, whole});
@@ -118,7 +133,8 @@ void VolumeFinder::add_triangles(std::uint32_t index, Shell& shell) {
   triangles_.clear();
   const PiecePlane plane(*pair_, *curves_, piece.side, piece.triangle);
   shell.excess[piece.side] = std::max(shell.excess[piece.side], triangulate(plane, outer, holes, triangles_));
-  for (const CornerTriple& corners : triangles_) out.push_back({piece.triangle, corners});
+  for (const CornerTriple& corners : triangles_)
+    out.push_back({piece.triangle, corners, plane.turn(corners[0], corners[1], corners[2]) == 0});
 }
 
 /// Six times the content is the sum of the determinants of the triangles. When the corners move by at most d to where
@@ -149,9 +165,7 @@ int VolumeFinder::exact_content_sign(const Shell& shell) {
   for (std::uint32_t side = 0; side < 2; ++side)
     for (const PatchTriangle& t : shell.triangles[side]) {
       std::array<ExactNode, 3> p;
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = t.corners[k].is_node ? exact_position(*pair_, curves_->nodes[t.corners[k].index])
-                                    : ExactNode{pair_->exact({side, t.corners[k].index}), 1};
+      for (std::size_t k = 0; k < 3; ++k) p[k] = exact_position_of(*pair_, *curves_, side, t.corners[k]);
       mpq_class term(dot(p[0].numerator, cross(p[1].numerator, p[2].numerator)),
                      p[0].denominator * p[1].denominator * p[2].denominator);
       term.canonicalize();
@@ -206,24 +220,37 @@ void VolumeFinder::surround(IntersectionVolume& volume, const Shell& outer) {
   for (std::uint32_t side = 0; side < 2; ++side) {
     if (!volume.patches[side].triangles.empty()) continue;
     volume.overlap = side == 0 ? Overlap::BInsideA : Overlap::AInsideB;
-    const ClosedModel::Data& model = pair_->model(side);
-    const std::uint32_t vertex = outer.triangles[1 - side][0].corners[0].index;
-    const std::vector<bool> around = components_around(*pair_, {1 - side, vertex});
-    // Of nested components the innermost one reaches least far in any direction.
-    std::uint32_t next = no_index;
-    const auto reach = [&](std::uint32_t i) { return model.positions[model.components[i].extremes[3]].x; };
-    for (std::uint32_t i = 0; i < around.size(); ++i)
-      if (around[i] && (next == no_index || reach(i) < reach(next))) next = i;
-    add_component(volume, side, next);
+    add_component(volume, side, component_around(side, outer));
   }
+}
+
+std::uint32_t VolumeFinder::component_around(std::uint32_t side, const Shell& shell) {
+  const ClosedModel::Data& model = pair_->model(side);
+  std::uint32_t next = no_index;
+  for (const PatchTriangle& t : shell.triangles[1 - side])
+    for (const PieceCorner& corner : t.corners) {
+      if (corner.kind == PieceCorner::Kind::Node) {
+        // Where no vertex is inside: it touches this component.
+        const CurveNode& node = curves_->nodes[corner.index];
+        next = model.component_of[node.side == side ? model.edges[node.edge].triangle[0] : node.triangle];
+        continue;
+      }
+      // Of nested components the innermost one reaches least far in any direction.
+      const std::vector<bool> around = components_around(*pair_, {1 - side, corner.index});
+      const auto reach = [&](std::size_t i) { return model.positions[model.components[i].extremes[3]].x; };
+      std::size_t innermost = around.size();
+      for (std::size_t i = 0; i < around.size(); ++i)
+        if (around[i] && (innermost == around.size() || reach(i) < reach(innermost))) innermost = i;
+      return static_cast<std::uint32_t>(innermost);
+    }
+  return next;
 }
 
 void VolumeFinder::add_component(IntersectionVolume& volume, std::uint32_t side, std::uint32_t component) {
   const ClosedModel::Data& model = pair_->model(side);
   for (std::uint32_t i = 0; i < model.triangles.size(); ++i) {
     const Triangle& t = model.triangles[i];
-    if (model.component_of[i] == component)
-      volume.patches[side].triangles.push_back({i, {{{false, t[0]}, {false, t[1]}, {false, t[2]}}}});
+    if (model.component_of[i] == component) volume.patches[side].triangles.push_back({i, whole_triangle(t)});
   }
 }
 

@@ -17,6 +17,7 @@ namespace meshbound {
 struct PatchTriangle {
   std::uint32_t source = 0;  ///< the triangle of the model that it lies on
   CornerTriple corners;
+  bool is_flat = false;  ///< has no area
 };
 
 /// The part of the boundary of a volume that lies on one model.
@@ -36,8 +37,8 @@ struct IntersectionVolume {
 /// Finds the volumes that have content, in the order of their first pieces.
 class VolumeFinder {
  public:
-  std::vector<IntersectionVolume> find(PlacedPair& pair, const CrossingCurves& curves, const Pieces& pieces,
-                                       PieceSets& shells);
+  /// Adds to `flush_corners` of the curves.
+  std::vector<IntersectionVolume> find(PlacedPair& pair, CrossingCurves& curves, Pieces& pieces);
 
  private:
   struct Shell {
@@ -56,6 +57,7 @@ class VolumeFinder {
   [[nodiscard]] std::size_t shell_around(const Shell& cavity, const std::vector<Shell>& shells);
   [[nodiscard]] int parity_of(const Shell& shell, const Vec3& from, const Vec3& direction) const;
   void surround(IntersectionVolume& volume, const Shell& outer);
+  [[nodiscard]] std::uint32_t component_around(std::uint32_t side, const Shell& shell);
   void add_component(IntersectionVolume& volume, std::uint32_t side, std::uint32_t component);
 
   [[nodiscard]] const Vec3& position(std::uint32_t side, PieceCorner corner) const;

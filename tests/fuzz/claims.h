@@ -29,4 +29,8 @@ struct CertificatePair {
 /// it is rejected in one line, or what it proves is true of every vertex.
 void check_certificate(Bytes content);
 
+/// The bytes as two closed polyhedra with small integer coordinates, under poses: content, parts of the surfaces and
+/// depth agree with rational arithmetic.
+void check_penetration(Bytes content);
+
 }  // namespace meshbound::fuzz
