@@ -149,6 +149,71 @@ TEST(Scene, PairsWhoseBoxesTouchAreNear) {
   EXPECT_THROW((void)scene.pairs_near(-1), InvalidInput);
 }
 
+/// Unit cubes in a row, each 0.25 in the next: the volume in common is a box of that width, so it is as deep at least.
+TEST(SceneContacts, AreTheDepthsOfAllPairsThatShareContent) {
+  const ClosedModel cube(datasets::cube(1, 3));
+  Scene scene;
+  for (int i = 0; i < 6; ++i) scene.add(cube, translated({0.75 * i, 0.01 * i, 0}));
+  scene.add(cube, translated({40, 0, 0}));
+  const SceneContacts contacts = scene.contacts();
+  ASSERT_EQ(contacts.pairs.size(), 5u);
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const SceneContact& pair = contacts.pairs[i];
+    EXPECT_EQ(pair.a, i);
+    EXPECT_EQ(pair.b, i + 1);
+    const Bounds alone = penetration_depth({cube, scene.model(pair.a).pose}, {cube, scene.model(pair.b).pose}).depth;
+    EXPECT_EQ(pair.penetration.depth.lower, alone.lower);
+    EXPECT_EQ(pair.penetration.depth.upper, alone.upper);
+    EXPECT_GE(alone.upper, 0.25);
+  }
+  EXPECT_EQ(contacts.stats.pairs, 21u);
+  EXPECT_EQ(contacts.stats.measured + contacts.stats.skipped_by_boxes, 21u);
+  EXPECT_EQ(contacts.stats.measured - contacts.stats.without_volume, 5u);
+}
+
+TEST(SceneContacts, AreFoundAnewOnlyForPairsThatHaveMoved) {
+  const ClosedModel cube(datasets::cube(1, 3));
+  const Bvh no_solid(datasets::cube(1, 1));
+  Scene scene;
+  for (int i = 0; i < 4; ++i) scene.add(cube, translated({0.75 * i, 0, 0.01 * i}));
+  scene.add(no_solid);
+  const SceneContacts first = scene.contacts();
+  EXPECT_EQ(first.pairs.size(), 3u);
+  EXPECT_EQ(first.stats.measured, 3u);
+  EXPECT_EQ(first.stats.without_solid, 2u);
+  scene.move(3, translated({2.375, 0, 0}));
+  const SceneContacts then = scene.contacts();
+  EXPECT_EQ(then.stats.unmoved, 2u);
+  EXPECT_EQ(then.stats.measured, 1u);
+  EXPECT_EQ(then.pairs.size(), 3u);
+  PenetrationOptions deeper;
+  deeper.decide = 2;
+  const SceneContacts decided = scene.contacts(deeper);
+  EXPECT_EQ(decided.stats.unmoved, 0u);
+  for (const SceneContact& pair : decided.pairs) EXPECT_EQ(pair.penetration.volumes[0].verdict, Verdict::Within);
+}
+
+TEST(SceneContacts, AreTheSameForAnyNumberOfThreads) {
+  const ClosedModel torus(datasets::torus(0.35, 0.15, 24, 12));
+  Scene scene, other;
+  Random random;
+  for (int i = 0; i < 12; ++i) {
+    const Isometry3d pose = random.pose(0.6, 3);
+    scene.add(torus, pose);
+    other.add(torus, pose);
+  }
+  PenetrationOptions one, many;
+  one.threads = 1;
+  many.threads = 4;
+  const SceneContacts a = scene.contacts(one), b = other.contacts(many);
+  ASSERT_EQ(a.pairs.size(), b.pairs.size());
+  EXPECT_GE(a.pairs.size(), 5u);
+  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
+    EXPECT_EQ(a.pairs[i].penetration.depth.lower, b.pairs[i].penetration.depth.lower);
+    EXPECT_EQ(a.pairs[i].penetration.depth.upper, b.pairs[i].penetration.depth.upper);
+  }
+}
+
 TEST(Scene, FollowsARefit) {
   TriangleMesh mesh = datasets::cube(1, 4);
   Bvh still(mesh), moving(mesh);

@@ -10,6 +10,7 @@
 
 #include "meshbound/bvh.h"
 #include "meshbound/distance.h"
+#include "meshbound/penetration_depth.h"
 
 namespace meshbound {
 
@@ -35,6 +36,29 @@ struct SceneCheck {
   SceneStats stats;
 };
 
+/// What became of the pairs of bodies when their contacts were asked for.
+struct ContactStats {
+  std::uint64_t pairs = 0;             ///< of all bodies
+  std::uint64_t without_solid = 0;     ///< one of both is no `ClosedModel`
+  std::uint64_t skipped_by_boxes = 0;  ///< their bounding boxes have no point in common
+  std::uint64_t unmoved = 0;           ///< neither body has moved since the question was answered before
+  std::uint64_t measured = 0;          ///< the rest, by `penetration_depth`
+  std::uint64_t without_volume = 0;    ///< of the measured and the unmoved ones: they share no content
+};
+
+/// Two bodies that share content. `a` < `b` are numbers of bodies; `penetration` is of body a and body b.
+struct SceneContact {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  PenetrationDepth penetration;
+};
+
+/// All of them.
+struct SceneContacts {
+  std::vector<SceneContact> pairs;  ///< by a, then by b
+  ContactStats stats;
+};
+
 /// Placed models, called bodies and numbered from 0 in the order in which they were added. What is known of a pair is
 /// kept from question to question (`MovingPair`). Not thread-safe; the trees may be shared, by bodies too.
 /// Memory: some 200 bytes per body, and a `MovingPair` for each pair that the last question did not skip.
@@ -48,6 +72,10 @@ class Scene {
   /// Adds a body and returns its number. `model` must outlive this; it may be refitted between questions. Throws
   /// `InvalidInput` for a pose that is no rigid motion.
   std::uint32_t add(const Bvh& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+
+  /// Adds a solid, of which `contacts` tells how deep it is in others; `model` must outlive this. Throws as above, and
+  /// for a reflection.
+  std::uint32_t add(const ClosedModel& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 
   /// Gives a body another pose, model to world. Throws as `add`, and for a number that no body has; the pose is then as
   /// it was. Expected O(log n) for its box.
@@ -63,6 +91,13 @@ class Scene {
   /// `Undecided`. Throws as `check_tolerance`. The same answers for any number of threads. O(n log n) for n bodies, and
   /// the pairs.
   [[nodiscard]] SceneCheck check_tolerance(double tolerance, const DistanceOptions& options = {});
+
+  /// The penetration depth of all pairs of solids that share content. Pairs whose boxes have no point in common are
+  /// skipped, pairs that have not moved keep their answer, the rest are measured in parallel, each by one thread.
+  /// `options.decide` asks only whether volumes are deeper than that, and `stop_when_deeper` ends each pair at the
+  /// first one; `options.budget` counts for all pairs together in time. Throws as `penetration_depth`. The same answers
+  /// for any number of threads (`options.threads`; 0: as many as OpenMP has). O(n log n) for n bodies, and the pairs.
+  [[nodiscard]] SceneContacts contacts(const PenetrationOptions& options = {});
 
   /// Pairs of bodies whose boxes in world coordinates are at most `margin` (model units, 0 or more) apart along every
   /// axis, by a, then by b: all pairs that can touch are among them. Throws `InvalidInput` for another margin.

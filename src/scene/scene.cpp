@@ -24,8 +24,9 @@ using MovePair = std::pair<std::uint64_t, std::uint64_t>;
 
 struct Body {
   PlacedModel model;
-  std::uint64_t serial;  ///< of the tree that `box` is of
-  WorldBox box;
+  const ClosedModel* solid = nullptr;  ///< null: none
+  std::uint64_t serial = 0;            ///< of the tree that `box` is of
+  WorldBox box = {};
   std::uint64_t moves = 0;  ///< counts poses and refits
 
   void place(const Eigen::Isometry3d& pose) {
@@ -42,6 +43,19 @@ struct PairMemory {
   MovingPair moving;
   MovePair moves;  ///< of both bodies when `check` was made
   std::optional<ToleranceCheck> check = {};
+};
+
+/// What is kept of a pair of solids whose boxes meet.
+struct ContactMemory {
+  MovePair moves;                     ///< of both bodies when `penetration` was found
+  std::optional<double> error_bound;  ///< that it was found for
+  std::optional<double> decide;       ///< likewise
+  std::optional<PenetrationDepth> penetration = {};
+
+  [[nodiscard]] bool answers(const PenetrationOptions& options, const MovePair& now) const {
+    return penetration && moves == now && error_bound == options.error_bound && decide == options.decide &&
+           !options.stop_when_deeper && !options.keep_parts;
+  }
 };
 
 /// Pairs i < j that `is_near` accepts, by i, then by j: a sweep along the x axis, where the lower sides of the boxes of
@@ -82,15 +96,16 @@ struct Scene::Impl {
       if (body.serial != body.model.bvh->data().serial) body.place(body.model.pose);
   }
 
-  /// The memories of these pairs, kept from the last question where it had them.
-  std::vector<PairMemory*> memories_of(const std::vector<BodyPair>& pairs) {
-    std::map<BodyPair, PairMemory> kept;
-    std::vector<PairMemory*> found;
+  /// The memories of these pairs, kept from the last question where it had them, made anew elsewhere.
+  template <class Memory, class Make>
+  static std::vector<Memory*> memories_of(const std::vector<BodyPair>& pairs, std::map<BodyPair, Memory>& memories,
+                                          Make&& make) {
+    std::map<BodyPair, Memory> kept;
+    std::vector<Memory*> found;
     for (const BodyPair& pair : pairs) {
       auto node = memories.extract(pair);
       if (node.empty())
-        kept.emplace(pair,
-                     PairMemory{MovingPair(*bodies[pair.first].model.bvh, *bodies[pair.second].model.bvh), {}, {}});
+        kept.emplace(pair, make(pair));
       else
         kept.insert(std::move(node));
       found.push_back(&kept.at(pair));
@@ -110,6 +125,7 @@ struct Scene::Impl {
 
   std::vector<Body> bodies;
   std::map<BodyPair, PairMemory> memories;
+  std::map<BodyPair, ContactMemory> contacts;
 };
 
 Scene::Scene() : impl_(std::make_unique<Impl>()) {}
@@ -118,10 +134,17 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
 std::uint32_t Scene::add(const Bvh& model, const Eigen::Isometry3d& pose) {
-  Body body{model, 0, {}};
+  Body body{model};
   body.place(pose);
   impl_->bodies.push_back(body);
   return size() - 1;
+}
+
+std::uint32_t Scene::add(const ClosedModel& model, const Eigen::Isometry3d& pose) {
+  if (pose.linear().determinant() < 0) throw InvalidInput("the pose of a solid is a reflection");
+  const std::uint32_t number = add(model.bvh(), pose);
+  impl_->bodies[number].solid = &model;
+  return number;
 }
 
 void Scene::move(std::uint32_t body, const Eigen::Isometry3d& pose) {
@@ -151,7 +174,9 @@ SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& optio
   const std::vector<BodyPair> pairs = sweep_and_prune(
       impl_->bodies, [&](const WorldBox&) { return tolerance + rounding; },
       [&](const WorldBox& a, const WorldBox& b) { return !(distance_at_least(a, b) > tolerance); });
-  const std::vector<PairMemory*> memories = impl_->memories_of(pairs);
+  const std::vector<PairMemory*> memories = Impl::memories_of(pairs, impl_->memories, [&](const BodyPair& pair) {
+    return PairMemory{MovingPair(*model(pair.first).bvh, *model(pair.second).bvh), {}, {}};
+  });
   const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
 
   SceneCheck result;
@@ -182,6 +207,47 @@ SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& optio
   for (const std::size_t i : open)
     for (const OneSidedDistance* side : {&result.pairs[i].check.a_to_b, &result.pairs[i].check.b_to_a})
       result.stats.closest_point_queries += side->stats.closest_point_queries;
+  return result;
+}
+
+SceneContacts Scene::contacts(const PenetrationOptions& options) {
+  const std::vector<Body>& bodies = impl_->bodies;
+  std::vector<BodyPair> pairs = pairs_near();
+  SceneContacts result;
+  ContactStats& stats = result.stats;
+  const std::uint64_t n = size();
+  stats.pairs = n > 0 ? n * (n - 1) / 2 : 0;
+  stats.skipped_by_boxes = stats.pairs - pairs.size();
+  stats.without_solid = std::erase_if(pairs, [&](const BodyPair& pair) {
+    return bodies[pair.first].solid == nullptr || bodies[pair.second].solid == nullptr;
+  });
+  const std::vector<ContactMemory*> memories =
+      Impl::memories_of(pairs, impl_->contacts, [](const BodyPair&) { return ContactMemory{}; });
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!memories[i]->answers(options, impl_->moves_of(pairs[i]))) open.push_back(i);
+  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
+  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
+    for_each_task(open.size(), [&](std::size_t k) {
+      const std::size_t i = open[k];
+      PenetrationOptions own = options;
+      own.threads = 1;
+      own.progress = nullptr;
+      own.budget.seconds = stop.seconds_left();
+      const Body &a = bodies[pairs[i].first], &b = bodies[pairs[i].second];
+      ContactMemory& memory = *memories[i];
+      memory = {impl_->moves_of(pairs[i]), options.error_bound, options.decide, {}};
+      memory.penetration = penetration_depth({*a.solid, a.model.pose}, {*b.solid, b.model.pose}, own);
+    });
+  });
+  stats.measured = open.size();
+  stats.unmoved = pairs.size() - open.size();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (memories[i]->penetration->volumes.empty())
+      ++stats.without_volume;
+    else
+      result.pairs.push_back({pairs[i].first, pairs[i].second, *memories[i]->penetration});
+  }
   return result;
 }
 
