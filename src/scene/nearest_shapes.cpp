@@ -4,7 +4,6 @@
 #include <limits>
 #include <queue>
 
-#include "bvh/bvh_data.h"
 #include "meshbound/error.h"
 #include "meshbound/motion.h"
 #include "meshbound/stop_token.h"
@@ -14,7 +13,9 @@ namespace meshbound {
 
 /// One candidate in one alignment, on its way through bounds that become dearer and better.
 struct ShapeTrial {
-  enum class Stage { Extents, Samples };
+  /// What the lower bound comes from: extents, then points of the candidate too, which need no tree of it, then points
+  /// of the query too.
+  enum class Stage { Extents, SamplesOfCandidate, SamplesOfBoth };
 
   double lower;  ///< of the distance, by the stages so far
   Stage stage;
@@ -48,10 +49,10 @@ class ShapeSearch {
       }
       const ShapeTrial trial = trials_.top();
       trials_.pop();
-      if (trial.stage == ShapeTrial::Stage::Extents)
-        trials_.push({std::max(trial.lower, by_samples(trial)), ShapeTrial::Stage::Samples, trial.index, trial.way});
-      else
+      if (trial.stage == ShapeTrial::Stage::SamplesOfBoth)
         measure(trial);
+      else
+        trials_.push(sampled(trial));
     }
     for (; !trials_.empty() && result_.complete; trials_.pop())
       ++(trials_.top().stage == ShapeTrial::Stage::Extents ? stats().ended_by_extents : stats().ended_by_samples);
@@ -93,24 +94,28 @@ class ShapeSearch {
     return std::max(0.0, largest - rounding(size));
   }
 
-  /// The largest distance of a few vertices of `from`, moved by `pose`, to the other shape; ends once it is too large.
-  double sample(const Bvh& from, const Bvh& to, const Eigen::Isometry3d& pose, double lower) {
-    constexpr std::size_t samples = 8;
-    const Bvh::Data& data = from.data();
-    const std::size_t count = std::min(samples, data.vertices.size());
-    for (std::size_t i = 0; i < count && !(lower > limit_); ++i) {
-      const Vec3 p = data.frame.to_model(data.vertices[i * data.vertices.size() / count]);
-      const Eigen::Vector3d query = pose * Eigen::Vector3d(p.x, p.y, p.z);
-      lower = std::max(lower, closest_point(to, query).distance.lower - rounding(query.norm()));
+  /// The largest distance of some points, moved by `pose`, to a shape; ends once it is too large.
+  double sample(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& pose, const Shape& to,
+                double lower) {
+    for (std::size_t i = 0; i < points.size() && !(lower > limit_); ++i) {
+      const Eigen::Vector3d query = pose * points[i];
+      lower = std::max(lower, closest_point(to.tree(), query).distance.lower - rounding(query.norm()));
       ++stats().closest_point_queries;
     }
     return lower;
   }
 
-  double by_samples(const ShapeTrial& trial) {
-    const Bvh &mine = query_.tree(), &theirs = candidates_[trial.index].tree();
+  ShapeTrial sampled(ShapeTrial trial) {
+    const Shape& candidate = candidates_[trial.index];
     const Eigen::Isometry3d pose = alignment(trial.index, trial.way);
-    return sample(mine, theirs, pose.inverse(), sample(theirs, mine, pose, trial.lower));
+    if (trial.stage == ShapeTrial::Stage::Extents) {
+      trial.lower = sample(candidate.impl_->samples, pose, query_, trial.lower);
+      trial.stage = ShapeTrial::Stage::SamplesOfCandidate;
+    } else {
+      trial.lower = sample(query_.impl_->samples, pose.inverse(), candidate, trial.lower);
+      trial.stage = ShapeTrial::Stage::SamplesOfBoth;
+    }
+    return trial;
   }
 
   void measure(const ShapeTrial& trial) {

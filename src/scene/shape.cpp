@@ -77,6 +77,15 @@ Extents extents_along(const TriangleMesh& mesh, const Matrix3d& axes) {
   return extents;
 }
 
+/// Vertices of triangles that are spread over the list of triangles, as far as there are any.
+std::vector<Vector3d> some_vertices(const TriangleMesh& mesh) {
+  constexpr std::size_t max_samples = 16;
+  const std::size_t n = mesh.triangles.size(), count = std::min(max_samples, n);
+  std::vector<Vector3d> samples;
+  for (std::size_t i = 0; i < count; ++i) samples.push_back(mesh.vertices[mesh.triangles[i * n / count][0]]);
+  return samples;
+}
+
 }  // namespace
 
 Shape::Shape(const MeshView& mesh, const BvhOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -97,6 +106,7 @@ Shape::Shape(const MeshView& mesh, const BvhOptions& options) : impl_(std::make_
   shape.axes = principal_axes(covariance);
   shape.along_world = extents_along(shape.mesh, Matrix3d::Identity());
   shape.along_axes = extents_along(shape.mesh, shape.axes);
+  shape.samples = some_vertices(shape.mesh);
 }
 
 Shape::Shape(Shape&&) noexcept = default;

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "meshbound/similarity.h"
 
@@ -16,8 +17,9 @@ struct Shape::Impl {
   TriangleMesh mesh;  ///< normalised; empty once the tree is there
   Eigen::Affine3d normalisation;
   Eigen::Matrix3d axes;
-  Extents along_world;  ///< along x, y and z
-  Extents along_axes;   ///< along the principal axes
+  Extents along_world;                   ///< along x, y and z
+  Extents along_axes;                    ///< along the principal axes
+  std::vector<Eigen::Vector3d> samples;  ///< a few vertices, normalised
   BvhOptions tree_options;
   std::optional<Bvh> tree;
 };
