@@ -10,6 +10,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
+#include "reference/small_meshes.h"
 
 namespace {
 
@@ -199,6 +200,34 @@ TEST_F(TorusAndGear, GiveTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(queries(one), queries(many));
     EXPECT_EQ(one.a_to_b.witness.from.position, many.a_to_b.witness.from.position);
     EXPECT_EQ(one.b_to_a.witness.from.position, many.b_to_a.witness.from.position);
+  }
+}
+
+/// Triangles without any order, moved by steps of all sizes, measured and decided in turn: what is kept contradicts no
+/// answer that is found without it.
+TEST(MovingPair, AgreesWithColdAnswersForSoups) {
+  Random random;
+  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+    const Bvh a(reference::random_soup(seed, 400, 0.1)), b(reference::random_soup(seed + 50, 300, 0.05));
+    MovingPair pair(a, b);
+    Isometry3d pose = random.pose({0.5, 0, 0}, 1, 3);
+    for (int step = 0; step < 60; ++step) {
+      SCOPED_TRACE(step);
+      pose = pose * random.pose({0, 0, 0}, std::pow(10, random.uniform(-4, 0)), std::pow(10, random.uniform(-4, 0)));
+      if (step % 20 == 19) pose = random.pose({0.5, 0, 0}, 1, 3);
+      const Bounds cold = hausdorff_distance(a, {b, pose}, wanted()).bounds;
+      if (step % 3 == 0) {
+        const double tolerance = cold.upper * random.uniform(0.8, 1.2);
+        const Bounds warm = pair.check_tolerance(Isometry3d::Identity(), pose, tolerance, wanted()).bounds;
+        EXPECT_LE(warm.lower, cold.upper);
+        EXPECT_GE(warm.upper, cold.lower);
+      } else {
+        const Bounds warm = pair.hausdorff_distance(Isometry3d::Identity(), pose, wanted()).bounds;
+        EXPECT_LE(warm.lower, cold.upper);
+        EXPECT_GE(warm.upper, cold.lower);
+        EXPECT_LE(warm.upper - warm.lower, error_bound);
+      }
+    }
   }
 }
 
