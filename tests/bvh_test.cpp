@@ -254,6 +254,20 @@ TEST(Bvh, TwoBuiltAtOnceAreThoseBuiltOneByOne) {
   }
 }
 
+TEST(Bvh, IsNotBuiltOnceItIsTooLate) {
+  const TriangleMesh mesh = icosphere(3);
+  const std::atomic<bool> cancel = true;
+  const auto now = StopToken::Clock::now();
+  const std::uint64_t before = Bvh(mesh).data().serial;
+  for (const StopToken& stop : {StopToken{.cancel = &cancel}, StopToken{.deadline = now}}) {
+    for (const int threads : {1, 2}) {
+      EXPECT_THROW(Bvh(mesh, {threads, stop}), Stopped);
+      EXPECT_THROW(static_cast<void>(build_trees(mesh, mesh, {threads, stop})), Stopped);
+    }
+  }
+  EXPECT_EQ(Bvh(mesh, {1, {.deadline = now + std::chrono::hours(1)}}).data().serial, before + 1);
+}
+
 std::string refusal_of(const TriangleMesh& a, const TriangleMesh& b, int threads) {
   try {
     static_cast<void>(build_trees(a, b, {.threads = threads}));

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "bvh/bvh_data.h"
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
@@ -197,7 +198,9 @@ TEST(Certificate, EndsWhenItIsTold) {
   late.seconds = 0;
   short_of_steps.steps_per_triangle = 1;
   EXPECT_FALSE(build_certificate(fine, coarse, 1, cancelled));
+  const std::uint64_t tree_before = Bvh(coarse).data().serial;
   EXPECT_FALSE(build_certificate(fine, coarse, 1, late));
+  EXPECT_EQ(Bvh(coarse).data().serial, tree_before + 1) << "a tree was built although there was no time";
   const double distance = hausdorff_distance(Bvh(fine), Bvh(coarse)).bounds.upper;
   EXPECT_THROW((void)build_certificate(fine, coarse, 1.00001 * distance, short_of_steps), Error);
 }

@@ -228,6 +228,41 @@ TEST(Cancelling, EndsTheParsing) {
   }
 }
 
+/// What a reader steps over without taking anything is looked at as well: without a vertex the content would be
+/// refused.
+TEST(Cancelling, EndsTheParsingOfWhatIsSteppedOver) {
+  const std::atomic<bool> cancel = true;
+  std::string comments, elements = "ply\nformat ascii 1.0\nelement dot 1\nproperty int x\nend_header\n1\n";
+  for (int i = 0; i < 70'000; ++i) comments += "# nothing\n";
+  const std::pair<const char*, std::string> files[] = {{"m.obj", comments}, {"m.off", comments}, {"m.ply", elements}};
+  for (const auto& [name, bytes] : files) {
+    EXPECT_THROW(parse_mesh(name, bytes), InvalidInput) << name;
+    EXPECT_THROW(parse_mesh(name, bytes, {&cancel}), Interrupted) << name;
+  }
+}
+
+TEST(Deadlines, EndReadingAndWritingAndLeaveTheOldFile) {
+  const TemporaryFolder folder;
+  const auto now = StopToken::Clock::now();
+  WriteOptions writing;
+  writing.deadline = now;
+  for (const char* name : {"m.off", "m.obj", "m.ply", "m.stl"}) {
+    write_mesh(folder / name, triangle);
+    const std::string before = content_of(folder / name);
+    EXPECT_THROW(read_mesh(folder / name, {nullptr, now}), Stopped) << name;
+    EXPECT_THROW(parse_mesh(name, before, {nullptr, now}), Stopped) << name;
+    EXPECT_EQ(parse_mesh(name, before, {nullptr, now + std::chrono::hours(1)}).mesh.triangles.size(), 1u) << name;
+    EXPECT_THROW(write_mesh(folder / name, triangle, writing), Stopped) << name;
+    EXPECT_EQ(content_of(folder / name), before) << name;
+    try {
+      (void)read_mesh(folder / name, {nullptr, now});
+    } catch (const Stopped& stopped) {
+      EXPECT_EQ(stopped.what(), (folder / name).string() + ": the time limit came while it was read");
+    }
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 4) << "a temporary file was left";
+}
+
 TEST(Writing, ReportsAFullDevice) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const TemporaryFolder folder;

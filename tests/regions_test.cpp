@@ -11,9 +11,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include "bvh/bvh_data.h"
 #include "datasets/analytic_meshes.h"
 #include "decimation_states.h"
 #include "drivers.h"
+#include "levels/level_run.h"
 #include "meshbound/lod_chain.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
@@ -271,6 +273,16 @@ TEST_P(Regions, ATimeLimitOrACancellationLeavesAProvenMesh) {
   EXPECT_LT(level.faces(), original.triangles.size() * 9 / 10);
   EXPECT_GT(level.faces(), original.triangles.size() / 10);
   EXPECT_EQ(check_tolerance(Bvh(original), Bvh(level.mesh), 0.01).verdict, Verdict::Within);
+}
+
+/// The trees of a large mesh take seconds: trees are numbered, so the number of those that were built is known.
+TEST_P(Regions, WithoutTimeNoTreeIsBuilt) {
+  const TriangleMesh original = sphere(), small = datasets::icosphere(1, 0);
+  SimplifyOptions with = options(0.01);
+  with.time_limit = 0;
+  const std::uint64_t before = Bvh(small).data().serial;
+  EXPECT_EQ(decimate_levels(original, with).last().ended_by, EndedBy::TimeLimit);
+  EXPECT_EQ(Bvh(small).data().serial, before + 1);
 }
 
 TEST_P(Regions, OneThatFailsEndsTheOthers) {

@@ -90,7 +90,7 @@ TEST_F(Signals, EndTheWaitForTheReaderOfAFifo) {
   ASSERT_EQ(::mkfifo((folder_ / "fifo").c_str(), 0600), 0);
   const int code = run([&] {
     const UninterruptedScope together;
-    AtomicFile file(folder_ / "fifo", AtomicFile::Stream::Staged, &interrupted());
+    AtomicFile file(folder_ / "fifo", AtomicFile::Stream::Staged, {.cancel = &interrupted()});
     file.write("for nobody");
     const pid_t parent = ::getpid();
     if (::fork() == 0) {

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "bvh/bvh_data.h"
 #include "common/gated_output.h"
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
@@ -307,27 +308,49 @@ TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
   near.vertices[17] *= 1.001;
   DistanceOptions options;
   options.tolerance = 0.002;
-  const std::atomic<bool> never = false;
-  tools::GatedOutput proven(in("proven.off"), never), late(in("late.off"), never), first(in("first.off"), never);
+  tools::MeshWithTree original(sphere, 1);
+  tools::GatedOutput proven(in("proven.off"), {}), late(in("late.off"), {}), first(in("first.off"), {});
   proven.write(near);
-  proven.measure(tree, options);
+  proven.measure(original, options);
   ASSERT_EQ(proven.verdict(), Verdict::Within);
   const TriangleMesh coarse = datasets::icosphere(1, 2);
   options.tolerance = hausdorff_distance(tree, Bvh(coarse)).bounds.upper;
   options.budget.seconds = 0;
   late.write(coarse);
-  late.measure(tree, options);
+  late.measure(original, options);
   ASSERT_EQ(late.verdict(), Verdict::Undecided);
-  late.fall_back(&proven, sphere, {}, tree, options);
+  late.fall_back(&proven, original, {}, options);
   ASSERT_EQ(late.verdict(), Verdict::Within);
   EXPECT_EQ(late.distance().bounds.upper, proven.distance().bounds.upper);
   late.publish();
   EXPECT_EQ(read_mesh(in("late.off")).mesh.vertices[17], near.vertices[17]);
   first.write(coarse);
-  first.measure(tree, options);
-  first.fall_back(nullptr, sphere, {}, tree, options);
+  first.measure(original, options);
+  first.fall_back(nullptr, original, {}, options);
   first.publish();
   EXPECT_EQ(read_mesh(in("first.off")).mesh.vertices, sphere.vertices);
+}
+
+/// After the time limit nothing is measured and no tree is built any more: the original is written, read back and found
+/// to be itself. Trees are numbered, so the number of those that were built is known.
+TEST_F(SimplifyTool, FallsBackToTheOriginalWithoutATree) {
+  const TriangleMesh sphere = datasets::icosphere(1, 5), coarse = datasets::icosphere(1, 2);
+  tools::MeshWithTree original(sphere, 1);
+  EXPECT_THROW((void)original.tree({.deadline = StopToken::Clock::now()}), Stopped);
+  DistanceOptions options;
+  options.tolerance = 0.01;
+  for (const char* name : {"out.off", "out.stl"}) {
+    const std::uint64_t before = Bvh(coarse).data().serial;
+    tools::GatedOutput output(in(name), StopToken{.deadline = StopToken::Clock::now()});
+    EXPECT_THROW(output.write(coarse), Stopped) << name;
+    output.fall_back(nullptr, original, {}, options);
+    EXPECT_EQ(output.verdict(), Verdict::Within) << name;
+    EXPECT_EQ(output.checksum().size(), 64u) << name;
+    output.publish();
+    EXPECT_EQ(read_mesh(in(name)).mesh.triangles.size(), sphere.triangles.size()) << name;
+    const std::uint64_t small_trees = std::string(name) == "out.off" ? 0 : 4;  // around the furthest corners
+    EXPECT_EQ(Bvh(coarse).data().serial, before + small_trees + 1) << name;
+  }
 }
 
 /// Coordinates with 17 digits cannot be held by floats: the file would be further away than the tolerance.
@@ -347,10 +370,10 @@ TEST_F(SimplifyTool, CatchesASabotagedResultAtTheGate) {
   sabotaged.vertices[17] *= 1.021;
   DistanceOptions options;
   options.tolerance = 0.02;
-  const std::atomic<bool> never = false;
-  tools::GatedOutput output(in("out.off"), never);
+  tools::MeshWithTree original(sphere, 1);
+  tools::GatedOutput output(in("out.off"), {});
   output.write(sabotaged);
-  output.measure(Bvh(sphere), options);
+  output.measure(original, options);
   EXPECT_EQ(output.verdict(), Verdict::Exceeds);
   EXPECT_THROW(output.publish(), Error);
   EXPECT_FALSE(fs::exists(in("out.off")));

@@ -42,7 +42,7 @@ double way(const TriangleMesh& mesh) {
 
 TEST(SpatialOrder, HasEveryTriangleAndUsedVertexOnce) {
   const TriangleMesh before = shuffled_sphere(3);
-  const SpatialOrder after = spatial_order(before, 1);
+  const SpatialOrder after = spatial_order(before, {1});
   ASSERT_EQ(after.triangle.size(), before.triangles.size());
   ASSERT_EQ(after.vertex.size(), before.vertices.size() - 5);
   for (std::size_t t = 0; t < after.triangle.size(); ++t)
@@ -58,13 +58,13 @@ TEST(SpatialOrder, HasEveryTriangleAndUsedVertexOnce) {
 
 TEST(SpatialOrder, BringsNeighboursTogether) {
   const TriangleMesh before = shuffled_sphere(4);
-  const SpatialOrder after = spatial_order(before, 1);
+  const SpatialOrder after = spatial_order(before, {1});
   EXPECT_LT(way(after.mesh), 0.1 * way(before));
 }
 
 TEST(SpatialOrder, DoesNotDependOnTheNumberOfThreads) {
   const TriangleMesh mesh = shuffled_sphere(5);
-  const SpatialOrder one = spatial_order(mesh, 1), four = spatial_order(mesh, 4);
+  const SpatialOrder one = spatial_order(mesh, {1}), four = spatial_order(mesh, {4});
   EXPECT_EQ(one.triangle, four.triangle);
   EXPECT_EQ(one.vertex, four.vertex);
 }

@@ -12,8 +12,10 @@
 #include <regex>
 
 #include "common/length.h"
+#include "common/mesh_input.h"
 #include "common/progress.h"
 #include "common/sha256.h"
+#include "common/tool_main.h"
 #include "datasets/analytic_meshes.h"
 #include "json_claims.h"
 #include "meshbound/distance.h"
@@ -177,6 +179,27 @@ TEST(Sha256, IsTheStandardOne) {
     std::ofstream(folder / "bytes", std::ios::binary) << bytes;
     EXPECT_EQ(tools::sha256(bytes), sha256sum(folder / "bytes")) << size;
   }
+}
+
+TEST(Sha256, LooksEveryMebibyteWhetherItIsToEnd) {
+  const std::string bytes(std::size_t{5} << 20, 'a');
+  int looks = 0;
+  const std::string digits = tools::sha256(bytes, [&] { ++looks; });
+  EXPECT_EQ(digits, tools::sha256(bytes));
+  EXPECT_EQ(looks, 5);
+  EXPECT_THROW((void)tools::sha256(bytes, [] { throw Stopped("enough"); }), Stopped);
+}
+
+TEST_F(ToolConventions, ReadingEndsByTheTimeLimit) {
+  MeshReport report;
+  const StopToken late{.deadline = StopToken::Clock::now()};
+  EXPECT_THROW((void)tools::read_input(in("in.off"), true, report, late), Stopped);
+  EXPECT_EQ(tools::read_input(in("in.off"), true, report, {}).triangles.size(), 1280u);
+  CLI::App app("", "tool");
+  const char* const arguments[] = {"tool"};
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(tools::tool_main(app, 1, arguments, []() -> int { throw Stopped("in.off: the time limit came"); }), 3);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "tool: in.off: the time limit came; nothing was written\n");
 }
 
 bool all_floats(const TriangleMesh& mesh) {

@@ -17,6 +17,7 @@
 #include "common/signals.h"
 #include "common/stopwatch.h"
 #include "common/threads.h"
+#include "common/time_limit.h"
 #include "common/tool_main.h"
 #include "hausdorff/answer.h"
 #include "hausdorff/motion.h"
@@ -36,9 +37,9 @@ using namespace meshbound;
 using namespace meshbound::tools;
 
 /// Reads a mesh, and maps it if there is a map. Returns how far rounding has moved its image at most.
-double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum, TriangleMesh& mesh,
-            MeshReport& report) {
-  mesh = read_input(path, with_checksum, report);
+double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
+            const StopToken& stop, TriangleMesh& mesh, MeshReport& report) {
+  mesh = read_input(path, with_checksum, report, stop);
   report.dropped.reset();  // nothing is written again
   double displacement = 0;
   if (map) {
@@ -61,11 +62,19 @@ DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watc
   return options;
 }
 
-/// Whether the time limit is so long over, in seconds, that not even the trees are to be built. Shortly after it the
-/// answer that a search gives at once is worth more than the time.
-bool is_late(const Arguments& arguments, const Stopwatch& watch) {
-  constexpr double patience = 0.2;
-  return arguments.common.has_time_limit && watch.seconds() > arguments.common.time_limit + patience;
+/// Answers by searching trees, unless the time limit is over before these are built. Shortly after it the answer that a
+/// search gives at once is worth more than the time.
+Answer searched_answer(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                       const Arguments& arguments, Stopwatch& watch, double& build_seconds) {
+  try {
+    const auto [tree_a, tree_b] =
+        build_trees(a, b, {arguments.common.threads, stop_of_run(arguments.common, watch, patience)});
+    build_seconds = watch.lap();
+    ProgressBar bar("measuring", arguments.common.quiet);
+    return answer_by_trees(question, tree_a, tree_b, engine_options(arguments, watch, bar));
+  } catch (const Stopped&) {
+    return unsearched_answer(question);
+  }
 }
 
 /// Before any work: nothing that is written may replace what is read, and everything can be written.
@@ -130,7 +139,7 @@ int run(const Arguments& arguments) {
   check_paths(arguments);
   std::optional<AtomicFile> certificate;
   if (!arguments.certificate.empty())
-    certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, &interrupted());
+    certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
   std::optional<Eigen::Affine3d> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
 
@@ -138,21 +147,16 @@ int run(const Arguments& arguments) {
   TriangleMesh a, b;
   double displacement = 0;
   const bool with_checksums = !arguments.common.json.empty();
+  const StopToken stop = stop_of_reading(arguments.common, watch);
   run_both(
-      arguments.common.threads, [&] { load(arguments.a, std::nullopt, with_checksums, a, report.a); },
-      [&] { displacement = load(arguments.b, map, with_checksums, b, report.b); });
+      arguments.common.threads, [&] { load(arguments.a, std::nullopt, with_checksums, stop, a, report.a); },
+      [&] { displacement = load(arguments.b, map, with_checksums, stop, b, report.b); });
   if (map) report.transform_displacement = displacement;
   const Question question = question_about(a, b, arguments, lengths, report.a.summary.bbox_diagonal, displacement);
   report.seconds.read = watch.lap();
 
   std::optional<Answer> found = answer_without_trees(question, a, b, arguments.method);
-  if (!found && is_late(arguments, watch)) found = unsearched_answer(question);
-  if (!found) {
-    const auto [tree_a, tree_b] = build_trees(a, b, {arguments.common.threads});
-    report.seconds.build = watch.lap();
-    ProgressBar bar("measuring", arguments.common.quiet);
-    found = answer_by_trees(question, tree_a, tree_b, engine_options(arguments, watch, bar));
-  }
+  if (!found) found = searched_answer(question, a, b, arguments, watch, report.seconds.build);
   Answer& answer = *found;
   conclude(answer, question);
   if (interrupted() && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);

@@ -97,7 +97,6 @@ class Run : DecimationRun {
   void print_summary() const;
 
   const Options& options_;
-  std::optional<Bvh> tree_;
   std::optional<OutputFolder> folder_;
   std::vector<GatedOutput> outputs_;  ///< one for each tolerance
   std::vector<double> pixels_;        ///< of the tolerances, where they come from a view
@@ -192,8 +191,7 @@ void Run::choose_view() {
 
 void Run::open_outputs() {
   folder_.emplace(options_.folder);
-  for (std::size_t i = 0; i < tolerances_.size(); ++i)
-    outputs_.emplace_back(level_path(i), interrupted_, options_.write);
+  for (std::size_t i = 0; i < tolerances_.size(); ++i) outputs_.emplace_back(level_path(i), stop(), options_.write);
   check_writable(chain_path());
   if (!options_.common.json.empty()) check_writable(options_.common.json);
 }
@@ -201,8 +199,6 @@ void Run::open_outputs() {
 void Run::make_levels() {
   bar_.emplace("simplifying and measuring", options_.common.quiet);
   report_.verdict = Verdict::Within;
-  tree_.emplace(original_, BvhOptions{options_.common.threads});
-  report_.seconds.certify += watch_.lap();
   SimplifyOptions options = decimation(outputs_.back(), *bar_);
   options.tolerance = tolerances_.back();
   LevelRun run(original_, options);
@@ -224,14 +220,14 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   report_.seconds.simplify += watch_.lap();
   GatedOutput& output = outputs_[index];
   if (original_lines_) output.require_lines(&*original_lines_);
-  output.write(level.mesh, level.lines);
+  (void)writes(output, level);  // where it does not, `prove` falls back
   report_.seconds.write += watch_.lap();
   const auto redo = [&](double tolerance) {
     SimplifyOptions again = decimation(output, *bar_);
     again.tolerance = tolerance;
     return decimate_levels(original_, again).last();
   };
-  const DecidedBy decided_by = prove(output, level.tolerance, *tree_, index > 0 ? &outputs_[index - 1] : nullptr, redo);
+  const DecidedBy decided_by = prove(output, level.tolerance, index > 0 ? &outputs_[index - 1] : nullptr, redo);
   report_.seconds.certify += watch_.lap();
   report_.verdict = output.verdict();
   if (report_.verdict == Verdict::Exceeds && level.ended_by != EndedBy::Rounding)

@@ -19,6 +19,7 @@
 #include "common/signals.h"
 #include "common/stopwatch.h"
 #include "common/threads.h"
+#include "common/time_limit.h"
 #include "common/tool_main.h"
 #include "meshbound/error.h"
 #include "meshbound/transform.h"
@@ -62,9 +63,9 @@ void place(Input& input, const Eigen::Affine3d& map) {
 }
 
 /// Reads a mesh and places it.
-void load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum, Input& input,
-          MeshReport& report) {
-  input.mesh = read_input(path, with_checksum, report);
+void load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum, const StopToken& stop,
+          Input& input, MeshReport& report) {
+  input.mesh = read_input(path, with_checksum, report, stop);
   report.dropped.reset();  // nothing is written again
   if (!map) return;
   place(input, *map);
@@ -124,9 +125,10 @@ int run(const PenetrationArguments& arguments) {
   Input a, b;
   const bool with_checksums = !arguments.common.json.empty();
   const int threads = arguments.common.threads;
+  const StopToken stop = stop_of_reading(arguments.common, watch);
   run_both(
-      threads, [&] { load(arguments.a, map_a, with_checksums, a, report.a); },
-      [&] { load(arguments.b, map_b, with_checksums, b, report.b); });
+      threads, [&] { load(arguments.a, map_a, with_checksums, stop, a, report.a); },
+      [&] { load(arguments.b, map_b, with_checksums, stop, b, report.b); });
   report.displacement_a = a.displacement;
   report.displacement_b = b.displacement;
   report.seconds.read = watch.lap();

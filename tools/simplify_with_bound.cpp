@@ -182,14 +182,15 @@ void Run::open_outputs() {
     if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
     for (std::size_t i = 0; i < tolerances_.size(); ++i) {
       const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
-      if (is_level) outputs_.emplace_back(level_path(i), interrupted_, options_.write);
+      if (is_level) outputs_.emplace_back(level_path(i), stop(), options_.write);
     }
   }
-  outputs_.emplace_back(options_.output, interrupted_, options_.write);
+  outputs_.emplace_back(options_.output, stop(), options_.write);
   if (options_.certificate.empty()) return;
+  const StopToken signals{.cancel = &interrupted_};
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
-    certificates_.emplace_back(certificate_path(i), AtomicFile::Stream::Staged, &interrupted_);
-  certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, &interrupted_);
+    certificates_.emplace_back(certificate_path(i), AtomicFile::Stream::Staged, signals);
+  certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
 }
 
 void Run::simplify() {
@@ -222,13 +223,12 @@ SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
 
 /// Writes each mesh under a temporary name, reads it back and measures that.
 void Run::certify() {
-  const Bvh original(original_, BvhOptions{options_.common.threads});
   verdict_ = Verdict::Within;
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
     const std::size_t level = std::min(i, tolerances_.size() - 1);  // OUT may repeat the last level
     watch_.lap();
     if (original_lines_) outputs_[i].require_lines(&*original_lines_);
-    outputs_[i].write(result_.levels[level].mesh, result_.levels[level].lines);
+    (void)writes(outputs_[i], result_.levels[level]);  // where it does not, `prove` falls back
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
     bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
@@ -237,7 +237,7 @@ void Run::certify() {
       again.tolerance = tolerance;
       return decimate_levels(original_, again).last();
     };
-    decided_by_.push_back(prove(outputs_[i], tolerances_[level], original, i > 0 ? &outputs_[i - 1] : nullptr, redo));
+    decided_by_.push_back(prove(outputs_[i], tolerances_[level], i > 0 ? &outputs_[i - 1] : nullptr, redo));
     verdict_ = outputs_[i].verdict();
     report_.seconds.certify += watch_.lap();
     if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
@@ -301,8 +301,7 @@ void Run::write_certificates() {
     auto certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
     end_if_interrupted();
     if (!certificate) {
-      decided_by_[i] =
-          fall_back(outputs_[i], nullptr, Bvh(original_, BvhOptions{options_.common.threads}), measurement(tolerance));
+      decided_by_[i] = fall_back(outputs_[i], nullptr, measurement(tolerance));
       options.seconds = std::numeric_limits<double>::infinity();
       certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
       end_if_interrupted();

@@ -47,11 +47,11 @@ struct Inputs {
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// The magic first: of a file that is no certificate nothing more is read, however long it is.
-std::vector<std::uint8_t> certificate_of(const std::string& path) {
-  const FileBytes head(path, &interrupted(), verify::magic.size());
+std::vector<std::uint8_t> certificate_of(const std::string& path, const StopToken& stop) {
+  const FileBytes head(path, stop, verify::magic.size());
   const bool is_certificate = head.bytes() == verify::magic;
   const std::size_t limit = is_certificate ? std::numeric_limits<std::size_t>::max() : verify::magic.size();
-  const FileBytes file(path, &interrupted(), limit);
+  const FileBytes file(path, stop, limit);
   return {file.bytes().begin(), file.bytes().end()};
 }
 
@@ -136,10 +136,11 @@ int run(const Options& options) {
   Outcome outcome;
   Clock::time_point start = Clock::now();
   Inputs inputs;
-  inputs.certificate = certificate_of(options.certificate);
+  const StopToken stop{.cancel = &interrupted()};
+  inputs.certificate = certificate_of(options.certificate, stop);
   const bool with_checksums = !options.json.empty();
-  InputFile original = read_file(options.original, with_checksums);
-  InputFile simplified = read_file(options.simplified, with_checksums);
+  InputFile original = read_file(options.original, with_checksums, stop);
+  InputFile simplified = read_file(options.simplified, with_checksums, stop);
   inputs.original = std::move(original.content.mesh);
   inputs.original_sha256 = original.sha256;
   inputs.simplified = std::move(simplified.content.mesh);

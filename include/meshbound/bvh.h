@@ -10,12 +10,14 @@
 #include "meshbound/bounds.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 
 /// How a tree is built.
 struct BvhOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The tree is the same for every value.
+  StopToken stop;   ///< building ends with `Stopped` soon after this says so; a refit goes on
 };
 
 /// A bounding volume hierarchy over a triangle soup, with the adjacency and cells that the Hausdorff engine walks:
@@ -24,7 +26,7 @@ struct BvhOptions {
 /// but not during `refit`. Build: O(n log n).
 class Bvh {
  public:
-  /// Throws `InvalidInput` as `validate` does.
+  /// Throws `InvalidInput` as `validate` does, `Stopped` as the options say.
   explicit Bvh(const MeshView& mesh, const BvhOptions& options = {});
   Bvh(Bvh&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
   Bvh& operator=(Bvh&&) noexcept;  ///< what is moved from may only be destroyed or assigned to

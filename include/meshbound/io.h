@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "meshbound/error.h"
+#include "meshbound/stop_token.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -42,13 +43,15 @@ struct MeshFile {
 /// How a file is read.
 struct ReadOptions {
   const std::atomic<bool>* cancel = nullptr;  ///< reading ends with `Interrupted` soon after this is set; not owned
+  /// Reading ends with `Stopped` soon after this point in time; the largest one: never.
+  StopToken::Clock::time_point deadline = StopToken::Clock::time_point::max();
 };
 
 /// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double) or STL (ascii, binary; corners welded by
 /// exact coordinates). Polygons are split into fans from their first corner. Degenerate and duplicate triangles are
-/// kept. Throws `IoError` when the file cannot be read, `Interrupted` as the options say, `InvalidInput` with path,
-/// line or byte offset and defect when it is malformed, holds no faces, a non-finite used coordinate or an index out of
-/// range. O(size), one pass, never allocates more than the file can justify.
+/// kept. Throws `IoError` when the file cannot be read, `Interrupted` and `Stopped` as the options say, `InvalidInput`
+/// with path, line or byte offset and defect when it is malformed, holds no faces, a non-finite used coordinate or an
+/// index out of range. O(size), one pass, never allocates more than the file can justify.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// How a file is written.
@@ -56,6 +59,8 @@ struct WriteOptions {
   bool ascii = false;             ///< PLY and STL: text instead of binary
   bool single_precision = false;  ///< every coordinate is rounded to a float, as it always is in STL; PLY stores floats
   const std::atomic<bool>* cancel = nullptr;  ///< writing ends with `Interrupted` soon after this is set; not owned
+  /// Writing ends with `Stopped` soon after this point in time; the largest one: never.
+  StopToken::Clock::time_point deadline = StopToken::Clock::time_point::max();
 };
 
 /// The mesh that `read_mesh` gives back after `write_mesh`, bit for bit: coordinates rounded to the precision of the
@@ -69,8 +74,8 @@ struct WriteOptions {
 /// mesh. Symbolic links are followed, also to a file that is not there yet; a file that is replaced leaves its
 /// permissions to the new one; devices and FIFOs are written to as they are. Throws `IoError` (also when the disk is
 /// full, and for a file that grants writing to nobody, whoever asks), `InvalidInput` for an unknown extension and where
-/// `rounded_for` does, `Interrupted` as the options say; nothing is written then. O(n). Safe to call from several
-/// threads, as is all of this header.
+/// `rounded_for` does, `Interrupted` and `Stopped` as the options say; nothing is written then. O(n). Safe to call from
+/// several threads, as is all of this header.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
 
 }  // namespace meshbound

@@ -130,9 +130,11 @@ std::size_t scratch_bytes(const MeshView& mesh) {
   return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * max_used_vertices(mesh) + rounding;
 }
 
-std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {
+/// `stop` is looked at between the steps, each of which takes about 50 ns for a triangle.
+std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs, const StopToken& stop) {
   check_floating_point_model();
   check_size(mesh);
+  stop.check();
   auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh));
   Arena scratch(scratch_bytes(mesh));
   if (runs > 1) {
@@ -140,8 +142,13 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs) {
     scratch.touch();
   }
   set_frame(*data, checked_box(mesh));
+  stop.check();
   hilbert_order(*data, mesh, scratch, runs);
-  build_adjacency(*data, place_vertices(*data, mesh, scratch, runs), scratch);
+  stop.check();
+  const std::vector<std::uint32_t> first_vertex = place_vertices(*data, mesh, scratch, runs);
+  stop.check();
+  build_adjacency(*data, first_vertex, scratch);
+  stop.check();
   build_normals(*data);
   build_nodes(*data);
   return data;
@@ -153,10 +160,11 @@ constexpr double tolerated_excess = 0.2;
 
 /// Trees of several meshes. Threads are shared out by size; one that has built its tree helps with the tasks of others.
 template <std::size_t count>
-std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<MeshView, count>& meshes, int wanted) {
+std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<MeshView, count>& meshes,
+                                                              const BvhOptions& options) {
   std::size_t triangles = 0;
   for (const MeshView& mesh : meshes) triangles += mesh.triangle_count();
-  const std::size_t threads = useful_threads(wanted, triangles);
+  const std::size_t threads = useful_threads(options.threads, triangles);
   std::array<std::unique_ptr<const Bvh::Data>, count> trees;
   std::array<FirstError, count> errors;
 #pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
@@ -164,8 +172,9 @@ std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<M
     const std::size_t size = meshes[i].triangle_count();
     const auto share = static_cast<double>(threads) * static_cast<double>(size) / static_cast<double>(triangles + 1);
     const auto runs = static_cast<std::size_t>(std::ceil(share - tolerated_excess));
-    errors[i].guard(
-        [&] { trees[i] = build(meshes[i], std::clamp<std::size_t>(runs, 1, 1 + size / triangles_per_thread)); });
+    errors[i].guard([&] {
+      trees[i] = build(meshes[i], std::clamp<std::size_t>(runs, 1, 1 + size / triangles_per_thread), options.stop);
+    });
   }
   for (const FirstError& error : errors) error.rethrow();
   return trees;
@@ -193,14 +202,14 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   data.working_box = {data.frame.to_working(lo), data.frame.to_working(hi)};
 }
 
-Bvh::Bvh(const MeshView& mesh, const BvhOptions& options) : Bvh(std::move(build_all<1>({mesh}, options.threads)[0])) {}
+Bvh::Bvh(const MeshView& mesh, const BvhOptions& options) : Bvh(std::move(build_all<1>({mesh}, options)[0])) {}
 Bvh::Bvh(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 Bvh::~Bvh() = default;
 
 std::pair<Bvh, Bvh> build_trees(const MeshView& a, const MeshView& b, const BvhOptions& options) {
-  auto trees = build_all<2>({a, b}, options.threads);
+  auto trees = build_all<2>({a, b}, options);
   return {Bvh(std::move(trees[0])), Bvh(std::move(trees[1]))};
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/file_stop.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -34,8 +35,8 @@ void hand_over(int fd, const OutputTarget::Owner& owner) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path, Stream stream, const std::atomic<bool>* cancel)
-    : path_(std::move(path)), target_(output_target(path_)), stream_(stream), cancel_(cancel) {}
+AtomicFile::AtomicFile(std::filesystem::path path, Stream stream, const StopToken& stop)
+    : path_(std::move(path)), target_(output_target(path_)), stream_(stream), stop_(stop) {}
 
 AtomicFile::~AtomicFile() {
   if (fd_ >= 0) ::close(fd_);
@@ -60,7 +61,7 @@ void AtomicFile::open_stream() {
   do {
     fd_ = target_.descriptor >= 0 ? ::fcntl(target_.descriptor, F_DUPFD_CLOEXEC, 0)
                                   : ::open(target_.path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-    end_if_cancelled();  // opening a FIFO waits for its reader, until a signal comes
+    end_if_stopped(stop_, path_, "written");  // opening a FIFO waits for its reader, until a signal comes
   } while (fd_ < 0 && errno == EINTR);
   if (fd_ < 0) fail(errno);
 }
@@ -121,17 +122,13 @@ void AtomicFile::flush() { write_through(buffer_.get(), std::exchange(filled_, 0
 
 void AtomicFile::write_through(const char* from, std::size_t size) {
   while (size > 0) {
-    end_if_cancelled();
+    end_if_stopped(stop_, path_, "written");
     const ssize_t written = ::write(fd_, from, std::min(size, buffer_size));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     from += written;
     size -= static_cast<std::size_t>(written);
   }
-}
-
-void AtomicFile::end_if_cancelled() const {
-  if (cancel_ != nullptr && *cancel_) throw Interrupted(path_.string() + ": interrupted while it was written");
 }
 
 void AtomicFile::close() {

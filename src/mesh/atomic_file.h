@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "mesh/output_target.h"
 #include "mesh/temporary_files.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 
@@ -26,9 +26,8 @@ class AtomicFile {
   };
 
   /// Checks that `path` can be written to (see `output_target`) and touches nothing yet. Writing throws `Interrupted`
-  /// once `cancel` is set; null: never.
-  explicit AtomicFile(std::filesystem::path path, Stream stream = Stream::Direct,
-                      const std::atomic<bool>* cancel = nullptr);
+  /// or `Stopped` as `stop` says.
+  explicit AtomicFile(std::filesystem::path path, Stream stream = Stream::Direct, const StopToken& stop = {});
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -57,14 +56,13 @@ class AtomicFile {
   void flush();
   void write_through(const char* from, std::size_t size);
   void send_staged();
-  void end_if_cancelled() const;
   void close();
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path path_;  // as the caller named it, for messages
   OutputTarget target_;
   Stream stream_;
-  const std::atomic<bool>* cancel_;
+  StopToken stop_;
   std::filesystem::path temporary_;  // empty when writing to a stream, and after the rename
   std::optional<TemporaryName> listed_;
   int fd_ = -1;

@@ -10,12 +10,13 @@
 #include <cstring>
 #include <string>
 
+#include "mesh/file_stop.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
 namespace {
 
-constexpr std::size_t max_read = std::size_t{1} << 24;  // bytes between two looks at the flag: some milliseconds
+constexpr std::size_t max_read = std::size_t{1} << 24;  // bytes between two looks at the token: some milliseconds
 
 class FileDescriptor {
  public:
@@ -37,7 +38,7 @@ class FileDescriptor {
 
 }  // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& path, const std::atomic<bool>* cancel, std::size_t limit) {
+FileBytes::FileBytes(const std::filesystem::path& path, const StopToken& stop, std::size_t limit) {
   // O_NONBLOCK: opening a fifo must not wait for somebody to write into it.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) refuse(path, std::strerror(errno));
@@ -48,7 +49,7 @@ FileBytes::FileBytes(const std::filesystem::path& path, const std::atomic<bool>*
   const std::size_t size = std::min(static_cast<std::size_t>(status.st_size), limit);
   data_ = std::make_unique_for_overwrite<char[]>(size);
   while (size_ < size) {
-    if (cancel != nullptr && *cancel) throw Interrupted(path.string() + ": interrupted while it was read");
+    end_if_stopped(stop, path, "read");
     const ssize_t count = ::read(file.get(), data_.get() + size_, std::min(size - size_, max_read));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path, std::strerror(errno));

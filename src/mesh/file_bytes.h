@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <string_view>
+
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 
@@ -14,8 +15,8 @@ namespace meshbound {
 class FileBytes {
  public:
   /// Throws `IoError` when `path` is missing, unreadable, anything but a regular file, or shortened meanwhile;
-  /// `Interrupted` once `cancel` is set (null: never). Never blocks. Reads the first `limit` bytes and no more.
-  explicit FileBytes(const std::filesystem::path& path, const std::atomic<bool>* cancel = nullptr,
+  /// `Interrupted` or `Stopped` as `stop` says. Never blocks. Reads the first `limit` bytes and no more.
+  explicit FileBytes(const std::filesystem::path& path, const StopToken& stop = {},
                      std::size_t limit = std::numeric_limits<std::size_t>::max());
 
   [[nodiscard]] std::string_view bytes() const { return {data_.get(), size_}; }

@@ -24,7 +24,7 @@ bool MeshAssembler::usable(const Eigen::Vector3d& p) {
 
 void MeshAssembler::add_polygon(std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) return ignore_element();
-  if (file_.mesh.triangles.size() % cancel_interval == 0) source_.end_if_cancelled();
+  if (file_.mesh.triangles.size() % look_interval == 0) source_.end_if_stopped();
   for (std::size_t i = 2; i < corners.size(); ++i)
     file_.mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
   if (corners.size() > 3) ++file_.triangulated_polygons;

@@ -23,7 +23,7 @@ class MeshAssembler {
 
   /// `offset` is the byte in the file where the vertex stands.
   void add_vertex(const Eigen::Vector3d& p, std::size_t offset) {
-    if (file_.mesh.vertices.size() % cancel_interval == 0) source_.end_if_cancelled();
+    if (file_.mesh.vertices.size() % look_interval == 0) source_.end_if_stopped();
     if (!usable(p)) suspects_.push_back({file_.mesh.vertices.size(), offset});
     file_.mesh.vertices.push_back(p);
   }
@@ -47,7 +47,7 @@ class MeshAssembler {
   [[nodiscard]] MeshFile finish();
 
  private:
-  static constexpr std::size_t cancel_interval = 1 << 16;  // vertices or triangles: read in some milliseconds
+  static constexpr std::size_t look_interval = 1 << 16;  // vertices or triangles: read in some milliseconds
 
   struct Suspect {
     std::size_t vertex;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesh/file_stop.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -20,9 +21,7 @@ std::size_t line_number(std::string_view bytes, std::size_t offset) {
 
 }  // namespace
 
-void MeshSource::end_if_cancelled() const {
-  if (cancel != nullptr && *cancel) throw Interrupted(path.string() + ": interrupted while it was read");
-}
+void MeshSource::end_if_stopped() const { meshbound::end_if_stopped(stop, path, "read"); }
 
 void MeshSource::fail_at_line(std::size_t offset, const std::string& defect) const {
   fail("line " + std::to_string(line_number(bytes, offset)) + ": " + defect);

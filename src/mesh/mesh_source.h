@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 
@@ -12,11 +13,11 @@ namespace meshbound {
 struct MeshSource {
   std::filesystem::path path;
   std::string_view bytes;
-  std::size_t begin = 0;                      ///< where the content starts: after a byte order mark
-  const std::atomic<bool>* cancel = nullptr;  ///< set when the reading is to end; null: never
+  std::size_t begin = 0;  ///< where the content starts: after a byte order mark
+  StopToken stop;         ///< when the reading is to end
 
-  /// Throws `Interrupted` once `cancel` is set.
-  void end_if_cancelled() const;
+  /// Throws `Interrupted` or `Stopped` as `stop` says.
+  void end_if_stopped() const;
 
   /// These throw `InvalidInput` with the file, the line or byte, and `defect`. Lines are counted only here, so that
   /// parsing need not count them.

@@ -7,13 +7,13 @@ namespace meshbound {
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
-  const FileBytes file(path, options.cancel);
+  const FileBytes file(path, {options.deadline, options.cancel});
   return parse_mesh(path, file.bytes(), options);
 }
 
 MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, const ReadOptions& options) {
   const FileFormat format = format_of(path);
-  MeshSource source{path, bytes, 0, options.cancel};
+  MeshSource source{path, bytes, 0, {options.deadline, options.cancel}};
   if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
   // The header of a binary STL may hold any bytes; its reader recognises text for itself.
   if (format == FileFormat::Stl) return read_stl(source);

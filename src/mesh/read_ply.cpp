@@ -170,8 +170,10 @@ class PlyReader {
   }
 
   void skip_element(const PlyElement& element) {
-    if (element.properties.empty()) return;  // takes no bytes, however many there are
+    if (element.properties.empty()) return;           // takes no bytes, however many there are
+    constexpr std::uint64_t look_interval = 1 << 16;  // elements: stepped over in some milliseconds
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (i % look_interval == 0) source_.end_if_stopped();
       for (const PlyProperty& p : element.properties) skip_property(p);
       values_.end_element();
     }

@@ -28,10 +28,13 @@ class TextCursor {
   }
 
   /// Goes to the next word on this line or a later one, over comments; false at the end of the file.
+  /// Throws `Interrupted` or `Stopped` as the source says.
   bool find_word() {
+    look_at_stop();
     while (!find_word_in_line()) {
       if (at_ == end_) return false;
       skip_line();
+      look_at_stop();
     }
     return true;
   }
@@ -106,10 +109,16 @@ class TextCursor {
     }
   }
 
+  void look_at_stop() {
+    constexpr std::size_t interval = 1 << 16;  // words or lines: read in some milliseconds
+    if (++looks_ % interval == 0) source_.end_if_stopped();
+  }
+
   const MeshSource& source_;
   const char* begin_;
   const char* at_;
   const char* end_;
+  std::size_t looks_ = 0;  ///< calls of `look_at_stop`
 };
 
 }  // namespace meshbound

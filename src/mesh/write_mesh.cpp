@@ -87,7 +87,7 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Trian
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
-  AtomicFile file(path, AtomicFile::Stream::Direct, options.cancel);
+  AtomicFile file(path, AtomicFile::Stream::Direct, {options.deadline, options.cancel});
   write_mesh(file, path, mesh, options);
   file.commit();
 }

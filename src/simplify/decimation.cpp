@@ -50,11 +50,11 @@ bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
 
 Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop)
     : input_vertices_(original.vertices.size()),
-      order_(spatial_order(original, options.threads)),
+      order_(spatial_order(original, {options.threads, stop})),
       original_(order_.mesh),
       options_(options),
       frame_(used_bounding_box(original_)),
-      tree_(mapped(original_, frame_), BvhOptions{options.threads}) {
+      tree_(mapped(original_, frame_), BvhOptions{options.threads, stop}) {
   for (const Eigen::Vector3d& p : original_.vertices) {
     vertices_.push_back(to_vec3(frame_.to_frame(p)));
     largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
@@ -63,6 +63,7 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
     throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
   stop.check();
   sort_start_points();
+  stop.check();
   make_state(stop);
 }
 
@@ -287,7 +288,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
 
 void Decimation::describe(SimplifyResult& result) const {
   result.kept_triangles = state_->kept.size();
-  result.dropped_triangles = dropped_triangles_ - result.kept_triangles;
+  result.dropped_triangles = below_rounding_ ? 0 : dropped_triangles_ - result.kept_triangles;
   result.locked_vertices = locked_vertices_;
   result.split = split_;
   result.pruned_components = pruned_components_;

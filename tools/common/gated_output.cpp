@@ -12,14 +12,30 @@
 #include "meshbound/io.h"
 
 namespace meshbound::tools {
+namespace {
 
-GatedOutput::GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel, const WriteOptions& options)
-    : path_(std::move(path)), cancel_(cancel), options_(options) {
+/// Without any tree where the meshes are the same, or the same but for the rounding of coordinates.
+HausdorffDistance distance_between(MeshWithTree& original, const TriangleMesh& mesh, DistanceOptions options,
+                                   const StopToken& stop) {
+  if (options.method == Method::CellWalking) {
+    const double limit = std::min(*options.tolerance, options.error_bound.value_or(*options.tolerance));
+    if (const auto distance = distance_without_trees(original.mesh(), mesh, limit)) return *distance;
+  }
+  const Bvh& original_tree = original.tree(stop);
+  const Bvh mesh_tree(mesh, BvhOptions{options.threads, stop});
+  options.budget.seconds = std::min(options.budget.seconds, stop.seconds_left());
+  return hausdorff_distance(original_tree, mesh_tree, options);
+}
+
+}  // namespace
+
+GatedOutput::GatedOutput(std::filesystem::path path, const StopToken& stop, const WriteOptions& options)
+    : path_(std::move(path)), stop_(stop), options_(options) {
   (void)format_of(path_);
   restart();
 }
 
-void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, &cancel_); }
+void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, stop_); }
 
 Precision GatedOutput::precision() const {
   return format_of(path_) == FileFormat::Stl || options_.single_precision ? Precision::Single : Precision::Double;
@@ -32,17 +48,20 @@ void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines) {
   file_->complete();
 }
 
-TriangleMesh GatedOutput::written_mesh() const {
-  const FileBytes bytes(file_->staged(), &cancel_);
-  return parse_mesh(path_, bytes.bytes(), {&cancel_}).mesh;
+TriangleMesh GatedOutput::written_mesh() const { return written_mesh(only_flag()); }
+
+TriangleMesh GatedOutput::written_mesh(const StopToken& stop) const {
+  const FileBytes bytes(file_->staged(), stop);
+  return parse_mesh(path_, bytes.bytes(), {stop.cancel, stop.deadline}).mesh;
 }
 
-std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->staged(), &cancel_).bytes()); }
+std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->staged(), only_flag()).bytes()); }
 
-const HausdorffDistance& GatedOutput::measure(const Bvh& original, const DistanceOptions& options) {
-  const TriangleMesh mesh = written_mesh();
+const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const DistanceOptions& options) {
+  verdict_ = Verdict::Undecided;
+  const TriangleMesh mesh = written_mesh(stop_);
   summary_ = summarise(mesh);
-  distance_ = hausdorff_distance(original, Bvh(mesh, BvhOptions{options.threads}), options);
+  distance_ = distance_between(original, mesh, options, stop_);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
   return distance_;
@@ -58,20 +77,23 @@ void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions opt
     if (!std::binary_search(points.begin(), points.end(), p, before))
       throw Error("internal error: a vertex of a feature line is not in " + path_.string() + " as it was written");
   options.tolerance = std::min(original_lines_->tolerance, *options.tolerance);
-  line_distance_ = hausdorff_distance(original_lines_->tree, Bvh(lines_, BvhOptions{options.threads}), options);
+  options.budget.seconds = std::min(options.budget.seconds, stop_.seconds_left());
+  const Bvh tree(lines_, BvhOptions{options.threads, stop_});
+  line_distance_ = hausdorff_distance(original_lines_->tree, tree, options);
   verdict_ = verdict_of(line_distance_->bounds, *options.tolerance);
 }
 
-void GatedOutput::fall_back(const GatedOutput* smaller, const TriangleMesh& original, std::span<const Edge> lines,
-                            const Bvh& tree, DistanceOptions options) {
+void GatedOutput::fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
+                            DistanceOptions options) {
+  stop_ = only_flag();
   if (smaller == nullptr) {
-    write(original, lines);
+    write(original.mesh(), lines);
     options.budget = {};
-    measure(tree, options);
+    measure(original, options);
     return;
   }
   restart();
-  file_->write(FileBytes(smaller->file_->staged(), &cancel_).bytes());
+  file_->write(FileBytes(smaller->file_->staged(), stop_).bytes());
   file_->complete();
   verdict_ = smaller->verdict_;
   distance_ = smaller->distance_;

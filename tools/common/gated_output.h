@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "common/mesh_with_tree.h"
 #include "mesh/atomic_file.h"
-#include "meshbound/bvh.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "meshbound/line_mesh.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound::tools {
 
@@ -28,8 +28,8 @@ struct OriginalLines {
 class GatedOutput {
  public:
   /// Throws `InvalidInput` when the extension of `path` is none of ours, `IoError` when it cannot be written to.
-  /// Reading and writing throw `Interrupted` once `cancel` is set; it must outlive this.
-  GatedOutput(std::filesystem::path path, const std::atomic<bool>& cancel, const WriteOptions& options = {});
+  /// `write` and `measure` throw `Interrupted` or `Stopped` as `stop` says, all others only as its flag says.
+  GatedOutput(std::filesystem::path path, const StopToken& stop, const WriteOptions& options = {});
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -40,14 +40,16 @@ class GatedOutput {
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
   /// `lines` are edges of the mesh. Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
+  /// After `Stopped` only `write` and `fall_back` may be called.
   void write(const TriangleMesh& mesh, std::span<const Edge> lines = {});
 
   /// What was written, as it reads. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
 
   /// Distance of the original (a) and the file as it reads (b), and of their lines where these are required; the
-  /// verdict is on both. `options.tolerance` must be set.
-  const HausdorffDistance& measure(const Bvh& original, const DistanceOptions& options);
+  /// verdict is on both. `options.tolerance` must be set. The tree of the original is not asked for where the file
+  /// holds the original.
+  const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
   [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
@@ -58,7 +60,7 @@ class GatedOutput {
   /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
   /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the
   /// time limit no longer counts, as an original that is matched with itself costs one pass.
-  void fall_back(const GatedOutput* smaller, const TriangleMesh& original, std::span<const Edge> lines, const Bvh& tree,
+  void fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
                  DistanceOptions options);
 
   /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
@@ -70,9 +72,11 @@ class GatedOutput {
  private:
   void restart();
   void measure_lines(const TriangleMesh& written, DistanceOptions options);
+  [[nodiscard]] StopToken only_flag() const { return {.cancel = stop_.cancel}; }
+  [[nodiscard]] TriangleMesh written_mesh(const StopToken& stop) const;
 
   std::filesystem::path path_;  ///< as named by the user
-  const std::atomic<bool>& cancel_;
+  StopToken stop_;
   WriteOptions options_;
   std::unique_ptr<AtomicFile> file_;
   Verdict verdict_ = Verdict::Undecided;

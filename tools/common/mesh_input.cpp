@@ -4,20 +4,22 @@
 #include <utility>
 
 #include "common/sha256.h"
-#include "common/signals.h"
 #include "mesh/file_bytes.h"
+#include "mesh/file_stop.h"
 #include "mesh/readers.h"
 
 namespace meshbound::tools {
 
-InputFile read_file(const std::string& path, bool with_checksum) {
+InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
-  const FileBytes bytes(path, &interrupted());
-  return {parse_mesh(path, bytes.bytes(), {&interrupted()}), with_checksum ? sha256(bytes.bytes()) : ""};
+  const FileBytes file(path, stop);
+  const auto look = [&] { end_if_stopped(stop, path, "read"); };
+  return {parse_mesh(path, file.bytes(), {stop.cancel, stop.deadline}),
+          with_checksum ? sha256(file.bytes(), look) : ""};
 }
 
-TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report) {
-  InputFile file = read_file(path, with_checksum);
+TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report, const StopToken& stop) {
+  InputFile file = read_file(path, with_checksum, stop);
   MeshFile& content = file.content;
   report = {path,
             summarise(content.mesh),

@@ -4,6 +4,7 @@
 
 #include "meshbound/io.h"
 #include "meshbound/report.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound::tools {
 
@@ -12,10 +13,11 @@ struct InputFile {
   std::string sha256;  ///< of the bytes that were parsed; empty: not computed
 };
 
-/// `read_mesh` for a tool: ends with `Interrupted` when the process is.
-[[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum);
+/// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says.
+[[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop);
 
 /// The mesh of `read_file`; `report` says what was read.
-[[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report);
+[[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report,
+                                      const StopToken& stop);
 
 }  // namespace meshbound::tools

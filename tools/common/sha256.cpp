@@ -20,7 +20,8 @@ constexpr std::array<std::uint32_t, 64> k = {  // [4.2.2]
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-constexpr std::size_t block_size = 64;  // bytes
+constexpr std::size_t block_size = 64;                         // bytes
+constexpr std::size_t look_interval = block_size * (1 << 14);  // bytes between two looks: some milliseconds
 
 std::uint32_t big_endian(const char* from) {
   std::uint32_t value = 0;
@@ -61,11 +62,14 @@ std::string padded(std::string_view rest, std::uint64_t message_bytes) {
 
 }  // namespace
 
-std::string sha256(std::string_view bytes) {
+std::string sha256(std::string_view bytes, const std::function<void()>& look) {
   std::array<std::uint32_t, 8> hash = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,  // [5.3.3]
                                        0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   const std::size_t whole = bytes.size() - bytes.size() % block_size;
-  for (std::size_t at = 0; at < whole; at += block_size) add_block(hash, bytes.data() + at);
+  for (std::size_t at = 0; at < whole; at += block_size) {
+    if (look && at % look_interval == 0) look();
+    add_block(hash, bytes.data() + at);
+  }
   const std::string tail = padded(bytes.substr(whole), bytes.size());
   for (std::size_t at = 0; at < tail.size(); at += block_size) add_block(hash, tail.data() + at);
   std::string digits;

@@ -9,6 +9,7 @@ namespace meshbound::tools {
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const { return seconds_since(start_); }
+  [[nodiscard]] StopToken::Clock::time_point start() const { return start_; }
   /// Seconds since the last lap.
   double lap() {
     const double now = seconds();

@@ -15,14 +15,15 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/threads.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound::tools {
 namespace {
 
-int complain(const CLI::App& app, std::string message) {
+int complain(const CLI::App& app, std::string message, ExitCode code = ExitBadInput) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
-  return ExitBadInput;
+  return code;
 }
 
 /// What is wrong with a text as a number of seconds; empty: nothing.
@@ -124,6 +125,8 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       return complain(app, std::string("cannot write to standard output: ") + std::strerror(errno));
     return code;
+  } catch (const Stopped& stopped) {
+    return complain(app, std::string(stopped.what()) + "; nothing was written", ExitUndecided);
   } catch (const std::bad_alloc&) {
     return complain(app, "out of memory");
   } catch (const std::exception& error) {

@@ -28,8 +28,8 @@ void add_write_options(CLI::App& app, WriteOptions& options);
 void add_common_options(CLI::App& app, CommonOptions& options);
 
 /// Parses the command line and calls `run`, whose result is the exit code. A usage error or an exception becomes one
-/// line on stderr and `ExitBadInput`, with the nearest options where one is unknown; --help and --version print on
-/// stdout and give `ExitDone`.
+/// line on stderr and `ExitBadInput`, with the nearest options where one is unknown; a `Stopped` one gives
+/// `ExitUndecided`; --help and --version print on stdout and give `ExitDone`.
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
 }  // namespace meshbound::tools

@@ -37,12 +37,13 @@ constexpr double smaller_tolerance = 0.99;
 
 int internal::undecided_measurements = 0;
 
-DecimationRun::DecimationRun(const DecimationOptions& options) : interrupted_(interrupted()), shared_(options) {
+DecimationRun::DecimationRun(const DecimationOptions& options)
+    : interrupted_(interrupted()), shared_(options), measured_original_(original_, options.common.threads) {
   (void)collapse_driver(options.driver, options.cost);  // throws before any work where there is none
 }
 
 void DecimationRun::read_original(MeshReport& report, bool with_checksum) {
-  original_ = read_input(shared_.input, with_checksum, report);
+  original_ = read_input(shared_.input, with_checksum, report, stop_of_reading(shared_.common, watch_));
   validate(original_);
   diagonal_ = report.summary.bbox_diagonal;
 }
@@ -78,7 +79,6 @@ DistanceOptions DecimationRun::measurement(double tolerance) const {
                             ? std::max(default_error_bound * tolerance, min_error_bound * diagonal_)
                             : parse_length("--error-bound", shared_.error_bound).in_model_units(diagonal_);
   options.tolerance = tolerance;
-  options.budget.seconds = remaining(1);
   options.threads = shared_.common.threads;
   options.cancel = &interrupted_;
   return options;
@@ -89,8 +89,21 @@ double DecimationRun::remaining(double share) const {
                                        : std::numeric_limits<double>::infinity();
 }
 
-bool DecimationRun::decides(GatedOutput& output, const Bvh& tree, const DistanceOptions& options) const {
-  output.measure(tree, options);
+bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) const {
+  try {
+    output.write(level.mesh, level.lines);
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
+
+bool DecimationRun::decides(GatedOutput& output, const DistanceOptions& options) {
+  try {
+    output.measure(measured_original_, options);
+  } catch (const Stopped&) {
+    return false;
+  }
   if (internal::undecided_measurements > 0) {
     --internal::undecided_measurements;
     return false;
@@ -98,27 +111,21 @@ bool DecimationRun::decides(GatedOutput& output, const Bvh& tree, const Distance
   return output.verdict() != Verdict::Undecided;
 }
 
-DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const Bvh& tree, const GatedOutput* smaller,
-                               const Redo& redo) const {
+DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const GatedOutput* smaller, const Redo& redo) {
   DistanceOptions options = measurement(tolerance);
-  if (decides(output, tree, options)) return DecidedBy::Measurement;
+  if (!is_out_of_time() && decides(output, options)) return DecidedBy::Measurement;
   options.method = Method::CrossCulling;
-  options.budget.seconds = remaining(1);
-  if (!is_out_of_time() && decides(output, tree, options)) return DecidedBy::SecondMethod;
-  if (!is_out_of_time()) {
-    const SimplifiedLevel again = redo(smaller_tolerance * tolerance);
-    output.write(again.mesh, again.lines);
-    options.method = Method::CellWalking;
-    options.budget.seconds = remaining(1);
-    if (decides(output, tree, options)) return DecidedBy::SmallerTolerance;
-  }
+  if (!is_out_of_time() && decides(output, options)) return DecidedBy::SecondMethod;
+  options.method = Method::CellWalking;
+  if (!is_out_of_time() && writes(output, redo(smaller_tolerance * tolerance)) && !is_out_of_time() &&
+      decides(output, options))
+    return DecidedBy::SmallerTolerance;
   if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
-  return fall_back(output, smaller, tree, options);
+  return fall_back(output, smaller, options);
 }
 
-DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const Bvh& tree,
-                                   const DistanceOptions& options) const {
-  output.fall_back(smaller, original_, lines_, tree, options);
+DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options) {
+  output.fall_back(smaller, measured_original_, lines_, options);
   return smaller != nullptr ? DecidedBy::SmallerLevel : DecidedBy::Original;
 }
 

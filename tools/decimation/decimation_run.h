@@ -8,6 +8,7 @@
 #include "common/gated_output.h"
 #include "common/progress.h"
 #include "common/stopwatch.h"
+#include "common/time_limit.h"
 #include "decimation/decimation_options.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
@@ -20,7 +21,8 @@ class DecimationRun {
   /// `options` must outlive this. Throws `InvalidInput` for a driver that is not there or does not know the cost.
   explicit DecimationRun(const DecimationOptions& options);
 
-  /// Reads and validates the input; its checksum is computed where a document is to name it.
+  /// Reads and validates the input; its checksum is computed where a document is to name it. Throws `Stopped` when the
+  /// time limit comes first.
   void read_original(MeshReport& report, bool with_checksum);
   /// `flag` names the option that `texts` come from, for messages.
   void add_tolerances(const std::string& flag, const std::vector<std::string>& texts);
@@ -31,8 +33,10 @@ class DecimationRun {
   [[nodiscard]] SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
-  /// Measures; true when the verdict is known.
-  [[nodiscard]] bool decides(GatedOutput& output, const Bvh& tree, const DistanceOptions& options) const;
+  /// Writes; false when the time limit came first.
+  [[nodiscard]] bool writes(GatedOutput& output, const SimplifiedLevel& level) const;
+  /// Measures what was written; true when the verdict is known.
+  [[nodiscard]] bool decides(GatedOutput& output, const DistanceOptions& options);
   [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
   /// Seconds of this share of the time limit that are left.
   [[nodiscard]] double remaining(double share) const;
@@ -42,15 +46,15 @@ class DecimationRun {
   [[nodiscard]] std::optional<LineReport> line_report(const GatedOutput& output) const;
   /// Makes the mesh again for a tolerance, model units.
   using Redo = std::function<SimplifiedLevel(double tolerance)>;
-  /// Reads back what was written to `output` and measures it against the original, of which `tree` is. Where that
-  /// remains undecided it tries harder: another method, a mesh for a slightly smaller tolerance, then the result of
-  /// the smaller tolerance before (may be null), then the original itself. A time limit leaves out what takes long.
-  /// Says how the mesh that stands in `output` then was decided. Throws `Error` when it was interrupted.
-  [[nodiscard]] DecidedBy prove(GatedOutput& output, double tolerance, const Bvh& tree, const GatedOutput* smaller,
-                                const Redo& redo) const;
+  /// Reads back what `writes` left in `output` and measures it against the original. Where that remains undecided it
+  /// tries harder: another method, a mesh for a slightly smaller tolerance, then the result of the smaller tolerance
+  /// before (may be null), then the original itself. Once the time limit has come only the last two are left. Says how
+  /// the mesh that stands in `output` then was decided. Throws `Error` when it was interrupted.
+  [[nodiscard]] DecidedBy prove(GatedOutput& output, double tolerance, const GatedOutput* smaller, const Redo& redo);
   /// For a result whose proof was not finished in time: the one of `smaller`, or the original.
-  [[nodiscard]] DecidedBy fall_back(GatedOutput& output, const GatedOutput* smaller, const Bvh& tree,
-                                    const DistanceOptions& options) const;
+  [[nodiscard]] DecidedBy fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options);
+  /// Stops at a signal, and at the time limit.
+  [[nodiscard]] StopToken stop() const { return stop_of_run(shared_.common, watch_); }
   [[nodiscard]] int threads() const;
 
   const std::atomic<bool>& interrupted_;
@@ -63,6 +67,7 @@ class DecimationRun {
 
  private:
   const DecimationOptions& shared_;
+  MeshWithTree measured_original_;
 };
 
 /// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries.

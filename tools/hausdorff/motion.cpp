@@ -17,6 +17,7 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
+#include "common/time_limit.h"
 #include "hausdorff/answer.h"
 #include "hausdorff/pose_file.h"
 #include "meshbound/error.h"
@@ -140,8 +141,9 @@ ExitCode run_motion(const Arguments& arguments) {
   const std::vector<Eigen::Isometry3d> poses = read_poses(arguments.poses);
   const bool with_checksums = !arguments.common.json.empty();
   Motion motion;
-  const TriangleMesh a = read_input(arguments.a, with_checksums, motion.a);
-  const TriangleMesh b = read_input(arguments.b, with_checksums, motion.b);
+  const StopToken stop = stop_of_reading(arguments.common, watch);
+  const TriangleMesh a = read_input(arguments.a, with_checksums, motion.a, stop);
+  const TriangleMesh b = read_input(arguments.b, with_checksums, motion.b, stop);
   motion.a.dropped.reset();  // nothing is written again
   motion.b.dropped.reset();
   motion.question = question_about(a, b, arguments, lengths, motion.a.summary.bbox_diagonal, 0);

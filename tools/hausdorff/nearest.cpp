@@ -16,6 +16,7 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
+#include "common/time_limit.h"
 #include "meshbound/error.h"
 #include "meshbound/similarity.h"
 #include "report/json_parts.h"
@@ -62,13 +63,13 @@ std::vector<std::string> mesh_files(const std::string& folder, const std::string
   return paths;
 }
 
-Candidates load(const std::vector<std::string>& paths, const Arguments& arguments) {
+Candidates load(const std::vector<std::string>& paths, const Arguments& arguments, const StopToken& stop) {
   ProgressBar bar("reading", arguments.common.quiet);
   Candidates candidates;
   for (const std::string& path : paths) {
     if (interrupted()) throw Error("interrupted");
     try {
-      const TriangleMesh mesh = read_file(path, false).content.mesh;
+      const TriangleMesh mesh = read_file(path, false, stop).content.mesh;
       candidates.shapes.emplace_back(mesh, BvhOptions{arguments.common.threads});
       candidates.paths.push_back(path);
       candidates.faces.push_back(mesh.triangles.size());
@@ -178,9 +179,10 @@ ExitCode run_nearest(const Arguments& arguments) {
   (void)options_of(arguments, watch);  // a typing error is told before a long read
   const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a);
   MeshReport query_file;
-  const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file));
+  const StopToken stop = stop_of_reading(arguments.common, watch);
+  const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file, stop));
   query_file.dropped.reset();  // nothing is written again
-  const Candidates candidates = load(paths, arguments);
+  const Candidates candidates = load(paths, arguments, stop);
   const SimilarityOptions options = options_of(arguments, watch);
   const SimilarShapes found = nearest_shapes(query, candidates.shapes, options);
   if (interrupted()) throw Error("interrupted");

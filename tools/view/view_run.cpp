@@ -16,6 +16,7 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
+#include "common/time_limit.h"
 #include "decimation/drivers.h"
 #include "meshbound/error.h"
 #include "report/json_parts.h"
@@ -36,7 +37,9 @@ class ViewRun {
   int operator()() {
     scene_ = read_scene(scene_path_);
     check_paths();
-    for (const std::string& path : scene_.models) meshes_.push_back(read_input(path, true, models_.emplace_back()));
+    const StopToken stop = stop_of_reading(options_.common, Stopwatch());
+    for (const std::string& path : scene_.models)
+      meshes_.push_back(read_input(path, true, models_.emplace_back(), stop));
     const OutputFolder folder(folder_);
     make_levels();
     const std::string document = to_json();
@@ -90,7 +93,7 @@ class ViewRun {
       throw Error("interrupted; the levels written so far are in " + folder_ + ", without a view.json");
     const fs::path path = fs::path(folder_) / name;
     write_mesh(path, mesh, options_.write);
-    if (!same_surface(read_file(path.string(), false).content.mesh, mesh))
+    if (!same_surface(read_file(path.string(), false, {.cancel = &interrupted()}).content.mesh, mesh))
       throw Error(path.string() + " reads as another mesh than was measured; use PLY, OFF or OBJ");
   }
 

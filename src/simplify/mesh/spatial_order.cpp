@@ -2,12 +2,11 @@
 #include "simplify/mesh/spatial_order.h"
 
 #include "bvh/bvh_data.h"
-#include "meshbound/bvh.h"
 
 namespace meshbound {
 
-SpatialOrder spatial_order(const TriangleMesh& mesh, int threads) {
-  const Bvh tree(mesh, BvhOptions{threads});
+SpatialOrder spatial_order(const TriangleMesh& mesh, const BvhOptions& options) {
+  const Bvh tree(mesh, options);
   SpatialOrder order;
   order.triangle.assign(tree.data().triangle_of_slot.begin(), tree.data().triangle_of_slot.end());
   constexpr std::uint32_t unused = 0xffffffff;

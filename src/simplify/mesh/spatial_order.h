@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "meshbound/bvh.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -17,8 +18,8 @@ struct SpatialOrder {
 };
 
 /// Triangles in the order of the leaves of a `Bvh`, vertices as the corners of these come; the same for any number of
-/// threads. Throws `InvalidInput` for a mesh that a tree cannot be built of. O(n).
-[[nodiscard]] SpatialOrder spatial_order(const TriangleMesh& mesh, int threads);
+/// threads. Throws `InvalidInput` for a mesh that a tree cannot be built of, `Stopped` as the options say. O(n).
+[[nodiscard]] SpatialOrder spatial_order(const TriangleMesh& mesh, const BvhOptions& options);
 
 /// Order of points by their coordinates, x first. -0 and 0 are equal.
 [[nodiscard]] inline bool is_before(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+
+#include "meshbound/bvh.h"
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound::tools {
+
+/// A mesh and its tree, which is built when it is first asked for: what is compared with a copy of itself needs none.
+/// Not thread-safe.
+class MeshWithTree {
+ public:
+  /// `mesh` must outlive this. `threads` as in `BvhOptions`.
+  MeshWithTree(const TriangleMesh& mesh, int threads) : mesh_(mesh), threads_(threads) {}
+
+  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+
+  /// Throws `Stopped` as `stop` says; the next call begins anew.
+  [[nodiscard]] const Bvh& tree(const StopToken& stop) {
+    if (!tree_) tree_.emplace(mesh_, BvhOptions{threads_, stop});
+    return *tree_;
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  int threads_;
+  std::optional<Bvh> tree_;
+};
+
+}  // namespace meshbound::tools
