@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
@@ -147,6 +148,34 @@ TEST_F(CertificateTools, ATolerance0IsCertifiedWhereNothingChanged) {
   for (const char* out : {"same.off", "same.ply"}) {
     ASSERT_EQ(simplify("torus.off", out, {"--tolerance", "0", "--certificate", in("c")}).exit_code, 0);
     EXPECT_EQ(verify("torus.off", out, "c", {"--tolerance", "0"}).exit_code, 0);
+  }
+}
+
+/// Triangles with corners of small integers: many cross, overlap, repeat one another or have no area.
+TriangleMesh integer_soup(std::uint32_t seed, std::size_t triangles) {
+  std::mt19937 random(seed);
+  TriangleMesh soup;
+  for (std::uint32_t v = 0; v < 3 * triangles; ++v) {
+    soup.vertices.emplace_back(random() % 4, random() % 4, random() % 4);
+    if (v % 3 == 2) soup.triangles.push_back({v - 2, v - 1, v});
+  }
+  return soup;
+}
+
+TEST_F(CertificateTools, TinyTolerancesOfAnySoupAreCertified) {
+  for (const std::size_t triangles : {1, 2, 8, 60}) {
+    for (std::uint32_t seed = 0; seed < 4; ++seed) {
+      write_mesh(in("soup.stl"), integer_soup(seed, triangles));
+      for (const char* tolerance : {"0", "1e-9%", "1e-6%"}) {
+        for (const char* out : {"out.stl", "out.ply"}) {
+          SCOPED_TRACE(std::to_string(triangles) + " triangles, seed " + std::to_string(seed) + ", " + tolerance +
+                       ", " + out);
+          const ToolRun run = simplify("soup.stl", out, {"--tolerance", tolerance, "--certificate", in("c")});
+          EXPECT_EQ(run.exit_code, 0) << run.err;
+          EXPECT_EQ(verify("soup.stl", out, "c", {"--tolerance", tolerance}).exit_code, 0);
+        }
+      }
+    }
   }
 }
 

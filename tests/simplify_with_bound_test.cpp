@@ -356,8 +356,46 @@ TEST_P(SimplifyWithBound, RefusesOptionsAndInputThatMakeNoSense) {
   options.target_ratio = 1.5;
   EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput);
   EXPECT_THROW((void)simplify_with_bound(TriangleMesh(), within(0.1)), InvalidInput);
-  const TriangleMesh point = {{Eigen::Vector3d::Zero()}, {{0, 0, 0}}};
-  EXPECT_THROW((void)simplify_with_bound(point, within(0.1)), InvalidInput);
+}
+
+/// Below the rounding of coordinates nothing can be proven, not even that a face covers a triangle that was dropped.
+TEST_P(SimplifyWithBound, KeepsTheOriginalWhereTheToleranceIsBelowTheRounding) {
+  TriangleMesh original = reference::both(reference::unit_square(4), reference::unit_square(1));
+  original.vertices.emplace_back(0.5, 0.5, 1);
+  original.triangles.push_back({0, 0, static_cast<std::uint32_t>(original.vertices.size() - 1)});
+  for (const Precision precision : {Precision::Double, Precision::Single}) {
+    for (const double tolerance : {0.0, 1e-17}) {
+      SimplifyOptions options = within(tolerance);
+      options.precision = precision;
+      const SimplifyResult result = simplify_with_bound(original, options);
+      expect_within(original, result.last());
+      EXPECT_EQ(result.last().ended_by, EndedBy::Rounding);
+      EXPECT_EQ(result.last().mesh.triangles, original.triangles);
+      EXPECT_EQ(result.dropped_triangles + result.kept_triangles, 0u);
+    }
+  }
+}
+
+/// A triangle with two equal corners is a segment or a point: a part of the original like any other.
+TEST_P(SimplifyWithBound, KeepsTheOriginalWhereNoTriangleHasThreeCorners) {
+  const TriangleMesh point = {{Eigen::Vector3d::Ones()}, {{0, 0, 0}}};
+  const TriangleMesh equal_vertices = {std::vector<Eigen::Vector3d>(3, Eigen::Vector3d::Ones()), {{0, 1, 2}}};
+  const TriangleMesh segments = {{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {9, 9, 9}}, {{0, 1, 1}, {2, 1, 2}, {0, 0, 1}}};
+  for (const TriangleMesh& original : {point, equal_vertices, segments}) {
+    for (const double tolerance : {0.0, 0.1, 100.0}) {
+      for (const Effort effort : {Effort::Normal, Effort::High}) {
+        SimplifyOptions options = within(tolerance);
+        options.effort = effort;
+        options.prune = options.preserve_boundary = effort == Effort::High;
+        options.levels = {0.5 * tolerance};
+        options.certificate = true;
+        const SimplifyResult result = simplify_with_bound(original, options);
+        expect_within(original, result.last());
+        EXPECT_EQ(result.last().faces(), original.triangles.size());
+        EXPECT_TRUE(result.last().certificate);
+      }
+    }
+  }
 }
 
 const auto name_of_driver = [](const auto& driver) { return driver.param.name; };

@@ -174,8 +174,9 @@ struct SimplifyResult {
 /// measurement of its mesh. Decimation works on a manifold that is cut from the soup; the bound is always against the
 /// soup as it came in. Deterministic for any number of threads, but for `time_limit` and `cancel`.
 ///
-/// Expected O(n log n) time, O(n) memory. Safe to call from several threads. Throws `InvalidInput` for options out of
-/// range, for input that `validate` refuses, and where no triangle has three different corners.
+/// Triangles with two equal corners stay as they are where no other face is near enough, also where there are no
+/// others. Expected O(n log n) time, O(n) memory. Safe to call from several threads. Throws `InvalidInput` for options
+/// out of range, and for input that `validate` refuses.
 [[nodiscard]] SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options);
 
 }  // namespace meshbound

@@ -44,7 +44,7 @@ class DirectionProof {
         tolerance_(tolerance),
         options_(options),
         source_name_(source_name),
-        tree_(target, BvhOptions{options.threads}),
+        tree_(target, BvhOptions{options.threads, stop}),
         neighbours_(edge_neighbours(tree_.data().vertices, tree_.data().corners)) {
     load_vertices();
     goal_.stop = stop;
@@ -59,7 +59,7 @@ class DirectionProof {
   [[nodiscard]] std::optional<std::uint64_t> prove(std::size_t max_patch, double progress_from);
   void load_vertices();
   [[nodiscard]] Failure prove_chunk(std::size_t chunk, CutSearch& search);
-  [[nodiscard]] bool is_in_target(const Triangle& triangle, std::uint32_t slot) const;
+  [[nodiscard]] bool is_in_target(const Triangle& triangle, std::size_t other) const;
   [[noreturn]] void fail(const Failure& failure) const;
 
   const MeshView& source_;
@@ -95,9 +95,10 @@ void DirectionProof::load_vertices() {
   set_slack(goal_, magnitude_, frame.error + error);
 }
 
-/// A triangle whose corners are corners of the target's triangle, bit for bit, needs no arithmetic.
-bool DirectionProof::is_in_target(const Triangle& triangle, std::uint32_t slot) const {
-  const Triangle near = target_.triangle(tree_.data().triangle_of_slot[slot]);
+/// A triangle whose corners are corners of triangle `other` of the target, bit for bit, needs no arithmetic.
+bool DirectionProof::is_in_target(const Triangle& triangle, std::size_t other) const {
+  if (other >= target_.triangle_count()) return false;
+  const Triangle near = target_.triangle(other);
   return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
     return std::any_of(near.begin(), near.end(),
                        [&](std::uint32_t w) { return source_.vertex(v) == target_.vertex(w); });
@@ -113,10 +114,12 @@ Failure DirectionProof::prove_chunk(std::size_t chunk, CutSearch& search) {
     const auto outcome = search.prove({vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]}, hint,
                                       chunks_[chunk], options_.steps_per_triangle);
     if (outcome == CutSearch::Outcome::Proven) continue;
-    const std::uint32_t same = search.nearest_to_middle();
-    if (!is_in_target(corners, same)) return {t, outcome};
+    // Where triangles overlap, the nearest one need not be the same one; in a copy that one has the same index.
+    const std::uint32_t nearest = tree_.data().triangle_of_slot[search.nearest_to_middle()];
+    const bool has_own_index = is_in_target(corners, t);
+    if (!has_own_index && !is_in_target(corners, nearest)) return {t, outcome};
     ProofNode node;
-    node.target = tree_.data().triangle_of_slot[same];
+    node.target = has_own_index ? static_cast<std::uint32_t>(t) : nearest;
     chunks_[chunk].push_back(node);
   }
   return {};
@@ -184,9 +187,13 @@ std::optional<Certificate> build_certificate(const MeshView& original, const Mes
   if (!(std::isfinite(tolerance) && tolerance >= 0))
     throw InvalidInput("the tolerance of a certificate must be a length in model units, 0 or more");
   const StopToken stop = StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds);
-  const auto forward = DirectionProof(original, simplified, tolerance, options, stop, "original").run(0);
-  if (!forward) return std::nullopt;
-  const auto backward = DirectionProof(simplified, original, tolerance, options, stop, "simplified").run(0.5);
+  std::optional<EncodedSection> forward, backward;
+  try {
+    forward = DirectionProof(original, simplified, tolerance, options, stop, "original").run(0);
+    if (forward) backward = DirectionProof(simplified, original, tolerance, options, stop, "simplified").run(0.5);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
   if (!backward) return std::nullopt;
   Certificate certificate;
   certificate.original_to_simplified = counts_of(*forward);

@@ -35,6 +35,7 @@ SurfaceMesh to_surface_mesh(const TriangleMesh& mesh) {
 
 ManifoldCopy manifold_copy(const TriangleMesh& soup) {
   ManifoldSoup manifold = manifold_soup(soup);
+  if (manifold.faces.empty()) throw InvalidInput("there is no surface: every triangle has two equal corners");
   std::vector<Point> points;
   points.reserve(manifold.vertex_of.size());
   for (const std::uint32_t v : manifold.vertex_of) points.push_back(to_point(soup.vertices[v]));

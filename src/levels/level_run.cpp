@@ -76,7 +76,11 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
   if (!stopped_) {
     until_stopped([&] {
       level.ended_by = decimation_->run(tolerance, target_faces, stop());
-      decimation_->current_mesh(level);
+      // Below the rounding of coordinates nothing is proven, not even that faces cover the triangles that were dropped.
+      if (level.ended_by == EndedBy::Rounding)
+        take_original(level);
+      else
+        decimation_->current_mesh(level);
       const CollapseCounts counts = decimation_->counts();
       level.collapses_performed = counts.proven_together + counts.proven_alone;
       level.collapses_refused = counts.refused;

@@ -55,6 +55,7 @@ class Run {
   EndedBy operator()() {
     state_.grow_tolerance(goal_.tolerance);
     keep_what_has_no_face();
+    if (state_.faces == 0) return ended_by_;
     for (int round = 0; round < max_rounds; ++round) {
       propose(0);
       propose(1);

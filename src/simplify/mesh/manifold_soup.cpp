@@ -142,8 +142,6 @@ void ManifoldBuilder::take_distinct_triangles() {
     result_.triangle_of.push_back(t);
     result_.faces.push_back(welded(t));
   }
-  if (result_.faces.empty())
-    throw InvalidInput("there is no surface to simplify: every triangle has two equal corners");
 }
 
 /// Twins across edges of exactly two faces. True when both run in opposite directions, everywhere.

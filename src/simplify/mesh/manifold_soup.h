@@ -33,8 +33,8 @@ struct ManifoldSoup {
 /// possible (Moebius). Last, a vertex is duplicated for each further fan or ring of faces around it. Vertices are
 /// numbered as the corners of the faces come, and a face that is turned over keeps its first corner.
 ///
-/// `soup` is valid (see `validate`). Throws `InvalidInput` where no triangle has three different corners, and for more
-/// than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.
+/// `soup` is valid (see `validate`). Without faces where no triangle has three different corners. Throws `InvalidInput`
+/// for more than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.
 [[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup);
 
 }  // namespace meshbound
