@@ -70,7 +70,30 @@ TEST(PenetrationDepth, SpikeThroughTheMiddleOfATriangle) {
   EXPECT_EQ(result.volumes[0].faces_on_b, 3U);
 }
 
-/// Its complement: a block whose large face lies around the spike, seen from the spike.
+double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    sum += (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm() / 2;
+  return sum;
+}
+
+/// A lies in B but for a hole that a cavity of B makes in the middle of one of A's triangles.
+TEST(PenetrationDepth, ACavityThroughTheMiddleOfATriangle) {
+  TriangleMesh cavity;
+  cavity.vertices = {{0.7, 0.2, 0.875}, {0.8, 0.2, 0.875}, {0.75, 0.3, 0.875}, {0.75, 0.25, 1.125}};
+  cavity.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  PenetrationOptions options;
+  options.keep_parts = true;
+  const PenetrationDepth result = penetration_depth(unit, both(box({-1, -1, -1}, {2, 2, 2}), cavity), options);
+  ASSERT_EQ(result.volumes.size(), 1U);
+  // The section is half as wide as the base, whose area is 0.005.
+  const double base = 0.005, section = base / 4;
+  expect_holds(result.volumes[0].volume, 1 - (base * 0.25 - section * 0.125) / 3, 1e-10);
+  EXPECT_NEAR(area(result.volumes[0].parts->on_a), 6 - section, 1e-12);
+  EXPECT_EQ(result.volumes[0].faces_on_a, 12U);
+  EXPECT_EQ(result.volumes[0].faces_on_b, 4U);
+}
+
 TEST(PenetrationDepth, IsSymmetricInTheTwoModels) {
   const TriangleMesh b = mapped(unit, motion({0.3, 0.4, 0.6}, 0.7, {1, 2, 3}));
   const PenetrationDepth one = penetration_depth(unit, b), other = penetration_depth(b, unit);
@@ -226,9 +249,9 @@ TEST(PenetrationDepth, AFlushFaceAmongSeveralPieces) {
   const TriangleMesh pegs =
       both(both(box({0.125, 0.25, 0.5}, {0.25, 0.375, 1}), box({0.375, 0.5, 0.5}, {0.5, 0.625, 2})),
            box({0.125, 0.5, 0.75}, {0.25, 0.875, 2}));
-  for (const double height : {0.0, -2.0}) {
-    const TriangleMesh a = box({0, 0, height}, {1, 1, 1});
-    const PenetrationDepth result = penetration_depth(a, pegs);
+  const TriangleMesh plate = box({0, 0, -2}, {1, 1, 1});
+  for (const PenetrationDepth& result :
+       {penetration_depth(unit, pegs), penetration_depth(pegs, unit), penetration_depth(plate, pegs)}) {
     ASSERT_EQ(result.volumes.size(), 3U);
     expect_holds(result.volumes[0].depth, 0.5, 4e-6);
     expect_holds(result.volumes[1].depth, 0.5, 4e-6);
@@ -311,13 +334,7 @@ TEST(PenetrationDepth, KeepsTheParts) {
   const PenetrationDepth result = penetration_depth(unit, box({0.4, 0.4, 0.5}, {0.6, 0.6, 2}), options);
   ASSERT_TRUE(result.volumes.at(0).parts);
   const PenetrationParts& parts = *result.volumes[0].parts;
-  double area_a = 0;
-  for (const Triangle& t : parts.on_a.triangles)
-    area_a += (parts.on_a.vertices[t[1]] - parts.on_a.vertices[t[0]])
-                  .cross(parts.on_a.vertices[t[2]] - parts.on_a.vertices[t[0]])
-                  .norm() /
-              2;
-  EXPECT_NEAR(area_a, 0.04, 1e-12);
+  EXPECT_NEAR(area(parts.on_a), 0.04, 1e-12);
   for (const Vector3d& p : parts.on_b.vertices) EXPECT_LE(p.z(), 1);
   ASSERT_EQ(parts.triangle_of_a.size(), parts.on_a.triangles.size());
   ASSERT_EQ(parts.triangle_of_b.size(), parts.on_b.triangles.size());

@@ -137,24 +137,23 @@ void VolumeFinder::add_triangles(std::uint32_t index, Shell& shell) {
     out.push_back({piece.triangle, corners, plane.turn(corners[0], corners[1], corners[2]) == 0});
 }
 
-/// Six times the content is the sum of the determinants of the triangles. When the corners move by at most d to where
-/// they are exactly, the content changes by at most d times the largest area on the way there.
+/// Six times the content is the sum of the determinants of the triangles. Where the corners of a triangle move by at
+/// most d to where they are exactly, the content changes by at most d times the largest area it has on the way there.
 void VolumeFinder::measure_content(Shell& shell) {
   const std::uint32_t first = shell.triangles[0].empty() ? 1 : 0;
   const Vec3 o = position(first, shell.triangles[first][0].corners[0]);
-  double sum = 0, magnitude = 0, area = 0, edges = 0, displacement = 0, count = 0;
+  double sum = 0, magnitude = 0, moved = 0, count = 0;
   for (std::uint32_t side = 0; side < 2; ++side)
     for (const PatchTriangle& t : shell.triangles[side]) {
       const Vec3 a = position(side, t.corners[0]) - o, b = position(side, t.corners[1]) - o,
                  c = position(side, t.corners[2]) - o;
       sum += dot(a, cross(b, c));
       magnitude += length(a) * length(b) * length(c);
-      area += length(cross(b - a, c - a));
-      edges += length(b - a) + length(c - b) + length(a - c);
+      const double edges = length(b - a) + length(c - b) + length(a - c);
+      const double d = std::max({error(side, t.corners[0]), error(side, t.corners[1]), error(side, t.corners[2])});
+      moved += d * (length(cross(b - a, c - a)) / 2 + d * (edges + 4 * d));
       count += 1;
-      for (const PieceCorner& corner : t.corners) displacement = std::max(displacement, error(side, corner));
     }
-  const double moved = displacement * (area + displacement * (2 * edges + 8 * displacement * count));
   // 32 u for a term whatever the cancellation, n u for the sum; areas and lengths to a few u; all twice for safety.
   const double error = 2 * (magnitude * unit_roundoff * (32 + count) + 6 * moved) + 0x1p-900;
   shell.content = {next_down((sum - error) / 6), next_up((sum + error) / 6)};
