@@ -19,10 +19,10 @@ namespace meshbound {
 ///
 /// Answers have the guarantees of those of the functions of the same names in distance.h; as other points are looked
 /// at, bounds may differ inside these guarantees. They depend on the steps before but not on the number of threads.
-/// Where a step is too large for the nodes to help, it is measured as if it were the first one. With
-/// `Method::CrossCulling` nothing is kept. Source: the future work of the paper (section 8, motion coherence).
-/// Not thread-safe: use one per thread; the trees may be shared. Memory: 4 bytes per vertex, 24 per node that was
-/// culled.
+/// Where a step is too large for the nodes to help, it is measured as if it were the first one; surfaces that are
+/// nearer than their triangles are large gain little. With `Method::CrossCulling` nothing is kept. Source: the future
+/// work of the paper (section 8, motion coherence). Not thread-safe: use one per thread; the trees may be shared.
+/// Memory: 4 bytes per vertex, 24 per node that was culled.
 class MovingPair {
  public:
   /// Both trees must outlive this. After a refit of one of them, or when another is moved into it, everything is
