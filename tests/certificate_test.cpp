@@ -190,6 +190,26 @@ TEST(Certificate, OfAStackOverAFineSheetAsksForLittleWorkAByte) {
   EXPECT_GT(whole.parity_work, 512 * whole.bytes) << "what is rare may still be proven by few bytes";
 }
 
+/// A tolerance that is the distance itself leaves no room for rounding; the message names one that does.
+TEST(Certificate, NamesAToleranceThatCanBeProven) {
+  const TriangleMesh plate = reference::unit_square(3),
+                     other = reference::moved(reference::unit_square(2), {0, 0, 0.1});
+  std::string message;
+  try {
+    (void)build_certificate(plate, other, 0.1);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  const std::size_t number = message.find("no further, ");
+  ASSERT_NE(number, std::string::npos) << message;
+  const double tolerance = std::stod(message.substr(number + 12));
+  EXPECT_GT(tolerance, 0.1);
+  EXPECT_LT(tolerance, 0.1 * (1 + 1e-9));
+  const auto certificate = build_certificate(plate, other, tolerance);
+  ASSERT_TRUE(certificate);
+  EXPECT_NO_THROW((void)verify::check_certificate(plate, other, certificate->bytes));
+}
+
 TEST(Certificate, EndsWhenItIsTold) {
   const TriangleMesh fine = datasets::icosphere(1, 4), coarse = datasets::icosphere(1, 1);
   const std::atomic<bool> cancel = true;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
 #include "certificate/cut_search.h"
@@ -169,9 +171,15 @@ std::optional<std::uint64_t> DirectionProof::prove(std::size_t max_patch, double
 
 void DirectionProof::fail(const Failure& failure) const {
   const std::string where = "triangle " + std::to_string(failure.triangle) + " of the " + source_name_ + " mesh ";
-  if (failure.outcome == CutSearch::Outcome::TooFar)
+  if (failure.outcome == CutSearch::Outcome::TooFar) {
+    const double slack = tree_.data().frame.length_up(2 * goal_.largest_slack());
+    std::ostringstream provable;
+    provable << std::setprecision(17) << tolerance_ + slack;
     throw Error("no certificate: " + where +
-                "has a point that is further from the other mesh than the tolerance, or too close to it for doubles");
+                "has a point that is further from the other mesh than the tolerance, or too close to it for doubles; "
+                "if it is no further, " +
+                provable.str() + " can be proven");
+  }
   throw Error("no certificate: " + where +
               "could not be proven in pieces that the format allows; give a slightly larger tolerance");
 }
