@@ -139,6 +139,15 @@ TEST(PenetrationDepth, InsideACavityIsOutside) {
   EXPECT_EQ(in_wall.volumes[0].overlap, Overlap::BInsideA);
 }
 
+TEST(PenetrationDepth, TheNextComponentAroundAVolumeStandsForAMissingPart) {
+  // A solid within the cavity of another one, both of A; B lies in the inner one, 0.125 from its sides.
+  const TriangleMesh nested = both(both(box({-3, -3, -3}, {4, 4, 4}), reversed(box({-2, -2, -2}, {3, 3, 3}))), unit);
+  const PenetrationDepth result = penetration_depth(nested, box({0.125, 0.125, 0.125}, {0.875, 0.875, 0.875}));
+  expect_volume(result, 0.125 * std::sqrt(3.0), 0.421875, 12);
+  EXPECT_EQ(result.volumes[0].faces_on_a, 12U);
+  EXPECT_EQ(result.volumes[0].overlap, Overlap::BInsideA);
+}
+
 TEST(PenetrationDepth, ACavityOfTheVolumeBelongsToIt) {
   // A hollow cube within a block: the cavity of A is a cavity of the volume, whose outer shell is all of A.
   const TriangleMesh hollow = both(unit, reversed(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
@@ -268,6 +277,20 @@ TEST(PenetrationDepth, ATouchOfOneRoundingIsMeasured) {
   EXPECT_GE(result.depth.upper, thin);
   EXPECT_LE(result.volumes[0].volume.lower, thin / 4);
   EXPECT_GE(result.volumes[0].volume.upper, thin / 4);
+}
+
+/// The edges of a bar go through both sides of a plate that is as thin as doubles allow: in which order is not to be
+/// seen in doubles.
+TEST(PenetrationDepth, APlateOfOneRounding) {
+  const double thin = 0x1p-53;
+  const TriangleMesh plate = box({-1, -1, 0.5}, {2, 2, 0.5 + thin}), bar = box({0.25, 0.25, -3}, {0.75, 0.5, 3});
+  for (const PenetrationDepth& result : {penetration_depth(plate, bar), penetration_depth(bar, plate)}) {
+    ASSERT_EQ(result.volumes.size(), 1U);
+    EXPECT_EQ(result.volumes[0].faces_on_a + result.volumes[0].faces_on_b, 12U)
+        << "four sides of the bar, two of the plate";
+    EXPECT_LE(result.volumes[0].volume.lower, 0.125 * thin);
+    EXPECT_GE(result.volumes[0].volume.upper, 0.125 * thin);
+  }
 }
 
 TEST(PenetrationDepth, ScalesAndOffsets) {

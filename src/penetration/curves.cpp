@@ -9,13 +9,7 @@
 namespace meshbound {
 namespace {
 
-/// On which side of the plane of a triangle of `side` the corners of a triangle of the other side are; false where all
-/// are on the same.
-bool straddles(PlacedPair& pair, std::uint32_t side, const Triangle& plane, const Triangle& corners,
-               std::array<int, 3>& signs) {
-  for (std::size_t k = 0; k < 3; ++k) signs[k] = pair.side_of_plane(side, plane, corners[k]);
-  return signs[0] != signs[1] || signs[1] != signs[2];
-}
+bool all_equal(const std::array<int, 3>& signs) { return signs[0] == signs[1] && signs[1] == signs[2]; }
 
 }  // namespace
 
@@ -41,11 +35,13 @@ void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
   const std::array<Triangle, 2> corners{pair.model(0).triangles[s], pair.model(1).triangles[t]};
   std::array<std::array<int, 3>, 2> signs;  // by side: of its corners against the plane of the other
   const std::uint64_t perturbed = pair.perturbed_decisions();
-  if (!straddles(pair, 1, corners[1], corners[0], signs[0])) {
+  signs[0] = pair.sides_of_plane(1, corners[1], corners[0]);
+  if (all_equal(signs[0])) {
     if (pair.perturbed_decisions() == perturbed + 3) note_if_flush(pair, s, t);
     return;
   }
-  if (!straddles(pair, 0, corners[0], corners[1], signs[1])) return;
+  signs[1] = pair.sides_of_plane(0, corners[0], corners[1]);
+  if (all_equal(signs[1])) return;
   CurveSegment segment{{s, t}, {no_index, no_index}};
   for (std::uint32_t side = 0; side < 2; ++side) {
     const ClosedModel::Data& model = pair.model(side);

@@ -96,7 +96,7 @@ class Measurement {
     const double wanted = std::ldexp(error_bound_, -frame_.exponent);
     // Displaced parts widen the interval on both sides.
     options.error_bound = std::max(wanted - 2 * displacement, wanted / 2);
-    const auto [tree_a, tree_b] = build_trees(meshes[0], meshes[1], {options_.threads});
+    const auto [tree_a, tree_b] = build_trees(meshes[0], meshes[1], {options_.threads, {}});
     OneSidedDistance a_to_b, b_to_a;
     Bounds local;
     if (options_.decide) {
@@ -216,7 +216,7 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
 }
 
 PenetrationDepth penetration_depth(const MeshView& a, const MeshView& b, const PenetrationOptions& options) {
-  const ClosedModel model_a(a, {options.threads}), model_b(b, {options.threads});
+  const ClosedModel model_a(a, {options.threads, {}}), model_b(b, {options.threads, {}});
   return penetration_depth(PlacedClosedModel(model_a), PlacedClosedModel(model_b), options);
 }
 

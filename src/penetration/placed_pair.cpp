@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/magnitude.h"
 #include "meshbound/error.h"
@@ -22,24 +23,29 @@ void require_motion(const Eigen::Isometry3d& pose) {
     throw InvalidInput("a pose moves a model out of the range of coordinates (2^1000)");
 }
 
+/// How much rounding changes a computed dot(a, cross(b, c)) at most, for differences a, b, c of points whose
+/// coordinates are off by at most h / 2 each; infinite where underflow or overflow could matter. `d`: the largest
+/// magnitudes of the differences by axis, enlarged by h.
+///
+/// Let D be the product of the components of d. A computed difference has a relative error of u besides h; the
+/// determinant is a sum of 6 products of three differences. Its roundings are three differences, two products and five
+/// additions for each: at most 10 u (1 + 10 u) times the sum of the magnitudes, which is at most 6 D: less than 64 u D,
+/// in whatever order. The error h of the differences changes each product by at most h (d_x d_y + d_y d_z + d_z d_x): 6
+/// of them. Underflow cannot matter where D is above 1e-200 and no d above 1e60.
+double error_of_volume(const Vec3& d, double h) {
+  const double product = d.x * d.y * d.z;
+  if (!(product > 1e-200) || !(d.x < 1e60) || !(d.y < 1e60) || !(d.z < 1e60))
+    return std::numeric_limits<double>::infinity();
+  return (64 * unit_roundoff * product + 6 * h * (d.x * d.y + d.y * d.z + d.z * d.x)) * (1 + 16 * unit_roundoff);
+}
+
 /// Sign of dot(q - p, cross(r - p, s - p)) for coordinates that are off by at most `error` each; 0 where doubles cannot
 /// tell.
-///
-/// Let d be the largest magnitudes of the three differences by axis, D their product. A computed difference has a
-/// relative error of u besides 2 `error`; the determinant is a sum of 6 products of three differences. Its roundings
-/// are three differences, two products and five additions for each: at most 10 u (1 + 10 u) times the sum of the
-/// magnitudes, which is at most 6 D: less than 64 u D. An error of h = 2 `error` in each difference changes each
-/// product by at most h (d_x d_y + d_y d_z + d_z d_x), with d enlarged by h: 6 of them. Underflow cannot matter where D
-/// is above 1e-200 and no d above 1e60.
 int certain_sign(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, double error) {
   const Vec3 a = q - p, b = r - p, c = s - p;
   const double h = 2 * error;
   const Vec3 d = larger(larger(magnitudes(a), magnitudes(b)), magnitudes(c)) + Vec3{h, h, h};
-  const double product = d.x * d.y * d.z;
-  const double bound =
-      (64 * unit_roundoff * product + 6 * h * (d.x * d.y + d.y * d.z + d.z * d.x)) * (1 + 16 * unit_roundoff);
-  if (!(product > 1e-200) || !(std::max({d.x, d.y, d.z}) < 1e60)) return 0;
-  const double value = dot(a, cross(b, c));
+  const double bound = error_of_volume(d, h), value = dot(a, cross(b, c));
   if (value > bound) return 1;
   return value < -bound ? -1 : 0;
 }
@@ -193,6 +199,27 @@ int PlacedPair::side_of_plane(std::uint32_t side, const Triangle& triangle, std:
   // With side 0 moved by t, the volume grows by the product of t with the normal, or shrinks where side 0 has the
   // triangle.
   return sign_of_first(cross(exact(q) - exact(p), exact(r) - exact(p)), side == 0 ? -1 : 1);
+}
+
+/// As `certain_sign`, with what belongs to the plane computed once.
+std::array<int, 3> PlacedPair::sides_of_plane(std::uint32_t side, const Triangle& triangle, const Triangle& vertices) {
+  const Vec3 p = local({side, triangle[0]}), a = local({side, triangle[1]}) - p, b = local({side, triangle[2]}) - p;
+  const Vec3 normal = cross(a, b), of_plane = larger(magnitudes(a), magnitudes(b));
+  const double h = 2 * std::max(sides_[0].error, sides_[1].error);
+  std::array<int, 3> signs{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 c = local({1 - side, vertices[k]}) - p;
+    const Vec3 d = larger(of_plane, magnitudes(c)) + Vec3{h, h, h};
+    const double bound = error_of_volume(d, h), value = dot(c, normal);
+    if (value > bound) {
+      signs[k] = 1;
+    } else if (value < -bound) {
+      signs[k] = -1;
+    } else {
+      signs[k] = side_of_plane(side, triangle, vertices[k]);
+    }
+  }
+  return signs;
 }
 
 int PlacedPair::edge_turn(std::uint32_t p0, std::uint32_t q0, std::uint32_t p1, std::uint32_t q1) {

@@ -83,6 +83,9 @@ class PlacedPair {
   /// 1 where vertex v of the other side lies on the side of the normal of triangle (p, q, r) of `side`, -1 where it
   /// lies on the other; never 0 for a triangle with area.
   [[nodiscard]] int side_of_plane(std::uint32_t side, const Triangle& triangle, std::uint32_t vertex);
+  /// `side_of_plane` for three vertices.
+  [[nodiscard]] std::array<int, 3> sides_of_plane(std::uint32_t side, const Triangle& triangle,
+                                                  const Triangle& vertices);
   /// Sign of `volume_of` for an edge of side 0 and one of side 1; 0 only for parallel ones.
   [[nodiscard]] int edge_turn(std::uint32_t p0, std::uint32_t q0, std::uint32_t p1, std::uint32_t q1);
   /// Whether edge (p, q) of the side other than `side` goes through its triangle, given that p and q lie on different

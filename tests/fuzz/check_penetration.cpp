@@ -72,7 +72,7 @@ DistanceOptions to(double error_bound) {
 void require_within(const TriangleMesh& part, const TriangleMesh& whole, const char* claim) {
   if (part.triangles.empty()) return;
   require(!whole.triangles.empty(), claim);
-  const Bvh tree_part(part, {1}), tree_whole(whole, {1});
+  const Bvh tree_part(part, {1, {}}), tree_whole(whole, {1, {}});
   require(one_sided_hausdorff_distance(tree_part, tree_whole, to(slack)).bounds.lower <= slack, claim);
 }
 
@@ -112,7 +112,7 @@ void check_depth(const PenetrationDepth& result, const ExactPart& on_a, const Ex
   if (result.volumes.size() != 1 || result.volumes[0].overlap != Overlap::Crossing) return;
   if (!on_a.contact.empty() || !on_b.contact.empty()) return;
   require(!on_a.inside.empty() && !on_b.inside.empty(), "a crossing volume lacks a part");
-  const Bvh a(reference::rounded_mesh(on_a.inside), {1}), b(reference::rounded_mesh(on_b.inside), {1});
+  const Bvh a(reference::rounded_mesh(on_a.inside), {1, {}}), b(reference::rounded_mesh(on_b.inside), {1, {}});
   const Bounds depth = hausdorff_distance(a, b, to(1e-6)).bounds, &found = result.depth;
   require(found.lower <= depth.upper + slack && depth.lower <= found.upper + slack,
           "another depth than the exact parts'");
@@ -124,7 +124,7 @@ void check_penetration(Bytes content) {
   const Choose choose = ByteChoices(content);
   const Eigen::Isometry3d pose_a = chosen_pose(choose), pose_b = chosen_pose(choose);
   const CellSolid a = lattice_solid(choose), b = lattice_solid(choose);
-  const ClosedModel model_a(a.surface, {1}), model_b(b.surface, {1});
+  const ClosedModel model_a(a.surface, {1, {}}), model_b(b.surface, {1, {}});
   PenetrationOptions options;
   options.keep_parts = true;
   options.error_bound = 1e-6;
