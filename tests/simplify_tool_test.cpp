@@ -319,14 +319,14 @@ TEST_F(SimplifyTool, FallsBackToTheBestProvenMesh) {
   late.write(coarse);
   late.measure(original, options);
   ASSERT_EQ(late.verdict(), Verdict::Undecided);
-  late.fall_back(&proven, original, {}, options);
+  late.fall_back(&proven, original, {}, {}, options);
   ASSERT_EQ(late.verdict(), Verdict::Within);
   EXPECT_EQ(late.distance().bounds.upper, proven.distance().bounds.upper);
   late.publish();
   EXPECT_EQ(read_mesh(in("late.off")).mesh.vertices[17], near.vertices[17]);
   first.write(coarse);
   first.measure(original, options);
-  first.fall_back(nullptr, original, {}, options);
+  first.fall_back(nullptr, original, {}, {}, options);
   first.publish();
   EXPECT_EQ(read_mesh(in("first.off")).mesh.vertices, sphere.vertices);
 }

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 
 #include "common/length.h"
@@ -291,6 +292,63 @@ TEST_F(ToolConventions, ToolsThatDecimateKeepAndReportLines) {
       run_tool(SIMPLIFY_WITH_BOUND, {in("box.off"), in("none.ply"), "--tolerance", "0.2", "--line-tolerance", "-1"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(in("none.ply")));
+}
+
+/// A sheet of two materials: both tools that decimate carry them to OBJ, and say what other formats lose.
+TEST_F(ToolConventions, AttributesComeAlongBetweenObjFiles) {
+  std::string text = "mtllib sheet.mtl\n";
+  constexpr int n = 16;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x)
+      text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\nvt " + std::to_string(x / 16.0) + " " +
+              std::to_string(y / 16.0) + "\n";
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      const auto corner = [&](int i, int j) {
+        const std::string index = std::to_string((y + j) * (n + 1) + x + i + 1);
+        return " " + index + "/" + index;
+      };
+      text += (x < n / 2 ? "usemtl red\nf" : "usemtl blue\nf") + corner(0, 0) + corner(1, 0) + corner(1, 1) +
+              corner(0, 1) + "\n";
+    }
+  }
+  std::ofstream(in("sheet.obj")) << text;
+  const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {in("sheet.obj"), in(out), "--tolerance", "0.5", "--json", in("r.json")};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_tool(SIMPLIFY_WITH_BOUND, words);
+  };
+  const ToolRun carried = run("out.obj", {});
+  ASSERT_EQ(carried.exit_code, 0) << carried.err;
+  EXPECT_EQ(carried.out.find("dropped:"), std::string::npos) << carried.out;
+  const Json json = checked_document(content_of(in("r.json")));
+  EXPECT_EQ(json["original"]["dropped"]["texture_coordinates"], 0);
+  EXPECT_EQ(json["lines"]["tolerance"]["absolute"], 0.5);
+  EXPECT_LE(json["simplified"]["faces"], 8);
+  ReadOptions options;
+  options.attributes = true;
+  const MeshFile result = read_mesh(in("out.obj"), options);
+  EXPECT_EQ(result.attributes.material_libraries, std::vector<std::string>{"sheet.mtl"});
+  ASSERT_EQ(result.attributes.materials.index.size(), result.mesh.triangles.size());
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+    double x = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = result.mesh.vertices[result.mesh.triangles[t][k]];
+      x += p.x() / 3;
+      const Eigen::Vector3d& uv =
+          result.attributes.texture_coordinates.values[result.attributes.texture_coordinates.index[t][k]];
+      EXPECT_NEAR(uv.x(), p.x() / n, 1e-6);
+      EXPECT_NEAR(uv.y(), p.y() / n, 1e-6);
+    }
+    EXPECT_EQ(result.attributes.materials.names[result.attributes.materials.index[t]], x < n / 2 ? "red" : "blue");
+  }
+  const ToolRun bare = run("bare.obj", {"--drop-attributes"});
+  EXPECT_NE(bare.out.find("dropped: 289 texture coordinates, 2 materials"), std::string::npos) << bare.out;
+  EXPECT_EQ(content_of(in("bare.obj")).find("vt "), std::string::npos);
+  EXPECT_EQ(checked_document(content_of(in("r.json")))["simplified"]["faces"], 2);
+  EXPECT_NE(run("out.ply", {}).out.find("dropped: 289 texture coordinates, 2 materials"), std::string::npos);
+  ASSERT_EQ(run_tool(LOD_CHAIN, {in("sheet.obj"), in("chain"), "--levels", "0.5", "--format", "obj"}).exit_code, 0);
+  EXPECT_NE(content_of(in("chain/lod_0.obj")).find("usemtl blue"), std::string::npos);
 }
 
 TEST_F(ToolConventions, VerticesOfASubsetAreThoseOfTheOriginal) {

@@ -160,7 +160,7 @@ void Run::check_paths() const {
 }
 
 void Run::read() {
-  read_original(report_.original, true);
+  read_original(report_.original, true, level_path(0));
   report_.seconds.read = watch_.lap();
 }
 
@@ -248,7 +248,7 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
   entry.distance = output.distance();
-  entry.lines = line_report(output);
+  entry.lines = line_report(output, level.tolerance);
   const bool was_late = options_.common.has_time_limit && remaining(1) == 0 &&
                         (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
   entry.stopped_by = to_string(was_late ? EndedBy::TimeLimit : level.ended_by);

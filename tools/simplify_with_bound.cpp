@@ -128,7 +128,7 @@ void Run::parse_target() {
 }
 
 void Run::read() {
-  read_original(report_.original, !options_.common.json.empty());
+  read_original(report_.original, !options_.common.json.empty(), options_.output);
   report_.seconds.read = watch_.lap();
 }
 
@@ -332,10 +332,10 @@ void Run::report() {
   report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
   if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
   report_.distance = out.distance();
-  report_.lines = line_report(out);
+  report_.lines = line_report(out, report_.tolerance);
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
-                              outputs_[i].distance(), line_report(outputs_[i]),
+                              outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
                               checksums_.empty() ? "" : checksums_[i]});
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "meshbound/attributes.h"
 #include "meshbound/error.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/triangle_mesh.h"
@@ -37,7 +38,8 @@ struct MeshFile {
   std::size_t triangulated_polygons = 0;  ///< faces of more than three corners, split into triangles
   std::size_t decoded_strips = 0;         ///< triangle strips (PLY `tristrips`)
   std::size_t ignored_elements = 0;       ///< faces of fewer than three corners, lines and points
-  DroppedAttributes dropped;              ///< what the file holds beyond that
+  DroppedAttributes dropped;              ///< what the file holds beyond that and `attributes`
+  MeshAttributes attributes;              ///< when they were asked for, and the reader of the format knows them (OBJ)
 };
 
 /// How a file is read.
@@ -45,6 +47,7 @@ struct ReadOptions {
   const std::atomic<bool>* cancel = nullptr;  ///< reading ends with `Interrupted` soon after this is set; not owned
   /// Reading ends with `Stopped` soon after this point in time; the largest one: never.
   StopToken::Clock::time_point deadline = StopToken::Clock::time_point::max();
+  bool attributes = false;  ///< read `MeshFile::attributes`, too
 };
 
 /// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double) or STL (ascii, binary; corners welded by
@@ -77,5 +80,8 @@ struct WriteOptions {
 /// `rounded_for` does, `Interrupted` and `Stopped` as the options say; nothing is written then. O(n). Safe to call from
 /// several threads, as is all of this header.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
+
+/// Whether files of this format are read and written with `MeshAttributes`: OBJ.
+[[nodiscard]] bool carries_attributes(FileFormat format);
 
 }  // namespace meshbound

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// All of the core. What needs CGAL is in meshbound/cgal/.
 #pragma once
+#include "meshbound/attributes.h"
 #include "meshbound/bounds.h"
 #include "meshbound/bvh.h"
 #include "meshbound/certificate.h"

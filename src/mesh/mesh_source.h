@@ -15,6 +15,7 @@ struct MeshSource {
   std::string_view bytes;
   std::size_t begin = 0;  ///< where the content starts: after a byte order mark
   StopToken stop;         ///< when the reading is to end
+  bool with_attributes = false;
 
   /// Throws `Interrupted` or `Stopped` as `stop` says.
   void end_if_stopped() const;

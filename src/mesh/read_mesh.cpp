@@ -13,7 +13,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
 
 MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, const ReadOptions& options) {
   const FileFormat format = format_of(path);
-  MeshSource source{path, bytes, 0, {options.deadline, options.cancel}};
+  MeshSource source{path, bytes, 0, {options.deadline, options.cancel}, options.attributes};
   if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
   // The header of a binary STL may hold any bytes; its reader recognises text for itself.
   if (format == FileFormat::Stl) return read_stl(source);

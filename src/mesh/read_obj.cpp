@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ (http://paulbourke.net/dataformats/obj/): v and f are read, groups, materials, normals and texture
-// coordinates are counted and stepped over.
+// Wavefront OBJ (http://paulbourke.net/dataformats/obj/): v and f are read; groups, materials, normals and texture
+// coordinates are read where they are asked for, else counted and stepped over.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/mesh_assembler.h"
+#include "mesh/obj_attributes.h"
 #include "mesh/readers.h"
 #include "mesh/text_cursor.h"
 
@@ -44,7 +45,9 @@ class ObjReader {
                            "a face refers to vertex " + std::to_string(largest_reference_) + ", but there are only " +
                                std::to_string(assembler_.vertex_count()) + " (counted from 1)");
     count_names();
-    return assembler_.finish();
+    MeshFile file = assembler_.finish();
+    if (source_.with_attributes) file.attributes = attributes_.finish(file.dropped);
+    return file;
   }
 
  private:
@@ -60,7 +63,10 @@ class ObjReader {
         source_.fail_at_line(offset, quote(keyword) + " does not start a statement of OBJ");
       if (std::find(other_geometry.begin(), other_geometry.end(), keyword) != other_geometry.end())
         assembler_.ignore_element();
-      count_attribute(keyword, rest_of_statement());
+      if (source_.with_attributes && (keyword == "vt" || keyword == "vn")) return read_value(keyword);
+      const std::string_view argument = rest_of_statement();
+      count_attribute(keyword, argument);
+      if (source_.with_attributes) attributes_.set_label(keyword, argument);
     }
   }
 
@@ -116,13 +122,26 @@ class ObjReader {
     return cursor_.number("a vertex coordinate");
   }
 
+  /// Two numbers of a texture coordinate or three of a normal; missing ones are 0, further ones are stepped over.
+  void read_value(std::string_view keyword) {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; cursor_.find_word_in_line(); ++i) {
+      const double number = cursor_.number("a texture coordinate or a normal");
+      if (i < (keyword == "vt" ? 2 : 3)) value[i] = number;
+    }
+    attributes_.add_value(keyword, value);
+    count_attribute(keyword, {});
+  }
+
   void read_face() {
     corners_.clear();
+    attributes_.begin_polygon();
     while (cursor_.find_word_in_line()) {
       corners_.push_back(read_corner());
-      skip_texture_and_normal();
+      read_texture_and_normal();
     }
     assembler_.add_polygon(corners_);
+    if (source_.with_attributes) attributes_.end_polygon();
   }
 
   /// Positive indices count from 1 and may refer to vertices further down, negative ones count back from here.
@@ -141,12 +160,15 @@ class ObjReader {
     return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
   }
 
-  /// a/b, a/b/c or a//c: only the form is checked.
-  void skip_texture_and_normal() {
-    for (int i = 0; i < 2 && cursor_.starts_with('/'); ++i) {
+  /// a/b, a/b/c or a//c: the form is checked, and an index without a value means none.
+  void read_texture_and_normal() {
+    std::array<std::int64_t, 2> index = {0, 0};
+    for (std::size_t i = 0; i < 2 && cursor_.starts_with('/'); ++i) {
       cursor_.advance();
-      if (!cursor_.at_word_end() && !cursor_.starts_with('/')) cursor_.leading_integer("a texture or normal index");
+      if (!cursor_.at_word_end() && !cursor_.starts_with('/'))
+        index[i] = cursor_.leading_integer("a texture or normal index");
     }
+    if (source_.with_attributes) attributes_.add_corner(index[0], index[1]);
     if (!cursor_.at_word_end()) cursor_.fail_expected("a face corner of the form v, v/vt, v//vn or v/vt/vn");
   }
 
@@ -157,6 +179,7 @@ class ObjReader {
   MeshAssembler assembler_;
   std::vector<std::uint32_t> corners_;
   Names materials_, material_libraries_, groups_, smoothing_groups_;
+  ObjAttributes attributes_;
   std::size_t largest_reference_ = 0;  // to a vertex not yet read, counted from 1
   std::size_t largest_reference_offset_ = 0;
 };

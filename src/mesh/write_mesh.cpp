@@ -65,19 +65,19 @@ TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& 
 }
 
 void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
-                const WriteOptions& options) {
+                const WriteOptions& options, const MeshAttributes& attributes) {
   const FileFormat format = format_of(path);
   refuse_unwritable(path, format, mesh, options);
   if (options.single_precision && (format == FileFormat::Off || format == FileFormat::Obj)) {
     WriteOptions as_they_are = options;
     as_they_are.single_precision = false;
-    return write_mesh(file, path, rounded_for(path, mesh, options), as_they_are);
+    return write_mesh(file, path, rounded_for(path, mesh, options), as_they_are, attributes);
   }
   switch (format) {
     case FileFormat::Off:
       return write_off(file, mesh);
     case FileFormat::Obj:
-      return write_obj(file, mesh);
+      return write_obj(file, mesh, attributes);
     case FileFormat::Ply:
       return write_ply(file, mesh, options);
     case FileFormat::Stl:
@@ -91,5 +91,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, con
   write_mesh(file, path, mesh, options);
   file.commit();
 }
+
+bool carries_attributes(FileFormat format) { return format == FileFormat::Obj; }
 
 }  // namespace meshbound

@@ -41,10 +41,10 @@ Precision GatedOutput::precision() const {
   return format_of(path_) == FileFormat::Stl || options_.single_precision ? Precision::Single : Precision::Double;
 }
 
-void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines) {
+void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {
   restart();
   lines_ = line_mesh(mesh, lines);
-  write_mesh(*file_, path_, rounded_for(path_, mesh, options_), options_);
+  write_mesh(*file_, path_, rounded_for(path_, mesh, options_), options_, attributes);
   file_->complete();
 }
 
@@ -84,10 +84,10 @@ void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions opt
 }
 
 void GatedOutput::fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
-                            DistanceOptions options) {
+                            const MeshAttributes& attributes, DistanceOptions options) {
   stop_ = only_flag();
   if (smaller == nullptr) {
-    write(original.mesh(), lines);
+    write(original.mesh(), lines, attributes);
     options.budget = {};
     measure(original, options);
     return;

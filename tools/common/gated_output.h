@@ -39,9 +39,9 @@ class GatedOutput {
   /// From now on a result must keep these lines, too; null: there are none. They must outlive this.
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
-  /// `lines` are edges of the mesh. Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
-  /// After `Stopped` only `write` and `fall_back` may be called.
-  void write(const TriangleMesh& mesh, std::span<const Edge> lines = {});
+  /// `lines` are edges of the mesh, `attributes` those of its triangles where the format carries them. Throws
+  /// `IoError`; `InvalidInput` when a coordinate leaves the range of the format. After `Stopped` only `write` and `fall_back` may be called.
+  void write(const TriangleMesh& mesh, std::span<const Edge> lines = {}, const MeshAttributes& attributes = {});
 
   /// What was written, as it reads. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
@@ -61,7 +61,7 @@ class GatedOutput {
   /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the
   /// time limit no longer counts, as an original that is matched with itself costs one pass.
   void fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
-                 DistanceOptions options);
+                 const MeshAttributes& attributes, DistanceOptions options);
 
   /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
   void publish();

@@ -10,16 +10,17 @@
 
 namespace meshbound::tools {
 
-InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop) {
+InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop, bool with_attributes) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
   const FileBytes file(path, stop);
   const auto look = [&] { end_if_stopped(stop, path, "read"); };
-  return {parse_mesh(path, file.bytes(), {stop.cancel, stop.deadline}),
+  return {parse_mesh(path, file.bytes(), {stop.cancel, stop.deadline, with_attributes}),
           with_checksum ? sha256(file.bytes(), look) : ""};
 }
 
-TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report, const StopToken& stop) {
-  InputFile file = read_file(path, with_checksum, stop);
+TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report, const StopToken& stop,
+                        MeshAttributes* attributes) {
+  InputFile file = read_file(path, with_checksum, stop, attributes != nullptr);
   MeshFile& content = file.content;
   report = {path,
             summarise(content.mesh),
@@ -28,6 +29,7 @@ TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport&
             content.ignored_elements,
             content.dropped,
             std::move(file.sha256)};
+  if (attributes != nullptr) *attributes = std::move(content.attributes);
   return std::move(content.mesh);
 }
 

@@ -14,10 +14,11 @@ struct InputFile {
 };
 
 /// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says.
-[[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop);
+[[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop,
+                                  bool with_attributes = false);
 
-/// The mesh of `read_file`; `report` says what was read.
+/// The mesh of `read_file`; `report` says what was read, `attributes` (null: not wanted) what goes with it.
 [[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report,
-                                      const StopToken& stop);
+                                      const StopToken& stop, MeshAttributes* attributes = nullptr);
 
 }  // namespace meshbound::tools

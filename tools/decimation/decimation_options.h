@@ -14,13 +14,15 @@ struct DecimationOptions {
   std::optional<double> feature_angle;  ///< degrees
   std::string line_tolerance;           ///< a length as typed; empty: no feature lines
   std::string placement = "optimal";
+  bool drop_attributes = false;
   WriteOptions write;
   std::string error_bound;  ///< of the measurements, a length as typed; empty: the default
   CommonOptions common;
 };
 
-/// Adds --driver, --cost, --preserve-boundary, --feature-angle, --line-tolerance, --placement, --error-bound, what
-/// `add_write_options` and what `add_common_options` adds, and says in the description what outputs do not carry.
+/// Adds --driver, --cost, --preserve-boundary, --feature-angle, --line-tolerance, --placement, --drop-attributes,
+/// --error-bound, what `add_write_options` and what `add_common_options` adds, and says in the description what outputs
+/// do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
 
 }  // namespace meshbound::tools

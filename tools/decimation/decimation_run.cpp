@@ -42,9 +42,12 @@ DecimationRun::DecimationRun(const DecimationOptions& options)
   (void)collapse_driver(options.driver, options.cost);  // throws before any work where there is none
 }
 
-void DecimationRun::read_original(MeshReport& report, bool with_checksum) {
-  original_ = read_input(shared_.input, with_checksum, report, stop_of_reading(shared_.common, watch_));
+void DecimationRun::read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output) {
+  const bool carries = !shared_.drop_attributes && carries_attributes(format_of(output));
+  original_ = read_input(shared_.input, with_checksum, report, stop_of_reading(shared_.common, watch_),
+                         carries ? &attributes_ : nullptr);
   validate(original_);
+  if (!attributes_.empty()) seams_ = seams(original_, attributes_);
   diagonal_ = report.summary.bbox_diagonal;
 }
 
@@ -64,6 +67,7 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
   if (shared_.feature_angle) options.feature_angle = *shared_.feature_angle / 180 * std::numbers::pi;
   if (!shared_.line_tolerance.empty())
     options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
+  options.feature_edges = seams_;
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   options.precision = output.precision();
   options.time_limit = remaining(simplify_share);
@@ -91,7 +95,9 @@ double DecimationRun::remaining(double share) const {
 
 bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) const {
   try {
-    output.write(level.mesh, level.lines);
+    const MeshAttributes attributes =
+        attributes_.empty() ? MeshAttributes() : transferred_attributes(original_, attributes_, level);
+    output.write(level.mesh, level.lines, attributes);
     return true;
   } catch (const Stopped&) {
     return false;
@@ -125,21 +131,24 @@ DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const Gate
 }
 
 DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options) {
-  output.fall_back(smaller, measured_original_, lines_, options);
+  output.fall_back(smaller, measured_original_, lines_, attributes_, options);
   return smaller != nullptr ? DecidedBy::SmallerLevel : DecidedBy::Original;
 }
 
 void DecimationRun::set_lines(std::vector<Edge> lines) {
   lines_ = std::move(lines);
   if (lines_.empty()) return;
+  const double tolerance = shared_.line_tolerance.empty()
+                               ? std::numeric_limits<double>::infinity()  // that of the mesh
+                               : parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
   original_lines_.emplace(
-      OriginalLines{Bvh(line_mesh(original_, lines_), BvhOptions{shared_.common.threads}),
-                    parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_)});
+      OriginalLines{Bvh(line_mesh(original_, lines_), BvhOptions{shared_.common.threads}), tolerance});
 }
 
-std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output) const {
+std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output, double tolerance) const {
   if (!original_lines_ || !output.line_distance()) return std::nullopt;
-  return LineReport{original_lines_->tolerance, lines_.size(), output.line_edges(), *output.line_distance()};
+  return LineReport{std::min(original_lines_->tolerance, tolerance), lines_.size(), output.line_edges(),
+                    *output.line_distance()};
 }
 
 int DecimationRun::threads() const {

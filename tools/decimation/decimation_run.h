@@ -21,9 +21,9 @@ class DecimationRun {
   /// `options` must outlive this. Throws `InvalidInput` for a driver that is not there or does not know the cost.
   explicit DecimationRun(const DecimationOptions& options);
 
-  /// Reads and validates the input; its checksum is computed where a document is to name it. Throws `Stopped` when the
-  /// time limit comes first.
-  void read_original(MeshReport& report, bool with_checksum);
+  /// Reads and validates the input; its checksum is computed where a document is to name it. Attributes come along
+  /// where files like `output` carry them. Throws `Stopped` when the time limit comes first.
+  void read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output);
   /// `flag` names the option that `texts` come from, for messages.
   void add_tolerances(const std::string& flag, const std::vector<std::string>& texts);
   /// Ascending, without repetitions.
@@ -43,7 +43,7 @@ class DecimationRun {
   /// Notes the lines that outputs must keep: edges of the original.
   void set_lines(std::vector<Edge> lines);
   /// Says how far the lines of an output are from those of the original; none where there are no lines.
-  [[nodiscard]] std::optional<LineReport> line_report(const GatedOutput& output) const;
+  [[nodiscard]] std::optional<LineReport> line_report(const GatedOutput& output, double tolerance) const;
   /// Makes the mesh again for a tolerance, model units.
   using Redo = std::function<SimplifiedLevel(double tolerance)>;
   /// Reads back what `writes` left in `output` and measures it against the original. Where that remains undecided it
@@ -62,7 +62,9 @@ class DecimationRun {
   TriangleMesh original_;
   double diagonal_ = 0;
   std::vector<double> tolerances_;
-  std::vector<Edge> lines_;  ///< of the original
+  MeshAttributes attributes_;  ///< of the original, where outputs carry them
+  std::vector<Edge> seams_;    ///< of these
+  std::vector<Edge> lines_;    ///< of the original
   std::optional<OriginalLines> original_lines_;
 
  private:

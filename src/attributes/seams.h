@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "meshbound/attributes.h"
+
+namespace meshbound {
+
+/// Which triangles of a mesh hang together without crossing a seam.
+struct Charts {
+  std::vector<std::uint32_t> chart_of;  ///< by triangle
+  std::uint32_t count = 0;
+  std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< by triangle and edge: across it, `no_index` at borders
+  std::vector<std::array<std::uint8_t, 3>> is_seam;      ///< by triangle and edge
+  std::vector<std::uint32_t> first;                      ///< by vertex: the first one at its position
+};
+
+/// Throws `InvalidInput` where the attributes are not those of as many triangles. O(n log n).
+[[nodiscard]] Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes);
+
+}  // namespace meshbound

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/obj_attributes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meshbound {
+namespace {
+
+constexpr std::uint32_t none = CornerAttribute::none;
+
+/// Counted from 0; -1 for none. `count` values stand above.
+std::int64_t from_zero(std::int64_t index, std::size_t count) {
+  return index > 0 ? index - 1 : index < 0 ? static_cast<std::int64_t>(count) + index : -1;
+}
+
+std::uint32_t checked(std::int64_t index, std::size_t count) {
+  return index >= 0 && index < static_cast<std::int64_t>(count) ? static_cast<std::uint32_t>(index) : none;
+}
+
+bool has_values(const std::vector<Triangle>& index) {
+  return std::any_of(index.begin(), index.end(), [](const Triangle& t) { return t != Triangle{none, none, none}; });
+}
+
+/// Positive indices may refer to values further down, so they are checked at the end.
+void check_indices(CornerAttribute& attribute) {
+  for (Triangle& t : attribute.index)
+    for (std::uint32_t& i : t) i = checked(i == none ? -1 : std::int64_t{i}, attribute.values.size());
+  if (!has_values(attribute.index)) attribute = {};
+}
+
+}  // namespace
+
+void ObjAttributes::add_value(std::string_view keyword, const Eigen::Vector3d& value) {
+  (keyword == "vt" ? attributes_.texture_coordinates : attributes_.normals).values.push_back(value);
+}
+
+void ObjAttributes::Labels::set(std::string name) {
+  const auto [at, is_new] = number.try_emplace(name, static_cast<std::uint32_t>(all.names.size()));
+  if (is_new) all.names.push_back(std::move(name));
+  current = at->second;
+}
+
+void ObjAttributes::set_label(std::string_view keyword, std::string_view argument) {
+  if (keyword == "usemtl" && !argument.empty()) materials_.set(std::string(argument));
+  if (keyword == "g" || keyword == "o") groups_.set(std::string(keyword) + ' ' + std::string(argument));
+  if (keyword == "mtllib" && !argument.empty()) attributes_.material_libraries.emplace_back(argument);
+}
+
+void ObjAttributes::add_corner(std::int64_t texture_coordinate, std::int64_t normal) {
+  corners_.push_back({from_zero(texture_coordinate, attributes_.texture_coordinates.values.size()),
+                      from_zero(normal, attributes_.normals.values.size())});
+}
+
+void ObjAttributes::end_polygon() {
+  for (std::size_t i = 2; i < corners_.size(); ++i) {
+    Triangle texture, normal;
+    const std::size_t fan[] = {0, i - 1, i};
+    for (std::size_t k = 0; k < 3; ++k) {
+      texture[k] = checked(corners_[fan[k]].texture_coordinate, none);
+      normal[k] = checked(corners_[fan[k]].normal, none);
+    }
+    attributes_.texture_coordinates.index.push_back(texture);
+    attributes_.normals.index.push_back(normal);
+    materials_.all.index.push_back(materials_.current);
+    groups_.all.index.push_back(groups_.current);
+  }
+}
+
+MeshAttributes ObjAttributes::finish(DroppedAttributes& dropped) {
+  check_indices(attributes_.texture_coordinates);
+  check_indices(attributes_.normals);
+  if (!materials_.all.names.empty()) attributes_.materials = std::move(materials_.all);
+  if (!groups_.all.names.empty()) attributes_.groups = std::move(groups_.all);
+  dropped.texture_coordinates = dropped.normals = dropped.materials = dropped.groups = 0;
+  return std::move(attributes_);
+}
+
+}  // namespace meshbound

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "meshbound/io.h"
+
+namespace meshbound {
+
+/// Collects the attributes of an OBJ file, polygon by polygon; triangles are those of `MeshAssembler::add_polygon`.
+class ObjAttributes {
+ public:
+  /// A value of `vt` or `vn`.
+  void add_value(std::string_view keyword, const Eigen::Vector3d& value);
+  /// What polygons from now on belong to: `usemtl`, `g`, `o`; or a library, `mtllib`. Other statements say nothing.
+  void set_label(std::string_view keyword, std::string_view argument);
+
+  void begin_polygon() { corners_.clear(); }
+  /// As they stand in the file: counted from 1, or back from here; 0 for none.
+  void add_corner(std::int64_t texture_coordinate, std::int64_t normal);
+  void end_polygon();
+
+  /// What was collected. Counts that speak of it are taken off `dropped`.
+  [[nodiscard]] MeshAttributes finish(DroppedAttributes& dropped);
+
+ private:
+  struct Labels {
+    TriangleLabels all;
+    std::unordered_map<std::string, std::uint32_t> number;
+    std::uint32_t current = CornerAttribute::none;
+    void set(std::string name);
+  };
+  struct Corner {
+    std::int64_t texture_coordinate, normal;  ///< counted from 0; -1 for none
+  };
+
+  MeshAttributes attributes_;
+  Labels materials_, groups_;
+  std::vector<Corner> corners_;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// Attributes come along: what OBJ files say of corners and triangles is read and written again, seams are found, and a
+// level has on each side of a seam what the original has there.
+#include "meshbound/attributes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "datasets.h"
+#include "mesh/atomic_file.h"
+#include "mesh/writers.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
+#include "simplify_options.h"
+#include "temporary_folder.h"
+
+namespace meshbound {
+namespace {
+
+constexpr std::uint32_t none = CornerAttribute::none;
+
+MeshFile read_with_attributes(const std::filesystem::path& path) {
+  ReadOptions options;
+  options.attributes = true;
+  return read_mesh(path, options);
+}
+
+void write_with_attributes(const std::filesystem::path& path, const TriangleMesh& mesh, const MeshAttributes& what) {
+  AtomicFile file(path);
+  write_mesh(file, path, mesh, {}, what);
+  file.commit();
+}
+
+/// n x n squares of the unit square, whose left half has u = x and whose right half u = x + 10, v = y in both.
+struct Textured {
+  TriangleMesh mesh;
+  MeshAttributes attributes;
+};
+
+Textured two_charts(std::uint32_t n) {
+  Textured result;
+  for (std::uint32_t y = 0; y <= n; ++y)
+    for (std::uint32_t x = 0; x <= n; ++x)
+      result.mesh.vertices.emplace_back(x / double{n}, y / double{n}, 0.02 * std::sin(7.0 * x / n + 3.0 * y / n));
+  CornerAttribute& uv = result.attributes.texture_coordinates;
+  const std::size_t count = result.mesh.vertices.size();
+  for (const double shift : {0.0, 10.0})
+    for (const Eigen::Vector3d& p : result.mesh.vertices) uv.values.emplace_back(p.x() + shift, p.y(), 0);
+  result.attributes.materials.names = {"left", "right"};
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
+      const bool is_right = 2 * x >= n;
+      for (const Triangle& t : {Triangle{a, b, d}, Triangle{a, d, c}}) {
+        result.mesh.triangles.push_back(t);
+        const auto shift = static_cast<std::uint32_t>(is_right ? count : 0);
+        uv.index.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+        result.attributes.materials.index.push_back(is_right ? 1 : 0);
+      }
+    }
+  }
+  return result;
+}
+
+/// A tube around z whose u runs once around: its one chart meets itself at angle 0.
+Textured tube(std::uint32_t around, std::uint32_t along) {
+  Textured result;
+  CornerAttribute& uv = result.attributes.texture_coordinates;
+  for (std::uint32_t z = 0; z <= along; ++z) {
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const double angle = 2 * std::numbers::pi * k / around;
+      result.mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 2.0 * z / along);
+    }
+    for (std::uint32_t k = 0; k <= around; ++k) uv.values.emplace_back(k / double{around}, z / double{along}, 0);
+  }
+  for (std::uint32_t z = 0; z < along; ++z) {
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const std::uint32_t next = (k + 1) % around, a = z * around, c = a + around;
+      const std::uint32_t p = z * (around + 1) + k, q = p + around + 1;
+      result.mesh.triangles.push_back({a + k, a + next, c + next});
+      uv.index.push_back({p, p + 1, q + 1});
+      result.mesh.triangles.push_back({a + k, c + next, c + k});
+      uv.index.push_back({p, q + 1, q});
+    }
+  }
+  return result;
+}
+
+SimplifiedLevel level_of(const Textured& textured, double tolerance) {
+  SimplifyOptions options = test::within(tolerance);
+  options.feature_edges = seams(textured.mesh, textured.attributes);
+  return simplify_with_bound(textured.mesh, options).last();
+}
+
+TEST(ObjAttributes, AreReadAndWrittenAgain) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "in.obj") << "mtllib one.mtl two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
+                                      "vt 0 0\nvt 1 0 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 0\n"
+                                      "o quad\nusemtl red\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"
+                                      "g side a\nusemtl blue\nf 2//2 5//-1 3/-2\nf 1 2 5\n";
+  const MeshFile file = read_with_attributes(folder / "in.obj");
+  const MeshAttributes& a = file.attributes;
+  EXPECT_EQ(file.dropped, DroppedAttributes{});
+  EXPECT_EQ(a.material_libraries, std::vector<std::string>{"one.mtl two.mtl"});
+  EXPECT_EQ(a.materials.names, (std::vector<std::string>{"red", "blue"}));
+  EXPECT_EQ(a.materials.index, (std::vector<std::uint32_t>{0, 0, 1, 1}));
+  EXPECT_EQ(a.groups.names, (std::vector<std::string>{"o quad", "g side a"}));
+  EXPECT_EQ(a.texture_coordinates.index,
+            (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {none, none, 2}, {none, none, none}}));
+  EXPECT_EQ(a.normals.index, (std::vector<Triangle>{{0, 0, 0}, {0, 0, 0}, {1, 1, none}, {none, none, none}}));
+  write_with_attributes(folder / "out.obj", file.mesh, a);
+  const MeshFile again = read_with_attributes(folder / "out.obj");
+  EXPECT_EQ(again.mesh.triangles, file.mesh.triangles);
+  EXPECT_EQ(again.attributes.texture_coordinates.index, a.texture_coordinates.index);
+  EXPECT_EQ(again.attributes.texture_coordinates.values, a.texture_coordinates.values);
+  EXPECT_EQ(again.attributes.normals.index, a.normals.index);
+  EXPECT_EQ(again.attributes.materials.index, a.materials.index);
+  EXPECT_EQ(again.attributes.groups.names, a.groups.names);
+  EXPECT_EQ(again.attributes.material_libraries, a.material_libraries);
+  EXPECT_TRUE(read_mesh(folder / "in.obj").attributes.empty());
+  EXPECT_EQ(read_mesh(folder / "in.obj").dropped.texture_coordinates, 4U);
+}
+
+TEST(ObjAttributes, WithoutAValueAreNone) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "in.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/7/9 2/0/-5 3/-1/1\n";
+  EXPECT_TRUE(read_with_attributes(folder / "in.obj").attributes.empty());
+}
+
+TEST(Seams, AreWhereTextureCoordinatesOrMaterialsDiffer) {
+  Textured square = two_charts(8);
+  const auto interior = [&] {
+    std::size_t count = 0;
+    for (const auto& [a, b] : seams(square.mesh, square.attributes)) {
+      const bool is_middle = square.mesh.vertices[a].x() == 0.5 && square.mesh.vertices[b].x() == 0.5;
+      count += is_middle ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(interior(), 8U);
+  EXPECT_EQ(seams(square.mesh, square.attributes).size(), 8U + 32U);
+  square.attributes.materials = {};
+  EXPECT_EQ(interior(), 8U) << "by texture coordinates alone";
+  square.attributes.texture_coordinates = {};
+  EXPECT_TRUE(seams(square.mesh, square.attributes).empty());
+  EXPECT_EQ(seams(tube(24, 6).mesh, tube(24, 6).attributes).size(), 6U + 2 * 24U);
+  square.attributes.normals.index.resize(3);
+  EXPECT_THROW((void)seams(square.mesh, square.attributes), InvalidInput);
+}
+
+TEST(TransferredAttributes, AreThoseOfTheRightSideOfASeam) {
+  const Textured square = two_charts(24);
+  const SimplifiedLevel level = level_of(square, 0.01);
+  EXPECT_LT(level.faces(), square.mesh.triangles.size() / 4);
+  const MeshAttributes attributes = transferred_attributes(square.mesh, square.attributes, level);
+  const CornerAttribute& uv = attributes.texture_coordinates;
+  ASSERT_EQ(uv.index.size(), level.faces());
+  for (std::size_t t = 0; t < level.faces(); ++t) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const std::uint32_t v : level.mesh.triangles[t]) middle += level.mesh.vertices[v] / 3;
+    const bool is_right = middle.x() > 0.5;
+    EXPECT_EQ(attributes.materials.index[t], is_right ? 1U : 0U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = level.mesh.vertices[level.mesh.triangles[t][k]];
+      ASSERT_NE(uv.index[t][k], none);
+      const Eigen::Vector3d value = uv.values[uv.index[t][k]];
+      EXPECT_NEAR(value.x(), p.x() + (is_right ? 10 : 0), 0.011);
+      EXPECT_NEAR(value.y(), p.y(), 0.011);
+    }
+  }
+  EXPECT_LT(uv.values.size(), level.mesh.vertices.size() * 3 / 2) << "corners of one side share their value";
+}
+
+TEST(TransferredAttributes, DoNotWrapAroundWhereAChartMeetsItself) {
+  const Textured around = tube(48, 12);
+  const SimplifiedLevel level = level_of(around, 0.03);
+  EXPECT_LT(level.faces(), around.mesh.triangles.size() / 4);
+  const CornerAttribute uv = transferred_attributes(around.mesh, around.attributes, level).texture_coordinates;
+  for (std::size_t t = 0; t < level.faces(); ++t) {
+    double min = 2, max = -1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d value = uv.values[uv.index[t][k]];
+      const Eigen::Vector3d& p = level.mesh.vertices[level.mesh.triangles[t][k]];
+      min = std::min(min, value.x()), max = std::max(max, value.x());
+      EXPECT_NEAR(value.y(), p.z() / 2, 0.02);
+      const double angle = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi);
+      EXPECT_NEAR(std::abs(std::remainder(value.x() - angle, 1.0)), 0, 0.02);
+    }
+    EXPECT_LT(max - min, 0.5) << "triangle " << t << " from " << min << " to " << max;
+  }
+}
+
+TEST(TransferredAttributes, KeepNormalsOnTheirSideOfASharpEdge) {
+  Textured roof = two_charts(12);
+  roof.attributes = {};
+  for (Eigen::Vector3d& p : roof.mesh.vertices) p.z() = 0.5 - std::abs(p.x() - 0.5);
+  CornerAttribute& normals = roof.attributes.normals;
+  normals.values = {Eigen::Vector3d(-1, 0, 1).normalized(), Eigen::Vector3d(1, 0, 1).normalized()};
+  for (const Triangle& t : roof.mesh.triangles) {
+    double x = 0;
+    for (const std::uint32_t v : t) x += roof.mesh.vertices[v].x() / 3;
+    const std::uint32_t side = x < 0.5 ? 0 : 1;
+    normals.index.push_back({side, side, side});
+  }
+  const SimplifiedLevel level = level_of(roof, 0.001);
+  EXPECT_LE(level.faces(), 8U);
+  const CornerAttribute result = transferred_attributes(roof.mesh, roof.attributes, level).normals;
+  for (std::size_t t = 0; t < level.faces(); ++t) {
+    const Triangle& v = level.mesh.triangles[t];
+    const Eigen::Vector3d normal = (level.mesh.vertices[v[1]] - level.mesh.vertices[v[0]])
+                                       .cross(level.mesh.vertices[v[2]] - level.mesh.vertices[v[0]])
+                                       .normalized();
+    for (const std::uint32_t i : result.index[t]) EXPECT_GT(result.values[i].dot(normal), 0.99);
+  }
+}
+
+/// Texture coordinates of real models: no triangle of a level spans more of the texture than the originals around it.
+TEST(TransferredAttributes, OfRealModelsAreFoundAtEveryCorner) {
+  std::size_t found = 0;
+  for (const char* const name : {"game/gltf_Duck.obj", "organic/c3d_spot.obj", "game/mopt_pirate.obj"}) {
+    const auto path = test::dataset(name);
+    if (!path) continue;
+    ++found;
+    const MeshFile file = read_with_attributes(*path);
+    Textured textured{file.mesh, file.attributes};
+    const SimplifiedLevel level = level_of(textured, 0.003 * bounding_box_diagonal(file.mesh));
+    EXPECT_EQ(level.verdict, Verdict::Within) << name;
+    const CornerAttribute uv = transferred_attributes(textured.mesh, textured.attributes, level).texture_coordinates;
+    ASSERT_EQ(uv.index.size(), level.faces()) << name;
+    for (const Triangle& t : uv.index)
+      for (const std::uint32_t i : t) ASSERT_NE(i, none) << name;
+  }
+  if (found == 0) GTEST_SKIP() << "no real meshes on this machine";
+}
+
+}  // namespace
+}  // namespace meshbound
