@@ -47,10 +47,10 @@ struct MeshAttributes {
   }
 };
 
-/// The edges where a simplification must not mix what lies on both sides (`SimplifyOptions::feature_edges`): those whose
-/// two triangles have different materials or, at one of the ends, different texture coordinates, and those that do not
-/// have exactly two triangles. None where the mesh has neither materials nor texture coordinates. Vertices at equal
-/// positions are one. Throws `InvalidInput` where the attributes are not those of as many triangles. O(n log n).
+/// The edges where a simplification must not mix what lies on both sides (`SimplifyOptions::feature_edges`): those
+/// whose two triangles have different materials or, at one of the ends, different texture coordinates, and those that
+/// do not have exactly two triangles. None where the mesh has neither materials nor texture coordinates. Vertices at
+/// equal positions are one. Throws `InvalidInput` where the attributes are not those of as many triangles. O(n log n).
 [[nodiscard]] std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 /// The attributes of a level of `original` that was made with its `seams` as feature edges.

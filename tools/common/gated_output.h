@@ -40,7 +40,8 @@ class GatedOutput {
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
   /// `lines` are edges of the mesh, `attributes` those of its triangles where the format carries them. Throws
-  /// `IoError`; `InvalidInput` when a coordinate leaves the range of the format. After `Stopped` only `write` and `fall_back` may be called.
+  /// `IoError`; `InvalidInput` when a coordinate leaves the range of the format. After `Stopped` only `write` and
+  /// `fall_back` may be called.
   void write(const TriangleMesh& mesh, std::span<const Edge> lines = {}, const MeshAttributes& attributes = {});
 
   /// What was written, as it reads. Throws as `read_mesh`.
