@@ -46,7 +46,8 @@ Textured two_charts(std::uint32_t n) {
   Textured result;
   for (std::uint32_t y = 0; y <= n; ++y)
     for (std::uint32_t x = 0; x <= n; ++x)
-      result.mesh.vertices.emplace_back(x / double{n}, y / double{n}, 0.02 * std::sin(7.0 * x / n + 3.0 * y / n));
+      result.mesh.vertices.emplace_back(x / static_cast<double>(n), y / static_cast<double>(n),
+                                        0.02 * std::sin(7.0 * x / n + 3.0 * y / n));
   CornerAttribute& uv = result.attributes.texture_coordinates;
   const std::size_t count = result.mesh.vertices.size();
   for (const double shift : {0.0, 10.0})
@@ -76,7 +77,8 @@ Textured tube(std::uint32_t around, std::uint32_t along) {
       const double angle = 2 * std::numbers::pi * k / around;
       result.mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 2.0 * z / along);
     }
-    for (std::uint32_t k = 0; k <= around; ++k) uv.values.emplace_back(k / double{around}, z / double{along}, 0);
+    for (std::uint32_t k = 0; k <= around; ++k)
+      uv.values.emplace_back(k / static_cast<double>(around), z / static_cast<double>(along), 0);
   }
   for (std::uint32_t z = 0; z < along; ++z) {
     for (std::uint32_t k = 0; k < around; ++k) {

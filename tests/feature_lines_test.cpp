@@ -35,7 +35,8 @@ TriangleMesh sheet_with_tooth(std::uint32_t n, double height) {
   TriangleMesh mesh;
   for (std::uint32_t y = 0; y <= n; ++y)
     for (std::uint32_t x = 0; x <= n; ++x)
-      mesh.vertices.emplace_back(x / double{n}, y / double{n} - (y == 0 && x == n / 2 ? height : 0), 0);
+      mesh.vertices.emplace_back(x / static_cast<double>(n),
+                                 y / static_cast<double>(n) - (y == 0 && x == n / 2 ? height : 0), 0);
   for (std::uint32_t y = 0; y < n; ++y) {
     for (std::uint32_t x = 0; x < n; ++x) {
       const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;

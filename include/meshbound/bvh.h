@@ -16,8 +16,8 @@ namespace meshbound {
 
 /// How a tree is built.
 struct BvhOptions {
-  int threads = 0;  ///< 0: as many as OpenMP has. The tree is the same for every value.
-  StopToken stop;   ///< building ends with `Stopped` soon after this says so; a refit goes on
+  int threads = 0;      ///< 0: as many as OpenMP has. The tree is the same for every value.
+  StopToken stop = {};  ///< building ends with `Stopped` soon after this says so; a refit goes on
 };
 
 /// A bounding volume hierarchy over a triangle soup, with the adjacency and cells that the Hausdorff engine walks:
