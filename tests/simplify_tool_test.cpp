@@ -343,7 +343,7 @@ TEST_F(SimplifyTool, FallsBackToTheOriginalWithoutATree) {
     const std::uint64_t before = Bvh(coarse).data().serial;
     tools::GatedOutput output(in(name), StopToken{.deadline = StopToken::Clock::now()});
     EXPECT_THROW(output.write(coarse), Stopped) << name;
-    output.fall_back(nullptr, original, {}, options);
+    output.fall_back(nullptr, original, {}, {}, options);
     EXPECT_EQ(output.verdict(), Verdict::Within) << name;
     EXPECT_EQ(output.checksum().size(), 64u) << name;
     output.publish();
