@@ -10,7 +10,8 @@ namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
 inline SimplifyKernels kernels_of_this_instruction_set() {
-  return {{offsets, add_deviations}, {linearise, weighted_sums, largest_along}, {set_planes, test_slab, reach_in_slabs}};
+  return {
+      {offsets, add_deviations}, {linearise, weighted_sums, largest_along}, {set_planes, test_slab, reach_in_slabs}};
 }
 
 }  // namespace MESHBOUND_ISA
