@@ -146,6 +146,10 @@ TEST(Seams, AreWhereTextureCoordinatesOrMaterialsDiffer) {
   };
   EXPECT_EQ(interior(), 8U);
   EXPECT_EQ(seams(square.mesh, square.attributes).size(), 8U + 32U);
+  const CornerAttribute coordinates = square.attributes.texture_coordinates;
+  square.attributes.texture_coordinates = {};
+  EXPECT_EQ(interior(), 8U) << "by materials alone";
+  square.attributes.texture_coordinates = coordinates;
   square.attributes.materials = {};
   EXPECT_EQ(interior(), 8U) << "by texture coordinates alone";
   square.attributes.texture_coordinates = {};
