@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
+#include "random_poses.h"
 #include "reference/small_meshes.h"
 
 namespace {
@@ -17,6 +17,7 @@ namespace {
 using namespace meshbound;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test::translated;
 
 constexpr double error_bound = 1e-4;
 
@@ -27,27 +28,9 @@ DistanceOptions wanted(int threads = 1) {
   return options;
 }
 
-Isometry3d translated(const Vector3d& by) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = by;
-  return pose;
-}
-
-class Random {
+class Random : public test::RandomPoses {
  public:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
-  Vector3d offset(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  /// A turn by up to `angle` and an offset of up to `size` in each coordinate.
-  Isometry3d pose(const Vector3d& around, double size, double angle) {
-    Isometry3d pose = translated(around + offset(size));
-    pose.rotate(Eigen::AngleAxisd(uniform(-angle, angle), offset(1).normalized()));
-    return pose;
-  }
-
- private:
-  std::mt19937 engine_{7};
+  Random() : RandomPoses(7) {}
 };
 
 std::uint64_t queries(const HausdorffDistance& distance) {

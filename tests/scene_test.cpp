@@ -6,10 +6,10 @@
 
 #include <cmath>
 #include <map>
-#include <random>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
+#include "random_poses.h"
 #include "scene/world_box.h"
 
 namespace {
@@ -17,27 +17,13 @@ namespace {
 using namespace meshbound;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test::translated;
 
-Isometry3d translated(const Vector3d& by) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = by;
-  return pose;
-}
-
-class Random {
+class Random : public test::RandomPoses {
  public:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
-  Vector3d offset(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-  Isometry3d pose(double size, double angle) {
-    Isometry3d pose = translated(offset(size));
-    pose.rotate(Eigen::AngleAxisd(uniform(-angle, angle), offset(1).normalized()));
-    return pose;
-  }
-
- private:
-  std::mt19937 engine_{11};
+  Random() : RandomPoses(11) {}
+  using RandomPoses::pose;
+  Isometry3d pose(double size, double angle) { return pose(Vector3d::Zero(), size, angle); }
 };
 
 DistanceOptions with_threads(int threads) {

@@ -30,7 +30,7 @@ class Shape {
   /// Columns: the principal axes of the surface in normalised coordinates, longest first, a right-handed frame. They
   /// are well defined only where the three extents differ: not for a sphere or a cube.
   [[nodiscard]] const Eigen::Matrix3d& axes() const;
-  /// Of the normalised mesh. Built by the first call, O(n log n), which must not run in two threads at once.
+  /// The tree of the normalised mesh. Built by the first call, O(n log n), which must not run in two threads at once.
   [[nodiscard]] const Bvh& tree() const;
 
  private:

@@ -234,7 +234,7 @@ std::uint32_t VolumeFinder::component_around(std::uint32_t side, const Shell& sh
         next = model.component_of[node.side == side ? model.edges[node.edge].triangle[0] : node.triangle];
         continue;
       }
-      // Of nested components the innermost one reaches least far in any direction.
+      // Among nested components, the innermost one has the smallest extent in every direction.
       const std::vector<bool> around = components_around(*pair_, {1 - side, corner.index});
       const auto reach = [&](std::size_t i) { return model.positions[model.components[i].extremes[3]].x; };
       std::size_t innermost = around.size();
