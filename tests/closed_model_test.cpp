@@ -67,6 +67,12 @@ TEST(ClosedModel, LeavesOutTrianglesThatRepeatAPosition) {
   EXPECT_EQ(model.bvh().triangle_count(), 12U);
 }
 
+TEST(ClosedModel, EndsWhenItIsStopped) {
+  const std::atomic<bool> cancel = true;
+  EXPECT_THROW(ClosedModel(subdivided(subdivided(unit)), BvhOptions{.threads = 1, .stop = {.cancel = &cancel}}),
+               Stopped);
+}
+
 TEST(ClosedModel, RefusesAHole) {
   TriangleMesh mesh = unit;
   mesh.triangles.pop_back();

@@ -381,6 +381,18 @@ TEST(PenetrationDepth, RefusesWhatIsNoLengthOrMotion) {
   EXPECT_THROW((void)in_contact(model, {model, pose}), InvalidInput);
 }
 
+TEST(PenetrationDepth, SaysWhenTheTimeEndsBeforeTheVolumesAreKnown) {
+  const ClosedModel model(unit);
+  PenetrationOptions options;
+  options.budget.seconds = 0;
+  const PenetrationDepth open = penetration_depth(model, {model, motion({0.5, 0.4, 0.3})}, options);
+  EXPECT_FALSE(open.volumes_known);
+  EXPECT_TRUE(open.volumes.empty());
+  EXPECT_EQ(open.depth.lower, 0);
+  EXPECT_EQ(open.depth.upper, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(penetration_depth(model, {model, motion({0.5, 0.4, 0.3})}).volumes_known) << "its memory is clean";
+}
+
 TEST(PenetrationDepth, EndsWhenCancelled) {
   const ClosedModel model(unit);
   const std::atomic<bool> cancel = true;

@@ -177,6 +177,16 @@ TEST_F(PenetrationTool, RefusesWhatBoundsNoSolid) {
   expect_refused(run({unit_, path}), "not consistently oriented");
 }
 
+TEST_F(PenetrationTool, IsUndecidedWhenTheTimeIsOver) {
+  const ToolRun result = run({unit_, peg_, "--time-limit", "0", "--json", "-"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  const Json document = checked_document(result.out);
+  EXPECT_EQ(document["verdict"], "undecided");
+  EXPECT_EQ(document["contact"], "unknown");
+  EXPECT_EQ(document["depth"]["lower"], 0);
+  EXPECT_TRUE(document["depth"]["upper"].is_null());
+}
+
 TEST_F(PenetrationTool, RefusesBadUsage) {
   expect_refused(run({unit_}), "B is required");
   expect_refused(run({unit_, folder_ / "absent.off"}), "absent.off");

@@ -76,6 +76,8 @@ std::vector<std::string> commands(const std::string& text) {
 TEST(Documents, CommandsRunAsTheyAreWritten) {
   const TemporaryFolder folder;
   meshbound::write_mesh(folder / "bunny.ply", meshbound::datasets::torus(1, 0.3, 60, 24));
+  fs::create_directory(folder / "models");
+  meshbound::write_mesh(folder / "models/cube.off", meshbound::datasets::cube(1, 4));
   std::size_t count = 0;
   for (const fs::path& document : documents()) {
     for (const std::string& command : commands(content_of(document))) {

@@ -179,6 +179,43 @@ TEST(SceneContacts, AreFoundAnewOnlyForPairsThatHaveMoved) {
   for (const SceneContact& pair : decided.pairs) EXPECT_EQ(pair.penetration.volumes[0].verdict, Verdict::Within);
 }
 
+TEST(SceneContacts, WhatEndedEarlyIsMeasuredAgain) {
+  const ClosedModel cube(datasets::cube(1, 1));
+  Scene scene;
+  scene.add(cube);
+  scene.add(cube, translated({0.5, 0.25, 0.125}));
+  PenetrationOptions no_time;
+  no_time.budget.seconds = 0;
+  const SceneContacts open = scene.contacts(no_time);
+  ASSERT_EQ(open.pairs.size(), 1u);
+  EXPECT_FALSE(open.pairs[0].penetration.volumes_known);
+  const SceneContacts known = scene.contacts();
+  EXPECT_EQ(known.stats.measured, 1u);
+  ASSERT_EQ(known.pairs.size(), 1u);
+  EXPECT_TRUE(known.pairs[0].penetration.volumes_known);
+  EXPECT_TRUE(std::isfinite(known.pairs[0].penetration.depth.upper));
+  EXPECT_EQ(scene.contacts().stats.unmoved, 1u);
+}
+
+TEST(SceneContacts, WhatEndedAtTheFirstDeeperVolumeIsNoAnswerToTheWholeQuestion) {
+  TriangleMesh fork = datasets::cube(1, 1);  // two cubes in one model, both in contact with the third
+  const TriangleMesh prong = fork;
+  for (const Vector3d& p : prong.vertices) fork.vertices.emplace_back(p.x() + 2, p.y(), p.z());
+  for (const Triangle& t : prong.triangles) fork.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  TriangleMesh bar = prong;
+  for (Vector3d& p : bar.vertices) p = Vector3d(4 * p.x() + 0.25, 0.5 * p.y() + 0.25, 0.5 * p.z() + 0.25);
+  const ClosedModel two(fork), across(bar);
+  Scene scene;
+  scene.add(two);
+  scene.add(across);
+  PenetrationOptions options;
+  options.decide = 0.125;
+  options.stop_when_deeper = true;
+  ASSERT_EQ(scene.contacts(options).pairs.at(0).penetration.volumes.size(), 1u);
+  options.stop_when_deeper = false;
+  EXPECT_EQ(scene.contacts(options).pairs.at(0).penetration.volumes.size(), 2u);
+}
+
 TEST(SceneContacts, AreTheSameForAnyNumberOfThreads) {
   const ClosedModel torus(datasets::torus(0.35, 0.15, 24, 12));
   Scene scene, other;

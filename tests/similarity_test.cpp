@@ -198,6 +198,19 @@ TEST(Similarity, EveryAlignmentIsAccountedFor) {
   EXPECT_GT(stats.ended_by_extents, stats.alignments / 2);
 }
 
+TEST(Similarity, IsIncompleteWhenTheTimeOrATreeEndsTheSearch) {
+  const Shape query(datasets::icosphere(1, 3));
+  std::vector<Shape> candidates;
+  const std::atomic<bool> cancel = true;
+  candidates.emplace_back(datasets::icosphere(1, 3), BvhOptions{.threads = 1, .stop = {.cancel = &cancel}});
+  EXPECT_FALSE(nearest_shapes(query, candidates).complete) << "its tree cannot be built";
+  candidates[0] = Shape(datasets::icosphere(1, 3));
+  SimilarityOptions options;
+  options.distance.budget.seconds = 0;
+  EXPECT_FALSE(nearest_shapes(query, candidates, options).complete);
+  EXPECT_TRUE(nearest_shapes(query, candidates).complete);
+}
+
 TEST(Similarity, RefusesWhatHasNoShape) {
   TriangleMesh point;
   point.vertices.assign(3, Vector3d(1, 2, 3));

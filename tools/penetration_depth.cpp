@@ -73,9 +73,9 @@ void load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bo
 }
 
 /// Checks that a mesh bounds a solid; the message names the file.
-void check(const std::string& path, Input& input) {
+void check(const std::string& path, const StopToken& stop, Input& input) {
   try {
-    input.model = std::make_unique<ClosedModel>(input.mesh);
+    input.model = std::make_unique<ClosedModel>(input.mesh, BvhOptions{.threads = 1, .stop = stop});
   } catch (const InvalidInput& error) {
     throw InvalidInput(path + ": " + error.what());
   }
@@ -102,6 +102,12 @@ void fill_question(const PenetrationLengths& lengths, PenetrationReport& report)
   if (lengths.tolerance) report.tolerance = lengths.tolerance->in_model_units(diagonal);
   if (lengths.error_bound) report.error_bound = lengths.error_bound->in_model_units(diagonal);
   if (!lengths.tolerance && !lengths.error_bound) report.error_bound = default_share * diagonal;
+}
+
+const char* contact_of(const PenetrationDepth& depth, const PlacedClosedModel& a, const PlacedClosedModel& b) {
+  if (!depth.volumes_known) return "unknown";
+  if (!depth.volumes.empty()) return "overlapping";
+  return in_contact(a, b) ? "touching" : "none";
 }
 
 void tell(const PenetrationReport& report, const PenetrationArguments& arguments) {
@@ -132,8 +138,9 @@ int run(const PenetrationArguments& arguments) {
   report.displacement_a = a.displacement;
   report.displacement_b = b.displacement;
   report.seconds.read = watch.lap();
+  const StopToken stop_checking = stop_of_run(arguments.common, watch, patience);
   run_both(
-      threads, [&] { check(arguments.a, a); }, [&] { check(arguments.b, b); });
+      threads, [&] { check(arguments.a, stop_checking, a); }, [&] { check(arguments.b, stop_checking, b); });
   report.seconds.check = watch.lap();
 
   fill_question(lengths, report);
@@ -142,8 +149,7 @@ int run(const PenetrationArguments& arguments) {
     ProgressBar bar("measuring", arguments.common.quiet);
     report.result = penetration_depth(placed_a, placed_b, engine_options(arguments, report, watch, bar));
   }
-  report.contact =
-      !report.result.volumes.empty() ? "overlapping" : (in_contact(placed_a, placed_b) ? "touching" : "none");
+  report.contact = contact_of(report.result, placed_a, placed_b);
   const ExitCode code = conclude(report);
   if (interrupted() && code == ExitUndecided) throw Error("interrupted before the depths were known");
   report.seconds.query = watch.lap();

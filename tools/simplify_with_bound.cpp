@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "batch/batch_run.h"
 #include "common/distance_text.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
@@ -31,6 +32,7 @@ struct Options : DecimationOptions {
   std::optional<std::int64_t> target_faces;
   std::string target_ratio;
   bool prune = false;
+  BatchOptions batch;
 };
 
 /// Says what to use in place of an effort of earlier versions.
@@ -39,8 +41,8 @@ std::string is_effort(const std::string& effort) {
 }
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY or STL")->required();
-  app.add_option("OUT", options.output, "File for the result; its extension chooses the format")->required();
+  app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY or STL");
+  app.add_option("OUT", options.output, "File for the result; its extension chooses the format");
   app.add_option("--tolerance", options.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
   auto* faces = app.add_option("--target-faces", options.target_faces, "End at this many faces, tolerance permitting")
@@ -55,7 +57,8 @@ void declare(CLI::App& app, Options& options) {
                  "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
                  "itself the coarsest")
       ->delimiter(',');
-  app.add_option("--output-dir", options.output_dir, "Folder for the levels (default: that of OUT)");
+  app.add_option("--output-dir", options.output_dir,
+                 "Folder for the levels (default: that of OUT), or for the results of --batch");
   app.add_option("--certificate", options.certificate,
                  "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
                  "FILE_level_0 and so on");
@@ -65,6 +68,7 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"normal", "high"}))
       ->capture_default_str();
   app.add_flag("--prune", options.prune, "Drop whole components that lie within the tolerance of what remains");
+  add_batch_options(app, options.batch);
   add_decimation_options(app, options);
 }
 
@@ -415,5 +419,10 @@ int main(int argc, char** argv) {
   CLI::App app("Simplifies a triangle mesh and proves how far the result is from the original.", "simplify_with_bound");
   meshbound::tools::Options options;
   meshbound::tools::declare(app, options);
-  return meshbound::tools::tool_main(app, argc, argv, [&] { return meshbound::tools::Run(options)(); });
+  return meshbound::tools::tool_main(app, argc, argv, [&] {
+    meshbound::tools::check_batch_usage(app, options.batch);
+    if (options.batch.is_wanted())
+      return meshbound::tools::run_batch(options.batch, options.common, options.output_dir);
+    return meshbound::tools::Run(options)();
+  });
 }

@@ -33,8 +33,8 @@ class ClosedModel {
   ///  - no triangle is without area (one that repeats a position is left out instead, and counts nowhere),
   ///  - no two triangles meet but in a vertex or an edge that both have,
   ///  - normals point out of the solid: those of an outermost component outwards, those of a cavity into it.
-  /// All of this is decided exactly. O(n log n) for the tree and for surfaces whose triangles are not much longer than
-  /// wide.
+  /// All of this is decided exactly. Throws `Stopped` as `BvhOptions::stop` says. O(n log n) for the tree and for
+  /// surfaces whose triangles are not much longer than wide.
   explicit ClosedModel(const MeshView& mesh, const BvhOptions& options = {});
 
   [[nodiscard]] const Bvh& bvh() const;                ///< its tree, over the triangles that were kept
@@ -117,7 +117,9 @@ struct PenetrationStats {
 struct PenetrationDepth {
   std::vector<PenetrationVolume> volumes;  ///< deepest first, by lower bound; empty where the solids share no content
   Bounds depth{0, 0};                      ///< the largest of the depths, 0 where there is none
-  PenetrationStats stats;                  ///< what was done
+  /// False: the budget of time ended before the volumes were known; there are none here, and `depth` is [0, infinity].
+  bool volumes_known = true;
+  PenetrationStats stats;  ///< what was done
 };
 
 /// The depth of each connected volume that two closed models have in common, [lower, upper] with the deepest points.

@@ -46,7 +46,8 @@ struct ContactStats {
   std::uint64_t without_volume = 0;    ///< of the measured and the unmoved ones: they share no content
 };
 
-/// Two bodies that share content. `a` < `b` are numbers of bodies; `penetration` is of body a and body b.
+/// Two bodies that share content, or that a budget of time left open. `a` < `b` are numbers of bodies; `penetration` is
+/// of body a and body b.
 struct SceneContact {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
@@ -95,7 +96,8 @@ class Scene {
   /// The penetration depth of all pairs of solids that share content. Pairs whose boxes have no point in common are
   /// skipped, pairs that have not moved keep their answer, the rest are measured in parallel, each by one thread.
   /// `options.decide` asks only whether volumes are deeper than that, and `stop_when_deeper` ends each pair at the
-  /// first one; `options.budget` counts for all pairs together in time. Throws as `penetration_depth`. The same answers
+  /// first one; `options.budget` counts for all pairs together in time, and what it leaves open is measured again by
+  /// the next call. Throws as `penetration_depth`. The same answers
   /// for any number of threads (`options.threads`; 0: as many as OpenMP has). O(n log n) for n bodies, and the pairs.
   [[nodiscard]] SceneContacts contacts(const PenetrationOptions& options = {});
 

@@ -73,7 +73,8 @@ struct SimilarShapes {
   /// By upper bound, at most `SimilarityOptions::count`. No candidate that is missing is nearer than the upper bound of
   /// the last one minus the error bound. Where the intervals of two overlap, their order is not proven.
   std::vector<SimilarShape> nearest;
-  bool complete = true;  ///< false: a budget ran out before that was proven
+  /// False: the budget of the search, or the token of a tree that it had to build, ended it before that was proven.
+  bool complete = true;
   SimilarityStats stats;
 };
 

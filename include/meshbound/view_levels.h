@@ -48,7 +48,7 @@ struct ViewOptions {
   double finest_share = 0x1p-14;
   double coarsest_share = 0x1p-3;
   double ratio = 2;
-  LodOptions lod;  ///< of all chains; `time_limit` is that of each chain
+  LodOptions lod;  ///< of all chains; `time_limit` is that of all chains together
 };
 
 /// A level of a model. Level 0 is the model itself.

@@ -107,8 +107,8 @@ ClosedModel::ClosedModel(const MeshView& mesh, const BvhOptions& options) {
   }
   require_closed(*data);
   set_components(*data);
-  require_no_crossing(*data);
-  require_outward(*data);
+  require_no_crossing(*data, options.stop);
+  require_outward(*data, options.stop);
   data_ = std::move(data);
 }
 

@@ -131,8 +131,9 @@ bool is_cavity(PlacedPair& pair, const ClosedModel::Data& model, std::uint32_t c
 }
 
 /// The model on both sides of a pair, unmoved.
-void place_twice(PlacedPair& pair, const ClosedModel::Data& model) {
+void place_twice(PlacedPair& pair, const ClosedModel::Data& model, const StopToken& stop) {
   pair.place(model, Eigen::Isometry3d::Identity(), model, Eigen::Isometry3d::Identity());
+  pair.stop_by(stop);
 }
 
 }  // namespace
@@ -152,9 +153,9 @@ void require_closed(ClosedModel::Data& model) {
   }
 }
 
-void require_no_crossing(const ClosedModel::Data& model) {
+void require_no_crossing(const ClosedModel::Data& model, const StopToken& stop) {
   PlacedPair pair;
-  place_twice(pair, model);
+  place_twice(pair, model, stop);
   require_area(model, pair);
   std::vector<NodePair> stack;
   PairCounters counters;
@@ -167,9 +168,9 @@ void require_no_crossing(const ClosedModel::Data& model) {
   });
 }
 
-void require_outward(const ClosedModel::Data& model) {
+void require_outward(const ClosedModel::Data& model, const StopToken& stop) {
   PlacedPair pair;
-  place_twice(pair, model);
+  place_twice(pair, model, stop);
   const std::vector<int> signs = signs_of_contents(model, pair);
   for (std::uint32_t component = 0; component < model.components.size(); ++component) {
     const std::uint32_t triangle = model.components[component].triangle;

@@ -2,6 +2,7 @@
 /// What makes a mesh the boundary of a solid. Each check throws `InvalidInput` with a line that names triangles of the
 /// mesh as it was given, and a place.
 #pragma once
+#include "meshbound/stop_token.h"
 #include "penetration/closed_model_data.h"
 
 namespace meshbound {
@@ -9,10 +10,11 @@ namespace meshbound {
 /// Fills `edges` and `edges_of`: each edge has two triangles, which run along it in opposite directions.
 void require_closed(ClosedModel::Data& model);
 
-/// No triangle is without area, and no two meet but in common vertices and edges.
-void require_no_crossing(const ClosedModel::Data& model);
+/// No triangle is without area, and no two meet but in common vertices and edges. Throws `Stopped` as the token says.
+void require_no_crossing(const ClosedModel::Data& model, const StopToken& stop);
 
 /// Each component bounds a content of the right sign: positive where an even number of other components is around it.
-void require_outward(const ClosedModel::Data& model);
+/// Throws `Stopped` as the token says.
+void require_outward(const ClosedModel::Data& model, const StopToken& stop);
 
 }  // namespace meshbound

@@ -46,6 +46,7 @@ bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>&
       const Box& box = pair.box(side, s);
       for (std::uint32_t j = block_b * block_width; j < end_b; ++j) {
         const std::uint32_t t = b.triangle_of_slot[j];
+        pair.count_step();
         if ((is_same && block_a == block_b && i >= j) || !boxes_meet(box, pair.box(1 - side, t))) continue;
         ++counters.triangle_pairs;
         if (!(side == 0 ? on_triangles(s, t) : on_triangles(t, s))) return false;

@@ -43,8 +43,10 @@ std::vector<bool> components_around(PlacedPair& pair, PairVertex v) {
   const std::uint32_t side = 1 - v.side;
   const ClosedModel::Data& model = pair.model(side);
   std::vector<bool> around(model.components.size(), false);
-  for (std::uint32_t t = 0; t < model.triangles.size(); ++t)
+  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
+    pair.count_step();
     if (is_above(pair, side, model.triangles[t], v)) around[model.component_of[t]].flip();
+  }
   return around;
 }
 

@@ -169,6 +169,21 @@ class Measurement {
   Frame frame_;
 };
 
+/// The volumes of the pair in `memory`; absent where the token ends the search.
+std::optional<std::vector<IntersectionVolume>> find_volumes(Scratch& memory, double error_bound,
+                                                            const StopToken& stop) try {
+  memory.pair.stop_by(stop);
+  // Nodes are off by at most a small part of what is asked for.
+  constexpr double node_share = 1.0 / 64;
+  memory.curves.find(memory.pair, std::max(node_share * std::ldexp(error_bound, -memory.pair.exponent()), 0x1p-46));
+  stop.check();
+  memory.pieces.find(memory.pair, memory.curves);
+  stop.check();
+  return memory.volumes.find(memory.pair, memory.curves, memory.pieces);
+} catch (const Stopped&) {
+  return std::nullopt;
+}
+
 void measure_all(const std::vector<IntersectionVolume>& found, Scratch& memory, const PenetrationOptions& options,
                  double error_bound, const StopToken& stop, PenetrationDepth& result) {
   Measurement measure(memory, options, error_bound);
@@ -196,17 +211,17 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
   const StopToken stop = StopToken{.cancel = options.cancel}.until(start, options.budget.seconds);
   Scratch& memory = scratch();
   memory.pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
-  // Nodes are off by at most a small part of what is asked for.
-  constexpr double node_share = 1.0 / 64;
-  memory.curves.find(memory.pair, std::max(node_share * std::ldexp(error_bound, -memory.pair.exponent()), 0x1p-46));
-  if (stop.cancelled()) throw Interrupted("cancelled before the volumes were known");
-  memory.pieces.find(memory.pair, memory.curves);
   PenetrationDepth result;
-  const std::vector<IntersectionVolume> found = memory.volumes.find(memory.pair, memory.curves, memory.pieces);
+  const auto found = find_volumes(memory, error_bound, stop);
   if (stop.cancelled()) throw Interrupted("cancelled before the depths were measured");
   result.stats.seconds_intersecting = seconds_since(start);
-  measure_all(found, memory, options, error_bound, stop, result);
-  result.stats.seconds_measuring = seconds_since(start) - result.stats.seconds_intersecting;
+  if (found) {
+    measure_all(*found, memory, options, error_bound, stop, result);
+    result.stats.seconds_measuring = seconds_since(start) - result.stats.seconds_intersecting;
+  } else {
+    result.volumes_known = false;
+    result.depth.upper = std::numeric_limits<double>::infinity();
+  }
   result.stats.node_pairs = memory.curves.counters.node_pairs;
   result.stats.triangle_pairs = memory.curves.counters.triangle_pairs;
   result.stats.crossings = memory.curves.nodes.size();

@@ -70,6 +70,7 @@ void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose
   tree_mapping_ = mapping_between(frame(other), sides_[other].pose, frame(tree_side_), sides_[tree_side_].pose);
   require_motion(pose_a);
   require_motion(pose_b);
+  stop_ = {};
   is_exact_ready_ = false;
   exact_decisions_ = perturbed_decisions_ = 0;
   set_frame();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geometry/mapping.h"
+#include "meshbound/stop_token.h"
 #include "penetration/closed_model_data.h"
 #include "penetration/exact_point.h"
 
@@ -51,6 +52,14 @@ class PlacedPair {
   /// Throws `InvalidInput` for poses that are no rigid motions.
   void place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose_a, const ClosedModel::Data& b,
              const Eigen::Isometry3d& pose_b);
+
+  /// What runs on the pair from now on throws `Stopped` soon after this token says so.
+  void stop_by(const StopToken& stop) { stop_ = stop; }
+  /// A step of some 100 ns was done: looks at the token once in a while.
+  void count_step() {
+    constexpr std::uint32_t steps_between_looks = 1024;
+    if (++steps_ % steps_between_looks == 0) stop_.check();
+  }
 
   [[nodiscard]] const ClosedModel::Data& model(std::uint32_t side) const { return *sides_[side].model; }
   /// The side with the larger model, and the mapping from the working frame of the other's tree to that of its own.
@@ -132,6 +141,8 @@ class PlacedPair {
   int unit_ = 0;  ///< exact coordinates are multiples of 2^unit
   bool is_exact_ready_ = false;
   std::uint64_t exact_decisions_ = 0, perturbed_decisions_ = 0;
+  StopToken stop_;
+  std::uint32_t steps_ = 0;
 };
 
 }  // namespace meshbound

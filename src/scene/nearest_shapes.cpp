@@ -42,17 +42,10 @@ class ShapeSearch {
       for (std::uint32_t way = 0; way < (options_.align ? 4U : 1U); ++way)
         trials_.push({by_extents(i, way), ShapeTrial::Stage::Extents, i, way});
     stats().alignments = trials_.size();
-    while (!trials_.empty() && !(trials_.top().lower > limit_)) {
-      if (stop_.stopped()) {
-        result_.complete = false;
-        break;
-      }
-      const ShapeTrial trial = trials_.top();
-      trials_.pop();
-      if (trial.stage == ShapeTrial::Stage::SamplesOfBoth)
-        measure(trial);
-      else
-        trials_.push(sampled(trial));
+    try {
+      while (!trials_.empty() && !(trials_.top().lower > limit_)) follow_best();
+    } catch (const Stopped&) {
+      result_.complete = false;
     }
     for (; !trials_.empty() && result_.complete; trials_.pop())
       ++(trials_.top().stage == ShapeTrial::Stage::Extents ? stats().ended_by_extents : stats().ended_by_samples);
@@ -61,6 +54,17 @@ class ShapeSearch {
   }
 
  private:
+  /// Takes the trial with the smallest lower bound a stage further.
+  void follow_best() {
+    stop_.check();
+    const ShapeTrial trial = trials_.top();
+    trials_.pop();
+    if (trial.stage == ShapeTrial::Stage::SamplesOfBoth)
+      measure(trial);
+    else
+      trials_.push(sampled(trial));
+  }
+
   /// Rounding of normalised coordinates, of a rotation and of three products: they are below 2^8 for a shape whose mean
   /// radius is 1 unless it is a needle, and then `size` grows with it.
   [[nodiscard]] static double rounding(double size) { return 0x1p-40 * std::max(1.0, size); }

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -45,6 +46,13 @@ struct PairMemory {
   std::optional<ToleranceCheck> check = {};
 };
 
+/// Whether neither a budget nor `stop_when_deeper` has ended it early.
+bool is_complete(const PenetrationDepth& penetration) {
+  return std::isfinite(penetration.depth.upper) &&
+         std::none_of(penetration.volumes.begin(), penetration.volumes.end(),
+                      [](const PenetrationVolume& volume) { return volume.outcome == Outcome::BudgetExhausted; });
+}
+
 /// What is kept of a pair of solids whose boxes meet.
 struct ContactMemory {
   MovePair moves;                     ///< of both bodies when `penetration` was found
@@ -53,8 +61,8 @@ struct ContactMemory {
   std::optional<PenetrationDepth> penetration = {};
 
   [[nodiscard]] bool answers(const PenetrationOptions& options, const MovePair& now) const {
-    return penetration && moves == now && error_bound == options.error_bound && decide == options.decide &&
-           !options.stop_when_deeper && !options.keep_parts;
+    return penetration && is_complete(*penetration) && moves == now && error_bound == options.error_bound &&
+           decide == options.decide && !options.stop_when_deeper && !options.keep_parts;
   }
 };
 
@@ -243,10 +251,11 @@ SceneContacts Scene::contacts(const PenetrationOptions& options) {
   stats.measured = open.size();
   stats.unmoved = pairs.size() - open.size();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (memories[i]->penetration->volumes.empty())
+    const PenetrationDepth& penetration = *memories[i]->penetration;
+    if (penetration.volumes_known && penetration.volumes.empty())
       ++stats.without_volume;
     else
-      result.pairs.push_back({pairs[i].first, pairs[i].second, *memories[i]->penetration});
+      result.pairs.push_back({pairs[i].first, pairs[i].second, penetration});
   }
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/stop_token.h"
 
 namespace meshbound {
 namespace {
@@ -87,11 +88,11 @@ std::set<std::size_t> needed_steps(const std::vector<double>& ladder, std::size_
 }
 
 std::vector<ViewLevel> make_levels(const TriangleMesh& model, std::size_t number, const std::vector<double>& ladder,
-                                   const std::set<std::size_t>& steps, const ViewOptions& options,
+                                   const std::set<std::size_t>& steps, const LodOptions& options,
                                    const ViewSink& sink) {
   std::vector<ViewLevel> levels{{0, 0, model.triangles.size()}};
   if (steps.empty()) return levels;
-  LodChain chain(model, options.lod);
+  LodChain chain(model, options);
   for (const std::size_t step : steps) {
     const LodLevel level = chain.next(ladder[step]);
     // The measurement may prove less for a coarser level than for a finer one; an engine may not.
@@ -141,12 +142,15 @@ std::vector<double> errors_of_groups(const ViewChoice& choice, std::span<const V
 ViewLevels view_levels(std::span<const TriangleMesh> models, std::span<const ViewInstance> instances,
                        std::span<const ViewCamera> cameras, const ViewOptions& options, const ViewSink& sink) {
   check(options);
+  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.lod.time_limit);
   const Needs needs(models, instances, cameras, options.pixels);
   ViewLevels result;
   for (std::size_t model = 0; model < models.size(); ++model) {
     const std::vector<double> ladder = ladder_of(bounding_box_diagonal(models[model]), options);
     const std::set<std::size_t> steps = needed_steps(ladder, model, instances, cameras.size(), needs);
-    result.models.push_back(make_levels(models[model], model, ladder, steps, options, sink));
+    LodOptions chain_options = options.lod;
+    chain_options.time_limit = stop.seconds_left();
+    result.models.push_back(make_levels(models[model], model, ladder, steps, chain_options, sink));
     result.levels_computed += steps.size();
     result.levels_skipped += ladder.size() - steps.size();
   }

@@ -148,7 +148,8 @@ ExitCode run_motion(const Arguments& arguments) {
   motion.b.dropped.reset();
   motion.question = question_about(a, b, arguments, lengths, motion.a.summary.bbox_diagonal, 0);
   motion.poses = poses.size();
-  const auto [tree_a, tree_b] = build_trees(a, b, {arguments.common.threads});
+  const auto [tree_a, tree_b] =
+      build_trees(a, b, {arguments.common.threads, stop_of_run(arguments.common, watch, patience)});
   watch.lap();
   follow(motion, tree_a, tree_b, poses, arguments, watch);
   motion.seconds_of_steps = watch.lap();

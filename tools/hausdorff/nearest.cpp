@@ -70,7 +70,7 @@ Candidates load(const std::vector<std::string>& paths, const Arguments& argument
     if (interrupted()) throw Error("interrupted");
     try {
       const TriangleMesh mesh = read_file(path, false, stop).content.mesh;
-      candidates.shapes.emplace_back(mesh, BvhOptions{arguments.common.threads});
+      candidates.shapes.emplace_back(mesh, BvhOptions{arguments.common.threads, stop});
       candidates.paths.push_back(path);
       candidates.faces.push_back(mesh.triangles.size());
     } catch (const InvalidInput& problem) {
@@ -180,7 +180,8 @@ ExitCode run_nearest(const Arguments& arguments) {
   const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a);
   MeshReport query_file;
   const StopToken stop = stop_of_reading(arguments.common, watch);
-  const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file, stop));
+  const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file, stop),
+                    BvhOptions{arguments.common.threads, stop});
   query_file.dropped.reset();  // nothing is written again
   const Candidates candidates = load(paths, arguments, stop);
   const SimilarityOptions options = options_of(arguments, watch);

@@ -71,6 +71,7 @@ void print_volume(std::size_t index, const PenetrationVolume& volume, double dia
 }
 
 const char* unreached_reason(const PenetrationDepth& result) {
+  if (!result.volumes_known) return "the time limit came before the volumes were known";
   for (const PenetrationVolume& volume : result.volumes)
     if (volume.outcome == Outcome::BudgetExhausted) return "the time limit came";
   return "doubles cannot narrow the interval further";
@@ -83,7 +84,8 @@ ExitCode conclude(PenetrationReport& report) {
   const auto is_open = [](const PenetrationVolume& volume) {
     return volume.outcome == Outcome::BudgetExhausted || volume.outcome == Outcome::PrecisionReached;
   };
-  if (report.error_bound && std::any_of(result.volumes.begin(), result.volumes.end(), is_open))
+  if (!result.volumes_known ||
+      (report.error_bound && std::any_of(result.volumes.begin(), result.volumes.end(), is_open)))
     report.reason = unreached_reason(result);
   if (!report.tolerance) {
     report.verdict = report.reason.empty() ? "done" : "undecided";

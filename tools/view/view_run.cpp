@@ -37,7 +37,7 @@ class ViewRun {
   int operator()() {
     scene_ = read_scene(scene_path_);
     check_paths();
-    const StopToken stop = stop_of_reading(options_.common, Stopwatch());
+    const StopToken stop = stop_of_reading(options_.common, watch_);
     for (const std::string& path : scene_.models)
       meshes_.push_back(read_input(path, true, models_.emplace_back(), stop));
     const OutputFolder folder(folder_);
@@ -46,7 +46,9 @@ class ViewRun {
     write_text(view_path().string(), document);
     if (!options_.common.json.empty()) write_text(options_.common.json, document);
     if (options_.common.json != "-" && !options_.common.quiet) print();
-    return ExitDone;
+    if (!ended_by_time_) return ExitDone;
+    std::fprintf(stderr, "lod_chain: the time limit came first: levels are the best meshes that were proven by then\n");
+    return ExitUndecided;
   }
 
  private:
@@ -80,9 +82,11 @@ class ViewRun {
     view.lod.threads = options_.common.threads;
     view.lod.cancel = &interrupted();
     view.lod.progress = [&bar](double fraction) { bar.show(fraction); };
-    if (options_.common.has_time_limit) view.lod.time_limit = options_.common.time_limit;
+    if (options_.common.has_time_limit)
+      view.lod.time_limit = std::max(0.0, options_.common.time_limit - watch_.seconds());
     levels_ = view_levels(meshes_, scene_.instances, scene_.cameras, view,
                           [this](std::size_t model, std::size_t level, const LodLevel& made) {
+                            ended_by_time_ = ended_by_time_ || made.ended_by == EndedBy::TimeLimit;
                             write(level_file(model, level), made.mesh);
                           });
   }
@@ -158,6 +162,7 @@ class ViewRun {
   std::vector<MeshReport> models_;
   std::vector<TriangleMesh> meshes_;
   ViewLevels levels_;
+  bool ended_by_time_ = false;  ///< for some level
 };
 
 }  // namespace

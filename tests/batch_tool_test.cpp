@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// simplify_with_bound --batch by its command line: every mesh has a line and a row, failures stop nothing, a run that
+// was killed goes on, shards make a whole.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
+
+#include "datasets/analytic_meshes.h"
+#include "meshbound/distance.h"
+#include "meshbound/io.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using nlohmann::json;
+using namespace testing_tools;
+namespace fs = std::filesystem;
+
+class BatchTool : public testing::Test {
+ protected:
+  BatchTool() {
+    fs::create_directories(in("models/deep"));
+    write_mesh(in("models/cube.off"), datasets::cube(1, 6));
+    write_mesh(in("models/torus.ply"), datasets::torus(1, 0.3, 40, 20));
+    write_mesh(in("models/deep/sphere.stl"), datasets::icosphere(1, 3));
+    std::ofstream(in("models/notes.txt")) << "no mesh\n";
+  }
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+
+  ToolRun run(std::vector<std::string> options, const std::string& environment = "") const {
+    options.insert(options.begin(), {"--batch", in("models"), "--output-dir", in("out"), "--tolerance", "1%"});
+    return run_shell(environment + " " + command_line(SIMPLIFY_WITH_BOUND, options).substr(5));  // without "exec "
+  }
+  /// The records of a report, by name; those of one name must be one.
+  [[nodiscard]] std::map<std::string, json> records(const std::string& report = "batch.jsonl") const {
+    std::map<std::string, json> found;
+    std::ifstream file(in("out/" + report));
+    for (std::string line; std::getline(file, line);) {
+      const json record = json::parse(line);
+      EXPECT_EQ(record["schema"], "meshbound/batch/1");
+      EXPECT_TRUE(found.emplace(record["input"], record).second) << line;
+    }
+    return found;
+  }
+  [[nodiscard]] std::map<std::string, std::string> results() const {
+    std::map<std::string, std::string> contents;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(in("out")))
+      if (entry.is_regular_file() && !entry.path().filename().string().starts_with("batch"))
+        contents[entry.path().lexically_relative(in("out")).string()] = content_of(entry.path());
+    return contents;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BatchTool, SimplifiesEveryMeshBelowAFolder) {
+  const ToolRun result = run({});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("3: 3 within, 0 exceed, 0 undecided, 0 failed; 0 from an earlier run"), std::string::npos)
+      << result.out;
+  const auto lines = records();
+  ASSERT_EQ(lines.size(), 3u);
+  for (const auto& [name, record] : lines) {
+    EXPECT_EQ(record["status"], "within");
+    EXPECT_EQ(record["exit_code"], 0);
+    EXPECT_GT(record["peak_memory_bytes"], 1e6);
+    const json& distance = record["result"]["distance"];
+    const TriangleMesh before = read_mesh(in("models/" + name)).mesh, after = read_mesh(in("out/" + name)).mesh;
+    EXPECT_EQ(record["result"]["simplified"]["faces"], after.triangles.size());
+    EXPECT_LT(after.triangles.size(), before.triangles.size());
+    EXPECT_EQ(check_tolerance(before, after, distance["upper"]).verdict, Verdict::Within) << name;
+  }
+  const std::string table = content_of(in("out/batch.csv")), page = content_of(in("out/batch.html"));
+  EXPECT_EQ(line_count(table), 4) << table;
+  EXPECT_NE(table.find("deep/sphere.stl,within,1280,"), std::string::npos) << table;
+  EXPECT_NE(page.find("3 meshes: <span class=\"within\">3 within"), std::string::npos);
+  EXPECT_NE(page.find("<td>deep/sphere.stl</td>"), std::string::npos);
+}
+
+TEST_F(BatchTool, LeavesWhatIsDoneAlone) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  const std::string report = content_of(in("out/batch.jsonl"));
+  const auto written = fs::last_write_time(in("out/cube.off"));
+  const ToolRun again = run({});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("3 from an earlier run"), std::string::npos) << again.out;
+  EXPECT_EQ(content_of(in("out/batch.jsonl")), report);
+  EXPECT_EQ(fs::last_write_time(in("out/cube.off")), written);
+}
+
+TEST_F(BatchTool, DoesAnewWhatHasChanged) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  write_mesh(in("models/cube.off"), datasets::cube(2, 5));        // another input
+  std::ofstream(in("out/torus.ply"), std::ios::app) << "spoilt";  // another result
+  const ToolRun again = run({});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("1 from an earlier run"), std::string::npos) << again.out;
+  EXPECT_NE(run({"--prune"}).out.find("; 0 from an earlier run"), std::string::npos) << "other options";
+}
+
+TEST_F(BatchTool, AFailureStopsNothing) {
+  std::ofstream(in("models/broken.off")) << "OFF\n3 1 0\n0 0 0\n1 0 0\n";
+  const ToolRun result = run({"--quiet"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  const auto lines = records();
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines.at("broken.off")["status"], "failed");
+  EXPECT_NE(lines.at("broken.off")["message"].get<std::string>().find("broken.off"), std::string::npos);
+  EXPECT_FALSE(fs::exists(in("out/broken.off")));
+  for (const char* const name : {"cube.off", "torus.ply", "deep/sphere.stl"})
+    EXPECT_EQ(lines.at(name)["status"], "within");
+}
+
+TEST_F(BatchTool, KeepsEachMeshToItsLimits) {
+  write_mesh(in("models/large.ply"), datasets::torus(1, 0.3, 1200, 600));
+  EXPECT_EQ(run({"--memory-limit", "96M"}).exit_code, 2);
+  const auto by_memory = records();
+  EXPECT_NE(by_memory.at("large.ply")["message"].get<std::string>().find("out of memory"), std::string::npos)
+      << by_memory.at("large.ply");
+  EXPECT_EQ(by_memory.at("cube.off")["status"], "within");
+  EXPECT_EQ(run({"--time-limit", "0"}).exit_code, 3);
+}
+
+/// Starts a run, kills it when the first mesh is done, and does the rest.
+TEST_F(BatchTool, GoesOnAfterItWasKilled) {
+  for (const char* const name : {"a.ply", "b.ply", "c.ply", "d.ply"})
+    write_mesh(in(std::string("models/") + name), datasets::torus(1, 0.3, 120, 60));
+  const std::vector<std::string> words{SIMPLIFY_WITH_BOUND,
+                                       "--batch",
+                                       in("models"),
+                                       "--output-dir",
+                                       in("out"),
+                                       "--tolerance",
+                                       "1%",
+                                       "--jobs",
+                                       "1",
+                                       "--quiet"};
+  const pid_t process = ::fork();
+  if (process == 0) {
+    std::vector<char*> argv;
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    ::execv(argv[0], argv.data());
+    ::_exit(99);
+  }
+  while (line_count(content_of(in("out/batch.jsonl"))) < 1 && ::waitpid(process, nullptr, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(process, SIGKILL);
+  ::waitpid(process, nullptr, 0);
+  std::ofstream(in("out/batch.jsonl"), std::ios::app)
+      << R"({"schema":"meshbound/batch/1","input":"d.p)";  // a torn line
+
+  const ToolRun rest = run({"--jobs", "1"});
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(rest.out.find("; 0 from an earlier run"), std::string::npos) << rest.out;
+  EXPECT_NE(rest.out.find("7: 7 within"), std::string::npos) << rest.out;
+  EXPECT_NE(run({"--jobs", "1"}).out.find("; 7 from an earlier run"), std::string::npos) << "no record is lost";
+  const auto after_a_kill = results();
+  fs::remove_all(in("out"));
+  ASSERT_EQ(run({}).exit_code, 0);
+  EXPECT_EQ(results(), after_a_kill);
+}
+
+TEST_F(BatchTool, ShardsMakeAWhole) {
+  EXPECT_EQ(run({"--shard", "0/2"}).exit_code, 0);
+  EXPECT_EQ(run({"--shard", "auto"}, "SLURM_ARRAY_TASK_ID=8 SLURM_ARRAY_TASK_MIN=7 SLURM_ARRAY_TASK_COUNT=2").exit_code,
+            0);
+  EXPECT_EQ(records("batch_0_of_2.jsonl").size(), 2u);
+  EXPECT_EQ(records("batch_1_of_2.jsonl").size(), 1u);
+  EXPECT_FALSE(fs::exists(in("out/batch.csv")));
+  EXPECT_NE(run({"--shard", "auto/3"}, "JOB_COMPLETION_INDEX=2").out.find("1 from an earlier run"), std::string::npos);
+  const ToolRun merged = run_tool(SIMPLIFY_WITH_BOUND, {"--batch-merge", in("out")});
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(line_count(content_of(in("out/batch.csv"))), 4);
+}
+
+TEST_F(BatchTool, TakesAListOfFiles) {
+  std::ofstream(in("list.txt")) << "# two of three\n"
+                                << in("models/cube.off") << "\n\n"
+                                << in("models/torus.ply") << "\n";
+  const ToolRun result =
+      run_tool(SIMPLIFY_WITH_BOUND, {"--batch", in("list.txt"), "--output-dir", in("out"), "--tolerance", "1%"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(records().size(), 2u);
+  EXPECT_TRUE(fs::exists(in("out/cube.off")));
+}
+
+TEST_F(BatchTool, RefusesBadUsageInOneLine) {
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& why) {
+    const ToolRun result = run_tool(SIMPLIFY_WITH_BOUND, options);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(line_count(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(in("out")));
+  };
+  const std::string models = in("models"), out = in("out");
+  refused({"--batch", models, "--tolerance", "1%"}, "--output-dir is missing");
+  refused({"--batch", models, "--output-dir", out, "--shard", "2/2"}, "INDEX from 0 to COUNT - 1");
+  refused({"--batch", models, "--output-dir", out, "--shard", "auto/2"}, "JOB_COMPLETION_INDEX");
+  refused({"--batch", models, "--output-dir", out, "--memory-limit", "4X"}, "such as 4G");
+  refused({"--batch", models, "--output-dir", out, "--json", in("x.json")}, "--json is for a single mesh");
+  refused({"a.ply", "b.ply", "--batch", models, "--output-dir", out}, "IN is for a single mesh");
+  refused({"--batch", in("nothing"), "--output-dir", out}, "cannot read");
+  refused({"a.ply", "b.ply", "--tolerance", "1%", "--jobs", "2"}, "goes with --batch only");
+  refused({"--tolerance", "1%"}, "IN is required");
+  fs::create_directories(in("empty"));
+  refused({"--batch", in("empty"), "--output-dir", out}, "there is no mesh file");
+  std::ofstream(in("list.txt")) << in("models/cube.off") << "\n" << in("empty/cube.off") << "\n";
+  refused({"--batch", in("list.txt"), "--output-dir", out}, "would both be written to");
+  refused({"--batch-merge", in("empty")}, "there is no batch*.jsonl");
+}
+
+/// The example for GNU parallel, as it stands in the document.
+TEST_F(BatchTool, RunsUnderGnuParallelAsDocumented) {
+  if (run_shell("command -v parallel").exit_code != 0) GTEST_SKIP() << "GNU parallel is not installed";
+  const std::string document = content_of(MESHBOUND_SOURCE_DIR "/docs/batch.md");
+  const std::regex block("```sh\n((?:seq [^\n]*parallel[^`]*))```");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(document, found, block));
+  const ToolRun result = run_shell("cd " + shell_quoted(folder_.path().string()) +
+                                   " && PATH=" + shell_quoted(fs::path(SIMPLIFY_WITH_BOUND).parent_path().string()) +
+                                   ":$PATH && " + found[1].str());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(line_count(content_of(in("small/batch.csv"))), 4);
+}
+
+}  // namespace
+}  // namespace meshbound

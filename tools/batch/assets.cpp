@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "batch/assets.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+
+namespace meshbound::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_mesh(const fs::path& path) {
+  try {
+    (void)format_of(path);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+std::vector<Asset> below_folder(const std::string& folder, const fs::path& output_dir) {
+  std::vector<Asset> assets;
+  std::error_code error;
+  const fs::recursive_directory_iterator end;
+  for (fs::recursive_directory_iterator it(folder, error); it != end; it.increment(error)) {
+    if (error) break;
+    std::error_code none;
+    if (it->is_directory(none) && fs::equivalent(it->path(), output_dir, none)) {
+      it.disable_recursion_pending();
+      continue;
+    }
+    if (it->is_regular_file(none) && is_mesh(it->path()))
+      assets.push_back({it->path(), it->path().lexically_relative(folder).string()});
+  }
+  if (error) throw IoError("--batch: cannot read " + folder + ": " + error.message());
+  return assets;
+}
+
+std::string name_in_list(const fs::path& path) {
+  const fs::path normal = path.lexically_normal();
+  const bool leads_out = normal.is_absolute() || normal.begin()->string() == "..";
+  return leads_out ? normal.filename().string() : normal.string();
+}
+
+std::vector<Asset> of_list(const std::string& path) {
+  std::ifstream list(path);
+  if (!list) throw IoError("--batch: cannot read " + path);
+  std::vector<Asset> assets;
+  for (std::string line; std::getline(list, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (!line.empty() && line.front() != '#') assets.push_back({line, name_in_list(line)});
+  }
+  return assets;
+}
+
+}  // namespace
+
+std::vector<Asset> find_assets(const std::string& source, const fs::path& output_dir) {
+  std::error_code error;
+  std::vector<Asset> assets = fs::is_directory(source, error) ? below_folder(source, output_dir) : of_list(source);
+  if (assets.empty()) throw InvalidInput("--batch: there is no mesh file in " + source);
+  std::sort(assets.begin(), assets.end(), [](const Asset& a, const Asset& b) { return a.name < b.name; });
+  const auto twin =
+      std::adjacent_find(assets.begin(), assets.end(), [](const Asset& a, const Asset& b) { return a.name == b.name; });
+  if (twin != assets.end())
+    throw InvalidInput("--batch: " + twin->input.string() + " and " + (twin + 1)->input.string() +
+                       " would both be written to " + (output_dir / twin->name).string());
+  return assets;
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "batch/batch_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "batch/assets.h"
+#include "batch/child.h"
+#include "batch/merge.h"
+#include "batch/record.h"
+#include "common/distance_text.h"
+#include "common/output_folder.h"
+#include "common/progress.h"
+#include "common/provenance.h"
+#include "common/sha256.h"
+#include "common/signals.h"
+#include "mesh/file_bytes.h"
+#include "meshbound/error.h"
+
+namespace meshbound::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string checksum_of(const fs::path& path) {
+  const FileBytes bytes(path);
+  return sha256(bytes.bytes(), [] {
+    if (interrupted()) throw Error("interrupted");
+  });
+}
+
+/// One run of the batch, in the order of its phases.
+class BatchRun {
+ public:
+  BatchRun(const BatchOptions& options, const CommonOptions& common, const std::string& output_dir)
+      : options_(options),
+        common_(common),
+        output_dir_(output_dir),
+        shard_(parse_shard(options.shard)),
+        words_(asset_options(provenance().command)) {
+    if (!options.memory_limit.empty()) memory_limit_ = parse_memory("--memory-limit", options.memory_limit);
+    if (options.jobs > 0) jobs_ = options.jobs;
+  }
+
+  int operator()() {
+    std::vector<Asset> assets = find_assets(options_.source, output_dir_);
+    for (std::size_t i = 0; i < assets.size(); ++i)
+      if (i % shard_.count == shard_.index) open_.push_back(std::move(assets[i]));
+    const OutputFolder folder(output_dir_);
+    earlier_ = read_records(output_dir_);
+    RecordFile report(report_path());
+    work(report);
+    if (interrupted())
+      throw Error("interrupted with " + std::to_string(records_.size()) + " of " + std::to_string(open_.size()) +
+                  " meshes done; the same command goes on from there");
+    if (options_.shard.empty()) write_tables(output_dir_, records_);
+    return conclude();
+  }
+
+ private:
+  struct Job {
+    std::size_t asset;
+    AssetRecord record;
+    Child child;
+  };
+
+  [[nodiscard]] fs::path report_path() const {
+    const std::string share =
+        options_.shard.empty() ? "" : "_" + std::to_string(shard_.index) + "_of_" + std::to_string(shard_.count);
+    return output_dir_ / ("batch" + share + ".jsonl");
+  }
+
+  void work(RecordFile& report) {
+    ProgressBar bar("simplifying " + std::to_string(open_.size()) + " meshes", common_.quiet);
+    std::vector<Job> jobs;
+    for (std::size_t next = 0; (next < open_.size() || !jobs.empty()) && !interrupted();) {
+      while (next < open_.size() && jobs.size() < static_cast<std::size_t>(jobs_)) begin(next++, report, jobs);
+      constexpr std::chrono::milliseconds pause(2);
+      if (!end_some(report, jobs)) std::this_thread::sleep_for(pause);
+      bar.show(static_cast<double>(records_.size()) / static_cast<double>(open_.size()));
+    }
+  }
+
+  /// Starts the process of an asset, or takes what an earlier run has left.
+  void begin(std::size_t index, RecordFile& report, std::vector<Job>& jobs) {
+    const Asset& asset = open_[index];
+    AssetRecord record;
+    record.input = asset.name;
+    try {
+      record.key = key_of(asset);
+      if (const AssetRecord* const known = earlier(asset, record.key)) {
+        ++reused_;
+        records_.emplace(asset.name, *known);
+        return;
+      }
+      fs::create_directories((output_dir_ / asset.name).parent_path());
+      jobs.push_back({index, record, Child(command_of(asset), memory_limit_, patience())});
+    } catch (const std::exception& error) {
+      if (interrupted()) return;
+      record.status = "failed";
+      record.message = error.what();
+      report.add(record);
+      records_.emplace(asset.name, record);
+    }
+  }
+
+  /// Whether any process has ended.
+  bool end_some(RecordFile& report, std::vector<Job>& jobs) {
+    bool has_ended = false;
+    for (std::size_t i = 0; i < jobs.size();) {
+      const auto end = jobs[i].child.poll();
+      if (!end) {
+        ++i;
+        continue;
+      }
+      has_ended = true;
+      if (!interrupted()) {  // else the signal may have been what ended it
+        fill(*end, jobs[i].asset, jobs[i].record);
+        report.add(jobs[i].record);
+        records_.emplace(jobs[i].record.input, jobs[i].record);
+      }
+      jobs.erase(jobs.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    return has_ended;
+  }
+
+  /// Equal for equal content, options, place and version.
+  [[nodiscard]] std::string key_of(const Asset& asset) const {
+    std::string text = provenance().version + '\n' + checksum_of(asset.input) + '\n' + asset.name + '\n';
+    for (const std::string& word : words_) text += word + '\n';
+    return sha256(text);
+  }
+
+  /// What an earlier run has recorded of the asset, if that still holds. Failures are tried again.
+  [[nodiscard]] const AssetRecord* earlier(const Asset& asset, const std::string& key) const {
+    const auto known = earlier_.find(asset.name);
+    if (known == earlier_.end() || known->second.key != key || known->second.output_checksum.empty()) return nullptr;
+    std::error_code error;
+    const fs::path output = output_dir_ / asset.name;
+    const bool stands = fs::is_regular_file(output, error) && checksum_of(output) == known->second.output_checksum;
+    return stands ? &known->second : nullptr;
+  }
+
+  [[nodiscard]] std::vector<std::string> command_of(const Asset& asset) const {
+    // The program itself, wherever it was started from.
+    std::vector<std::string> command{fs::read_symlink("/proc/self/exe").string()};
+    command.insert(command.end(), words_.begin(), words_.end());
+    const int threads = std::max(1, common_.threads / jobs_);
+    command.insert(command.end(), {"--threads", std::to_string(threads), "--quiet", "--json", "-"});
+    command.insert(command.end(), {"--", asset.input.string(), (output_dir_ / asset.name).string()});
+    return command;
+  }
+
+  /// A process answers its own time limit; one that does not is ended.
+  [[nodiscard]] std::chrono::duration<double> patience() const {
+    constexpr double least = 30;  // seconds
+    return std::chrono::duration<double>(common_.has_time_limit ? 2 * common_.time_limit + least
+                                                                : std::numeric_limits<double>::infinity());
+  }
+
+  void fill(const ChildEnd& end, std::size_t asset, AssetRecord& record) const {
+    record.exit_code = end.exit_code;
+    record.seconds = end.seconds;
+    record.cpu_seconds = end.cpu_seconds;
+    record.peak_memory = end.peak_memory;
+    record.message = last_line(end.err);
+    record.status = status_of(end.exit_code);
+    if (end.was_late)
+      record.message = "it did not end by its time limit and was killed";
+    else if (end.signal != 0)
+      record.message = "ended by signal " + std::to_string(end.signal);
+    record.result = nlohmann::ordered_json::parse(end.out, nullptr, false);
+    if (record.result.is_discarded()) record.result = nullptr;
+    if (record.result.is_null()) return;
+    std::error_code error;
+    const fs::path output = output_dir_ / open_[asset].name;
+    if (record.result["verdict"] == "within" && fs::exists(output, error)) record.output_checksum = checksum_of(output);
+  }
+
+  [[nodiscard]] static const char* status_of(int exit_code) {
+    switch (exit_code) {
+      case ExitDone:
+        return "within";
+      case ExitExceeds:
+        return "exceeds";
+      case ExitUndecided:
+        return "undecided";
+      default:
+        return "failed";
+    }
+  }
+
+  [[nodiscard]] static std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+  }
+
+  [[nodiscard]] int conclude() const {
+    const BatchCounts counts = count_by_status(records_);
+    if (!common_.quiet) {
+      print_line("meshes", std::to_string(counts.all()) + ": " + std::to_string(counts.within) + " within, " +
+                               std::to_string(counts.exceeds) + " exceed, " + std::to_string(counts.undecided) +
+                               " undecided, " + std::to_string(counts.failed) + " failed; " + std::to_string(reused_) +
+                               " from an earlier run");
+      for (const auto& [name, record] : records_)
+        if (record.status != "within") print_line(record.status, name + ": " + record.message);
+      print_line("wrote", report_path().string());
+    }
+    if (counts.failed > 0) return ExitBadInput;
+    if (counts.exceeds > 0) return ExitExceeds;
+    return counts.undecided > 0 ? ExitUndecided : ExitDone;
+  }
+
+  const BatchOptions& options_;
+  const CommonOptions& common_;
+  fs::path output_dir_;
+  Shard shard_;
+  std::vector<std::string> words_;  ///< options of each process that its result depends on
+  std::uint64_t memory_limit_ = 0;
+  int jobs_ = common_.threads;
+  std::vector<Asset> open_;  ///< of this shard
+  std::map<std::string, AssetRecord> earlier_, records_;
+  std::size_t reused_ = 0;
+};
+
+int merge(const std::string& folder, const CommonOptions& common) {
+  const auto records = read_records(folder);
+  if (records.empty()) throw InvalidInput("--batch-merge: there is no batch*.jsonl with a record in " + folder);
+  write_tables(folder, records);
+  const BatchCounts counts = count_by_status(records);
+  if (!common.quiet) {
+    print_line("meshes", std::to_string(counts.all()) + ": " + std::to_string(counts.within) + " within, " +
+                             std::to_string(counts.exceeds) + " exceed, " + std::to_string(counts.undecided) +
+                             " undecided, " + std::to_string(counts.failed) + " failed");
+    print_line("wrote", (fs::path(folder) / "batch.csv").string() + ", batch.html");
+  }
+  return ExitDone;
+}
+
+}  // namespace
+
+int run_batch(const BatchOptions& options, const CommonOptions& common, const std::string& output_dir) {
+  if (!options.merge.empty()) return merge(options.merge, common);
+  if (output_dir.empty()) throw InvalidInput("--batch: --output-dir is missing: the folder for the results");
+  return BatchRun(options, common, output_dir)();
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meshbound::tools {
+
+/// How a child process has ended.
+struct ChildEnd {
+  int exit_code = -1;  ///< -1: ended by a signal
+  int signal = 0;      ///< that ended it; 0: none
+  bool was_late = false;
+  std::string out, err;
+  double seconds = 0, cpu_seconds = 0;
+  std::uint64_t peak_memory = 0;  ///< bytes
+};
+
+/// A program that runs beside this one, with its standard output and error kept. It is ended with this process, however
+/// that ends.
+class Child {
+ public:
+  /// `memory_limit` in bytes, 0: none; `seconds` after which it is killed. Throws `IoError` when it cannot be started.
+  Child(const std::vector<std::string>& command, std::uint64_t memory_limit, std::chrono::duration<double> seconds);
+  Child(Child&& other) noexcept;
+  Child& operator=(Child&& other) noexcept;
+  ~Child();  ///< ends it
+
+  /// Absent while it runs.
+  [[nodiscard]] std::optional<ChildEnd> poll();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  pid_t process_ = -1;
+  int out_ = -1, err_ = -1;  ///< files in memory
+  Clock::time_point start_, deadline_;
+  bool was_late_ = false;
+};
+
+}  // namespace meshbound::tools

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// `simplify_with_bound --batch`: what is asked of a run over many files.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/tool_main.h"
+
+namespace meshbound::tools {
+
+struct BatchOptions {
+  std::string source;  ///< a folder or a list of files; empty: no batch
+  std::string merge;   ///< the folder of a batch whose reports are to be merged; empty: none
+  int jobs = 0;        ///< 0: one for each processor
+  std::string shard;   ///< as typed
+  std::string memory_limit;
+
+  [[nodiscard]] bool is_wanted() const { return !source.empty() || !merge.empty(); }
+};
+
+/// Adds --batch, --batch-merge, --jobs, --shard and --memory-limit.
+void add_batch_options(CLI::App& app, BatchOptions& options);
+
+/// Throws `InvalidInput` where an option was given that goes with a batch only, or, in a batch, one that names a file
+/// of a single mesh.
+void check_batch_usage(const CLI::App& app, const BatchOptions& options);
+
+/// Which assets a run takes: those whose number leaves `index` when divided by `count`.
+struct Shard {
+  std::uint64_t index = 0, count = 1;
+};
+
+/// "2/8": the third of eight. "auto/8": the index is that of a Slurm array (SLURM_ARRAY_TASK_ID, counted from
+/// SLURM_ARRAY_TASK_MIN) or of a Kubernetes indexed job (JOB_COMPLETION_INDEX); "auto" also takes the count of a Slurm
+/// array, SLURM_ARRAY_TASK_COUNT. Empty: one shard. Throws `InvalidInput`.
+[[nodiscard]] Shard parse_shard(const std::string& text);
+
+/// Bytes: "4G", "512M", "65536K" in powers of 1024. Throws `InvalidInput`.
+[[nodiscard]] std::uint64_t parse_memory(const std::string& option, const std::string& text);
+
+/// What the result of a mesh depends on: `command` without the program, the options of the batch, --output-dir,
+/// --threads and --quiet.
+[[nodiscard]] std::vector<std::string> asset_options(const std::vector<std::string>& command);
+
+}  // namespace meshbound::tools
