@@ -22,6 +22,12 @@ foreach(file IN ITEMS README.md schema/simplify-1.schema.json schema/certificate
     message(FATAL_ERROR "share/doc/meshbound/${file} was not installed")
   endif()
 endforeach()
+foreach(file IN ITEMS bash-completion/completions/lod_chain zsh/site-functions/_lod_chain
+    fish/vendor_completions.d/lod_chain.fish)
+  if(NOT EXISTS ${work_dir}/prefix/share/${file})
+    message(FATAL_ERROR "share/${file} was not installed")
+  endif()
+endforeach()
 run("configure the consumer" ${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/build -G ${generator}
   -D CMAKE_BUILD_TYPE=${config} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_PREFIX_PATH=${work_dir}/prefix
   -D CONSUMER_CGAL=${with_cgal} ${flags})

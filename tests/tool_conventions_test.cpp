@@ -359,6 +359,63 @@ TEST_F(ToolConventions, VerticesOfASubsetAreThoseOfTheOriginal) {
     EXPECT_NE(std::find(original.vertices.begin(), original.vertices.end(), p), original.vertices.end());
 }
 
+TEST_F(ToolConventions, ADryRunSaysWhatARunWouldTakeAndWritesNothing) {
+  const ToolRun dry = simplify({"--tolerance", "1%", "--dry-run"});
+  EXPECT_EQ(dry.exit_code, 0) << dry.err;
+  EXPECT_NE(dry.out.find("faces       1280\n"), std::string::npos) << dry.out;
+  EXPECT_NE(dry.out.find("memory      about 1 MiB\n"), std::string::npos) << dry.out;
+  EXPECT_FALSE(std::filesystem::exists(in("out.ply")));
+  expect_refused(run_tool(SIMPLIFY_WITH_BOUND, {in("in.off"), in("in.off"), "--tolerance", "1%", "--dry-run"}), "IN");
+}
+
+/// What bash offers for the last of some words.
+std::string bash_offers(const std::string& words, int last) {
+  const std::string tool = SIMPLIFY_WITH_BOUND;
+  return testing_tools::run_shell(
+             "bash -c " + testing_tools::shell_quoted("source <('" + tool + "' --completion bash); COMP_WORDS=(" +
+                                                      words + "); COMP_CWORD=" + std::to_string(last) +
+                                                      "; _simplify_with_bound; echo ${COMPREPLY[@]}"))
+      .out;
+}
+
+TEST_F(ToolConventions, ShellsCompleteOptionsAndTheirValues) {
+  EXPECT_EQ(bash_offers("simplify_with_bound --on-exceed s", 2), "skip stop\n");
+  EXPECT_EQ(bash_offers("simplify_with_bound --target-f", 1), "--target-faces\n");
+  EXPECT_EQ(bash_offers("simplify_with_bound '" + in("in.o") + "'", 1), in("in.off") + "\n");
+  const std::string zsh = run_tool(HAUSDORFF_DISTANCE, {"--completion", "zsh"}).out,
+                    fish = run_tool(HAUSDORFF_DISTANCE, {"--completion", "fish"}).out;
+  EXPECT_NE(zsh.find("\n  '--method["), std::string::npos) << zsh;
+  EXPECT_NE(zsh.find("]:value:(cell-walking cross-culling)' \\\n"), std::string::npos) << zsh;
+  EXPECT_NE(fish.find("complete -c hausdorff_distance -l method -d '"), std::string::npos) << fish;
+  EXPECT_NE(fish.find("-x -a 'cell-walking cross-culling'\n"), std::string::npos) << fish;
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {"--completion", "tcsh"}), "bash, zsh and fish");
+}
+
+TEST(Progress, TellsTheTimeThatIsLeftOnceItCanBeKnown) {
+  EXPECT_EQ(tools::progress_text(50, 1.9), "50%");
+  EXPECT_EQ(tools::progress_text(0, 60), "0%");
+  EXPECT_EQ(tools::progress_text(40, 60), "40%, 60 s so far, 90 s left");
+}
+
+TEST(Progress, IsALineEveryTenSecondsWherePlainTextIsWanted) {
+  tools::set_progress_style(tools::ProgressStyle::Plain);
+  testing::internal::CaptureStderr();
+  {
+    double now = 0;
+    tools::ProgressBar bar("measuring", false, [&now] { return now; });
+    for (; now < 25; now += 2.5) bar.show(now / 50);
+    tools::ProgressBar("quiet", true, [] { return 100.0; }).show(0.5);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "measuring: 20%, 10 s so far, 40 s left\nmeasuring: 40%, 20 s so far, 30 s left\n");
+  tools::set_progress_style(tools::ProgressStyle::Automatic);
+}
+
+TEST_F(ToolConventions, ProgressOfAPipeIsThatWhichIsAskedFor) {
+  EXPECT_EQ(simplify({"--tolerance", "1%", "--progress", "plain"}).err, "") << "too short for a line";
+  expect_refused(simplify({"--tolerance", "1%", "--progress", "loud"}), "--progress");
+}
+
 /// What a terminal would show of a run whose second direction begins at the beginning again.
 TEST(Progress, NeverGoesBack) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);

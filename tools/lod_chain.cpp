@@ -57,6 +57,8 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"ply", "obj", "off", "stl"}))
       ->capture_default_str();
   add_decimation_options(app, options);
+  add_examples(
+      app, {"lod_chain bunny.ply lods --levels 0.1%,0.3%,1%", "lod_chain bunny.ply lods --pixels 1,2,4 --distances 3"});
 }
 
 constexpr double default_screen_height = 1080;  // pixels

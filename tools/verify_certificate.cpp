@@ -177,6 +177,7 @@ void declare(CLI::App& app, Options& options) {
       ->type_name("[FILE]")
       ->expected(0, 1);
   app.footer("Exit codes: 0 proven, 1 rejected, 2 bad usage or files that cannot be read.");
+  add_examples(app, {"verify_certificate bunny.ply small.ply small.cert"});
   app.set_version_flag("--version", "verify_certificate " MESHBOUND_VERSION);
 }
 

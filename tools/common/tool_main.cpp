@@ -11,10 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/completion.h"
 #include "common/omp_spin.h"
+#include "common/progress.h"
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/threads.h"
+#include "meshbound/error.h"
 #include "meshbound/stop_token.h"
 
 namespace meshbound::tools {
@@ -64,6 +67,11 @@ std::string suggestion(const CLI::App& app) {
   return "";
 }
 
+ProgressStyle progress_style(const std::string& name) {
+  if (name == "plain") return ProgressStyle::Plain;
+  return name == "none" ? ProgressStyle::Off : ProgressStyle::Automatic;
+}
+
 }  // namespace
 
 ExitCode exit_code(Verdict verdict) {
@@ -88,6 +96,10 @@ void add_write_options(CLI::App& app, WriteOptions& options) {
 void add_common_options(CLI::App& app, CommonOptions& options) {
   app.add_option("--threads", options.threads, "Threads to use (default: all)")->check(CLI::Range(1, 1024));
   app.add_flag("--quiet", options.quiet, "No progress and no summary, only what was asked for and errors");
+  app.add_option("--progress", options.progress,
+                 "Progress on stderr: auto is a bar on a terminal, plain a line every ten seconds")
+      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->capture_default_str();
   app.add_option_function<double>(
          "--time-limit",
          [&options](double seconds) {
@@ -101,11 +113,20 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
       ->type_name("[FILE]")
       ->expected(0, 1);
-  app.final_callback([&options] { options.threads = start_threads(options.threads); });
+  app.final_callback([&options] {
+    options.threads = start_threads(options.threads);
+    set_progress_style(progress_style(options.progress));
+  });
   app.footer(
       "Exit codes: 0 done or within the tolerance, 1 not within it, 2 bad usage or input, 3 undecided or ended by a "
       "limit.");
   app.set_version_flag("--version", app.get_name() + " " MESHBOUND_VERSION);
+}
+
+void add_examples(CLI::App& app, const std::vector<std::string>& command_lines) {
+  std::string footer = app.get_footer() + "\n\nExamples:";
+  for (const std::string& line : command_lines) footer += "\n  " + line;
+  app.footer(footer);
 }
 
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
@@ -114,11 +135,17 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
   ignore_write_signals();
   watch_interrupts(app.get_name());
   try {
+    if (argc == 3 && std::string(argv[1]) == "--completion") {
+      std::fputs(completion_script(app, argv[2]).c_str(), stdout);
+      return ExitDone;
+    }
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     return complain(app, std::string(error.what()) + suggestion(app) + " (see --help)");
+  } catch (const InvalidInput& error) {
+    return complain(app, error.what());
   }
   try {
     const int code = run();

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "common/exit_code.h"
 #include "meshbound/bounds.h"
@@ -16,6 +17,7 @@ namespace meshbound::tools {
 struct CommonOptions {
   int threads = 0;  ///< 0: as many as OpenMP has
   bool quiet = false;
+  std::string progress = "auto";
   double time_limit = 0;  ///< seconds of the whole run; meaningful when `has_time_limit`
   bool has_time_limit = false;
   std::string json;  ///< file for the JSON document, "-" for stdout, empty for none
@@ -24,12 +26,15 @@ struct CommonOptions {
 /// Adds --ascii and --single-precision.
 void add_write_options(CLI::App& app, WriteOptions& options);
 
-/// Adds --threads, --quiet, --time-limit, --json and --version.
+/// Adds --threads, --quiet, --progress, --time-limit, --json and --version.
 void add_common_options(CLI::App& app, CommonOptions& options);
+
+/// Puts command lines at the end of --help.
+void add_examples(CLI::App& app, const std::vector<std::string>& command_lines);
 
 /// Parses the command line and calls `run`, whose result is the exit code. A usage error or an exception becomes one
 /// line on stderr and `ExitBadInput`, with the nearest options where one is unknown; a `Stopped` one gives
-/// `ExitUndecided`; --help and --version print on stdout and give `ExitDone`.
+/// `ExitUndecided`; --help, --version and `--completion SHELL` print on stdout and give `ExitDone`.
 int tool_main(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
 }  // namespace meshbound::tools

@@ -49,6 +49,9 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
          "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
       ->check(CLI::IsMember({"cell-walking", "cross-culling"}));
   add_common_options(app, arguments.common);
+  add_examples(
+      app, {"hausdorff_distance bunny.ply small.ply", "hausdorff_distance bunny.ply small.ply --tolerance 0.1% --quiet",
+            "hausdorff_distance bunny.ply --nearest models"});
 }
 
 TypedLengths parse_lengths(const Arguments& arguments) {

@@ -25,6 +25,8 @@ void add_arguments(CLI::App& app, PenetrationArguments& arguments) {
       "Write the parts of both surfaces and the lines between the deepest points as a mesh: OBJ with groups, "
       "or PLY with colours and edges");
   add_common_options(app, arguments.common);
+  add_examples(app, {"penetration_depth bunny.ply bunny.ply --transform-b \"1 0 0 0.5  0 1 0 0  0 0 1 0.2  0 0 0 1\" "
+                     "--output parts.obj"});
 }
 
 PenetrationLengths check_arguments(const PenetrationArguments& arguments) {

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+# meshbound_shell_files(tool): completion scripts and a manual page, made by the tool itself once it is built, from its
+# --help, and installed where shells and man look. Without help2man there are no manual pages.
+include(GNUInstallDirs)
+find_program(HELP2MAN help2man)
+
+function(meshbound_shell_files tool)
+  set(folder ${PROJECT_BINARY_DIR}/shell)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(shell IN ITEMS bash zsh fish)
+    add_custom_command(TARGET ${tool} POST_BUILD
+      COMMAND ${tool} --completion ${shell} > ${folder}/${tool}.${shell} VERBATIM)
+  endforeach()
+  if(HELP2MAN)
+    add_custom_command(TARGET ${tool} POST_BUILD
+      COMMAND ${HELP2MAN} --no-info --output=${folder}/${tool}.1 $<TARGET_FILE:${tool}> VERBATIM)
+  endif()
+  if(MESHBOUND_INSTALL)
+    install(FILES ${folder}/${tool}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${tool})
+    install(FILES ${folder}/${tool}.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _${tool})
+    install(FILES ${folder}/${tool}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+    install(FILES ${folder}/${tool}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+  endif()
+endfunction()
