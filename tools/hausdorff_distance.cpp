@@ -14,6 +14,7 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_limits.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
 #include "common/threads.h"
@@ -54,11 +55,7 @@ double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, 
 DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watch, ProgressBar& bar) {
   DistanceOptions options;
   options.method = arguments.method;
-  options.threads = arguments.common.threads;
-  options.cancel = &interrupted();
-  options.progress = [&bar](double fraction) { bar.show(fraction); };
-  if (arguments.common.has_time_limit)
-    options.budget.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
+  set_run_limits(options, arguments.common, watch, bar);
   return options;
 }
 

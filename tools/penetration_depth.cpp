@@ -16,6 +16,7 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/provenance.h"
+#include "common/run_limits.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
 #include "common/threads.h"
@@ -87,11 +88,7 @@ PenetrationOptions engine_options(const PenetrationArguments& arguments, const P
   options.error_bound = report.error_bound;
   if (!report.error_bound) options.decide = report.tolerance;
   options.keep_parts = !arguments.output.empty();
-  options.threads = arguments.common.threads;
-  options.cancel = &interrupted();
-  options.progress = [&bar](double fraction) { bar.show(fraction); };
-  if (arguments.common.has_time_limit)
-    options.budget.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
+  set_run_limits(options, arguments.common, watch, bar);
   return options;
 }
 

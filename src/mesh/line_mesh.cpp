@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "meshbound/error.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 
 TriangleMesh line_mesh(const TriangleMesh& mesh, std::span<const Edge> edges) {
-  constexpr std::uint32_t unused = 0xffffffff;
-  std::vector<std::uint32_t> index(mesh.vertices.size(), unused);
+  std::vector<std::uint32_t> index(mesh.vertices.size(), no_index);
   for (const Edge& edge : edges) {
     for (const std::uint32_t v : edge) {
       if (v >= mesh.vertices.size())
@@ -21,7 +21,7 @@ TriangleMesh line_mesh(const TriangleMesh& mesh, std::span<const Edge> edges) {
   }
   TriangleMesh lines;
   for (std::size_t v = 0; v < index.size(); ++v) {
-    if (index[v] == unused) continue;
+    if (index[v] == no_index) continue;
     index[v] = static_cast<std::uint32_t>(lines.vertices.size());
     lines.vertices.push_back(mesh.vertices[v]);
   }

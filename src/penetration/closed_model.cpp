@@ -6,6 +6,7 @@
 
 #include "geometry/magnitude.h"
 #include "geometry/position_table.h"
+#include "mesh/first_use.h"
 #include "meshbound/error.h"
 #include "meshbound/penetration_depth.h"
 #include "numeric/no_index.h"
@@ -30,22 +31,15 @@ WeldedMesh welded(const MeshView& view) {
   }
   const std::vector<std::uint32_t> first = first_at_position(given);
   WeldedMesh result;
-  std::vector<std::uint32_t> index(given.size(), no_index);
+  FirstUse number(given.size());
   for (std::uint32_t i = 0; i < view.triangle_count(); ++i) {
     Triangle t = view.triangle(i);
     for (std::uint32_t& v : t) v = first[v];
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    for (std::uint32_t& v : t) {
-      const Vec3& p = given[v];
-      if (index[v] == no_index) {
-        index[v] = static_cast<std::uint32_t>(result.mesh.vertices.size());
-        result.mesh.vertices.emplace_back(p.x, p.y, p.z);
-      }
-      v = index[v];
-    }
-    result.mesh.triangles.push_back(t);
+    result.mesh.triangles.push_back(number(t));
     result.source_triangle.push_back(i);
   }
+  for (const std::uint32_t v : number.used()) result.mesh.vertices.emplace_back(given[v].x, given[v].y, given[v].z);
   if (result.mesh.triangles.empty())
     throw InvalidInput("the mesh bounds no solid: each of its triangles repeats a position");
   return result;

@@ -52,6 +52,16 @@ void print_mesh(const char* name, const MeshReport& mesh) {
     print_line("", std::to_string(mesh.ignored_elements) + " lines, points or empty faces ignored");
 }
 
+void print_question(const MeshReport& a, const MeshReport& b, const std::optional<double>& tolerance,
+                    const std::optional<double>& error_bound, const std::string& reason) {
+  const double diagonal = a.summary.bbox_diagonal;
+  print_mesh("A", a);
+  print_mesh("B", b);
+  if (tolerance) print_line("tolerance", both_units(*tolerance, diagonal));
+  if (error_bound)
+    print_line("error bound", both_units(*error_bound, diagonal) + (reason.empty() ? "" : ", not reached: " + reason));
+}
+
 std::string short_point(const Eigen::Vector3d& p) {
   return "(" + short_number(p.x()) + " " + short_number(p.y()) + " " + short_number(p.z()) + ")";
 }

@@ -2,6 +2,7 @@
 /// The lines on stdout by which every tool says how far two meshes are apart. Bounds and coordinates have the fewest
 /// digits that read back as the same double.
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,11 @@ void print_line(const std::string& label, const std::string& text);
 
 /// What was read: file, size, diagonal, and what the reader did. `name` is "A" or "B".
 void print_mesh(const char* name, const MeshReport& mesh);
+
+/// What two meshes are asked: their lines, the tolerance, and the error bound with the reason why it was not reached
+/// (empty: it was).
+void print_question(const MeshReport& a, const MeshReport& b, const std::optional<double>& tolerance,
+                    const std::optional<double>& error_bound, const std::string& reason);
 
 /// "(-0.988 19.617 2.367)"
 [[nodiscard]] std::string short_point(const Eigen::Vector3d& p);

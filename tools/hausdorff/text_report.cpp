@@ -65,12 +65,7 @@ std::string undecided(const DistanceReport& report) {
 
 void print_report(const DistanceReport& report, bool profile) {
   const double diagonal = report.a.summary.bbox_diagonal;
-  print_mesh("A", report.a);
-  print_mesh("B", report.b);
-  if (report.tolerance) print_line("tolerance", both_units(*report.tolerance, diagonal));
-  if (report.error_bound)
-    print_line("error bound", both_units(*report.error_bound, diagonal) +
-                                  (report.reason.empty() ? "" : ", not reached: " + report.reason));
+  print_question(report.a, report.b, report.tolerance, report.error_bound, report.reason);
   print_distance(report.bounds, report.a_to_b, report.b_to_a ? &*report.b_to_a : nullptr, {"A to B", "B to A"},
                  diagonal);
   if (report.worst_was_wanted && report.worst)

@@ -133,12 +133,7 @@ std::string to_json(const PenetrationReport& from) {
 
 void print_report(const PenetrationReport& report) {
   const double diagonal = report.a.summary.bbox_diagonal;
-  print_mesh("A", report.a);
-  print_mesh("B", report.b);
-  if (report.tolerance) print_line("tolerance", both_units(*report.tolerance, diagonal));
-  if (report.error_bound)
-    print_line("error bound", both_units(*report.error_bound, diagonal) +
-                                  (report.reason.empty() ? "" : ", not reached: " + report.reason));
+  print_question(report.a, report.b, report.tolerance, report.error_bound, report.reason);
   for (std::size_t i = 0; i < report.result.volumes.size(); ++i) print_volume(i, report.result.volumes[i], diagonal);
   print_line("depth", interval(report.result.depth));
   print_line("contact", report.contact);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+
+#include "common/progress.h"
+#include "common/signals.h"
+#include "common/stopwatch.h"
+#include "common/tool_main.h"
+
+namespace meshbound::tools {
+
+/// Gives a computation the threads, the signals, what is left of the time limit and the progress bar of a run; `bar`
+/// must outlive it. `Options` are `DistanceOptions` or `PenetrationOptions`.
+template <class Options>
+void set_run_limits(Options& options, const CommonOptions& common, const Stopwatch& watch, ProgressBar& bar) {
+  options.threads = common.threads;
+  options.cancel = &interrupted();
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  if (common.has_time_limit) options.budget.seconds = std::max(0.0, common.time_limit - watch.seconds());
+}
+
+}  // namespace meshbound::tools
