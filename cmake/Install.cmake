@@ -6,9 +6,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshbound)
 
-install(TARGETS meshbound EXPORT meshboundTargets)
-install(EXPORT meshboundTargets NAMESPACE meshbound:: DESTINATION ${package_dir})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/meshbound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+install(TARGETS meshbound EXPORT meshboundTargets COMPONENT dev)
+install(EXPORT meshboundTargets NAMESPACE meshbound:: DESTINATION ${package_dir} COMPONENT dev)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/meshbound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
   FILES_MATCHING PATTERN "*.h" PATTERN "cgal" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/LICENSES ${PROJECT_SOURCE_DIR}/docs ${PROJECT_SOURCE_DIR}/tools/schema
@@ -17,10 +17,23 @@ install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
 
 if(TARGET meshbound_cgal)
   set_target_properties(meshbound_cgal PROPERTIES EXPORT_NAME cgal)
-  install(TARGETS meshbound_cgal EXPORT meshboundCgalTargets)
-  install(EXPORT meshboundCgalTargets NAMESPACE meshbound:: DESTINATION ${package_dir})
+  install(TARGETS meshbound_cgal EXPORT meshboundCgalTargets COMPONENT dev)
+  install(EXPORT meshboundCgalTargets NAMESPACE meshbound:: DESTINATION ${package_dir} COMPONENT dev)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/meshbound/cgal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meshbound
-    FILES_MATCHING PATTERN "*.h")
+    COMPONENT dev FILES_MATCHING PATTERN "*.h")
+endif()
+
+# The C interface: <meshbound.h> beside the folder of C++ headers; found by pkg-config, or as the component c, which needs
+# nothing of the C++ library.
+if(TARGET meshbound_c)
+  install(TARGETS meshbound_c EXPORT meshboundCTargets LIBRARY COMPONENT c NAMELINK_COMPONENT dev)
+  install(EXPORT meshboundCTargets NAMESPACE meshbound:: DESTINATION ${package_dir} COMPONENT dev)
+  install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/include/meshbound.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    COMPONENT dev)
+  # Relative to its own place, so that a prefix may be chosen at install time, and moved.
+  file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+  configure_file(${PROJECT_SOURCE_DIR}/bindings/c/meshbound_c.pc.in ${PROJECT_BINARY_DIR}/meshbound_c.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/meshbound_c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endif()
 
 foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance penetration_depth verify_certificate generate_mesh)
@@ -33,4 +46,4 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/meshboundConfig.cmake.
   ${PROJECT_BINARY_DIR}/meshboundConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/meshboundConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/meshboundConfig.cmake ${PROJECT_BINARY_DIR}/meshboundConfigVersion.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT dev)

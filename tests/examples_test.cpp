@@ -44,6 +44,14 @@ TEST(Examples, EngineBuffersGetLevelsThatHold) {
   EXPECT_NE(large.out.find("4-byte indices"), std::string::npos) << large.out;
 }
 
+#ifdef SIMPLIFY_IN_C
+TEST(Examples, ASheetIsSimplifiedAndCheckedInC) {
+  const ToolRun run = run_tool(SIMPLIFY_IN_C, {});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(run.out.substr(0, 8), "6962 -> ") << run.out;
+}
+#endif
+
 #ifdef CHECK_OTHER_SIMPLIFIER
 TEST(Examples, LevelsOfAnotherSimplifierAreTightenedUntilTheyHold) {
   const TemporaryFolder folder;

@@ -43,14 +43,15 @@ SourceFile load(const fs::path& root, const fs::path& path) {
 }
 
 bool is_source(const fs::path& path) {
-  static const std::set<std::string> extensions = {".h", ".cpp", ".cmake", ".in", ".sh", ".js", ".py"};
+  static const std::set<std::string> extensions = {".h",  ".c",   ".cpp", ".cmake", ".in", ".sh",
+                                                   ".js", ".mjs", ".ts",  ".py",    ".pyi"};
   return extensions.contains(path.extension().string()) || path.filename() == "CMakeLists.txt" ||
          (path.extension().empty() && path.filename() != "LICENSE");
 }
 
 std::vector<SourceFile> sources(const fs::path& root) {
   std::vector<SourceFile> files;
-  for (const char* folder : {"include", "src", "tools", "tests", "datasets", "cmake", "examples"}) {
+  for (const char* folder : {"include", "src", "bindings", "tools", "tests", "datasets", "cmake", "examples"}) {
     if (!fs::is_directory(root / folder)) continue;
     for (auto it = fs::recursive_directory_iterator(root / folder); it != fs::recursive_directory_iterator(); ++it) {
       const std::string name = it->path().filename().string();
@@ -98,6 +99,8 @@ std::string include_violation(const SourceFile& file, const std::string& include
   const bool quoted = starts_with(include, "\"");
   if (starts_with(file.path, "include/") && quoted && include.find("meshbound/") != 1)
     return "public headers include only public headers";
+  if (starts_with(file.path, "bindings/") && quoted && layer_of(std::string_view(include).substr(1)) != layers.size())
+    return "bindings use public headers alone";
   if (!starts_with(file.path, "src/") || !quoted || include.find("meshbound/") == 1) return {};
   const std::size_t used = layer_of(std::string_view(include).substr(1));
   const std::size_t own = layer_of(std::string_view(file.path).substr(4));
@@ -212,6 +215,13 @@ TEST_F(Layering, RefusesCgalUnderTheMitLicence) {
 
 TEST_F(Layering, RefusesAPublicHeaderThatNeedsAPrivateOne) {
   write("include/meshbound/a.h", "#include \"bvh/tree.h\"");
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesABindingThatNeedsAPrivateHeader) {
+  write("bindings/c/src/a.cpp", "#include \"arguments.h\"\n#include \"meshbound/simplify.h\"");
+  EXPECT_EQ(joined(violations(root_)), "");
+  write("bindings/c/src/b.cpp", "#include \"bvh/tree.h\"");
   EXPECT_EQ(violations(root_).size(), 1U);
 }
 

@@ -99,7 +99,7 @@ TEST(Documents, CommandsRunAsTheyAreWritten) {
 
 TEST(Documents, NameOnlyFilesThatExist) {
   const std::regex in_ticks(
-      R"(`((?:tools|tests|datasets|src|include|examples|cmake|docs|LICENSES)/[\w./-]*[\w/])[^`]*`)");
+      R"(`((?:tools|tests|datasets|src|include|examples|bindings|cmake|docs|LICENSES)/[\w./-]*[\w/])[^`]*`)");
   const std::regex linked(R"(\]\(([^)#:]+)\))");
   std::size_t found = 0;
   for (const fs::path& document : documents()) {

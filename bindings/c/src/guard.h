@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <meshbound.h>
+
+#include <functional>
+
+namespace meshbound::c_interface {
+
+/// Calls `work` in the floating-point mode that the library needs. What it throws becomes a status and the message of
+/// this thread; nothing is thrown from here.
+mb_status guarded(const std::function<void()>& work) noexcept;
+
+/// Throws `InvalidInput`, naming the argument, where `pointer` is null.
+void require(const void* pointer, const char* argument);
+
+}  // namespace meshbound::c_interface

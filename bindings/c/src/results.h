@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+/// What the library returns, as C callers see it.
+#pragma once
+#include <meshbound.h>
+
+#include "meshbound/distance.h"
+#include "meshbound/simplify.h"
+
+namespace meshbound::c_interface {
+
+[[nodiscard]] mb_bounds to_c(const Bounds& bounds);
+[[nodiscard]] mb_verdict to_c(Verdict verdict);
+[[nodiscard]] mb_distance to_c(const HausdorffDistance& distance);
+[[nodiscard]] mb_distance to_c(const ToleranceCheck& check);
+[[nodiscard]] mb_ended_by to_c(EndedBy reason);  ///< not of a cancelled run, which has no result
+
+}  // namespace meshbound::c_interface

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""Arrays from whatever a caller has for a mesh. Nothing is imported but numpy: objects are known by their attributes."""
+
+from __future__ import annotations
+
+from typing import Any, Tuple
+
+import numpy as np
+
+from ._core import InvalidInput
+
+Arrays = Tuple[np.ndarray, np.ndarray]
+_INDEX_TYPES = (np.uint16, np.int32, np.uint32)
+
+
+def arrays_of(mesh: Any) -> Arrays:
+    """Vertices and triangles as the compiled part takes them: copied only where type or layout need it.
+
+    A polygon is split into a fan from its first corner, as the reader of mesh files does it.
+    """
+    vertices, triangles = _parts_of(mesh)
+    return _coordinates(vertices), _indices(triangles)
+
+
+def _parts_of(mesh: Any) -> Tuple[Any, Any]:
+    if isinstance(mesh, (tuple, list)):
+        if len(mesh) != 2:
+            raise InvalidInput("a mesh must be a pair: vertices, triangles")
+        return mesh[0], mesh[1]
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):  # trimesh
+        return mesh.vertices, mesh.faces
+    if hasattr(mesh, "vertices") and hasattr(mesh, "triangles"):  # Open3D, meshbound
+        return mesh.vertices, mesh.triangles
+    if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):  # Open3D, tensors
+        return mesh.vertex["positions"].cpu().numpy(), mesh.triangle["indices"].cpu().numpy()
+    if hasattr(mesh, "points") and hasattr(mesh, "cells") and not hasattr(mesh, "faces"):  # meshio
+        return mesh.points, _triangles_of_blocks(mesh.cells)
+    if hasattr(mesh, "points") and hasattr(mesh, "faces"):  # pyvista
+        return mesh.points, _triangles_of_faces(np.asarray(mesh.faces))
+    raise InvalidInput(
+        f"a mesh cannot be made of {type(mesh).__name__}: pass a pair (vertices, triangles), or an object of "
+        "trimesh, pyvista, Open3D or meshio"
+    )
+
+
+def _triangles_of_faces(faces: np.ndarray) -> np.ndarray:
+    """Triangles of an array in which each face is a count followed by that many indices."""
+    if faces.size == 0:
+        return np.zeros((0, 3), np.uint32)
+    if faces.ndim == 2:
+        return faces
+    if faces.size % 4 == 0 and np.all(faces[::4] == 3):
+        return faces.reshape(-1, 4)[:, 1:]
+    fans, at = [], 0
+    while at < faces.size:
+        count = int(faces[at])
+        fans.append(_fans(faces[at + 1 : at + 1 + count].reshape(1, -1)))
+        at += 1 + count
+    return np.concatenate(fans)
+
+
+def _triangles_of_blocks(blocks: Any) -> np.ndarray:
+    """Triangles of the blocks of a meshio mesh that are surfaces."""
+    surfaces = [np.asarray(block.data) for block in blocks if block.type in ("triangle", "quad", "polygon")]
+    if not surfaces:
+        raise InvalidInput("the meshio mesh has no block of triangles, quads or polygons")
+    return np.concatenate([_fans(block) for block in surfaces])
+
+
+def _fans(polygons: np.ndarray) -> np.ndarray:
+    """Triangles of polygons with the same number of corners, one in each row."""
+    fans = [polygons[:, [0, i, i + 1]] for i in range(1, polygons.shape[1] - 1)]
+    return np.stack(fans, axis=1).reshape(-1, 3) if fans else np.zeros((0, 3), polygons.dtype)
+
+
+def _coordinates(values: Any) -> np.ndarray:
+    array = np.asarray(values)
+    if array.dtype not in (np.float32, np.float64):
+        if array.dtype.kind not in "iuf":
+            raise InvalidInput(f"vertices must be numbers, not {array.dtype}")
+        array = array.astype(np.float64)
+    has_rows = array.ndim == 2 and array.strides[1] == array.itemsize and array.strides[0] >= 3 * array.itemsize
+    return array if has_rows and array.dtype.isnative else np.ascontiguousarray(array, array.dtype.newbyteorder("="))
+
+
+def _indices(values: Any) -> np.ndarray:
+    array = np.asarray(values)
+    if array.dtype.kind not in "iu":
+        raise InvalidInput(f"triangles must be integers, not {array.dtype}")
+    if array.dtype not in _INDEX_TYPES:
+        if array.size > 0 and (int(array.min()) < 0 or int(array.max()) >= 2**32):
+            raise InvalidInput("an index of a triangle is negative or beyond 2^32 - 1")
+        array = array.astype(np.uint32)
+    return np.ascontiguousarray(array)

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "bind.h"
+#include "buffers.h"
+#include "meshbound/certificate.h"
+#include "meshbound/distance.h"
+#include "meshbound/level_checker.h"
+#include "meshbound/mesh_summary.h"
+#include "results.h"
+#include "watched_run.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace meshbound::python {
+namespace {
+
+/// What every measurement can be asked for.
+struct Request {
+  std::optional<double> error_bound;
+  bool one_sided = false;
+  int threads = 0;
+  std::optional<double> time_limit;
+  py::object progress;
+};
+
+DistanceOptions library_options(const Request& request, Watch& watch) {
+  DistanceOptions options;
+  options.error_bound = request.error_bound;
+  if (request.time_limit) options.budget.seconds = *request.time_limit;
+  options.threads = request.threads;
+  options.cancel = &watch.cancel;
+  options.progress = watch.progress();
+  return options;
+}
+
+HausdorffDistance only_a_to_b(const OneSidedDistance& direction) {
+  HausdorffDistance distance;
+  distance.bounds = direction.bounds;
+  distance.a_to_b = direction;
+  return distance;
+}
+
+std::pair<Bvh, Bvh> trees(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
+  return build_trees(a, b, {options.threads, {.cancel = options.cancel}});
+}
+
+HausdorffDistance measure(const MeshView& a, const MeshView& b, bool one_sided, const DistanceOptions& options) {
+  if (a.triangle_count() == b.triangle_count()) {
+    const double limit = options.error_bound.value_or(default_error_bound(a, b, bounding_box_diagonal(a)));
+    if (const auto known = distance_without_trees(a, b, limit)) return one_sided ? only_a_to_b(known->a_to_b) : *known;
+  }
+  const auto [tree_a, tree_b] = trees(a, b, options);
+  return one_sided ? only_a_to_b(one_sided_hausdorff_distance(tree_a, tree_b, options))
+                   : hausdorff_distance(tree_a, tree_b, options);
+}
+
+ToleranceCheck check(const MeshView& a, const MeshView& b, double tolerance, bool one_sided,
+                     const DistanceOptions& options) {
+  if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
+  if (const auto known = distance_without_trees(a, b, tolerance))
+    return {Verdict::Within, tolerance, known->bounds, known->a_to_b, known->b_to_a};
+  const auto [tree_a, tree_b] = trees(a, b, options);
+  return one_sided ? check_one_sided_tolerance(tree_a, tree_b, tolerance, options)
+                   : check_tolerance(tree_a, tree_b, tolerance, options);
+}
+
+void require_error_bound(const Request& request) {
+  if (request.error_bound && !(*request.error_bound >= 0))
+    throw InvalidInput("the error bound must be a length of 0 or more");
+  if (request.time_limit && !(*request.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
+}
+
+/// Calls search(options) as `run_watched` does and returns its answer.
+template <class Search>
+auto watched(const Request& request, const Search& search) {
+  require_error_bound(request);
+  std::optional<decltype(search(DistanceOptions{}))> result;
+  run_watched(request.progress, [&](Watch& watch) { result.emplace(search(library_options(request, watch))); });
+  return to_dict(*result);
+}
+
+py::dict describe(const py::array& vertices, const py::array& triangles) {
+  const MeshSummary summary = summarise(view_of(vertices, triangles));
+  return py::dict("vertices"_a = summary.vertices, "triangles"_a = summary.faces, "components"_a = summary.components,
+                  "closed"_a = summary.closed, "bbox_diagonal"_a = summary.bbox_diagonal);
+}
+
+py::bytes certificate(const py::array& vertices_a, const py::array& triangles_a, const py::array& vertices_b,
+                      const py::array& triangles_b, double tolerance, const Request& request) {
+  const MeshView a = view_of(vertices_a, triangles_a), b = view_of(vertices_b, triangles_b);
+  require_error_bound(request);
+  std::optional<Certificate> proof;
+  run_watched(request.progress, [&](Watch& watch) {
+    CertificateOptions options;
+    options.threads = request.threads;
+    if (request.time_limit) options.seconds = *request.time_limit;
+    options.cancel = &watch.cancel;
+    options.progress = watch.progress();
+    proof = build_certificate(a, b, tolerance, options);
+  });
+  if (!proof) throw Error("no certificate was found within the time limit");
+  return {reinterpret_cast<const char*>(proof->bytes.data()), proof->bytes.size()};
+}
+
+Request request(std::optional<double> error_bound, bool one_sided, int threads, std::optional<double> time_limit,
+                py::object progress) {
+  return {error_bound, one_sided, threads, time_limit, std::move(progress)};
+}
+
+}  // namespace
+
+void bind_measurement(py::module_& module) {
+  py::class_<Request>(module, "Request")
+      .def(py::init(&request), "error_bound"_a = py::none(), "one_sided"_a = false, "threads"_a = 0,
+           "time_limit"_a = py::none(), "progress"_a = py::none());
+  module.def("describe", &describe);
+  module.def("certificate", &certificate);
+  module.def("measure", [](const py::array& va, const py::array& ta, const py::array& vb, const py::array& tb,
+                           const Request& wanted) {
+    const MeshView a = view_of(va, ta), b = view_of(vb, tb);
+    return watched(wanted, [&](const DistanceOptions& options) { return measure(a, b, wanted.one_sided, options); });
+  });
+  module.def("check", [](const py::array& va, const py::array& ta, const py::array& vb, const py::array& tb,
+                         double tolerance, const Request& wanted) {
+    const MeshView a = view_of(va, ta), b = view_of(vb, tb);
+    return watched(wanted,
+                   [&](const DistanceOptions& options) { return check(a, b, tolerance, wanted.one_sided, options); });
+  });
+  py::class_<LevelChecker>(module, "LevelChecker")
+      .def(py::init([](const py::array& vertices, const py::array& triangles, int threads) {
+        return LevelChecker(view_of(vertices, triangles), BvhOptions{threads});
+      }))
+      .def("check",
+           [](LevelChecker& self, const py::array& vertices, const py::array& triangles, double tolerance,
+              const Request& wanted) {
+             const MeshView level = view_of(vertices, triangles);
+             return watched(wanted,
+                            [&](const DistanceOptions& options) { return self.check(level, tolerance, options); });
+           })
+      .def("measure",
+           [](LevelChecker& self, const py::array& vertices, const py::array& triangles, const Request& wanted) {
+             const MeshView level = view_of(vertices, triangles);
+             return watched(wanted, [&](const DistanceOptions& options) { return self.measure(level, options); });
+           });
+}
+
+}  // namespace meshbound::python

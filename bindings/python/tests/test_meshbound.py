@@ -1,0 +1,286 @@
+# SPDX-License-Identifier: MIT
+"""The Python package: arrays of every kind, results, objects of other packages, progress, Ctrl-C, threads."""
+
+import dataclasses
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import types
+import unittest
+
+import numpy as np
+
+import meshbound
+
+
+def sheet(side, height=0.0, dtype=np.float64):
+    """A square of side * side vertices, flat or wavy."""
+    x, y = np.meshgrid(np.arange(side, dtype=float), np.arange(side, dtype=float), indexing="ij")
+    z = height * np.sin(x / 5) * np.cos(y / 7)
+    corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).reshape(-1, 1)
+    triangles = np.concatenate([corner + [0, side, 1], corner + [1, side, side + 1]])
+    return np.stack([x.ravel(), y.ravel(), z.ravel()], 1).astype(dtype), triangles
+
+
+def lifted(mesh, height):
+    return mesh[0] + [0, 0, height], mesh[1]
+
+
+class Distances(unittest.TestCase):
+    def test_two_parallel_sheets_are_as_far_apart_as_they_were_placed(self):
+        flat = sheet(8)
+        distance = meshbound.hausdorff_distance(flat, lifted(flat, 0.25))
+        self.assertLessEqual(distance.lower, 0.25)
+        self.assertGreaterEqual(distance.upper, 0.25)
+        self.assertAlmostEqual(distance.upper, 0.25, delta=1e-4)
+        self.assertAlmostEqual(distance.a_to_b.from_point[2], 0)
+        self.assertAlmostEqual(distance.a_to_b.nearest_point[2], 0.25)
+        self.assertEqual(distance.a_to_b.outcome, "converged")
+
+    def test_one_side_only(self):
+        small = sheet(4)
+        distance = meshbound.hausdorff_distance(small, sheet(8), one_sided=True)
+        self.assertLess(distance.upper, 1e-4)
+        self.assertFalse(distance.b_to_a.searched)
+        self.assertGreater(meshbound.hausdorff_distance(small, sheet(8)).lower, 1)
+
+    def test_error_bound_as_a_percentage_of_the_diagonal(self):
+        a, b = sheet(30, 2), sheet(29, 1.5)
+        diagonal = meshbound.describe(a).bbox_diagonal
+        distance = meshbound.hausdorff_distance(a, b, error_bound="1%")
+        self.assertLessEqual(distance.upper - distance.lower, 0.01 * diagonal)
+
+    def test_decision_is_a_truth_value(self):
+        flat = sheet(8)
+        within = meshbound.check_tolerance(flat, lifted(flat, 0.25), 0.3)
+        self.assertTrue(within)
+        self.assertEqual(within.verdict, "within")
+        exceeds = meshbound.check_tolerance(flat, lifted(flat, 0.25), 0.2)
+        self.assertFalse(exceeds)
+        self.assertEqual(exceeds.verdict, "exceeds")
+        self.assertGreater(exceeds.lower, 0.2)
+
+    def test_checker_of_many_levels(self):
+        original = sheet(12, 1)
+        checker = meshbound.LevelChecker(original)
+        self.assertTrue(checker.check(original, 0))
+        self.assertFalse(checker.check(lifted(original, 3), "1%"))
+        self.assertAlmostEqual(checker.measure(lifted(original, 0.5), error_bound=1e-6).upper,
+                               meshbound.hausdorff_distance(original, lifted(original, 0.5), error_bound=1e-6).upper,
+                               delta=2e-6)
+
+    def test_facts(self):
+        facts = meshbound.describe(sheet(5))
+        self.assertEqual((facts.vertices, facts.triangles, facts.components, facts.closed), (25, 32, 1, False))
+        self.assertAlmostEqual(facts.bbox_diagonal, math.sqrt(32))
+
+
+class Simplifying(unittest.TestCase):
+    def test_result_keeps_the_tolerance(self):
+        original = sheet(40, 3)
+        result = meshbound.simplify(original, "0.5%", levels=["0.1%"], certificate=True)
+        self.assertEqual(len(result.levels), 2)
+        self.assertLess(len(result.level.triangles), len(result.levels[0].triangles))
+        for level in result.levels:
+            self.assertEqual(level.verdict, "within")
+            self.assertLessEqual(level.distance.upper, level.tolerance)
+            self.assertTrue(meshbound.check_tolerance(original, level, level.tolerance))
+            self.assertEqual(level.vertices.dtype, np.float64)
+            self.assertEqual(level.triangles.shape[1], 3)
+            self.assertEqual(len(level.source_vertices), len(level.vertices))
+            self.assertEqual(level.certificate, meshbound.build_certificate(original, level, level.tolerance))
+
+    def test_results_belong_to_numpy(self):
+        level = meshbound.simplify(sheet(10), 0.1).level
+        vertices = level.vertices
+        del level
+        vertices += 1
+        self.assertTrue(np.all(vertices >= 1))
+
+    def test_options_reach_the_library(self):
+        original = sheet(20, 2)
+        self.assertEqual(meshbound.simplify(original, 10, target_faces=100).level.ended_by, "target")
+        subset = meshbound.simplify(original, 0.2, placement="subset").level
+        np.testing.assert_array_equal(subset.vertices, original[0][subset.source_vertices])
+        single = meshbound.simplify(original, 0.2, precision="single").level
+        np.testing.assert_array_equal(single.vertices, single.vertices.astype(np.float32))
+        locked = meshbound.simplify(original, 0.2, locked_vertices=np.ones(len(original[0]), bool)).level
+        self.assertEqual(len(locked.triangles), len(original[1]))
+        lines = meshbound.simplify(original, 0.2, line_tolerance=0.01).level
+        self.assertLessEqual(lines.line_distance.upper, 0.01)
+        self.assertEqual(lines.lines.shape[1], 2)
+        tight = meshbound.simplify(original, 0.2, face_tolerances=np.full(len(original[1]), 0.01)).level
+        self.assertGreater(len(tight.triangles), len(meshbound.simplify(original, 0.2).level.triangles))
+        edges = meshbound.simplify(original, 0.2, line_tolerance=0, feature_edges=original[1][:, :2]).level
+        self.assertGreater(len(edges.lines), len(lines.lines))
+
+    def test_results_are_dataclasses(self):
+        level = meshbound.simplify(sheet(6), 0.1).level
+        self.assertIn("upper", dataclasses.asdict(level.distance))
+        with self.assertRaises(dataclasses.FrozenInstanceError):
+            level.tolerance = 1
+
+
+class Arrays(unittest.TestCase):
+    def test_no_copy_where_the_layout_allows(self):
+        from meshbound._meshes import arrays_of
+
+        records = np.zeros(16, [("normal", np.float32, 3), ("position", np.float32, 3)])
+        for positions in (np.zeros((16, 3)), np.zeros((16, 3), np.float32), records["position"], np.zeros((16, 8))[:, 2:5]):
+            for kind in (np.uint16, np.int32, np.uint32):
+                indices = np.zeros((4, 3), kind)
+                vertices, triangles = arrays_of((positions, indices))
+                self.assertTrue(np.shares_memory(vertices, positions))
+                self.assertTrue(np.shares_memory(triangles, indices))
+
+    def test_every_layout_gives_the_same_answer(self):
+        mesh = sheet(9, 1)
+        expected = meshbound.hausdorff_distance(mesh, lifted(mesh, 1))
+        vertices, triangles = mesh
+        records = np.zeros(len(vertices), [("id", np.int32), ("position", np.float64, 3)])
+        records["position"] = vertices
+        for positions in (vertices[::-1][::-1], np.asfortranarray(vertices), records["position"], vertices.astype(">f8")):
+            for indices in (triangles.astype(np.int32), np.asfortranarray(triangles), triangles.astype(np.uint16),
+                            triangles.tolist()):
+                self.assertEqual(meshbound.hausdorff_distance((positions, indices), lifted(mesh, 1)), expected)
+        backwards = vertices[::-1], len(vertices) - 1 - triangles
+        self.assertEqual(meshbound.hausdorff_distance(backwards, mesh).upper, 0)
+
+    def test_what_is_no_mesh_is_refused(self):
+        vertices, triangles = sheet(4)
+        nothing = np.zeros((0, 3), int)
+        infinite = np.where(np.arange(len(vertices))[:, None] == 5, np.inf, vertices)
+        for bad, reason in (
+            ((vertices[:, :2], triangles), "shape"),
+            ((vertices, triangles[:, :2]), "shape"),
+            ((vertices, triangles.astype(float)), "integers"),
+            ((vertices.astype(str), triangles), "numbers"),
+            ((vertices, triangles - 1), "negative"),
+            ((vertices, triangles + 2**40), "beyond"),
+            ((vertices, triangles + 10), "there are only 16"),
+            ((vertices, nothing), "no triangles"),
+            ((infinite, triangles), "vertex 5"),
+            ((vertices,), "pair"),
+            (object(), "object"),
+        ):
+            with self.subTest(reason), self.assertRaisesRegex(meshbound.InvalidInput, reason):
+                meshbound.describe(bad)
+
+    def test_errors_are_those_that_python_expects(self):
+        self.assertTrue(issubclass(meshbound.InvalidInput, ValueError))
+        self.assertTrue(issubclass(meshbound.InvalidInput, meshbound.Error))
+        for call in (
+            lambda: meshbound.simplify(sheet(4), -1),
+            lambda: meshbound.simplify(sheet(4), "wide"),
+            lambda: meshbound.simplify(sheet(4), 1, effort="fast"),
+            lambda: meshbound.simplify(sheet(4), 1, levels=[2]),
+            lambda: meshbound.check_tolerance(sheet(4), sheet(4), math.nan),
+            lambda: meshbound.hausdorff_distance(sheet(4), sheet(4), error_bound=-1),
+            lambda: meshbound.hausdorff_distance(sheet(4), sheet(4), time_limit=-1),
+        ):
+            with self.assertRaises(ValueError):
+                call()
+        with self.assertRaisesRegex(meshbound.Error, "triangle"):
+            meshbound.build_certificate(sheet(4), lifted(sheet(4), 1), 0.5)
+
+
+class ObjectsOfOthers(unittest.TestCase):
+    """With stand-ins that have the attributes of the packages; with the packages themselves where they are."""
+
+    def assert_is_sheet(self, mesh, triangles=18):
+        self.assertEqual(meshbound.describe(mesh).triangles, triangles)
+        self.assertEqual(meshbound.hausdorff_distance(mesh, sheet(4)).upper, 0)
+
+    def test_attributes(self):
+        v, t = sheet(4)
+        flat = np.hstack([np.full((len(t), 1), 3), t]).ravel()
+        quads = np.array([[0, 4, 5, 1], [1, 5, 6, 2]])
+        block = types.SimpleNamespace
+        tensor = types.SimpleNamespace(cpu=lambda: types.SimpleNamespace(numpy=lambda: v))
+        tensor_of_triangles = types.SimpleNamespace(cpu=lambda: types.SimpleNamespace(numpy=lambda: t))
+        self.assert_is_sheet(types.SimpleNamespace(vertices=v, faces=t))
+        self.assert_is_sheet(types.SimpleNamespace(vertices=v, triangles=t))
+        self.assert_is_sheet(types.SimpleNamespace(vertex={"positions": tensor}, triangle={"indices": tensor_of_triangles}))
+        self.assert_is_sheet(types.SimpleNamespace(points=v, faces=flat))
+        self.assert_is_sheet(types.SimpleNamespace(points=v, cells=[block(type="line", data=t[:, :2]), block(type="triangle", data=t)]))
+        self.assertEqual(meshbound.describe(types.SimpleNamespace(points=v, cells=[block(type="quad", data=quads)])).triangles, 4)
+        mixed = np.array([4, 0, 4, 5, 1, 3, 1, 5, 2])
+        self.assertEqual(meshbound.describe(types.SimpleNamespace(points=v, faces=mixed)).triangles, 3)
+        with self.assertRaisesRegex(meshbound.InvalidInput, "no block"):
+            meshbound.describe(types.SimpleNamespace(points=v, cells=[block(type="line", data=t[:, :2])]))
+
+    def test_packages(self):
+        makers = {
+            "trimesh": lambda m, v, t: m.Trimesh(v, t, process=False),
+            "pyvista": lambda m, v, t: m.PolyData(v, np.hstack([np.full((len(t), 1), 3), t]).ravel()),
+            "meshio": lambda m, v, t: m.Mesh(v, [("triangle", t)]),
+            "open3d": lambda m, v, t: m.geometry.TriangleMesh(m.utility.Vector3dVector(v), m.utility.Vector3iVector(t)),
+        }
+        for name, make in makers.items():
+            with self.subTest(name):
+                try:
+                    package = __import__(name)
+                except ImportError:
+                    self.skipTest(f"{name} is not installed")
+                self.assert_is_sheet(make(package, *sheet(4)))
+
+
+class LongCalls(unittest.TestCase):
+    large = sheet(260, 5)
+
+    def test_progress_is_called_in_the_calling_thread(self):
+        seen = []
+        meshbound.simplify(self.large, "0.05%", progress=lambda fraction: seen.append((fraction, threading.get_ident())))
+        self.assertGreater(len(seen), 0)
+        self.assertTrue(all(0 <= fraction <= 1 and thread == threading.get_ident() for fraction, thread in seen))
+
+    def test_progress_ends_the_call(self):
+        with self.assertRaises(meshbound.Cancelled):
+            meshbound.simplify(self.large, "0.05%", progress=lambda fraction: False)
+
+    def test_what_progress_raises_comes_out(self):
+        def fail(fraction):
+            raise KeyError("from progress")
+
+        with self.assertRaisesRegex(KeyError, "from progress"):
+            meshbound.simplify(self.large, "0.05%", progress=fail)
+
+    def test_other_threads_of_python_go_on(self):
+        steps, is_done = [], threading.Event()
+
+        def count():
+            while not is_done.wait(0.001):
+                steps.append(None)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        try:
+            before = len(steps)
+            meshbound.simplify(self.large, "0.05%")
+            self.assertGreater(len(steps) - before, 5)
+        finally:
+            is_done.set()
+            thread.join()
+
+    def test_interrupt_from_the_keyboard(self):
+        program = (
+            "import sys, test_meshbound, meshbound\n"
+            "print('started', flush=True)\n"
+            "try:\n"
+            "    while True: meshbound.simplify(test_meshbound.LongCalls.large, '0.05%')\n"
+            "except KeyboardInterrupt:\n"
+            "    sys.exit(42)\n"
+        )
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+        with subprocess.Popen([sys.executable, "-c", program], env=environment, stdout=subprocess.PIPE) as child:
+            self.assertEqual(child.stdout.readline(), b"started\n")
+            threading.Event().wait(0.3)
+            child.send_signal(signal.SIGINT)
+            self.assertEqual(child.wait(60), 42)
+
+
+if __name__ == "__main__":
+    unittest.main()
