@@ -30,6 +30,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/report.h"
+#include "meshbound/texture_deviation.h"
 #include "meshbound/transform.h"
 
 namespace {
@@ -39,8 +40,8 @@ using namespace meshbound::tools;
 
 /// Reads a mesh, and maps it if there is a map. Returns how far rounding has moved its image at most.
 double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
-            const StopToken& stop, TriangleMesh& mesh, MeshReport& report) {
-  mesh = read_input(path, with_checksum, report, stop);
+            const StopToken& stop, TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes) {
+  mesh = read_input(path, with_checksum, report, stop, attributes);
   report.dropped.reset();  // nothing is written again
   double displacement = 0;
   if (map) {
@@ -108,6 +109,7 @@ void fill(DistanceReport& report, const Answer& answer, const Question& question
   report.a_to_b = answer.a_to_b;
   report.b_to_a = answer.b_to_a;
   report.worst_was_wanted = arguments.worst;
+  report.texture_was_wanted = arguments.texture;
   report.worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
 }
 
@@ -128,6 +130,51 @@ void tell(const DistanceReport& report, const Arguments& arguments) {
               " <= distance <= " + exact_number(bounds.upper));
 }
 
+void widen(TextureDeviation& deviation, double displacement) {
+  deviation.bounds = widened(deviation.bounds, displacement);
+  deviation.a_to_b.bounds = widened(deviation.a_to_b.bounds, displacement);
+  deviation.b_to_a.bounds = widened(deviation.b_to_a.bounds, displacement);
+}
+
+void require_texture(const std::string& path, const MeshAttributes& attributes) {
+  if (attributes.texture_coordinates.empty())
+    throw InvalidInput(path + ": no texture coordinates were found, which --texture needs");
+}
+
+/// The worse of two exit codes: what exceeds a tolerance does so whatever else is undecided.
+void join(Answer& answer, Verdict texture) {
+  if (texture == Verdict::Within || answer.exit_code == ExitExceeds) return;
+  answer.exit_code = exit_code(texture);
+  answer.verdict = to_string(texture);
+  if (texture == Verdict::Exceeds) answer.outcome = Outcome::ExceedsTolerance;
+}
+
+void measure_texture(DistanceReport& report, const Arguments& arguments, const TypedLengths& lengths,
+                     const std::array<TexturedMesh, 2>& meshes, const Stopwatch& watch, Answer& answer) {
+  TextureReport texture;
+  const double diagonal = report.a.summary.bbox_diagonal;
+  texture.texture_size = arguments.texture_size;
+  if (texture.texture_size) texture.texel_length = texel_length(meshes[0], *texture.texture_size);
+  if (lengths.texture_tolerance)
+    texture.tolerance = lengths.texture_tolerance->in_model_units(diagonal, texture.texel_length);
+  TextureDeviationOptions options;
+  options.threads = arguments.common.threads;
+  options.stop = stop_of_run(arguments.common, watch, patience);
+  if (lengths.error_bound) options.error_bound = lengths.error_bound->in_model_units(diagonal);
+  try {
+    texture.deviation = texture_deviation(meshes[0], meshes[1], options);
+  } catch (const Stopped&) {
+    if (interrupted()) throw_interrupted(answer.bounds);
+    join(answer, Verdict::Undecided);
+    answer.outcome = Outcome::BudgetExhausted;
+    answer.reason = "the time limit came before the texture deviation was measured";
+    return;
+  }
+  if (report.transform_displacement) widen(texture.deviation, *report.transform_displacement);
+  if (texture.tolerance) join(answer, verdict_of(texture.deviation.bounds, *texture.tolerance));
+  report.texture = texture;
+}
+
 int run(const Arguments& arguments) {
   Stopwatch watch;
   const TypedLengths lengths = parse_lengths(arguments);
@@ -142,12 +189,20 @@ int run(const Arguments& arguments) {
 
   DistanceReport report;
   TriangleMesh a, b;
+  MeshAttributes attributes_of_a, attributes_of_b;
   double displacement = 0;
   const bool with_checksums = !arguments.common.json.empty();
   const StopToken stop = stop_of_reading(arguments.common, watch);
   run_both(
-      arguments.common.threads, [&] { load(arguments.a, std::nullopt, with_checksums, stop, a, report.a); },
-      [&] { displacement = load(arguments.b, map, with_checksums, stop, b, report.b); });
+      arguments.common.threads,
+      [&] {
+        load(arguments.a, std::nullopt, with_checksums, stop, a, report.a,
+             arguments.texture ? &attributes_of_a : nullptr);
+      },
+      [&] {
+        displacement =
+            load(arguments.b, map, with_checksums, stop, b, report.b, arguments.texture ? &attributes_of_b : nullptr);
+      });
   if (map) report.transform_displacement = displacement;
   const Question question = question_about(a, b, arguments, lengths, report.a.summary.bbox_diagonal, displacement);
   report.seconds.read = watch.lap();
@@ -165,6 +220,11 @@ int run(const Arguments& arguments) {
     answer.exit_code = ExitUndecided;
     answer.outcome = Outcome::BudgetExhausted;
     answer.reason = "the time limit came before the certificate was complete";
+  }
+  if (arguments.texture) {
+    require_texture(arguments.a, attributes_of_a);
+    require_texture(arguments.b, attributes_of_b);
+    measure_texture(report, arguments, lengths, textured_meshes(a, attributes_of_a, b, attributes_of_b), watch, answer);
   }
   report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
   report.seconds.total = watch.seconds();

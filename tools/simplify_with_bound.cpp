@@ -18,7 +18,10 @@
 #include "common/output_folder.h"
 #include "common/provenance.h"
 #include "common/signals.h"
+#include "common/texture_length.h"
+#include "common/texture_text.h"
 #include "decimation/decimation_run.h"
+#include "decimation/texture_locks.h"
 #include "levels/level_run.h"
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
@@ -31,7 +34,8 @@ struct Options : DecimationOptions {
   std::string output, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
-  std::string target_ratio;
+  std::string target_ratio, texture_tolerance;
+  std::optional<double> texture_size;
   bool prune = false;
   bool dry_run = false;
   BatchOptions batch;
@@ -73,6 +77,10 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--dry-run", options.dry_run,
                "Read and check everything, say what a run would take in memory and time, and write nothing");
   add_batch_options(app, options.batch);
+  app.add_option("--texture-tolerance", options.texture_tolerance,
+                 "How far the texture may move on the surface at most: a length as above, or '2texels' with "
+                 "--texture-size. Measured of what was written, between points of the same texture coordinate");
+  app.add_option("--texture-size", options.texture_size, "Texels of a side of the texture")->check(CLI::PositiveNumber);
   add_decimation_options(app, options);
   add_examples(app,
                {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
@@ -97,6 +105,9 @@ class Run : DecimationRun {
   void print_estimate() const;
   void open_outputs();
   void simplify();
+  void choose_texture_tolerance();
+  [[nodiscard]] bool tightens_texture();
+  [[nodiscard]] bool is_texture_within() const;
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void certify();
   void write_certificates();
@@ -118,6 +129,10 @@ class Run : DecimationRun {
   [[nodiscard]] bool ended_by_time() const;
 
   std::optional<double> target_ratio_;
+  std::optional<TextureLength> typed_texture_tolerance_;
+  std::optional<OriginalTexture> original_texture_;
+  double texel_length_ = 0;
+  std::optional<TextureLocks> texture_locks_;
   std::vector<std::string> checksums_;  ///< of the outputs, when a document is to name them
   std::vector<DecidedBy> decided_by_;   ///< of the outputs
 };
@@ -127,14 +142,17 @@ int Run::operator()() {
   check_paths();
   read();
   choose_tolerances();
+  choose_texture_tolerance();
   if (options_.dry_run) {
     print_estimate();
     return ExitDone;
   }
   open_outputs();
-  simplify();
-  end_if_interrupted();
-  certify();
+  do {
+    simplify();
+    end_if_interrupted();
+    certify();
+  } while (tightens_texture());
   if (verdict_ == Verdict::Within) write_certificates();
   if (verdict_ == Verdict::Within) publish();
   report();
@@ -143,6 +161,9 @@ int Run::operator()() {
 
 void Run::parse_target() {
   if (!options_.target_ratio.empty()) target_ratio_ = parse_share("--target-ratio", options_.target_ratio);
+  if (!options_.texture_tolerance.empty())
+    typed_texture_tolerance_ =
+        parse_texture_length("--texture-tolerance", options_.texture_tolerance, options_.texture_size.has_value());
 }
 
 void Run::read() {
@@ -166,6 +187,21 @@ void Run::choose_tolerances() {
   }
   sort_tolerances();
   report_.tolerance = tolerances_.back();
+}
+
+void Run::choose_texture_tolerance() {
+  if (!typed_texture_tolerance_) return;
+  if (attributes_.texture_coordinates.empty())
+    throw InvalidInput(
+        "--texture-tolerance needs texture coordinates, and an IN and OUT of a format that carries them "
+        "(OBJ): none were found in " +
+        options_.input);
+  if (options_.texture_size)
+    texel_length_ =
+        texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *options_.texture_size);
+  const double tolerance = typed_texture_tolerance_->in_model_units(diagonal_, texel_length_);
+  original_texture_ = OriginalTexture{&original_, &attributes_, tolerance};
+  texture_locks_.emplace(original_);
 }
 
 /// `index` 0 is that of the smallest tolerance.
@@ -227,6 +263,9 @@ void Run::simplify() {
   ProgressBar bar("simplifying", options_.common.quiet);
   SimplifyOptions simplify = decimation_options(bar);
   simplify.tolerance = tolerances_.back();
+  if (texture_locks_) simplify.locked_vertices = texture_locks_->locked();
+  if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
+    simplify.tolerance = std::min(simplify.tolerance, original_texture_->tolerance);
   simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
   result_ = decimate_levels(original_, simplify);
   set_lines(result_.lines);
@@ -254,10 +293,12 @@ SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
 /// Writes each mesh under a temporary name, reads it back and measures that.
 void Run::certify() {
   verdict_ = Verdict::Within;
+  decided_by_.clear();
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
     const std::size_t level = std::min(i, tolerances_.size() - 1);  // OUT may repeat the last level
     watch_.lap();
     if (original_lines_) outputs_[i].require_lines(&*original_lines_);
+    if (original_texture_) outputs_[i].require_texture(&*original_texture_);
     (void)writes(outputs_[i], result_.levels[level]);  // where it does not, `prove` falls back
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
@@ -276,6 +317,31 @@ void Run::certify() {
           "written under its name. Please report this with the folder " +
           save_reproducer(outputs_[i], tolerances_[level]).string());
   }
+}
+
+bool Run::is_texture_within() const {
+  return std::all_of(outputs_.begin(), outputs_.end(), [](const GatedOutput& output) {
+    return output.verdict() != Verdict::Within || output.is_texture_within();
+  });
+}
+
+/// Where the texture of a result has moved too far: keeps more vertices of the original there, for another run. The
+/// original stands for a result that does not come within the texture tolerance in this way, or not in time.
+bool Run::tightens_texture() {
+  if (!texture_locks_ || is_texture_within()) return false;
+  end_if_interrupted();
+  if (!is_out_of_time()) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      if (outputs_[i].texture_deviation()) texture_locks_->learn(*outputs_[i].texture_deviation(), original_tree());
+    if (texture_locks_->tighten()) return true;
+  }
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].is_texture_within()) continue;
+    const bool has_smaller = i > 0 && outputs_[i - 1].is_texture_within();
+    const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
+    decided_by_[i] = fall_back(outputs_[i], has_smaller ? &outputs_[i - 1] : nullptr, measurement(tolerance));
+  }
+  return false;
 }
 
 void Run::end_if_interrupted() const {
@@ -363,6 +429,9 @@ void Run::report() {
   if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
   report_.distance = out.distance();
   report_.lines = line_report(out, report_.tolerance);
+  if (original_texture_ && out.texture_deviation())
+    report_.texture =
+        TextureReport{*out.texture_deviation(), original_texture_->tolerance, options_.texture_size, texel_length_};
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
                               outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
@@ -418,6 +487,7 @@ void Run::print_summary() const {
       print_line("decided", outputs_[i].path().string() + ": " + how);
   }
   print_lines(report_.lines, diagonal_);
+  if (report_.texture) print_texture(*report_.texture, {"original to simplified", "simplified to original"}, diagonal_);
   print_locked(result_.locked_vertices, report_.original.summary);
   if (options_.prune)
     print_line("pruned", std::to_string(result_.pruned_components) + " components of " +

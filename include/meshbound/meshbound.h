@@ -25,6 +25,7 @@
 #include "meshbound/similarity.h"
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
+#include "meshbound/texture_deviation.h"
 #include "meshbound/transform.h"
 #include "meshbound/triangle_mesh.h"
 #include "meshbound/view_levels.h"

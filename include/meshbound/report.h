@@ -14,6 +14,7 @@
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/screen_space.h"
+#include "meshbound/texture_deviation.h"
 
 namespace meshbound {
 
@@ -54,6 +55,14 @@ struct WorstSpot {
 [[nodiscard]] std::optional<WorstSpot> worst_spot(const Bounds& bounds, const OneSidedDistance& a_to_b,
                                                   const OneSidedDistance* b_to_a);
 
+/// How far a texture moves on the surface from one mesh to the other.
+struct TextureReport {
+  TextureDeviation deviation;          ///< a: the original, b: the mesh that is compared with it
+  std::optional<double> tolerance;     ///< of it, model units, where one was asked for
+  std::optional<double> texture_size;  ///< texels of a side, where one was given
+  double texel_length = 0;             ///< see `texel_length`, model units; where there is a texture size
+};
+
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
 struct DistanceReport {
   std::optional<Provenance> provenance;
@@ -70,6 +79,8 @@ struct DistanceReport {
   std::optional<WorstSpot> worst;          ///< see `worst_spot`
   bool worst_was_wanted = false;           ///< by `--worst`: the text names it whatever the verdict
   std::optional<double> transform_displacement;  ///< rounding of the transformed vertices of B, within the bounds
+  std::optional<TextureReport> texture;          ///< where it was asked for and measured in time
+  bool texture_was_wanted = false;               ///< by `--texture`
   /// Wall-clock time of the phases.
   struct Seconds {
     double read = 0;   ///< both files
@@ -124,6 +135,7 @@ struct SimplifyReport {
   MeshReport simplified;                          ///< as written
   HausdorffDistance distance;                     ///< a: the original, b: the simplified mesh as written
   std::optional<LineReport> lines;                ///< where there are feature lines
+  std::optional<TextureReport> texture;           ///< where it was asked for
   std::string stopped_by;  ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   /// What `SimplifyOptions::prune` dropped.
   struct Pruned {

@@ -21,6 +21,7 @@ std::string to_json(const DistanceReport& from) {
   json["distance"] = bounds(from.bounds);
   json["distance"]["a_to_b"] = one_sided(from.a_to_b);
   if (from.b_to_a) json["distance"]["b_to_a"] = one_sided(*from.b_to_a);
+  if (from.texture) json["texture"] = texture(*from.texture, diagonal, "a_to_b", "b_to_a");
   if (from.worst) json["worst"] = worst(*from.worst, "a_to_b", "b_to_a");
   json["stats"] = stats(directions);
   json["seconds"] = {{"read", number(from.seconds.read)},

@@ -20,6 +20,17 @@ Json dropped(const DroppedAttributes& dropped) {
           {"other_properties", dropped.other_properties}};
 }
 
+Json texture_one_sided(const OneSidedTextureDeviation& from) {
+  Json json = bounds(from.bounds);
+  json["outcome"] = to_string(from.outcome);
+  json["uncovered"] = bounds(from.uncovered);
+  if (!from.witness) return json;
+  const TextureWitness& w = *from.witness;
+  json["witness"] = witness({w.from, w.nearest, w.distance});
+  json["witness"]["coordinate"] = Json::array({number(w.coordinate.x()), number(w.coordinate.y())});
+  return json;
+}
+
 }  // namespace
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -86,6 +97,20 @@ Json lines(const LineReport& lines, double diagonal) {
           {"original_edges", lines.original_edges},
           {"edges", lines.edges},
           {"distance", symmetric(lines.distance)}};
+}
+
+Json texture(const TextureReport& from, double diagonal, const char* from_a, const char* from_b) {
+  const TextureDeviation& deviation = from.deviation;
+  Json json = bounds(deviation.bounds);
+  if (from.tolerance) json["tolerance"] = length(*from.tolerance, diagonal);
+  json[from_a] = texture_one_sided(deviation.a_to_b);
+  json[from_b] = texture_one_sided(deviation.b_to_a);
+  if (from.texture_size) {
+    json["texture_size"] = number(*from.texture_size);
+    json["texel_length"] = number(from.texel_length);
+    json["texels"] = bounds({deviation.bounds.lower / from.texel_length, deviation.bounds.upper / from.texel_length});
+  }
+  return json;
 }
 
 Json stats(const std::vector<const OneSidedDistance*>& directions) {

@@ -12,10 +12,6 @@
 namespace meshbound::tools {
 namespace {
 
-std::string exact_point(const Eigen::Vector3d& p) {
-  return "(" + exact_number(p.x()) + " " + exact_number(p.y()) + " " + exact_number(p.z()) + ")";
-}
-
 std::string percent(double length, double diagonal) { return short_number(length / diagonal * 100) + "%"; }
 
 void print_direction(const char* name, const OneSidedDistance& distance) {
@@ -60,6 +56,10 @@ void print_question(const MeshReport& a, const MeshReport& b, const std::optiona
   if (tolerance) print_line("tolerance", both_units(*tolerance, diagonal));
   if (error_bound)
     print_line("error bound", both_units(*error_bound, diagonal) + (reason.empty() ? "" : ", not reached: " + reason));
+}
+
+std::string exact_point(const Eigen::Vector3d& p) {
+  return "(" + exact_number(p.x()) + " " + exact_number(p.y()) + " " + exact_number(p.z()) + ")";
 }
 
 std::string short_point(const Eigen::Vector3d& p) {

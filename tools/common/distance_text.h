@@ -25,6 +25,9 @@ void print_mesh(const char* name, const MeshReport& mesh);
 void print_question(const MeshReport& a, const MeshReport& b, const std::optional<double>& tolerance,
                     const std::optional<double>& error_bound, const std::string& reason);
 
+/// "(-0.9880000000000001 19.617 2.367)": digits that read back as the same doubles.
+[[nodiscard]] std::string exact_point(const Eigen::Vector3d& p);
+
 /// "(-0.988 19.617 2.367)"
 [[nodiscard]] std::string short_point(const Eigen::Vector3d& p);
 

@@ -48,23 +48,43 @@ void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, c
   file_->complete();
 }
 
-TriangleMesh GatedOutput::written_mesh() const { return written_mesh(only_flag()); }
+TriangleMesh GatedOutput::written_mesh() const { return written_file(only_flag()).mesh; }
 
-TriangleMesh GatedOutput::written_mesh(const StopToken& stop) const {
+MeshFile GatedOutput::written_file(const StopToken& stop) const {
   const FileBytes bytes(file_->staged(), stop);
-  return parse_mesh(path_, bytes.bytes(), {stop.cancel, stop.deadline}).mesh;
+  return parse_mesh(path_, bytes.bytes(), {stop.cancel, stop.deadline, original_texture_ != nullptr});
 }
 
 std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->staged(), only_flag()).bytes()); }
 
 const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const DistanceOptions& options) {
   verdict_ = Verdict::Undecided;
-  const TriangleMesh mesh = written_mesh(stop_);
+  texture_.reset();
+  const MeshFile file = written_file(stop_);
+  const TriangleMesh& mesh = file.mesh;
   summary_ = summarise(mesh);
   distance_ = distance_between(original, mesh, options, stop_);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
+  if (original_texture_ != nullptr && verdict_ == Verdict::Within) measure_texture(file, options);
   return distance_;
+}
+
+void GatedOutput::measure_texture(const MeshFile& written, const DistanceOptions& options) {
+  constexpr double width = 0.01;  // of the interval, as a share of the tolerance
+  const auto meshes =
+      textured_meshes(*original_texture_->mesh, *original_texture_->attributes, written.mesh, written.attributes);
+  TextureDeviationOptions texture;
+  texture.tolerance = original_texture_->tolerance;
+  texture.error_bound = width * original_texture_->tolerance;
+  texture.threads = options.threads;
+  texture.stop = stop_;
+  texture_ = meshbound::texture_deviation(meshes[0], meshes[1], texture);
+}
+
+bool GatedOutput::is_texture_within() const {
+  if (original_texture_ == nullptr) return true;
+  return texture_ && verdict_of(texture_->bounds, original_texture_->tolerance) == Verdict::Within;
 }
 
 void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions options) {
@@ -99,11 +119,12 @@ void GatedOutput::fall_back(const GatedOutput* smaller, MeshWithTree& original, 
   distance_ = smaller->distance_;
   lines_ = smaller->lines_;
   line_distance_ = smaller->line_distance_;
+  texture_ = smaller->texture_;
   summary_ = smaller->summary_;
 }
 
 void GatedOutput::publish() {
-  if (verdict_ != Verdict::Within)
+  if (verdict_ != Verdict::Within || !is_texture_within())
     throw Error(path_.string() + " is not proven to be within the tolerance: not written");
   file_->commit();
 }

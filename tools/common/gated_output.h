@@ -13,6 +13,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
+#include "meshbound/texture_deviation.h"
 
 namespace meshbound::tools {
 
@@ -20,6 +21,13 @@ namespace meshbound::tools {
 struct OriginalLines {
   Bvh tree;  ///< of their `line_mesh`
   double tolerance = 0;
+};
+
+/// An original whose texture a result must not move further than this.
+struct OriginalTexture {
+  const TriangleMesh* mesh = nullptr;          ///< not owned
+  const MeshAttributes* attributes = nullptr;  ///< not owned
+  double tolerance = 0;                        ///< of the texture deviation, model units
 };
 
 /// A mesh file that appears under its name only after what stands in it has been measured: `write` puts it under a
@@ -39,6 +47,9 @@ class GatedOutput {
   /// From now on a result must keep these lines, too; null: there are none. They must outlive this.
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
+  /// From now on the texture deviation is measured as well; null: it is not. Must outlive this.
+  void require_texture(const OriginalTexture* texture) { original_texture_ = texture; }
+
   /// `lines` are edges of the mesh, `attributes` those of its triangles where the format carries them. Throws
   /// `IoError`; `InvalidInput` when a coordinate leaves the range of the format. After `Stopped` only `write` and
   /// `fall_back` may be called.
@@ -52,6 +63,10 @@ class GatedOutput {
   /// holds the original.
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
+  /// Measured where it is required and the verdict is Within; `is_texture_within` is false where it is required and
+  /// not measured.
+  [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }
+  [[nodiscard]] bool is_texture_within() const;
   [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
   [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
   [[nodiscard]] std::size_t line_edges() const { return lines_.triangles.size(); }
@@ -64,7 +79,7 @@ class GatedOutput {
   void fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
                  const MeshAttributes& attributes, DistanceOptions options);
 
-  /// Throws `Error` unless the verdict is Within, `IoError` when the file cannot be renamed.
+  /// Throws `Error` unless the verdict is Within and the texture is, `IoError` when the file cannot be renamed.
   void publish();
 
   /// A copy of what was written and found too far, for whoever looks for the reason.
@@ -73,8 +88,9 @@ class GatedOutput {
  private:
   void restart();
   void measure_lines(const TriangleMesh& written, DistanceOptions options);
+  void measure_texture(const MeshFile& written, const DistanceOptions& options);
   [[nodiscard]] StopToken only_flag() const { return {.cancel = stop_.cancel}; }
-  [[nodiscard]] TriangleMesh written_mesh(const StopToken& stop) const;
+  [[nodiscard]] MeshFile written_file(const StopToken& stop) const;
 
   std::filesystem::path path_;  ///< as named by the user
   StopToken stop_;
@@ -83,6 +99,8 @@ class GatedOutput {
   Verdict verdict_ = Verdict::Undecided;
   HausdorffDistance distance_;
   const OriginalLines* original_lines_ = nullptr;
+  const OriginalTexture* original_texture_ = nullptr;
+  std::optional<TextureDeviation> texture_;
   TriangleMesh lines_;  ///< of what was written
   std::optional<HausdorffDistance> line_distance_;
   MeshSummary summary_;

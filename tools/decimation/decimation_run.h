@@ -56,6 +56,8 @@ class DecimationRun {
   /// Stops at a signal, and at the time limit.
   [[nodiscard]] StopToken stop() const { return stop_of_run(shared_.common, watch_); }
   [[nodiscard]] int threads() const;
+  /// Throws `Stopped` when the time limit comes first.
+  [[nodiscard]] const Bvh& original_tree() { return measured_original_.tree(stop()); }
 
   const std::atomic<bool>& interrupted_;
   Stopwatch watch_;

@@ -39,6 +39,16 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
       ->needs(nearest)
       ->check(CLI::Range(1, 1000000));
   app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
+  app.add_flag(
+      "--texture", arguments.texture,
+      "Also measure how far the texture moves on the surface: the largest distance from a point to the nearest "
+      "one of the other mesh with the same texture coordinate");
+  app.add_option("--texture-tolerance", arguments.texture_tolerance,
+                 "With --texture: decide whether that is at most this, too: a length as above, or '2texels' with "
+                 "--texture-size");
+  app.add_option("--texture-size", arguments.texture_size,
+                 "With --texture: texels of a side of the texture, to tell lengths in texels of A as well")
+      ->check(CLI::PositiveNumber);
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate");
   app.add_option_function<std::string>(
@@ -58,6 +68,13 @@ TypedLengths parse_lengths(const Arguments& arguments) {
   TypedLengths lengths;
   if (!arguments.error_bound.empty()) lengths.error_bound = parse_length("--error-bound", arguments.error_bound);
   if (!arguments.tolerance.empty()) lengths.tolerance = parse_length("--tolerance", arguments.tolerance);
+  if (!arguments.texture_tolerance.empty())
+    lengths.texture_tolerance =
+        parse_texture_length("--texture-tolerance", arguments.texture_tolerance, arguments.texture_size.has_value());
+  if (!arguments.texture && (lengths.texture_tolerance || arguments.texture_size))
+    throw InvalidInput("--texture-tolerance and --texture-size go with --texture");
+  if (arguments.texture && (arguments.one_sided || !arguments.nearest.empty() || !arguments.poses.empty()))
+    throw InvalidInput("--texture measures both directions of two meshes: not with --one-sided, --nearest or --poses");
   if (arguments.b.empty() == arguments.nearest.empty())
     throw InvalidInput(arguments.b.empty() ? "B is missing: name a second mesh, or a folder with --nearest (see --help)"
                                            : "--nearest takes the place of B; leave one of them out");

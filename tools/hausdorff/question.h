@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/length.h"
+#include "common/texture_length.h"
 #include "common/tool_main.h"
 #include "meshbound/distance.h"
 #include "meshbound/triangle_mesh.h"
@@ -24,6 +25,9 @@ struct Arguments {
   bool one_sided = false;
   bool worst = false;
   bool profile = false;
+  bool texture = false;
+  std::string texture_tolerance;
+  std::optional<double> texture_size;
   std::string certificate;
   Method method = Method::CellWalking;
   CommonOptions common;
@@ -36,6 +40,7 @@ void add_arguments(CLI::App& app, Arguments& arguments);
 struct TypedLengths {
   std::optional<Length> error_bound;
   std::optional<Length> tolerance;
+  std::optional<TextureLength> texture_tolerance;
 };
 
 /// Throws `InvalidInput` for lengths that are none and for options that exclude each other.

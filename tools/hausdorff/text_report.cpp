@@ -6,6 +6,7 @@
 
 #include "common/distance_text.h"
 #include "common/length.h"
+#include "common/texture_text.h"
 
 namespace meshbound::tools {
 namespace {
@@ -61,6 +62,29 @@ std::string undecided(const DistanceReport& report) {
   return line + ": " + report.reason;
 }
 
+/// What is left to say once the distance itself is no reason: of the texture. Empty where there is nothing to say.
+std::string texture_line(const DistanceReport& report) {
+  if (!report.texture) return report.texture_was_wanted ? "UNDECIDED texture deviation: " + report.reason : "";
+  const TextureReport& texture = *report.texture;
+  if (!texture.tolerance) return "";
+  const TextureDeviation& deviation = texture.deviation;
+  const Verdict verdict = verdict_of(deviation.bounds, *texture.tolerance);
+  if (verdict == Verdict::Within) return "";
+  if (verdict == Verdict::Undecided)
+    return "UNDECIDED texture tolerance " + exact_number(*texture.tolerance) + " in " + interval(deviation.bounds);
+  const auto [distance, tolerance] = told_apart(deviation.bounds.lower, *texture.tolerance);
+  const bool is_on_a = deviation.a_to_b.bounds.lower >= deviation.b_to_a.bounds.lower;
+  const auto& witness = is_on_a ? deviation.a_to_b.witness : deviation.b_to_a.witness;
+  return "FAIL texture " + distance + " > " + tolerance + " at " + short_point(witness->from.position) + ", triangle " +
+         std::to_string(witness->from.triangle) + (is_on_a ? "" : " of B");
+}
+
+/// Whether the distance between the surfaces alone is within the tolerance, or as narrow as wanted.
+bool is_settled(const DistanceReport& report) {
+  if (report.tolerance && verdict_of(report.bounds, *report.tolerance) != Verdict::Within) return false;
+  return !report.error_bound || report.bounds.upper - report.bounds.lower <= *report.error_bound;
+}
+
 }  // namespace
 
 void print_report(const DistanceReport& report, bool profile) {
@@ -70,6 +94,7 @@ void print_report(const DistanceReport& report, bool profile) {
                  diagonal);
   if (report.worst_was_wanted && report.worst)
     print_line("worst spot", spot(*report.worst) + (report.worst->on_a ? " of A" : ""));
+  if (report.texture) print_texture(*report.texture, {"A to B", "B to A"}, diagonal);
   if (report.transform_displacement)
     print_line("transform", "coordinates of B rounded by at most " + exact_number(*report.transform_displacement) +
                                 ", which the bounds include");
@@ -83,7 +108,9 @@ void print_report(const DistanceReport& report, bool profile) {
 }
 
 std::string closing_line(const DistanceReport& report) {
-  if (report.verdict == "exceeds") return failure(report);
+  if (is_settled(report)) return texture_line(report);
+  if (report.tolerance && report.bounds.lower > *report.tolerance) return failure(report);
+  if (report.verdict == "exceeds") return texture_line(report);
   return report.verdict == "undecided" ? undecided(report) : "";
 }
 

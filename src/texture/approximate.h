@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cmath>
+#include <limits>
+
+#include "numeric/rounding.h"
+
+namespace meshbound {
+
+/// A real number that lies within `error` of `value`; an error that is not a number says that nothing is known. With
+/// error 0 the number is `value`.
+///
+/// Each operation adds what it rounds (numeric/rounding.h): at most u |result|, and where a product or quotient
+/// underflows at most 2^-1075, for which `tiny` stands. The errors are sums of up to five rounded terms themselves:
+/// less than 16 u of their size, which `grown` has room for, underflow of a term included where no `tiny` is added.
+/// What overflows has an error that is infinite or not a number.
+struct Approximate {
+  double value = 0, error = 0;
+
+  static constexpr double tiny = 0x1p-1000, small = 0x1p-900;
+  static constexpr double grown = 1 + 0x1p-48;
+
+  [[nodiscard]] bool is_zero() const { return value == 0 && error == 0; }
+  /// A number of which nothing is known.
+  [[nodiscard]] static Approximate unknown() { return {0, std::numeric_limits<double>::infinity()}; }
+};
+
+inline Approximate operator+(const Approximate& a, const Approximate& b) {
+  const double value = a.value + b.value;
+  return {value, (a.error + b.error + std::fabs(value) * unit_roundoff) * Approximate::grown};
+}
+
+inline Approximate operator-(const Approximate& a) { return {-a.value, a.error}; }
+
+inline Approximate operator-(const Approximate& a, const Approximate& b) { return a + -b; }
+
+inline Approximate operator*(const Approximate& a, const Approximate& b) {
+  if (a.is_zero() || b.is_zero()) return {};
+  const double value = a.value * b.value;
+  const double error = std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error;
+  const double underflow = std::fabs(value) < Approximate::small ? Approximate::tiny : 0;
+  return {value, (error + std::fabs(value) * unit_roundoff + underflow) * Approximate::grown};
+}
+
+inline Approximate operator/(const Approximate& a, const Approximate& b) {
+  if (a.is_zero() && std::fabs(b.value) > b.error) return {};
+  const double value = a.value / b.value, least = (std::fabs(b.value) - b.error) * (1 - 0x1p-48);
+  if (!(least > 0)) return Approximate::unknown();
+  const double error = (a.error + std::fabs(value) * b.error) / least;
+  return {value, (error + std::fabs(value) * unit_roundoff) * Approximate::grown + Approximate::tiny};
+}
+
+/// The sign, where it is known: then `sign` is set and the answer true.
+[[nodiscard]] inline bool sign_is_known(const Approximate& x, int& sign) {
+  if (std::fabs(x.value) > x.error) {
+    sign = x.value > 0 ? 1 : -1;
+    return true;
+  }
+  sign = 0;
+  return x.is_zero();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/texture_deviation.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "meshbound/error.h"
+#include "numeric/rounding.h"
+#include "numeric/tasks.h"
+#include "simplify/cover/box_tree.h"
+#include "texture/surface_area.h"
+#include "texture/triangle_deviation.h"
+
+namespace meshbound {
+namespace {
+
+constexpr double default_share = 1e-6;        ///< of the diagonal, for the error bound
+constexpr double precision_share = 1.0 / 16;  ///< of the error bound, for a single distance
+constexpr std::size_t grain = 32;             ///< triangles that a thread takes at once
+
+/// A mesh, ready to be met by the triangles of another one in the texture.
+class Charts {
+ public:
+  Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) {
+    for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units));
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_of(t));
+    tree_.emplace(std::move(boxes));
+  }
+  [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
+
+  /// Makes the triangles that may meet `a` in the texture its candidates.
+  void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
+    found.clear();
+    tree_->find(box_of(*a.source), found);
+    for (const std::uint32_t b : found) overlay.add(triangles_[b]);
+  }
+
+ private:
+  /// Of the texture coordinates; the third one keeps materials apart.
+  static Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector2d& uv : t.coordinates) box.extend(Eigen::Vector3d(uv.x(), uv.y(), t.material));
+    return box;
+  }
+
+  const TexturedMesh& mesh_;
+  std::vector<ChartTriangle> triangles_;
+  std::optional<BoxTree> tree_;
+};
+
+/// T(A, B).
+class Direction {
+ public:
+  Direction(const Charts& a, const Charts& b, const ExactUnits& units, double error_bound,
+            const TextureDeviationOptions& options)
+      : a_(a), b_(b), units_(units), options_(options), bounds_(a.triangles().size()), shares_(a.triangles().size()) {
+    goal_.error_bound = error_bound;
+    goal_.precision = precision_share * error_bound;
+    goal_.max_pieces = options.max_pieces;
+  }
+
+  OneSidedTextureDeviation run() {
+    look_at_all();
+    refine();
+    OneSidedTextureDeviation result;
+    result.bounds = {goal_.lower, goal_.lower};
+    for (const Bounds& b : bounds_) result.bounds.upper = std::max(result.bounds.upper, b.upper);
+    result.witness = witness();
+    result.exceeding = std::move(exceeding_);
+    result.uncovered = uncovered_share_of(a_.mesh(), shares_);
+    if (result.bounds.upper - result.bounds.lower > goal_.error_bound)
+      result.outcome = gave_up_ ? Outcome::BudgetExhausted : Outcome::PrecisionReached;
+    result.pairs = std::accumulate(pairs_.begin(), pairs_.end(), std::uint64_t{0});
+    result.pieces = pieces_;
+    return result;
+  }
+
+ private:
+  /// What one thread works with.
+  struct Workspace {
+    explicit Workspace(const ExactUnits& units) : overlay(units) {}
+    Overlay overlay;
+    std::vector<std::uint32_t> found;
+  };
+
+  void overlay(std::size_t triangle, Workspace& work) const {
+    const ChartTriangle& t = a_.triangles()[triangle];
+    work.overlay.begin(t);
+    b_.add_candidates(t, work.overlay, work.found);
+  }
+
+  /// Whether more has to be known of a triangle.
+  [[nodiscard]] bool is_open(std::size_t triangle) const {
+    const double enough = goal_.lower + goal_.error_bound;
+    return bounds_[triangle].upper > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
+  }
+
+  template <class Work>
+  void for_triangles(std::size_t count, std::size_t at_once, const Work& work) {
+    with_team(options_.threads > 0 ? options_.threads : omp_get_max_threads(), [&] {
+      for_each_range(count, at_once, [&](std::size_t begin, std::size_t end) {
+        options_.stop.check();
+        Workspace workspace(units_);
+        for (std::size_t i = begin; i < end; ++i) work(i, workspace);
+      });
+    });
+  }
+
+  void look_at_all() {
+    const std::size_t count = bounds_.size();
+    pairs_.assign(count, 0);
+    std::vector<char> is_covered(count, 0);
+    for_triangles(count, grain, [&](std::size_t i, Workspace& work) {
+      overlay(i, work);
+      const TriangleDeviation found = deviation_by_candidates(work.overlay, goal_);
+      bounds_[i] = found.bounds;
+      is_covered[i] = found.far ? 1 : 0;
+      pairs_[i] = work.overlay.candidates();
+      shares_[i] = uncovered_share(work.overlay, a_.triangles()[i].chart);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_covered[i] == 0 || (first_ && bounds_[i].lower <= goal_.lower)) continue;
+      goal_.lower = bounds_[i].lower;
+      first_ = i;
+    }
+  }
+
+  /// Takes the triangles with the largest upper bounds first, a few at a time: each batch begins with the lower bound
+  /// that is known before it, so that nothing depends on the number of threads.
+  void refine() {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < bounds_.size(); ++i)
+      if (is_open(i)) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t p, std::size_t q) { return bounds_[p].upper > bounds_[q].upper; });
+    constexpr std::size_t first_batch = 16, growth = 4, max_batch = 4096;
+    std::size_t batch = first_batch;
+    for (std::size_t done = 0; done < order.size(); batch = std::min(growth * batch, max_batch)) {
+      if (!is_open(order[done])) return;
+      const std::size_t count = std::min(batch, order.size() - done);
+      refine(std::span(order).subspan(done, count));
+      done += count;
+    }
+  }
+
+  void refine(std::span<const std::size_t> triangles) {
+    std::vector<TriangleDeviation> found(triangles.size());
+    std::vector<std::optional<TextureWitness>> witnesses(triangles.size());
+    DeviationGoal goal = goal_;
+    if (options_.tolerance) goal.lower = std::min(goal.lower, *options_.tolerance - goal.error_bound);
+    for_triangles(triangles.size(), 1, [&](std::size_t k, Workspace& work) {
+      if (!is_open(triangles[k])) return;
+      overlay(triangles[k], work);
+      found[k] = deviation_by_pieces(work.overlay, a_.triangles()[triangles[k]].chart, goal);
+      if (found[k].far) witnesses[k] = work.overlay.witness(found[k].far->candidate, found[k].far->node);
+    });
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      if (found[k].pieces == 0) continue;
+      bounds_[triangles[k]] = found[k].bounds;
+      gave_up_ = gave_up_ || found[k].gave_up;
+      pieces_ += found[k].pieces;
+      if (options_.tolerance && found[k].bounds.upper > *options_.tolerance && witnesses[k])
+        exceeding_.push_back(*witnesses[k]);
+      if (!witnesses[k] || (witness_ && found[k].bounds.lower <= goal_.lower) || found[k].bounds.lower < goal_.lower)
+        continue;
+      goal_.lower = found[k].bounds.lower;
+      witness_ = witnesses[k];
+    }
+  }
+
+  /// The one that gave the lower bound; that of a corner is made only now.
+  std::optional<TextureWitness> witness() const {
+    if (witness_ || !first_) return witness_;
+    Workspace work(units_);
+    overlay(*first_, work);
+    const TriangleDeviation found = deviation_by_candidates(work.overlay, goal_);
+    return work.overlay.witness(found.far->candidate, found.far->node);
+  }
+
+  const Charts &a_, &b_;
+  ExactUnits units_;
+  const TextureDeviationOptions& options_;
+  DeviationGoal goal_;
+  std::vector<Bounds> bounds_;       ///< by triangle of A
+  std::vector<Approximate> shares_;  ///< of each triangle of A that B does not cover
+  std::vector<std::uint32_t> pairs_;
+  std::optional<std::size_t> first_;  ///< the triangle with the lower bound at one of its corners
+  std::optional<TextureWitness> witness_;
+  std::vector<TextureWitness> exceeding_;
+  bool gave_up_ = false;
+  std::uint64_t pieces_ = 0;
+};
+
+void check(const TexturedMesh& mesh) {
+  for (const TexturedTriangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!t.corners[k].allFinite() || !t.coordinates[k].allFinite())
+        throw InvalidInput("triangle " + std::to_string(t.triangle) +
+                           ": a coordinate or texture coordinate is not finite; repair the mesh");
+}
+
+ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b) {
+  ExactUnits units{no_bit, no_bit};
+  for (const TexturedMesh* mesh : {&a, &b})
+    for (const TexturedTriangle& t : mesh->triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (const double x : t.coordinates[k]) units.texture = std::min(units.texture, lowest_bit(x));
+        for (const double x : t.corners[k]) units.position = std::min(units.position, lowest_bit(x));
+      }
+  return units;
+}
+
+double diagonal_of(const TexturedMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const TexturedTriangle& t : mesh.triangles)
+    for (const Eigen::Vector3d& p : t.corners) box.extend(p);
+  return box.isEmpty() ? 0 : box.diagonal().stableNorm();
+}
+
+}  // namespace
+
+TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
+                                   const TextureDeviationOptions& options) {
+  check_floating_point_model();
+  check(a);
+  check(b);
+  const double error_bound = options.error_bound.value_or(default_share * diagonal_of(a));
+  if (!(error_bound >= 0)) throw InvalidInput("the error bound must be a length in model units, 0 or more");
+  if (options.tolerance && !(*options.tolerance >= 0))
+    throw InvalidInput("the texture tolerance must be a length in model units, 0 or more");
+  const ExactUnits units = units_of(a, b);
+  const Charts charts_a(a, units), charts_b(b, units);
+  TextureDeviation result;
+  result.a_to_b = Direction(charts_a, charts_b, units, error_bound, options).run();
+  result.b_to_a = Direction(charts_b, charts_a, units, error_bound, options).run();
+  result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
+                   std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
+  return result;
+}
+
+}  // namespace meshbound

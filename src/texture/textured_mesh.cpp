@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <map>
+#include <string>
+
+#include "meshbound/error.h"
+#include "meshbound/texture_deviation.h"
+
+namespace meshbound {
+namespace {
+
+constexpr std::uint32_t none = CornerAttribute::none;
+
+void check(const TriangleMesh& mesh, const MeshAttributes& attributes, const char* name) {
+  if (attributes.texture_coordinates.empty())
+    throw InvalidInput(std::string(name) + " has no texture coordinates, so there is no texture deviation to measure");
+  for (const std::size_t size : {attributes.texture_coordinates.index.size(), attributes.materials.index.size()})
+    if (size != 0 && size != mesh.triangles.size())
+      throw InvalidInput(std::string(name) + ": the attributes are not those of as many triangles");
+}
+
+/// Numbers for the names of materials: the same for the same name in both meshes.
+class MaterialNumbers {
+ public:
+  explicit MaterialNumbers(bool are_told_apart) : are_told_apart_(are_told_apart) {}
+  std::uint32_t of(const TriangleLabels& materials, std::size_t triangle) {
+    if (!are_told_apart_) return 0;
+    const std::uint32_t index = materials.index[triangle];
+    const std::string name = index == none ? std::string() : materials.names[index];
+    return numbers_.try_emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
+  }
+
+ private:
+  bool are_told_apart_;
+  std::map<std::string, std::uint32_t> numbers_;
+};
+
+TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attributes, MaterialNumbers& materials) {
+  const CornerAttribute& uv = attributes.texture_coordinates;
+  TexturedMesh result;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    TexturedTriangle triangle;
+    bool is_textured = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.corners[k] = mesh.vertices[mesh.triangles[t][k]];
+      const std::uint32_t index = uv.index[t][k];
+      is_textured = is_textured && index != none;
+      triangle.coordinates[k] = Eigen::Vector2d::Zero();
+      if (index != none) triangle.coordinates[k] = uv.values[index].head<2>();
+    }
+    triangle.triangle = static_cast<std::uint32_t>(t);
+    triangle.material = materials.of(attributes.materials, t);
+    if (is_textured)
+      result.triangles.push_back(triangle);
+    else
+      result.bare.push_back(triangle.corners);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::array<TexturedMesh, 2> textured_meshes(const TriangleMesh& a, const MeshAttributes& a_attributes,
+                                            const TriangleMesh& b, const MeshAttributes& b_attributes) {
+  check(a, a_attributes, "A");
+  check(b, b_attributes, "B");
+  MaterialNumbers materials(!a_attributes.materials.empty() && !b_attributes.materials.empty());
+  TexturedMesh first = textured_mesh(a, a_attributes, materials);
+  return {std::move(first), textured_mesh(b, b_attributes, materials)};
+}
+
+}  // namespace meshbound

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "texture/triangle_deviation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshbound {
+namespace {
+
+using Line = Overlay::Line;
+using Node = Overlay::Node;
+using Polygon = Overlay::Polygon;
+
+/// How a candidate lies to a piece.
+enum class Cover { None, Part, All };
+
+/// A convex piece of A; every point of it is covered by the candidates of `full`, and perhaps some by those of `part`.
+struct Piece {
+  Polygon polygon;
+  std::vector<std::uint32_t> full, part;
+};
+
+/// None: at most a border of the piece is covered. `cut` is set for Part: a line with corners of the piece on both
+/// sides.
+Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate, Line& cut) {
+  Cover cover = Cover::All;
+  for (const Line line : overlay.lines_of(candidate)) {
+    bool has_inside = false, has_outside = false;
+    for (const auto& corner : polygon) {
+      const int side = overlay.side(line, corner.node);
+      has_inside = has_inside || side > 0;
+      has_outside = has_outside || side < 0;
+    }
+    if (has_outside && !has_inside) return Cover::None;
+    if (has_outside && cover == Cover::All) cover = Cover::Part, cut = line;
+  }
+  return cover;
+}
+
+/// Sorts the candidates of `part` into those that cover all of the piece and those that cover some of it. Returns a
+/// line to cut it by; none where each candidate is known to cover all or nothing.
+std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece) {
+  std::optional<Line> chosen;
+  std::vector<std::uint32_t> part;
+  std::vector<Line> cuts;
+  for (const std::uint32_t c : piece.part) {
+    Line cut = 0;
+    const Cover cover = cover_of(overlay, piece.polygon, c, cut);
+    if (cover == Cover::All) piece.full.push_back(c);
+    if (cover == Cover::Part) part.push_back(c), cuts.push_back(cut);
+  }
+  piece.part = std::move(part);
+  if (!cuts.empty()) chosen = cuts[cuts.size() / 2];  // one of the middle: pieces halve, as their order is spatial
+  return chosen;
+}
+
+/// Those that can cover a part of A, which lies like `chart`, that is more than a line or a point of it.
+std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay, Chart chart) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t c = 0; c < overlay.candidates(); ++c)
+    if (chart != Chart::Area || overlay.candidate(c).chart == Chart::Area) found.push_back(c);
+  return found;
+}
+
+class PieceSearch {
+ public:
+  PieceSearch(Overlay& overlay, const DeviationGoal& goal) : overlay_(overlay), goal_(goal) {}
+
+  /// Takes the whole triangle first: what no candidate covers falls away, and every point of a candidate that covers
+  /// more than a line or a point of A lies in a piece or on its border. The others count only where something falls
+  /// away; then each candidate is looked at by itself, with what it covers as the first piece.
+  TriangleDeviation run(Chart chart) {
+    result_ = deviation_by_candidates(overlay_, goal_);
+    result_.bounds.upper = 0;
+    search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, chart)});
+    for (std::uint32_t c = 0; c < overlay_.candidates() && has_uncovered_; ++c) {
+      Piece piece{overlay_.whole(), {c}, {}};
+      overlay_.clip(piece.polygon, c);
+      if (piece.polygon.empty()) continue;
+      for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
+        if (other != c) piece.part.push_back(other);
+      search(std::move(piece));
+    }
+    return result_;
+  }
+
+ private:
+  void search(Piece piece) {
+    stack_.push_back(std::move(piece));
+    while (!stack_.empty()) {
+      Piece top = std::move(stack_.back());
+      stack_.pop_back();
+      bound(std::move(top));
+    }
+  }
+
+  [[nodiscard]] double limit() const { return std::max(goal_.lower, result_.bounds.lower) + goal_.error_bound; }
+
+  void accept(double upper) { result_.bounds.upper = std::max(result_.bounds.upper, upper); }
+
+  /// Over the piece, and the corner where it is reached.
+  double upper_of(const Piece& piece, std::uint32_t candidate, const Node*& where) {
+    double upper = 0;
+    for (const auto& corner : piece.polygon) {
+      const double at = overlay_.distance(candidate, corner.node, goal_.precision).upper;
+      if (at >= upper) upper = at, where = &corner.node;
+    }
+    return upper;
+  }
+
+  double least_upper(const Piece& piece, const Node*& where) {
+    double least = HUGE_VAL;
+    for (const std::uint32_t c : piece.full) {
+      const Node* at = nullptr;
+      const double upper = upper_of(piece, c, at);
+      if (upper < least) least = upper, where = at;
+    }
+    return least;
+  }
+
+  void bound(Piece piece) {
+    ++result_.pieces;
+    const Node* where = nullptr;
+    if (const double upper = least_upper(piece, where); upper <= limit()) return accept(upper);
+    const std::optional<Line> cut = sort_candidates(overlay_, piece);
+    if (piece.full.empty()) {
+      if (cut) return split(piece, *cut);
+      has_uncovered_ = true;
+      return;
+    }
+    const double upper = least_upper(piece, where);
+    if (upper <= limit()) return accept(upper);
+    if (result_.pieces >= goal_.max_pieces) {
+      result_.gave_up = true;
+      return accept(upper);
+    }
+    if (cut) return split(piece, *cut);
+    probe(piece, *where);
+    if (upper <= limit() || piece.full.size() == 1) return accept(upper);
+    if (const auto middle = middle_line(piece.polygon)) return split(piece, *middle);
+    accept(upper);
+  }
+
+  void split(const Piece& piece, Line line) {
+    for (const bool flip : {false, true}) {
+      Piece half{{}, piece.full, piece.part};
+      overlay_.clip(piece.polygon, line, flip, half.polygon);
+      if (!half.polygon.empty()) stack_.push_back(std::move(half));
+    }
+  }
+
+  /// Raises the lower bound by a point inside the piece next to its worst corner, where only the candidates of the
+  /// piece count, and by one in its middle.
+  void probe(const Piece& piece, const Node& worst) {
+    constexpr double next_to = 0x1p-26;
+    std::array<double, 3> middle{};
+    for (const auto& corner : piece.polygon) {
+      const std::array<double, 3> w = Overlay::rounded(corner.node);
+      for (std::size_t i = 0; i < 3; ++i) middle[i] += w[i] / static_cast<double>(piece.polygon.size());
+    }
+    const std::array<double, 3> corner = Overlay::rounded(worst);
+    std::array<double, 3> near = corner;
+    for (std::size_t i = 0; i < 3; ++i) near[i] += next_to * (middle[i] - corner[i]);
+    raise(worst);
+    raise(Overlay::given(near));
+    if (piece.full.size() > 1) raise(Overlay::given(middle));
+  }
+
+  void raise(const Node& node) {
+    double nearest = HUGE_VAL;
+    std::uint32_t candidate = 0;
+    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
+      if (!overlay_.covers(c, node)) continue;
+      const double lower = overlay_.distance(c, node, goal_.precision).lower;
+      if (lower < nearest) nearest = lower, candidate = c;
+      if (nearest <= result_.bounds.lower) return;
+    }
+    if (nearest == HUGE_VAL || nearest <= result_.bounds.lower) return;
+    result_.bounds.lower = nearest;
+    result_.far = FarPoint{node, candidate};
+  }
+
+  /// Across the piece where it is longest; none where it is too short for that.
+  std::optional<Line> middle_line(const Polygon& polygon) {
+    double longest = 0, at = 0;
+    std::size_t corner = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      double low = 1, high = 0;
+      for (const auto& c : polygon) {
+        const double w = Overlay::rounded(c.node)[i];
+        low = std::min(low, w), high = std::max(high, w);
+      }
+      if (high - low > longest) longest = high - low, corner = i, at = low + (high - low) / 2;
+    }
+    if (longest < 0x1p-36) return std::nullopt;
+    return overlay_.add_level(corner, static_cast<std::int64_t>(std::ldexp(at, 40)));
+  }
+
+  Overlay& overlay_;
+  const DeviationGoal& goal_;
+  TriangleDeviation result_;
+  std::vector<Piece> stack_;
+  bool has_uncovered_ = false;
+};
+
+/// Cuts by lines of candidates, one of the middle first, so that on average a cut halves what is left to look at.
+class Uncovered {
+ public:
+  explicit Uncovered(Overlay& overlay) : overlay_(overlay) {}
+
+  Approximate of(Piece piece) {
+    const std::optional<Line> cut = sort_candidates(overlay_, piece);
+    if (!piece.full.empty()) return {};
+    if (!cut) return overlay_.share(piece.polygon);
+    Approximate total;
+    for (const bool flip : {false, true}) {
+      Piece half{{}, {}, piece.part};
+      overlay_.clip(piece.polygon, *cut, flip, half.polygon);
+      total = total + of(std::move(half));
+    }
+    return total;
+  }
+
+ private:
+  Overlay& overlay_;
+};
+
+}  // namespace
+
+TriangleDeviation deviation_by_candidates(Overlay& overlay, const DeviationGoal& goal) {
+  TriangleDeviation result;
+  for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
+    Polygon covered = overlay.whole();
+    overlay.clip(covered, c);
+    for (const auto& corner : covered)
+      result.bounds.upper = std::max(result.bounds.upper, overlay.distance(c, corner.node, goal.precision).upper);
+  }
+  for (const auto& corner : overlay.whole()) {
+    double nearest = HUGE_VAL;
+    std::uint32_t candidate = 0;
+    for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
+      if (!overlay.covers(c, corner.node)) continue;
+      const double lower = overlay.distance(c, corner.node, goal.precision).lower;
+      if (lower < nearest) nearest = lower, candidate = c;
+    }
+    if (nearest == HUGE_VAL || (result.far && nearest <= result.bounds.lower)) continue;
+    result.bounds.lower = nearest;
+    result.far = FarPoint{corner.node, candidate};
+  }
+  return result;
+}
+
+TriangleDeviation deviation_by_pieces(Overlay& overlay, Chart chart, const DeviationGoal& goal) {
+  return PieceSearch(overlay, goal).run(chart);
+}
+
+Approximate uncovered_share(Overlay& overlay, Chart chart) {
+  return Uncovered(overlay).of({overlay.whole(), {}, spanning_candidates(overlay, chart)});
+}
+
+}  // namespace meshbound

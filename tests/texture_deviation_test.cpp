@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+// Texture deviation: the answers that can be computed by hand, and intervals that contain what rational arithmetic
+// finds, on charts that overlap, touch, mirror each other, are slivers or have no area at all.
+#include "meshbound/texture_deviation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "meshbound/error.h"
+#include "reference/texture_oracle.h"
+
+namespace meshbound {
+namespace {
+
+using Random = std::mt19937_64;
+
+constexpr double tight = 1e-9;
+
+TextureDeviation measured(const TexturedMesh& a, const TexturedMesh& b, double error_bound = tight, int threads = 1) {
+  TextureDeviationOptions options;
+  options.error_bound = error_bound;
+  options.threads = threads;
+  return texture_deviation(a, b, options);
+}
+
+void expect_value(const Bounds& bounds, double value, double width = tight) {
+  EXPECT_LE(bounds.lower, value * (1 + 1e-15));
+  EXPECT_GE(bounds.upper, value * (1 - 1e-15));
+  EXPECT_LE(bounds.upper - bounds.lower, width);
+}
+
+/// A point in space and its texture coordinate.
+struct Corner {
+  Eigen::Vector3d at;
+  Eigen::Vector2d uv;
+};
+
+TexturedTriangle triangle(const Corner& a, const Corner& b, const Corner& c) {
+  return {{a.at, b.at, c.at}, {a.uv, b.uv, c.uv}};
+}
+
+TexturedMesh numbered(TexturedMesh mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mesh.triangles[t].triangle = static_cast<std::uint32_t>(t);
+  return mesh;
+}
+
+using Shape = std::function<Corner(double s, double t)>;
+
+/// n x n squares of the unit square, cut into triangles, mapped by `shape`.
+TexturedMesh grid(int n, const Shape& shape) {
+  TexturedMesh mesh;
+  const auto at = [&](int i, int j) { return shape(i / static_cast<double>(n), j / static_cast<double>(n)); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      mesh.triangles.push_back(triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1)));
+      mesh.triangles.push_back(triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1)));
+    }
+  }
+  return numbered(mesh);
+}
+
+Corner flat(double s, double t) { return {{s, t, 0}, {s, t}}; }
+
+TexturedMesh joined(TexturedMesh a, const TexturedMesh& b) {
+  a.triangles.insert(a.triangles.end(), b.triangles.begin(), b.triangles.end());
+  return numbered(a);
+}
+
+TEST(TextureDeviation, OfAMeshAndItselfIsZero) {
+  const TexturedMesh mesh = grid(5, flat);
+  const TextureDeviation found = measured(mesh, mesh);
+  EXPECT_EQ(found.bounds.upper, 0);
+  EXPECT_EQ(found.a_to_b.uncovered.upper, 0);
+  EXPECT_EQ(found.a_to_b.outcome, Outcome::Converged);
+}
+
+TEST(TextureDeviation, IsTheHeightThatASquareIsRaisedBy) {
+  const TexturedMesh raised = grid(3, [](double s, double t) { return Corner{{s, t, 0.25}, {s, t}}; });
+  const TextureDeviation found = measured(grid(1, flat), raised);
+  expect_value(found.bounds, 0.25);
+  EXPECT_EQ(found.a_to_b.witness->distance, 0.25);
+}
+
+/// The geometry is the same; only where the texture lies on it is not.
+TEST(TextureDeviation, SeesATextureThatSlidesOnTheSurface) {
+  const auto fan = [](double x) {  // a square around a vertex at x whose coordinate is that of the centre
+    const Corner middle{{x, 0.5, 0}, {0.5, 0.5}};
+    const Corner c[] = {flat(0, 0), flat(1, 0), flat(1, 1), flat(0, 1)};
+    TexturedMesh mesh;
+    for (std::size_t k = 0; k < 4; ++k) mesh.triangles.push_back(triangle(c[k], c[(k + 1) % 4], middle));
+    return numbered(mesh);
+  };
+  const TextureDeviation found = measured(fan(0.5), fan(0.75));
+  expect_value(found.a_to_b.bounds, 0.25);
+  expect_value(found.b_to_a.bounds, 0.25);
+  EXPECT_EQ(found.a_to_b.witness->coordinate, Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(found.a_to_b.witness->nearest.position, Eigen::Vector3d(0.75, 0.5, 0));
+}
+
+/// Two squares share one part of the texture, the second one mirrored.
+TEST(TextureDeviation, TakesTheNearestOfOverlappingCharts) {
+  const TexturedMesh first = grid(4, flat);
+  const TexturedMesh second = grid(3, [](double s, double t) { return Corner{{11 - s, t, 0}, {s, t}}; });
+  const TexturedMesh both = joined(first, second);
+  const TexturedMesh moved = joined(grid(5, [](double s, double t) { return Corner{{s, t, 0.5}, {s, t}}; }), second);
+  expect_value(measured(both, moved).bounds, 0.5, 1e-6);
+  const TextureDeviation one = measured(both, first);
+  expect_value(one.a_to_b.bounds, 11, 1e-6);  // from (11, t) of the second square to (0, t)
+  EXPECT_EQ(one.b_to_a.bounds.upper, 0);
+}
+
+/// Between two candidates the largest distance is inside a piece, at equal distance from both.
+TEST(TextureDeviation, FindsTheMiddleBetweenTwoCandidates) {
+  const auto slope = [](double z) { return [z](double s, double t) { return Corner{{0, 0, z * s + t}, {s, t}}; }; };
+  // At s the candidates are s above and 1 - s below: at most 1/2.
+  const TexturedMesh a = grid(1, slope(0));
+  const TexturedMesh above = grid(1, slope(1));
+  const TexturedMesh below = grid(1, [](double s, double t) { return Corner{{0, 0, t - (1 - s)}, {s, t}}; });
+  expect_value(measured(a, joined(above, below), 1e-6).a_to_b.bounds, 0.5, 1e-6);
+}
+
+TEST(TextureDeviation, MeasuresWhatIsCoveredAndSaysWhatIsNot) {
+  const TexturedMesh half = grid(2, [](double s, double t) { return Corner{{s / 2, t, 0.125}, {s / 2, t}}; });
+  const TextureDeviation found = measured(grid(3, flat), half);
+  expect_value(found.a_to_b.bounds, 0.125);
+  expect_value(found.a_to_b.uncovered, 0.5);
+  EXPECT_EQ(found.b_to_a.uncovered.upper, 0);
+}
+
+TEST(TextureDeviation, SaysThatNothingIsCovered) {
+  const TexturedMesh away = grid(2, [](double s, double t) { return Corner{{s, t, 0}, {s + 2, t}}; });
+  const TextureDeviation found = measured(grid(2, flat), away);
+  EXPECT_EQ(found.bounds.upper, 0);
+  EXPECT_FALSE(found.a_to_b.witness);
+  EXPECT_EQ(found.a_to_b.uncovered.upper, 1);
+  EXPECT_GT(found.a_to_b.uncovered.lower, 1 - 1e-12);
+}
+
+TEST(TextureDeviation, CountsTrianglesWithoutCoordinatesAsUncovered) {
+  TexturedMesh a = grid(1, flat);
+  a.bare.push_back({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(0, 1, 0)});
+  expect_value(measured(a, grid(1, flat)).a_to_b.uncovered, 0.5);
+}
+
+/// Charts that lie beside one another in the texture and far apart in space: on the border both count.
+TEST(TextureDeviation, TellsApartChartsThatTouch) {
+  const TexturedMesh left = grid(3, [](double s, double t) { return Corner{{s, t, 0}, {s / 3, t}}; });
+  const TexturedMesh right = grid(4, [](double s, double t) { return Corner{{s, t, 50}, {(1 + 2 * s) / 3, t}}; });
+  const TexturedMesh atlas = joined(left, right);
+  expect_value(measured(atlas, atlas).bounds, 0);
+  const TexturedMesh moved = joined(left, grid(4, [](double s, double t) {
+                                      return Corner{{s, t, 50.5}, {(1 + 2 * s) / 3, t}};
+                                    }));
+  expect_value(measured(atlas, moved).bounds, 0.5);
+}
+
+/// A corner of the texture that touches another chart belongs to what that covers.
+TEST(TextureDeviation, CountsPointsThatAreCoveredOnABorder) {
+  const TexturedMesh right = grid(1, [](double s, double t) { return Corner{{s, t, 7}, {s + 1, t}}; });
+  const TextureDeviation found = measured(grid(1, flat), right);
+  expect_value(found.a_to_b.bounds, std::sqrt(1 + 49.0));  // from (1, t, 0) to (0, t, 7)
+  EXPECT_GT(found.a_to_b.uncovered.lower, 1 - 1e-12);
+}
+
+TEST(TextureDeviation, KeepsMaterialsApart) {
+  TexturedMesh a = grid(1, flat), b = grid(1, flat);
+  for (TexturedTriangle& t : b.triangles) t.material = 1;
+  EXPECT_EQ(measured(a, b).a_to_b.uncovered.upper, 1);
+}
+
+/// All of a triangle has one coordinate: the nearest point of the other one counts, as in a plain distance.
+TEST(TextureDeviation, OfTrianglesAtOnePointOfTheTexture) {
+  const Eigen::Vector2d u(0.5, 0.25);
+  TexturedMesh a, b;
+  a.triangles.push_back(triangle({{0, 0, 0}, u}, {{2, 0, 0}, u}, {{0, 2, 0}, u}));
+  b.triangles.push_back(triangle({{0, 0, 1}, u}, {{1, 0, 1}, u}, {{0, 1, 1}, u}));
+  const TextureDeviation found = measured(a, b);
+  expect_value(found.a_to_b.bounds, std::sqrt(2.0));  // from (2, 0, 0) to (1, 0, 1)
+  expect_value(found.b_to_a.bounds, 1);
+  EXPECT_EQ(found.a_to_b.uncovered.upper, 0);
+}
+
+/// The coordinates of a triangle lie on a segment: each belongs to a segment in space.
+TEST(TextureDeviation, OfTrianglesOnASegmentOfTheTexture) {
+  TexturedMesh a, b;
+  a.triangles.push_back(triangle({{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 0}}));
+  b.triangles.push_back(triangle({{0, 0, 1}, {0, 0}}, {{1, 0, 1}, {1, 0}}, {{0, 3, 1}, {0, 0}}));
+  const TextureDeviation found = measured(a, b);
+  expect_value(found.a_to_b.bounds, 1);               // straight up: the fibre above is longer
+  expect_value(found.b_to_a.bounds, std::sqrt(5.0));  // from (0, 3, 1) to (0, 1, 0)
+}
+
+TEST(TextureDeviation, OfASegmentAcrossAChart) {
+  TexturedMesh line;
+  line.triangles.push_back(triangle({{0, 0, 2}, {0.25, 0.5}}, {{1, 0, 2}, {0.75, 0.5}}, {{1, 0, 2}, {0.75, 0.5}}));
+  const TextureDeviation found = measured(line, grid(3, flat));
+  // From (s, 0, 2) to (1/4 + s/2, 1/2, 0).
+  expect_value(found.a_to_b.bounds, std::sqrt(0.0625 + 0.25 + 4));
+  EXPECT_EQ(found.a_to_b.uncovered.upper, 0);
+  expect_value(found.b_to_a.bounds, std::sqrt(0.0625 + 0.25 + 4));
+  EXPECT_GT(found.b_to_a.uncovered.lower, 1 - 1e-12);
+}
+
+TEST(TextureDeviation, HoldsForTheSmallestAndLargestCoordinates) {
+  for (const double scale : {1e-300, 1e-160, 1e-30, 1e30, 1e150}) {
+    const auto at = [&](double z) {
+      return [z, scale](double s, double t) { return Corner{{s * scale, t * scale, z * scale}, {s, t}}; };
+    };
+    const TextureDeviation found = measured(grid(2, at(0)), grid(3, at(0.5)), tight * scale);
+    expect_value(found.bounds, 0.5 * scale, tight * scale);
+    const auto far = [&](double z) {
+      return [z, scale](double s, double t) { return Corner{{s, t, z}, {s * scale, t * scale}}; };
+    };
+    const TextureDeviation in_texture = measured(grid(2, far(0)), grid(2, far(0.5)));
+    expect_value(in_texture.bounds, 0.5);
+    EXPECT_EQ(in_texture.a_to_b.uncovered.upper, 0);
+  }
+}
+
+/// Charts of the unit square with random vertices: neither mesh overlaps itself.
+TexturedMesh random_chart(int n, Random& random, bool with_slivers) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<Corner> corners;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const double ds = i % n == 0 ? 0 : unit(random) * 0.3, dt = j % n == 0 ? 0 : unit(random) * 0.3;
+      double s = (i + ds) / n;
+      const double t = (j + dt) / n;
+      if (with_slivers && i == 1) s = 1e-13 * (1 + j);
+      corners.push_back({{s + 0.1 * unit(random), t + 0.1 * unit(random), 0.3 * unit(random)}, {s, t}});
+    }
+  }
+  TexturedMesh mesh;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const auto at = [&](int x, int y) { return corners[static_cast<std::size_t>((j + y) * (n + 1) + i + x)]; };
+      mesh.triangles.push_back(triangle(at(0, 0), at(1, 0), at(1, 1)));
+      mesh.triangles.push_back(triangle(at(0, 0), at(1, 1), at(0, 1)));
+    }
+  }
+  return numbered(mesh);
+}
+
+mpq_class uncovered_of(const TexturedMesh& a, const TexturedMesh& b) {
+  mpq_class worst = 0;
+  for (const TexturedTriangle& t : a.triangles)
+    worst = std::max<mpq_class>(worst, abs(mpq_class(reference::uncovered_share(t, b))));
+  return worst;
+}
+
+TEST(TextureDeviation, ContainsWhatRationalArithmeticFinds) {
+  Random random(1);
+  for (int trial = 0; trial < 24; ++trial) {
+    const bool with_slivers = trial % 3 == 2;
+    const TexturedMesh a = random_chart(2 + trial % 3, random, with_slivers),
+                       b = random_chart(3, random, trial % 2 == 1);
+    const TextureDeviation found = measured(a, b, 1e-7);
+    const auto contains = [](const Bounds& bounds, const mpq_class& squared) {
+      EXPECT_GE(reference::compare_root(squared, bounds.lower), 0);
+      EXPECT_LE(reference::compare_root(squared, bounds.upper), 0);
+      EXPECT_LE(bounds.upper - bounds.lower, 1e-7);
+    };
+    contains(found.a_to_b.bounds, reference::squared_deviation_of_charts(a, b));
+    contains(found.b_to_a.bounds, reference::squared_deviation_of_charts(b, a));
+    if (uncovered_of(a, b) == 0) {
+      EXPECT_LE(found.a_to_b.uncovered.upper, 1e-12);
+    }
+  }
+}
+
+/// A corner on a coarse lattice, so that coordinates coincide, edges are shared, and triangles have no area.
+TexturedMesh lattice_soup(std::size_t count, Random& random) {
+  std::uniform_int_distribution<int> place(0, 4), uv(0, 3);
+  TexturedMesh mesh;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto corner = [&] {
+      return Corner{{0.25 * place(random), 0.25 * place(random), 0.25 * place(random)},
+                    {uv(random) / 3.0, 0.5 * uv(random)}};
+    };
+    mesh.triangles.push_back(triangle(corner(), corner(), corner()));
+  }
+  return numbered(mesh);
+}
+
+/// No point of a triangle, taken at random or at its corners and edges, is further than the upper bound.
+TEST(TextureDeviation, IsNeverExceededByAPoint) {
+  Random random(2);
+  std::uniform_int_distribution<int> share(0, 6);
+  for (int trial = 0; trial < 40; ++trial) {
+    const TexturedMesh a = lattice_soup(6, random), b = lattice_soup(8, random);
+    const TextureDeviation found = measured(a, b, 1e-4);
+    EXPECT_LE(found.a_to_b.bounds.lower, found.a_to_b.bounds.upper);
+    mpq_class furthest = 0;
+    for (const TexturedTriangle& t : a.triangles) {
+      for (int k = 0; k < 40; ++k) {
+        const int p = share(random), q = share(random), r = p + q == 0 ? 1 : share(random);
+        const mpq_class all = p + q + r;
+        const auto squared = reference::squared_deviation_at(t, {p / all, q / all, r / all}, b);
+        if (squared) furthest = std::max(furthest, *squared);
+      }
+    }
+    EXPECT_LE(reference::compare_root(furthest, found.a_to_b.bounds.upper), 0) << trial;
+  }
+}
+
+TEST(TextureDeviation, IsTheSameForAnyNumberOfThreads) {
+  Random random(3);
+  const TexturedMesh a = random_chart(12, random, true), b = random_chart(9, random, false);
+  const TextureDeviation one = measured(a, b, 1e-7, 1), four = measured(a, b, 1e-7, 4);
+  EXPECT_EQ(one.bounds.lower, four.bounds.lower);
+  EXPECT_EQ(one.bounds.upper, four.bounds.upper);
+  EXPECT_EQ(one.a_to_b.uncovered.upper, four.a_to_b.uncovered.upper);
+  EXPECT_EQ(one.a_to_b.witness->from.position, four.a_to_b.witness->from.position);
+  EXPECT_EQ(one.a_to_b.pieces, four.a_to_b.pieces);
+}
+
+/// Twice as many triangles, about twice as many pieces: charts that overlap everywhere do not multiply.
+TEST(TextureDeviation, LooksAtFewPiecesOfMirroredCharts) {
+  const auto mirrored = [](int n) {
+    return joined(grid(n, flat), grid(n, [](double s, double t) { return Corner{{11 - s, t, 0.01 * s}, {s, t}}; }));
+  };
+  const std::uint64_t few = measured(mirrored(8), mirrored(7)).a_to_b.pieces;
+  const std::uint64_t many = measured(mirrored(16), mirrored(14)).a_to_b.pieces;
+  EXPECT_LT(many, 6 * few);
+}
+
+TEST(TextureDeviation, RefusesWhatIsNoNumber) {
+  TexturedMesh broken = grid(1, flat);
+  broken.triangles[0].coordinates[1].x() = std::nan("");
+  EXPECT_THROW(measured(broken, grid(1, flat)), InvalidInput);
+  EXPECT_THROW(measured(grid(1, flat), grid(1, flat), -1), InvalidInput);
+}
+
+TEST(TextureDeviation, EndsWhenItIsStopped) {
+  const std::atomic<bool> stop = true;
+  TextureDeviationOptions options;
+  options.stop.cancel = &stop;
+  EXPECT_THROW(texture_deviation(grid(2, flat), grid(2, flat), options), Stopped);
+}
+
+TEST(TexelLength, IsTheSideOfATexelOnTheSurface) {
+  const TexturedMesh stretched = grid(2, [](double s, double t) { return Corner{{4 * s, 9 * t, 0}, {s, t}}; });
+  EXPECT_DOUBLE_EQ(texel_length(stretched, 512), 6.0 / 512);
+  EXPECT_THROW((void)texel_length(stretched, 0), InvalidInput);
+}
+
+TEST(TexturedMeshes, TellMaterialsApartByName) {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}}};
+  MeshAttributes a;
+  a.texture_coordinates.values = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  a.texture_coordinates.index = {{0, 1, 2}, {0, 1, CornerAttribute::none}};
+  MeshAttributes b = a;
+  a.materials = {{"wood", "stone"}, {0, 1}};
+  b.materials = {{"stone", "wood"}, {1, 0}};
+  const auto [first, second] = textured_meshes(mesh, a, mesh, b);
+  ASSERT_EQ(first.triangles.size(), 1U);
+  EXPECT_EQ(first.bare.size(), 1U);
+  EXPECT_EQ(first.triangles[0].material, second.triangles[0].material);
+  EXPECT_THROW((void)textured_meshes(mesh, a, mesh, {}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meshbound

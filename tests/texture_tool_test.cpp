@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Texture deviation by the command lines: hausdorff_distance measures and decides, simplify_with_bound keeps a
+// tolerance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "json_claims.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using nlohmann::json;
+using namespace testing_tools;
+
+/// n x n squares of the unit square in the plane z = `height`, whose u runs unevenly by `warp`.
+void write_square(const std::string& path, int n, double warp, double height = 0) {
+  std::ofstream out(path);
+  out.precision(17);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) out << "v " << i / double(n) << ' ' << j / double(n) << ' ' << height << '\n';
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      out << "vt " << i / double(n) + warp * std::sin(2 * std::numbers::pi * i / n) << ' ' << j / double(n) << '\n';
+  const auto corner = [&](int i, int j) {
+    const std::string index = std::to_string(j * (n + 1) + i + 1);
+    return " " + index + "/" + index;
+  };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      out << "f" << corner(i, j) << corner(i + 1, j) << corner(i + 1, j + 1) << "\nf" << corner(i, j)
+          << corner(i + 1, j + 1) << corner(i, j + 1) << '\n';
+}
+
+class TextureTool : public testing::Test {
+ protected:
+  TextureTool() {
+    write_square(even_, 4, 0);
+    write_square(raised_, 3, 0, 0.25);
+    write_square(warped_, 16, 0.05);
+  }
+  static ToolRun measure(const std::vector<std::string>& arguments) { return run_tool(HAUSDORFF_DISTANCE, arguments); }
+  static ToolRun simplify(const std::vector<std::string>& arguments) {
+    return run_tool(SIMPLIFY_WITH_BOUND, arguments);
+  }
+
+  TemporaryFolder folder_;
+  std::string even_ = folder_ / "even.obj", raised_ = folder_ / "raised.obj", warped_ = folder_ / "warped.obj";
+  std::string out_ = folder_ / "out.obj";
+};
+
+TEST_F(TextureTool, TellsHowFarTheTextureMoves) {
+  const ToolRun result = measure({even_, raised_, "--texture", "--texture-size", "8", "--json", "-"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json texture = checked_document(result.out)["texture"];
+  EXPECT_NEAR(texture["lower"].get<double>(), 0.25, 1e-9);
+  EXPECT_GE(texture["upper"].get<double>(), 0.25);
+  EXPECT_EQ(texture["a_to_b"]["uncovered"]["upper"], 0);
+  EXPECT_EQ(texture["a_to_b"]["witness"]["to"][2], 0.25);
+  EXPECT_EQ(texture["texel_length"], 0.125);
+  EXPECT_NEAR(texture["texels"]["upper"].get<double>(), 2, 1e-6);
+  const ToolRun text = measure({even_, raised_, "--texture"});
+  EXPECT_NE(text.out.find("texture     [0.2"), std::string::npos) << text.out;
+}
+
+TEST_F(TextureTool, DecidesAboutATolerance) {
+  EXPECT_EQ(measure({even_, raised_, "--texture", "--texture-tolerance", "0.26"}).exit_code, 0);
+  const ToolRun fails = measure({even_, raised_, "--texture", "--texture-tolerance", "0.24", "--quiet"});
+  EXPECT_EQ(fails.exit_code, 1);
+  EXPECT_EQ(fails.err.substr(0, 18), "FAIL texture 0.25 ") << fails.err;
+  EXPECT_EQ(measure({even_, raised_, "--texture", "--texture-tolerance", "1.9texels", "--texture-size", "8"}).exit_code,
+            1);
+  EXPECT_EQ(measure({even_, raised_, "--texture", "--texture-tolerance", "2.1texels", "--texture-size", "8"}).exit_code,
+            0);
+}
+
+TEST_F(TextureTool, WidensByTheRoundingOfAMap) {
+  const std::string shift = "1 0 0 0.1  0 1 0 0  0 0 1 0  0 0 0 1";
+  const ToolRun result = measure({even_, even_, "--texture", "--transform-b", shift, "--json", "-"});
+  const json document = checked_document(result.out);
+  EXPECT_GE(document["texture"]["upper"].get<double>(), 0.1);
+  EXPECT_LE(document["texture"]["lower"].get<double>(), 0.1);
+}
+
+TEST_F(TextureTool, RefusesWhatMakesNoSense) {
+  std::ofstream(folder_ / "bare.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto refused = [](const ToolRun& run, const std::string& word) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+  };
+  refused(measure({even_, folder_ / "bare.obj", "--texture"}), "bare.obj: no texture coordinates");
+  refused(measure({even_, raised_, "--texture-tolerance", "1"}), "--texture");
+  refused(measure({even_, raised_, "--texture", "--one-sided"}), "--one-sided");
+  refused(measure({even_, raised_, "--texture", "--texture-tolerance", "2texels"}), "--texture-size");
+  refused(simplify({folder_ / "bare.obj", out_, "--tolerance", "1%", "--texture-tolerance", "1%"}),
+          "texture coordinates");
+  refused(simplify({even_, folder_ / "out.stl", "--tolerance", "1%", "--texture-tolerance", "1%"}),
+          "texture coordinates");
+}
+
+/// The square is flat, so that any triangulation is at distance 0: only the texture limits what may go.
+TEST_F(TextureTool, KeepsTheTextureInPlace) {
+  ASSERT_EQ(simplify({warped_, out_, "--tolerance", "1%"}).exit_code, 0);
+  const json without = checked_document(measure({warped_, out_, "--texture", "--json", "-"}).out);
+  EXPECT_GT(without["texture"]["lower"].get<double>(), 0.02);
+  const ToolRun kept = simplify({warped_, out_, "--tolerance", "1%", "--texture-tolerance", "0.01", "--json", "-"});
+  ASSERT_EQ(kept.exit_code, 0) << kept.err;
+  const json document = checked_document(kept.out);
+  EXPECT_EQ(document["verdict"], "within");
+  EXPECT_LE(document["texture"]["upper"].get<double>(), 0.01);
+  EXPECT_EQ(document["texture"]["tolerance"]["absolute"], 0.01);
+  EXPECT_LT(document["simplified"]["faces"].get<int>(), 512);
+  const json again = checked_document(measure({warped_, out_, "--texture", "--json", "-"}).out);
+  EXPECT_LE(again["texture"]["upper"].get<double>(), 0.01);
+  EXPECT_EQ(again["b"]["faces"], document["simplified"]["faces"]);
+}
+
+TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {
+  const ToolRun kept = simplify({warped_, out_, "--tolerance", "1%", "--texture-tolerance", "0", "--json", "-"});
+  ASSERT_EQ(kept.exit_code, 0) << kept.err;
+  const json document = checked_document(kept.out);
+  EXPECT_EQ(document["texture"]["upper"], 0);
+}
+
+}  // namespace
+}  // namespace meshbound

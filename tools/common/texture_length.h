@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "common/length.h"
+
+namespace meshbound::tools {
+
+/// A tolerance of texture deviation as typed: a length, or a number of texels, "2texels".
+struct TextureLength {
+  Length length;
+  double texels = 0;
+  bool is_in_texels = false;
+
+  /// `texel_length` as the function of that name gives it.
+  [[nodiscard]] double in_model_units(double diagonal, double texel_length) const {
+    return is_in_texels ? texels * texel_length : length.in_model_units(diagonal);
+  }
+};
+
+/// Throws `InvalidInput`, naming `option`, for what is neither, and for texels where no texture size was given.
+[[nodiscard]] TextureLength parse_texture_length(const std::string& option, const std::string& text,
+                                                 bool has_texture_size);
+
+}  // namespace meshbound::tools

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "common/distance_text.h"
+#include "meshbound/report.h"
+
+namespace meshbound::tools {
+
+/// The lines on stdout by which a tool says how far the texture moves: the interval in model units, in percent of the
+/// diagonal and in texels, then each direction with its witness and the share of the area that is not covered.
+void print_texture(const TextureReport& texture, const DirectionNames& names, double diagonal);
+
+}  // namespace meshbound::tools

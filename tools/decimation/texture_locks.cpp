@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "decimation/texture_locks.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meshbound::tools {
+
+void TextureLocks::note(std::uint32_t face, std::uint32_t triangle, double distance) {
+  exceeding_.push_back(triangle);
+  Worst& worst = worst_of_face_[face];
+  if (distance > worst.distance) worst = {distance, triangle};
+}
+
+void TextureLocks::learn(const TextureDeviation& deviation, const Bvh& original) {
+  for (const TextureWitness& w : deviation.a_to_b.exceeding) note(w.nearest.triangle, w.from.triangle, w.distance);
+  for (const TextureWitness& w : deviation.b_to_a.exceeding)
+    note(w.from.triangle, closest_point(original, w.from.position).point.triangle, w.distance);
+}
+
+bool TextureLocks::lock(std::uint32_t triangle) {
+  bool locks_more = false;
+  for (const std::uint32_t v : original_.triangles[triangle]) {
+    locks_more = locks_more || !locked_[v];
+    locked_[v] = true;
+  }
+  return locks_more;
+}
+
+bool TextureLocks::lock_around() {
+  std::vector<bool> reached(original_.vertices.size());
+  for (const std::uint32_t t : exceeding_)
+    for (const std::uint32_t v : original_.triangles[t]) reached[v] = true;
+  for (bool has_grown = true; has_grown;) {
+    bool locks_more = false;
+    std::vector<bool> next = reached;
+    for (std::uint32_t t = 0; t < original_.triangles.size(); ++t) {
+      const Triangle& corners = original_.triangles[t];
+      if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return reached[v]; })) continue;
+      locks_more = lock(t) || locks_more;
+      for (const std::uint32_t v : corners) next[v] = true;
+    }
+    if (locks_more) return true;
+    has_grown = next != reached;
+    reached = std::move(next);
+  }
+  return false;
+}
+
+bool TextureLocks::tighten() {
+  if (++rounds_ > max_rounds) return false;
+  locked_.resize(original_.vertices.size());
+  bool locks_more = false;
+  if (rounds_ <= gradual_rounds)
+    for (const auto& [face, worst] : worst_of_face_) locks_more = lock(worst.triangle) || locks_more;
+  if (!locks_more)
+    for (const std::uint32_t t : exceeding_) locks_more = lock(t) || locks_more;
+  if (!locks_more) locks_more = lock_around();
+  worst_of_face_.clear();
+  exceeding_.clear();
+  return locks_more;
+}
+
+}  // namespace meshbound::tools

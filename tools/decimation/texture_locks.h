@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "meshbound/bvh.h"
+#include "meshbound/texture_deviation.h"
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound::tools {
+
+/// Vertices of an original that a simplification must keep so that the texture does not move too far: more after each
+/// attempt whose texture deviation was measured. A vertex that stays where it is keeps its texture coordinate.
+class TextureLocks {
+ public:
+  /// `original` must outlive this.
+  explicit TextureLocks(const TriangleMesh& original) : original_(original) {}
+
+  /// By vertex; empty while none is locked.
+  [[nodiscard]] const std::vector<bool>& locked() const { return locked_; }
+
+  /// Notes where an attempt exceeds the tolerance: a is the original, whose tree is `original`, b the attempt. What a
+  /// face of the attempt exceeds by is noted where the original is nearest to it in space: the point with the same
+  /// texture coordinate may be anywhere.
+  void learn(const TextureDeviation& deviation, const Bvh& original);
+
+  /// Locks, for each face of the attempts that exceeds, the corners of the original triangle where it does so most;
+  /// after `gradual_rounds` of this, those of all triangles that exceed; where these are locked already, rings of
+  /// triangles around them. False where that locks nothing more, or after `max_rounds`. O(n rings).
+  [[nodiscard]] bool tighten();
+
+ private:
+  static constexpr int gradual_rounds = 6, max_rounds = 12;
+  struct Worst {
+    double distance = -1;
+    std::uint32_t triangle = 0;
+  };
+  void note(std::uint32_t face, std::uint32_t triangle, double distance);
+  [[nodiscard]] bool lock(std::uint32_t triangle);
+  [[nodiscard]] bool lock_around();
+
+  const TriangleMesh& original_;
+  std::vector<bool> locked_;
+  std::map<std::uint32_t, Worst> worst_of_face_;  ///< of the last attempt
+  std::vector<std::uint32_t> exceeding_;          ///< triangles of the original, of the last attempt
+  int rounds_ = 0;
+};
+
+}  // namespace meshbound::tools
