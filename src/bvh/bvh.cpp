@@ -98,8 +98,8 @@ unsigned used_extremes(const MeshView& mesh, const Extremes& all, std::size_t ve
 /// As `used_bounding_box` after `validate`, by tasks: the box of all vertices is that of the used ones if those at its
 /// sides are used, so that no two threads write to one table.
 Eigen::AlignedBox3d checked_box(const MeshView& mesh) {
-  constexpr std::size_t max_indexed = std::size_t{1} << 32;
-  const std::size_t vertices = std::min(mesh.vertex_count(), max_indexed);
+  constexpr std::uint64_t max_indexed = std::uint64_t{1} << 32;
+  const auto vertices = static_cast<std::size_t>(std::min<std::uint64_t>(mesh.vertex_count(), max_indexed));
   std::atomic<bool> sound = mesh.triangle_count() > 0;
   const Extremes all = extremes_of(mesh, vertices, sound);
   const unsigned used = used_extremes(mesh, all, vertices, sound);

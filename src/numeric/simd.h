@@ -13,9 +13,9 @@ namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
 using Double4 = double __attribute__((vector_size(32)));
-using Mask4 = std::int64_t __attribute__((vector_size(32)));
+using Mask4 = decltype(Double4{} < Double4{});  // what a comparison gives: the type differs between compilers
 using Float8 = float __attribute__((vector_size(32)));
-using Mask8 = std::int32_t __attribute__((vector_size(32)));
+using Mask8 = decltype(Float8{} < Float8{});
 
 inline Double4 broadcast4(double x) { return Double4{x, x, x, x}; }
 inline Float8 broadcast8(float x) { return Float8{x, x, x, x, x, x, x, x}; }

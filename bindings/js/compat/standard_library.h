@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// Included before everything else: what the core uses of C++20 and the standard library of Emscripten 3.1.6 lacks.
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <version>
+
+namespace std {
+
+#if !defined(__cpp_lib_bit_cast)
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From));
+  return __builtin_bit_cast(To, from);
+}
+#endif
+
+#if !defined(__cpp_lib_smart_ptr_for_overwrite)
+template <class Array>
+unique_ptr<Array> make_unique_for_overwrite(size_t size) {
+  static_assert(is_array_v<Array>);
+  return unique_ptr<Array>(new remove_extent_t<Array>[size]);
+}
+#endif
+
+}  // namespace std

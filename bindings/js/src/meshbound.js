@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// meshbound in JavaScript: certified Hausdorff distances between triangle meshes, and simplification with a proven
+// bound. The engine is WebAssembly on one thread; index.d.ts documents every function.
+import createEngine from './engine.js';
+
+const OUTCOMES = ['converged', 'exceeds', 'budget', 'precision', 'not_searched'];
+const VERDICTS = ['within', 'exceeds', 'undecided'];
+const ENDS = ['nothing_fits', 'target', 'tolerance', 'time_limit', 'rounding'];
+const DIRECTION_SIZE = 11;
+const DISTANCE_SIZE = 2 + 2 * DIRECTION_SIZE;
+const LEVEL_SIZE = 13 + DISTANCE_SIZE;
+
+let engine;
+
+/** In Node the engine is read from its file; in a page it is fetched from where this module came from. */
+async function loadEngine() {
+  if (typeof process !== 'object' || !process.versions?.node) return createEngine();
+  const { readFile } = await import(/* webpackIgnore: true */ 'node:fs/promises');
+  return createEngine({ wasmBinary: await readFile(new URL('engine.wasm', import.meta.url)) });
+}
+
+/** Resolves when the functions may be called. */
+export const ready = loadEngine().then((loaded) => {
+  engine = loaded;
+});
+
+/** A mesh or an option that no bound can be given for; `message` says what and where. */
+export class InvalidInput extends Error {}
+
+/** Memory of the engine that is freed when `use` has returned. */
+class Scratch {
+  #addresses = [];
+
+  static with(use) {
+    if (!engine) throw new Error('meshbound is not loaded yet: await ready first');
+    const scratch = new Scratch();
+    try {
+      return use(scratch);
+    } finally {
+      for (const free of scratch.#addresses.reverse()) free();
+    }
+  }
+
+  room(bytes) {
+    const address = engine._malloc(Math.max(bytes, 8));
+    if (!address) throw new RangeError('meshbound has run out of memory');
+    this.#addresses.push(() => engine._free(address));
+    return address;
+  }
+
+  copy(array) {
+    const address = this.room(array.byteLength);
+    engine.HEAPU8.set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), address);
+    return address;
+  }
+
+  mesh({ positions, indices, stride = 3 }) {
+    if (!(positions instanceof Float32Array || positions instanceof Float64Array))
+      throw new InvalidInput('positions must be a Float32Array or a Float64Array');
+    if (!(indices instanceof Uint16Array || indices instanceof Uint32Array))
+      throw new InvalidInput('indices must be a Uint16Array or a Uint32Array');
+    if (!Number.isInteger(stride) || stride < 3) throw new InvalidInput('stride must be a whole number, 3 or more');
+    if (indices.length % 3 !== 0) throw new InvalidInput('the number of indices must be a multiple of three');
+    const vertices = Math.floor((positions.length + stride - 3) / stride);
+    const mesh = engine._js_mesh_new(
+      this.copy(positions), positions instanceof Float64Array ? 1 : 0, stride * positions.BYTES_PER_ELEMENT, vertices,
+      this.copy(indices), indices instanceof Uint32Array ? 1 : 0, indices.length / 3);
+    this.#addresses.push(() => engine._js_mesh_free(mesh));
+    return mesh;
+  }
+
+  simplifyOptions() {
+    const options = engine._js_simplify_options_new();
+    this.#addresses.push(() => engine._js_simplify_options_free(options));
+    return options;
+  }
+
+  freeAtEnd(free) {
+    this.#addresses.push(free);
+  }
+}
+
+const doubles = (address, count) => engine.HEAPF64.slice(address / 8, address / 8 + count);
+
+function requireSuccess(status) {
+  if (status === 0) return;
+  const message = engine.UTF8ToString(engine._mb_error_message());
+  if (status === 1) throw new InvalidInput(message);
+  throw status === 3 ? new RangeError(`meshbound has run out of memory: ${message}`) : new Error(message);
+}
+
+function pointFrom(values) {
+  return { position: Array.from(values.subarray(0, 3)), triangle: values[3] };
+}
+
+function directionFrom(values) {
+  const outcome = OUTCOMES[values[10]];
+  const bounds = { lower: values[0], upper: values[1], outcome };
+  if (outcome === 'not_searched') return bounds;
+  return { ...bounds, from: pointFrom(values.subarray(2, 6)), nearest: pointFrom(values.subarray(6, 10)) };
+}
+
+function distanceFrom(values) {
+  return {
+    lower: values[0],
+    upper: values[1],
+    aToB: directionFrom(values.subarray(2, 2 + DIRECTION_SIZE)),
+    bToA: directionFrom(values.subarray(2 + DIRECTION_SIZE, DISTANCE_SIZE)),
+  };
+}
+
+export function describe(mesh) {
+  return Scratch.with((scratch) => {
+    const out = scratch.room(5 * 8);
+    requireSuccess(engine._js_describe(scratch.mesh(mesh), out));
+    const [vertices, triangles, components, closed, bboxDiagonal] = doubles(out, 5);
+    return { vertices, triangles, components, closed: closed === 1, bboxDiagonal };
+  });
+}
+
+export function hausdorffDistance(a, b, { errorBound = -1, oneSided = false, timeLimit = Infinity } = {}) {
+  return Scratch.with((scratch) => {
+    const out = scratch.room(DISTANCE_SIZE * 8);
+    requireSuccess(
+      engine._js_measure(scratch.mesh(a), scratch.mesh(b), errorBound, timeLimit, oneSided ? 1 : 0, out));
+    return distanceFrom(doubles(out, DISTANCE_SIZE));
+  });
+}
+
+export function check(a, b, tolerance, { oneSided = false, timeLimit = Infinity } = {}) {
+  return Scratch.with((scratch) => {
+    const out = scratch.room((1 + DISTANCE_SIZE) * 8);
+    requireSuccess(
+      engine._js_check(scratch.mesh(a), scratch.mesh(b), tolerance, timeLimit, oneSided ? 1 : 0, out));
+    const values = doubles(out, 1 + DISTANCE_SIZE);
+    return { verdict: VERDICTS[values[0]], tolerance, distance: distanceFrom(values.subarray(1)) };
+  });
+}
+
+function levelFrom(scratch, simplification, index) {
+  const out = scratch.room(LEVEL_SIZE * 8);
+  requireSuccess(engine._js_level(simplification, index, out));
+  const values = doubles(out, LEVEL_SIZE);
+  const [tolerance, verdict, endedBy, vertices, triangles, positions, indices, sourceVertices, sourceTriangles] = values;
+  const words = (address, count) => engine.HEAPU32.slice(address / 4, address / 4 + count);
+  const [certificate, certificateSize, lineLower, lineUpper] = values.subarray(9);
+  return {
+    tolerance,
+    verdict: VERDICTS[verdict],
+    endedBy: ENDS[endedBy],
+    positions: doubles(positions, 3 * vertices),
+    indices: words(indices, 3 * triangles),
+    sourceVertices: words(sourceVertices, vertices),
+    sourceTriangles: words(sourceTriangles, triangles),
+    certificate: certificate === 0 ? null : engine.HEAPU8.slice(certificate, certificate + certificateSize),
+    lineDistance: Number.isNaN(lineUpper) ? null : { lower: lineLower, upper: lineUpper },
+    distance: distanceFrom(values.subarray(13)),
+  };
+}
+
+function chosen(options, name, words) {
+  const word = options[name] ?? words[0];
+  if (!words.includes(word)) throw new InvalidInput(`${name} must be one of: ${words.join(', ')}`);
+  return word === words[1] ? 1 : 0;
+}
+
+function setOptions(scratch, options, target) {
+  const { levels = [], lockedVertices, featureEdges } = options;
+  engine._js_set_lengths(
+    target, options.tolerance ?? NaN, options.lineTolerance ?? -1, options.featureAngle ?? -1,
+    options.timeLimit ?? Infinity);
+  engine._js_set_targets(target, options.targetFaces ?? -1, options.targetRatio ?? -1);
+  engine._js_set_choices(
+    target, chosen(options, 'effort', ['normal', 'high']), chosen(options, 'placement', ['optimal', 'subset']),
+    chosen(options, 'precision', ['double', 'single']), chosen(options, 'onExceed', ['skip', 'stop']),
+    options.prune ? 1 : 0, options.preserveBoundary ? 1 : 0, options.certificate ? 1 : 0);
+  engine._js_set_arrays(
+    target, scratch.copy(Float64Array.from(levels)), levels.length,
+    lockedVertices ? scratch.copy(Uint8Array.from(lockedVertices, (locked) => (locked ? 1 : 0))) : 0,
+    featureEdges ? scratch.copy(Uint32Array.from(featureEdges)) : 0, featureEdges ? featureEdges.length / 2 : 0);
+}
+
+export function simplify(mesh, options) {
+  return Scratch.with((scratch) => {
+    const target = scratch.simplifyOptions();
+    setOptions(scratch, options, target);
+    const original = scratch.mesh(mesh);
+    if (options.lockedVertices && options.lockedVertices.length !== describe(mesh).vertices)
+      throw new InvalidInput('lockedVertices must have a value for each vertex');
+    const result = scratch.room(4);
+    requireSuccess(engine._js_simplify(original, target, result));
+    const simplification = engine.HEAPU32[result / 4];
+    scratch.freeAtEnd(() => engine._mb_simplification_free(simplification));
+    const count = engine._mb_simplification_level_count(simplification);
+    const levels = Array.from({ length: count }, (_, index) => levelFrom(scratch, simplification, index));
+    return { levels, level: levels[count - 1] };
+  });
+}
+
+export { MeshboundSimplifier } from './simplifier.js';

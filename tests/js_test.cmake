@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+# Run by CTest: builds the npm package where Emscripten is installed, and tests it in Node against the native tools.
+find_program(EMCC em++)
+find_program(NODE node)
+if(NOT EMCC OR NOT NODE)
+  message("js_test: Skipped\nemscripten is not installed; tools/install_dependencies --wasm does that")
+  return()
+endif()
+function(run step)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${source_dir} RESULT_VARIABLE result OUTPUT_VARIABLE output
+    ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${step} failed (${result}):\n${output}")
+  endif()
+  message(STATUS "${step}: done")
+endfunction()
+run("configure" ${CMAKE_COMMAND} --preset wasm)
+run("build" ${CMAKE_COMMAND} --build --preset wasm)
+set(ENV{MESHBOUND_NPM} ${source_dir}/build-wasm/npm)
+set(ENV{MESHBOUND_TOOLS} ${tools})
+set(ENV{MESHBOUND_GENERATOR} ${generator})
+run("test" ${NODE} --test ${source_dir}/bindings/js/test/)
