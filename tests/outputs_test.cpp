@@ -39,11 +39,15 @@ const std::vector<Output> outputs = {
      {"in.off", "out.off", "--tolerance", "2%", "--levels", "1%"},
      "out_level_0.off",
      false},
+    {"simplify_heatmap", SIMPLIFY_WITH_BOUND, {"in.off", "out.off", "--tolerance", "2%", "--heatmap", "@"}, "h.ply"},
+    {"simplify_image", SIMPLIFY_WITH_BOUND, {"in.off", "out.off", "--tolerance", "2%", "--image", "@"}, "i.png"},
     {"chain_level", LOD_CHAIN, {"in.off", ".", "--levels", "1%,2%", "--format", "off"}, "lod_1.off", false},
     {"chain_report", LOD_CHAIN, {"in.off", ".", "--levels", "1%"}, "chain.json", false},
     {"chain_json", LOD_CHAIN, {"in.off", ".", "--levels", "1%", "--json", "@"}, "out.json"},
     {"distance_json", HAUSDORFF_DISTANCE, {"in.off", "other.off", "--json", "@"}, "out.json"},
     {"distance_proof", HAUSDORFF_DISTANCE, {"in.off", "other.off", "--tolerance", "9", "--certificate", "@"}, "p"},
+    {"distance_heatmap", HAUSDORFF_DISTANCE, {"in.off", "other.off", "--heatmap-original", "@"}, "h.ply"},
+    {"distance_image", HAUSDORFF_DISTANCE, {"in.off", "other.off", "--image", "@"}, "i.png"},
     {"verify_json", VERIFY_CERTIFICATE, {"in.off", "other.off", "in.proof", "--json", "@"}, "out.json"},
 };
 
@@ -195,7 +199,7 @@ TEST_F(OutputPairs, NeverShareAFile) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   };
-  for (const std::string option : {"--json", "--certificate"})
+  for (const std::string option : {"--json", "--certificate", "--image"})
     for (const std::string path : {"out.off", "sub/../out.off", "sub/link.off"})
       expect_refused_before_work(SIMPLIFY_WITH_BOUND, with(simplify, {option, path}));
   expect_refused_before_work(SIMPLIFY_WITH_BOUND, with(simplify, {"--json", "x", "--certificate", "./x"}));

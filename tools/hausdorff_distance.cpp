@@ -20,6 +20,7 @@
 #include "common/threads.h"
 #include "common/time_limit.h"
 #include "common/tool_main.h"
+#include "deviation/deviation_outputs.h"
 #include "hausdorff/answer.h"
 #include "hausdorff/motion.h"
 #include "hausdorff/nearest.h"
@@ -29,6 +30,7 @@
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
 #include "meshbound/report.h"
 #include "meshbound/texture_deviation.h"
 #include "meshbound/transform.h"
@@ -77,8 +79,11 @@ Answer searched_answer(const Question& question, const TriangleMesh& a, const Tr
 
 /// Before any work: nothing that is written may replace what is read, and everything can be written.
 void check_paths(const Arguments& arguments) {
-  require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--transform-b", arguments.transform_b}},
-                         {{"--json", arguments.common.json}, {"--certificate", arguments.certificate}});
+  std::vector<NamedPath> outputs = arguments.deviation.outputs();
+  outputs.push_back({"--json", arguments.common.json});
+  outputs.push_back({"--certificate", arguments.certificate});
+  require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--transform-b", arguments.transform_b}}, outputs);
+  arguments.deviation.check();
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
 }
 
@@ -96,6 +101,27 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Trian
   file.write({reinterpret_cast<const char*>(certificate->bytes.data()), certificate->bytes.size()});
   file.commit();
   return true;
+}
+
+/// False when there was no time for it.
+bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Question& question, const TriangleMesh& a,
+                       const TriangleMesh& b, const Arguments& arguments, const Stopwatch& watch) {
+  const ProgressBar bar("measuring deviations", arguments.common.quiet);
+  DeviationSubject subject;
+  subject.original = &a;
+  subject.result = &b;
+  subject.original_name = "A";
+  subject.result_name = "B";
+  subject.scale = scale_for(question.tolerance.value_or(0), answer.bounds, bounding_box_diagonal(a));
+  const auto worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
+  subject.worst_is_on_original = !worst || worst->on_a;
+  try {
+    outputs.measure(subject, {arguments.common.threads, stop_of_run(arguments.common, watch)});
+    return true;
+  } catch (const Stopped&) {
+    if (interrupted()) throw Error("interrupted before the deviation was measured; none of its files was written");
+    return false;
+  }
 }
 
 void fill(DistanceReport& report, const Answer& answer, const Question& question, const Arguments& arguments) {
@@ -182,6 +208,8 @@ int run(const Arguments& arguments) {
   if (!arguments.poses.empty()) return run_motion(arguments);
   check_paths(arguments);
   std::optional<AtomicFile> certificate;
+  std::optional<DeviationOutputs> deviation;
+  if (arguments.deviation.has_any()) deviation.emplace(arguments.deviation);
   if (!arguments.certificate.empty())
     certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
   std::optional<Eigen::Affine3d> map;
@@ -191,7 +219,7 @@ int run(const Arguments& arguments) {
   TriangleMesh a, b;
   MeshAttributes attributes_of_a, attributes_of_b;
   double displacement = 0;
-  const bool with_checksums = !arguments.common.json.empty();
+  const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
   const StopToken stop = stop_of_reading(arguments.common, watch);
   run_both(
       arguments.common.threads,
@@ -226,9 +254,17 @@ int run(const Arguments& arguments) {
     require_texture(arguments.b, attributes_of_b);
     measure_texture(report, arguments, lengths, textured_meshes(a, attributes_of_a, b, attributes_of_b), watch, answer);
   }
+  if (deviation && measure_deviation(*deviation, answer, question, a, b, arguments, watch)) {
+    report.deviation = deviation->report();
+  } else if (deviation) {
+    deviation.reset();
+    std::fprintf(stderr, "hausdorff_distance: no time was left to measure deviations; their files were not written\n");
+    answer.exit_code = ExitUndecided;
+  }
   report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
   report.seconds.total = watch.seconds();
   fill(report, answer, question, arguments);
+  if (deviation) deviation->write(to_json(report));
   tell(report, arguments);
   return answer.exit_code;
 }

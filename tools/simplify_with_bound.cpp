@@ -22,6 +22,7 @@
 #include "common/texture_text.h"
 #include "decimation/decimation_run.h"
 #include "decimation/texture_locks.h"
+#include "deviation/deviation_outputs.h"
 #include "levels/level_run.h"
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
@@ -39,6 +40,7 @@ struct Options : DecimationOptions {
   bool prune = false;
   bool dry_run = false;
   BatchOptions batch;
+  DeviationRequest deviation;
 };
 
 /// Says what to use in place of an effort of earlier versions.
@@ -81,6 +83,7 @@ void declare(CLI::App& app, Options& options) {
                  "How far the texture may move on the surface at most: a length as above, or '2texels' with "
                  "--texture-size. Measured of what was written, between points of the same texture coordinate");
   app.add_option("--texture-size", options.texture_size, "Texels of a side of the texture")->check(CLI::PositiveNumber);
+  add_deviation_options(app, options.deviation, "IN", "OUT");
   add_decimation_options(app, options);
   add_examples(app,
                {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
@@ -111,6 +114,7 @@ class Run : DecimationRun {
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void certify();
   void write_certificates();
+  void measure_deviation();
   void end_if_interrupted() const;
   [[nodiscard]] std::filesystem::path save_reproducer(const GatedOutput& rejected, double tolerance) const;
   void publish();
@@ -122,11 +126,16 @@ class Run : DecimationRun {
   std::optional<OutputFolder> folder_;  ///< of the levels
   std::vector<GatedOutput> outputs_;
   std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
+  std::optional<DeviationOutputs> deviation_;
   SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
   /// The time ended the run: OUT is the best mesh that was proven by then.
   [[nodiscard]] bool ended_by_time() const;
+  /// Whether some output holds the JSON document, which has the checksums of the files.
+  [[nodiscard]] bool has_document() const {
+    return !options_.common.json.empty() || !options_.deviation.report.empty();
+  }
 
   std::optional<double> target_ratio_;
   std::optional<TextureLength> typed_texture_tolerance_;
@@ -154,9 +163,11 @@ int Run::operator()() {
     certify();
   } while (tightens_texture());
   if (verdict_ == Verdict::Within) write_certificates();
+  if (verdict_ == Verdict::Within && deviation_) measure_deviation();
   if (verdict_ == Verdict::Within) publish();
   report();
-  return verdict_ == Verdict::Within && ended_by_time() ? ExitUndecided : exit_code(verdict_);
+  const bool lacks_deviation = options_.deviation.has_any() && !report_.deviation;
+  return verdict_ == Verdict::Within && (ended_by_time() || lacks_deviation) ? ExitUndecided : exit_code(verdict_);
 }
 
 void Run::parse_target() {
@@ -167,7 +178,7 @@ void Run::parse_target() {
 }
 
 void Run::read() {
-  read_original(report_.original, !options_.common.json.empty(), options_.output);
+  read_original(report_.original, has_document(), options_.output);
   report_.seconds.read = watch_.lap();
 }
 
@@ -220,13 +231,15 @@ std::filesystem::path Run::certificate_path(std::size_t index) const {
 
 /// Before any work: nothing that is written may replace what is read, or what is written besides.
 void Run::check_paths() const {
-  std::vector<NamedPath> outputs{
-      {"OUT", options_.output}, {"--json", options_.common.json}, {"--certificate", options_.certificate}};
+  std::vector<NamedPath> outputs = options_.deviation.outputs();
+  outputs.insert(outputs.end(),
+                 {{"OUT", options_.output}, {"--json", options_.common.json}, {"--certificate", options_.certificate}});
   for (std::size_t i = 0; i < options_.levels.size(); ++i) {
     outputs.push_back({"--levels", level_path(i)});
     if (!options_.certificate.empty()) outputs.push_back({"--certificate", certificate_path(i)});
   }
   require_distinct_files({{"IN", options_.input}}, outputs);
+  options_.deviation.check();
   if (!options_.common.json.empty()) check_writable(options_.common.json);
 }
 
@@ -252,6 +265,7 @@ void Run::open_outputs() {
     }
   }
   outputs_.emplace_back(options_.output, stop(), options_.write);
+  if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
   if (options_.certificate.empty()) return;
   const StopToken signals{.cancel = &interrupted_};
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
@@ -410,9 +424,35 @@ void Run::write_certificates() {
   report_.seconds.certificate = watch_.lap();
 }
 
+/// Measures deviations of the meshes as their files read back. Leaves `deviation_` empty when there was no time for it.
+void Run::measure_deviation() {
+  const ProgressBar bar("measuring deviations", options_.common.quiet);
+  const GatedOutput& out = outputs_.back();
+  const TriangleMesh result = out.written_mesh();
+  const HausdorffDistance& distance = out.distance();
+  DeviationSubject subject;
+  subject.original = &original_;
+  subject.result = &result;
+  subject.original_name = "original";
+  subject.result_name = "simplified";
+  subject.scale = scale_for(tolerances_.back(), distance.bounds, diagonal_);
+  const auto worst = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a);
+  subject.worst_is_on_original = !worst || worst->on_a;
+  if (!options_.deviation.report.empty())
+    for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) subject.levels.push_back(outputs_[i].written_mesh());
+  try {
+    deviation_->measure(subject, {options_.common.threads, stop()});
+    report_.deviation = deviation_->report();
+  } catch (const Stopped&) {
+    end_if_interrupted();
+    deviation_.reset();
+    std::fprintf(stderr, "simplify_with_bound: no time was left to measure deviations; their files were not written\n");
+  }
+}
+
 /// The certificates last: one that is there speaks of a mesh that is there.
 void Run::publish() {
-  if (!options_.common.json.empty())
+  if (has_document())
     for (const GatedOutput& output : outputs_) checksums_.push_back(output.checksum());
   const UninterruptedScope together;
   for (GatedOutput& output : outputs_) output.publish();
@@ -439,6 +479,7 @@ void Run::report() {
   report_.threads = threads();
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
+  if (report_.deviation) deviation_->write(to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
   if (verdict_ == Verdict::Within && ended_by_time())
     std::fprintf(stderr,
@@ -488,6 +529,7 @@ void Run::print_summary() const {
   }
   print_lines(report_.lines, diagonal_);
   if (report_.texture) print_texture(*report_.texture, {"original to simplified", "simplified to original"}, diagonal_);
+  if (report_.deviation) print_deviation(*report_.deviation, "original to simplified", "simplified to original");
   print_locked(result_.locked_vertices, report_.original.summary);
   if (options_.prune)
     print_line("pruned", std::to_string(result_.pruned_components) + " components of " +

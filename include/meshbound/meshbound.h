@@ -6,6 +6,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/certificate.h"
 #include "meshbound/collapse_checker.h"
+#include "meshbound/deviation_map.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/face_tolerances.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "meshbound/bounds.h"
+#include "meshbound/deviation_map.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
@@ -63,6 +64,15 @@ struct TextureReport {
   double texel_length = 0;             ///< see `texel_length`, model units; where there is a texture size
 };
 
+/// How far two meshes are from each other over their area.
+struct DeviationReport {
+  double scale = 1;            ///< where the histograms and the scale of colours end, model units
+  std::string scale_meaning;   ///< "tolerance", "proven maximum" or "1e-9 of the diagonal"
+  std::string unit;            ///< of lengths, as the user named it; may be empty
+  DeviationStatistics a_to_b;  ///< of points of A (the original), distances to B
+  DeviationStatistics b_to_a;  ///< of points of B (the simplified mesh), distances to A
+};
+
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
 struct DistanceReport {
   std::optional<Provenance> provenance;
@@ -78,6 +88,7 @@ struct DistanceReport {
   std::optional<OneSidedDistance> b_to_a;  ///< absent when only one side was asked for
   std::optional<WorstSpot> worst;          ///< see `worst_spot`
   bool worst_was_wanted = false;           ///< by `--worst`: the text names it whatever the verdict
+  std::optional<DeviationReport> deviation;      ///< where an output that shows it was asked for
   std::optional<double> transform_displacement;  ///< rounding of the transformed vertices of B, within the bounds
   std::optional<TextureReport> texture;          ///< where it was asked for and measured in time
   bool texture_was_wanted = false;               ///< by `--texture`
@@ -136,6 +147,7 @@ struct SimplifyReport {
   HausdorffDistance distance;                     ///< a: the original, b: the simplified mesh as written
   std::optional<LineReport> lines;                ///< where there are feature lines
   std::optional<TextureReport> texture;           ///< where it was asked for
+  std::optional<DeviationReport> deviation;       ///< where an output that shows it was asked for
   std::string stopped_by;  ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   /// What `SimplifyOptions::prune` dropped.
   struct Pruned {

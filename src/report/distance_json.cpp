@@ -23,6 +23,7 @@ std::string to_json(const DistanceReport& from) {
   if (from.b_to_a) json["distance"]["b_to_a"] = one_sided(*from.b_to_a);
   if (from.texture) json["texture"] = texture(*from.texture, diagonal, "a_to_b", "b_to_a");
   if (from.worst) json["worst"] = worst(*from.worst, "a_to_b", "b_to_a");
+  if (from.deviation) json["deviation"] = deviation(*from.deviation, "a_to_b", "b_to_a");
   json["stats"] = stats(directions);
   json["seconds"] = {{"read", number(from.seconds.read)},
                      {"build", number(from.seconds.build)},

@@ -31,6 +31,16 @@ Json texture_one_sided(const OneSidedTextureDeviation& from) {
   return json;
 }
 
+Json statistics(const DeviationStatistics& from) {
+  return {{"samples", from.samples},
+          {"mean", number(from.mean)},
+          {"root_mean_square", number(from.root_mean_square)},
+          {"percentile_95", number(from.percentile_95)},
+          {"largest_sample", number(from.largest_sample)},
+          {"histogram", from.histogram},
+          {"beyond_scale", from.beyond_scale}};
+}
+
 }  // namespace
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -89,6 +99,14 @@ Json symmetric(const HausdorffDistance& distance) {
   Json json = bounds(distance.bounds);
   json["original_to_simplified"] = one_sided(distance.a_to_b);
   json["simplified_to_original"] = one_sided(distance.b_to_a);
+  return json;
+}
+
+Json deviation(const DeviationReport& report, const char* from_a, const char* from_b) {
+  Json json = {{"scale", number(report.scale)}, {"scale_meaning", report.scale_meaning}};
+  if (!report.unit.empty()) json["unit"] = report.unit;
+  json[from_a] = statistics(report.a_to_b);
+  json[from_b] = statistics(report.b_to_a);
   return json;
 }
 

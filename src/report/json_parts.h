@@ -43,6 +43,9 @@ using Json = nlohmann::ordered_json;
 /// Bounds of the texture deviation of both directions and their maximum; `from_a` and `from_b` name the directions.
 [[nodiscard]] Json texture(const TextureReport& texture, double diagonal, const char* from_a, const char* from_b);
 
+/// Statistics of both directions; `from_a` and `from_b` name them.
+[[nodiscard]] Json deviation(const DeviationReport& report, const char* from_a, const char* from_b);
+
 /// Statistics over the directions that were searched: sums of counts, and means of percentages weighted by those
 /// counts.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);

@@ -62,8 +62,8 @@ void check_batch_usage(const CLI::App& app, const BatchOptions& options) {
     return option != nullptr && option->count() > 0;
   };
   if (options.is_wanted()) {
-    for (const char* const name :
-         {"IN", "OUT", "--levels", "--certificate", "--json", "--heatmap", "--report", "--image", "--dry-run"})
+    for (const char* const name : {"IN", "OUT", "--levels", "--certificate", "--json", "--heatmap",
+                                   "--heatmap-original", "--report", "--image", "--dry-run"})
       if (was_given(name))
         throw InvalidInput(std::string(name) +
                            " is for a single mesh; a batch writes to --output-dir, with a line of "

@@ -58,6 +58,7 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
          },
          "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
       ->check(CLI::IsMember({"cell-walking", "cross-culling"}));
+  add_deviation_options(app, arguments.deviation, "A", "B");
   add_common_options(app, arguments.common);
   add_examples(
       app, {"hausdorff_distance bunny.ply small.ply", "hausdorff_distance bunny.ply small.ply --tolerance 0.1% --quiet",
@@ -87,6 +88,9 @@ TypedLengths parse_lengths(const Arguments& arguments) {
     throw InvalidInput(
         "--poses goes with --error-bound, --tolerance and --method, not with --one-sided, --worst, --profile, "
         "--transform-b or --certificate");
+  if (arguments.deviation.has_any() && (!arguments.nearest.empty() || !arguments.poses.empty()))
+    throw InvalidInput(arguments.deviation.outputs().front().role + " shows one pair of meshes; leave out " +
+                       (arguments.nearest.empty() ? "--poses" : "--nearest"));
   if (arguments.certificate.empty()) return lengths;
   if (arguments.tolerance.empty() || arguments.one_sided || !arguments.transform_b.empty())
     throw InvalidInput("--certificate needs --tolerance, both directions and the meshes as they are in the files");

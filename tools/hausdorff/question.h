@@ -6,6 +6,7 @@
 #include "common/length.h"
 #include "common/texture_length.h"
 #include "common/tool_main.h"
+#include "deviation/deviation_request.h"
 #include "meshbound/distance.h"
 #include "meshbound/triangle_mesh.h"
 
@@ -30,6 +31,7 @@ struct Arguments {
   std::optional<double> texture_size;
   std::string certificate;
   Method method = Method::CellWalking;
+  DeviationRequest deviation;
   CommonOptions common;
 };
 

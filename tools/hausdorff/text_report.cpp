@@ -7,6 +7,7 @@
 #include "common/distance_text.h"
 #include "common/length.h"
 #include "common/texture_text.h"
+#include "deviation/deviation_outputs.h"
 
 namespace meshbound::tools {
 namespace {
@@ -95,6 +96,7 @@ void print_report(const DistanceReport& report, bool profile) {
   if (report.worst_was_wanted && report.worst)
     print_line("worst spot", spot(*report.worst) + (report.worst->on_a ? " of A" : ""));
   if (report.texture) print_texture(*report.texture, {"A to B", "B to A"}, diagonal);
+  if (report.deviation) print_deviation(*report.deviation, "A to B", "B to A");
   if (report.transform_displacement)
     print_line("transform", "coordinates of B rounded by at most " + exact_number(*report.transform_displacement) +
                                 ", which the bounds include");

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "deviation/camera.h"
+#include "deviation/deviation_scale.h"
+#include "deviation/picture.h"
+#include "meshbound/bvh.h"
+#include "meshbound/deviation_map.h"
+#include "meshbound/triangle_mesh.h"
+
+namespace meshbound::tools {
+
+/// What a picture of two meshes shows.
+struct DeviationScene {
+  const TriangleMesh* original = nullptr;  ///< in the first panel
+  const TriangleMesh* result = nullptr;    ///< in the second one
+  const TriangleMesh* coloured = nullptr;  ///< in the third one: one of both ...
+  const Bvh* other = nullptr;              ///< ... in the colours of its distance from the other one
+  std::string coloured_title;              ///< such as "original to result"
+  std::string result_title;                ///< such as "simplified"
+  std::string unit;                        ///< of lengths, may be empty
+  DeviationScale scale;
+  UpAxis up = UpAxis::Z;
+};
+
+/// The meshes and the deviation side by side, with a scale below. The deviation is measured at the point of the surface
+/// that stands at the middle of each pixel (four for each pixel of the picture), not interpolated. Throws `Stopped` as
+/// the options say.
+[[nodiscard]] Picture deviation_image(const DeviationScene& scene, const DeviationOptions& options);
+
+}  // namespace meshbound::tools

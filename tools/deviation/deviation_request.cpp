@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "deviation/deviation_request.h"
+
+#include <map>
+
+#include "deviation/report_file.h"
+#include "mesh/output_target.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+
+namespace meshbound::tools {
+
+std::vector<NamedPath> DeviationRequest::outputs() const {
+  std::vector<NamedPath> all{
+      {"--heatmap", heatmap}, {"--heatmap-original", original_heatmap}, {"--report", report}, {"--image", image}};
+  std::erase_if(all, [](const NamedPath& output) { return output.path.empty(); });
+  return all;
+}
+
+void DeviationRequest::check() const {
+  if (!report.empty()) require_report_page("--report");
+  for (const NamedPath& output : outputs()) {
+    if (output.role.starts_with("--heatmap") && format_of(output.path) != FileFormat::Ply)
+      throw InvalidInput(output.role + ": " + output.path.string() +
+                         " must be a .ply file: of the formats here only PLY holds numbers and colours of vertices");
+    (void)output_target(output.path);
+  }
+}
+
+void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::string& original,
+                           const std::string& result) {
+  app.add_option(
+      "--heatmap", request.heatmap,
+      "Write " + result + " as PLY with the distance of each vertex to " + original +
+          " (quality) and its colour, from 0 to the tolerance, or to the proven maximum where there is none");
+  app.add_option("--heatmap-original", request.original_heatmap,
+                 "Write " + original + " as PLY with the distance of each vertex to " + result);
+  app.add_option("--report", request.report,
+                 "Write a report as one HTML file: both meshes in 3D with their deviation, statistics, and the JSON "
+                 "document");
+  app.add_option("--image", request.image, "Write a PNG picture of both meshes and the deviation; needs no display");
+  app.add_option("--units", request.units, "What a length is called in the report and the picture, such as mm");
+  app.add_option("--up", request.up, "Axis that points up in the report and the picture: x, y or z (default)")
+      ->transform(CLI::Transformer(std::map<std::string, UpAxis>{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}},
+                                   CLI::ignore_case));
+}
+
+}  // namespace meshbound::tools

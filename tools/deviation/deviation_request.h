@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common/distinct_files.h"
+#include "common/tool_main.h"
+#include "deviation/camera.h"
+
+namespace meshbound::tools {
+
+/// The options that ask to see where two meshes differ.
+struct DeviationRequest {
+  std::string heatmap;           ///< file for the result in colours; empty, here and below: not wanted
+  std::string original_heatmap;  ///< file for the original in colours
+  std::string report;            ///< HTML file
+  std::string image;             ///< PNG file
+  std::string units;             ///< what a length is called, such as "mm"
+  UpAxis up = UpAxis::Z;
+
+  [[nodiscard]] bool has_any() const { return !outputs().empty(); }
+  /// The files that are asked for, with the names of their options.
+  [[nodiscard]] std::vector<NamedPath> outputs() const;
+  /// Before any work. Throws `InvalidInput` and `IoError` for what cannot be written.
+  void check() const;
+};
+
+/// Adds --heatmap, --heatmap-original, --report, --image, --units and --up. The meshes are called as the help of the
+/// tool calls them: "IN" and "OUT", "A" and "B".
+void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::string& original,
+                           const std::string& result);
+
+}  // namespace meshbound::tools

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "deviation/report_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "deviation/base64.h"
+#include "deviation/report_page.h"
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+
+namespace meshbound::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Little-endian bytes of numbers, which is what a browser has in its arrays.
+template <class T>
+void append(std::string& bytes, T value) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if constexpr (std::endian::native != std::endian::little) std::reverse(raw, raw + sizeof(T));
+  bytes.append(raw, sizeof(T));
+}
+
+/// Coordinates of the view: the box of the original around 0, its diagonal 1, so that floats hold any model.
+struct ViewFrame {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double size = 1;
+
+  explicit ViewFrame(const TriangleMesh& original) {
+    const Eigen::AlignedBox3d box = used_bounding_box(original);
+    if (box.isEmpty()) return;
+    centre = box.min() / 2 + box.max() / 2;
+    if (const double diagonal = diagonal_of(box); diagonal > 0) size = diagonal;
+  }
+};
+
+std::string positions(const TriangleMesh& mesh, const ViewFrame& frame) {
+  std::string bytes;
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) {
+      const double x = (p[k] - frame.centre[k]) / frame.size;
+      append(bytes, static_cast<float>(std::isfinite(x) ? std::clamp(x, -1e30, 1e30) : 0));
+    }
+  }
+  return base64(bytes);
+}
+
+/// The page draws 65535 in the colour for what is beyond the scale, 0 to 65534 on it.
+std::string coded(const std::vector<Bounds>& deviations, const DeviationScale& scale) {
+  constexpr std::uint16_t beyond = 65535;
+  std::string bytes;
+  for (const Bounds& deviation : deviations) {
+    const double share = std::min(1.0, deviation.upper / scale.end);
+    append(bytes, deviation.lower > scale.end ? beyond : static_cast<std::uint16_t>(std::lround(share * (beyond - 1))));
+  }
+  return base64(bytes);
+}
+
+template <class Indices>
+std::string indices(const std::vector<Indices>& rows) {
+  std::string bytes;
+  for (const Indices& row : rows)
+    for (const std::uint32_t index : row) append(bytes, index);
+  return base64(bytes);
+}
+
+Json mesh_json(const DisplayMesh& display, const char* role, const std::string& name, const ReportScene& scene,
+               const ViewFrame& frame) {
+  return {{"role", role},
+          {"name", name},
+          {"faces", display.faces},
+          {"shown", display.mesh.triangles.size()},
+          {"reduced", display.is_reduced},
+          {"positions", positions(display.mesh, frame)},
+          {"triangles", indices(display.mesh.triangles)},
+          {"edges", indices(display.edges)},
+          {"deviations", coded(display.deviations, scene.scale)}};
+}
+
+std::string scene_json(const ReportScene& scene) {
+  const ViewFrame frame(scene.original.mesh);
+  Json json = {{"frame", {{"centre", {frame.centre.x(), frame.centre.y(), frame.centre.z()}}, {"size", frame.size}}},
+               {"scale", {{"end", scene.scale.end}, {"meaning", scene.scale.meaning}}},
+               {"unit", scene.unit},
+               {"up", {scene.up == UpAxis::X ? 1 : 0, scene.up == UpAxis::Y ? 1 : 0, scene.up == UpAxis::Z ? 1 : 0}},
+               {"beyond", colour_beyond}};
+  for (const Colour& stop : colour_stops()) json["stops"].push_back(stop);
+  json["meshes"].push_back(mesh_json(scene.original, "first", scene.original_name, scene, frame));
+  for (std::size_t i = 0; i < scene.levels.size(); ++i) {
+    const bool is_result = i + 1 == scene.levels.size();
+    const std::string name = is_result ? scene.result_name : "level " + std::to_string(i);
+    Json& mesh = json["meshes"].emplace_back(mesh_json(scene.levels[i].display, "second", name, scene, frame));
+    mesh["first_deviations"] = coded(scene.levels[i].first, scene.scale);
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// JSON that no HTML parser takes for the end of its element: "<" stands only in strings.
+std::string in_html(std::string json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+/// Writes `page` up to `mark` and returns what follows.
+std::string_view write_until(AtomicFile& file, std::string_view page, std::string_view mark) {
+  const std::size_t at = page.find(mark);
+  file.write(page.substr(0, at));
+  return page.substr(at + mark.size());
+}
+
+}  // namespace
+
+void require_report_page(const std::string& option) {
+  if (!report_page())
+    throw InvalidInput(option +
+                       ": this build has no report page, which needs three.js from npm; install Node.js and npm, then "
+                       "configure and build again");
+}
+
+void write_report(AtomicFile& file, const std::string& document, const ReportScene& scene) {
+  require_report_page("--report");
+  std::string_view rest = write_until(file, *report_page(), "@@DOCUMENT@@");
+  file.write(in_html(document));
+  rest = write_until(file, rest, "@@SCENE@@");
+  file.write(in_html(scene_json(scene)));
+  file.write(rest);
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string_view>
+
+namespace meshbound::tools {
+
+/// The HTML page of a report, without its data: `@@DOCUMENT@@` and `@@SCENE@@` stand where they go. Absent in a build
+/// that was configured without npm, from which three.js comes.
+[[nodiscard]] std::optional<std::string_view> report_page();
+
+}  // namespace meshbound::tools

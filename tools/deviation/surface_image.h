@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "deviation/camera.h"
+#include "meshbound/mesh_view.h"
+
+namespace meshbound::tools {
+
+/// Which triangle of a mesh each pixel of a picture shows.
+class SurfaceImage {
+ public:
+  /// O(triangles + pixels that they cover).
+  SurfaceImage(const TriangleMesh& mesh, const Camera& camera, int width, int height);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  /// `no_index` where there is no surface. 0 <= x < `width()`, 0 <= y < `height()`, here and below.
+  [[nodiscard]] std::uint32_t triangle(int x, int y) const { return triangles_[index(x, y)]; }
+  /// The point of the surface at the middle of a pixel that has a triangle, model units.
+  [[nodiscard]] Eigen::Vector3d point(int x, int y) const;
+  /// A pixel at the border between two triangles, or of the surface.
+  [[nodiscard]] bool is_edge(int x, int y) const;
+  /// Pixels that have a triangle.
+  [[nodiscard]] std::size_t covered() const;
+
+ private:
+  void draw(std::uint32_t triangle);
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  const TriangleMesh& mesh_;
+  const Camera& camera_;
+  int width_, height_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<double> depths_;
+};
+
+}  // namespace meshbound::tools
