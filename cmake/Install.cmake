@@ -36,6 +36,14 @@ if(TARGET meshbound_c)
   install(FILES ${PROJECT_BINARY_DIR}/meshbound_c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endif()
 
+# Where Debian's Python looks; only when the component python is asked for, since pip installs the package elsewhere.
+if(TARGET meshbound_python)
+  set(python_dir lib/python3/dist-packages/meshbound)
+  install(TARGETS meshbound_python LIBRARY DESTINATION ${python_dir} COMPONENT python EXCLUDE_FROM_ALL)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/python/meshbound/ DESTINATION ${python_dir} COMPONENT python
+    EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed")
+endif()
+
 foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance penetration_depth verify_certificate generate_mesh)
   if(TARGET ${tool})
     install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
