@@ -81,7 +81,9 @@ TEST(Formats, AreToldFromTheExtension) {
   EXPECT_EQ(format_of("/b/c.d/A.OBJ"), FileFormat::Obj);
   EXPECT_EQ(format_of("x.Ply"), FileFormat::Ply);
   EXPECT_EQ(format_of("x.stl"), FileFormat::Stl);
-  for (const char* unknown : {"x.gltf", "x", "", ".ply", "x.ply.gz", "off"})
+  EXPECT_EQ(format_of("x.glb"), FileFormat::Glb);
+  EXPECT_EQ(format_of("x.GLTF"), FileFormat::Gltf);
+  for (const char* unknown : {"x.fbx", "x", "", ".ply", "x.ply.gz", "off"})
     EXPECT_THROW((void)format_of(unknown), InvalidInput) << unknown;
 }
 

@@ -470,12 +470,13 @@ TEST_F(SimplifyTool, FindsFewerFacesWithMoreEffort) {
   EXPECT_NE(fast.err.find("use normal"), std::string::npos) << fast.err;
 }
 
-/// Until attributes are carried: what is lost is said, in the text and in the JSON, and nothing where there is nothing.
+/// Where attributes are not carried: what is lost is said, in the text and in the JSON, and nothing where there is
+/// nothing.
 TEST_F(SimplifyTool, SaysWhatItDrops) {
   write_mesh(in("plain.obj"), datasets::icosphere(1, 2));
   std::ofstream(in("painted.obj")) << content_of(in("plain.obj"))
                                    << "mtllib m.mtl\nusemtl paint\nvt 0 0\nvt 1 0\nl 1 2\n";
-  const Result painted = run("painted.obj out.ply --tolerance 0.02 --json r.json");
+  const Result painted = run("painted.obj out.stl --tolerance 0.02 --json r.json");
   EXPECT_EQ(painted.exit_code, 0) << painted.err;
   EXPECT_EQ(painted.err, "");
   EXPECT_NE(painted.out.find("\ndropped: 2 texture coordinates, 1 material\n"), std::string::npos) << painted.out;
@@ -486,6 +487,10 @@ TEST_F(SimplifyTool, SaysWhatItDrops) {
   EXPECT_EQ(original["ignored_elements"], 1);
   EXPECT_EQ(run("plain.obj out.ply --tolerance 0.02").out.find("dropped"), std::string::npos);
   EXPECT_EQ(run("painted.obj out.ply --tolerance 0.02 --quiet").out, "");
+  const Result strict = run("painted.obj strict.ply --tolerance 0.02 --strict");
+  expect_refused(strict, "strict.ply");
+  EXPECT_NE(strict.err.find("strict.ply would not carry 1 material"), std::string::npos) << strict.err;
+  EXPECT_EQ(run("plain.obj strict.ply --tolerance 0.02 --strict").exit_code, 0);
 }
 
 /// Files of the wild and of malice: either a proven result, or one line and no file.

@@ -346,7 +346,7 @@ TEST_F(ToolConventions, AttributesComeAlongBetweenObjFiles) {
   EXPECT_NE(bare.out.find("dropped: 289 texture coordinates, 2 materials"), std::string::npos) << bare.out;
   EXPECT_EQ(content_of(in("bare.obj")).find("vt "), std::string::npos);
   EXPECT_EQ(checked_document(content_of(in("r.json")))["simplified"]["faces"], 2);
-  EXPECT_NE(run("out.ply", {}).out.find("dropped: 289 texture coordinates, 2 materials"), std::string::npos);
+  EXPECT_NE(run("out.ply", {}).out.find("dropped: 2 materials\n"), std::string::npos);
   ASSERT_EQ(run_tool(LOD_CHAIN, {in("sheet.obj"), in("chain"), "--levels", "0.5", "--format", "obj"}).exit_code, 0);
   EXPECT_NE(content_of(in("chain/lod_0.obj")).find("usemtl blue"), std::string::npos);
 }

@@ -17,7 +17,9 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "decimation/decimation_run.h"
-#include "levels/level_run.h"
+#include "levels/scene_run.h"
+#include "lod/one_file.h"
+#include "lod/tileset.h"
 #include "meshbound/error.h"
 #include "view/view_run.h"
 
@@ -25,14 +27,16 @@ namespace meshbound::tools {
 namespace {
 
 struct Options : DecimationOptions {
-  std::string folder, format = "ply", scene;
+  std::string folder, format = "ply", scene, one_file;
+  bool tileset = false;
   std::vector<std::string> levels, distances;
   std::vector<double> pixels;
   std::optional<double> screen_height, fov;
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("IN", options.input, "Mesh to make levels of: OFF, OBJ, PLY or STL; with --scene leave it out")
+  app.add_option("IN", options.input,
+                 "Mesh to make levels of: OFF, OBJ, PLY, STL, GLB or glTF; with --scene leave it out")
       ->required();
   app.add_option("DIR", options.folder,
                  "Folder for lod_0 (the finest), lod_1, ... and chain.json; made when it is not there. Levels of an "
@@ -54,8 +58,14 @@ void declare(CLI::App& app, Options& options) {
                  "With --pixels: height of the screen in pixels (default 1080)");
   app.add_option("--fov", options.fov, "With --pixels: vertical field of view in degrees (default 60)");
   app.add_option("--format", options.format, "Format of the level files")
-      ->check(CLI::IsMember({"ply", "obj", "off", "stl"}))
+      ->check(CLI::IsMember({"ply", "obj", "off", "stl", "glb", "gltf"}))
       ->capture_default_str();
+  app.add_option("--glb", options.one_file,
+                 "With --format glb: write all levels into this file, too, for engines that know MSFT_lod; a level is "
+                 "shown where its proven error covers at most a pixel (or the first of --pixels)");
+  app.add_flag("--tileset", options.tileset,
+               "With --format glb: write DIR/tileset.json, too, for viewers of 3D Tiles; geometricError is the proven "
+               "error of each level");
   add_decimation_options(app, options);
   add_examples(
       app, {"lod_chain bunny.ply lods --levels 0.1%,0.3%,1%", "lod_chain bunny.ply lods --pixels 1,2,4 --distances 3"});
@@ -88,6 +98,7 @@ class Run : DecimationRun {
   void check_paths() const;
   [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
   [[nodiscard]] std::filesystem::path chain_path() const;
+  [[nodiscard]] std::filesystem::path tileset_path() const;
   void read();
   void choose_tolerances();
   void choose_view();
@@ -95,13 +106,17 @@ class Run : DecimationRun {
   void make_levels();
   [[nodiscard]] bool take(std::size_t index, const SimplifiedLevel& level);
   void publish();
+  void write_tileset() const;
   [[nodiscard]] std::vector<std::filesystem::path> stale_files() const;
   void print_summary() const;
+
+  [[nodiscard]] double screen_height() const { return options_.screen_height.value_or(default_screen_height); }
 
   const Options& options_;
   std::optional<OutputFolder> folder_;
   std::vector<GatedOutput> outputs_;  ///< one for each tolerance
-  std::vector<double> pixels_;        ///< of the tolerances, where they come from a view
+  std::optional<AtomicFile> one_file_;
+  std::vector<double> pixels_;  ///< of the tolerances, where they come from a view
   LodReport report_;
   std::optional<ProgressBar> bar_;
   bool ended_by_time_ = false;  ///< for some level
@@ -130,6 +145,8 @@ int Run::operator()() {
 }
 
 void Run::check_usage() const {
+  if ((!options_.one_file.empty() || options_.tileset) && options_.format != "glb")
+    throw InvalidInput("--glb and --tileset need --format glb");
   if (options_.folder.empty()) throw InvalidInput("DIR is required: the folder for the levels (see --help)");
   const bool has_view =
       !options_.pixels.empty() || !options_.distances.empty() || options_.screen_height || options_.fov;
@@ -154,8 +171,11 @@ std::filesystem::path Run::level_path(std::size_t index) const {
 
 std::filesystem::path Run::chain_path() const { return std::filesystem::path(options_.folder) / "chain.json"; }
 
+std::filesystem::path Run::tileset_path() const { return std::filesystem::path(options_.folder) / "tileset.json"; }
+
 void Run::check_paths() const {
-  std::vector<NamedPath> outputs{{"DIR", chain_path()}, {"--json", options_.common.json}};
+  std::vector<NamedPath> outputs{{"DIR", chain_path()}, {"--json", options_.common.json}, {"--glb", options_.one_file}};
+  if (options_.tileset) outputs.push_back({"DIR", tileset_path()});
   const std::size_t of_view = std::max(options_.pixels.size(), options_.distances.size());
   for (std::size_t i = 0; i < options_.levels.size() + of_view; ++i) outputs.push_back({"DIR", level_path(i)});
   require_distinct_files({{"IN", options_.input}}, outputs);
@@ -173,8 +193,7 @@ void Run::choose_tolerances() {
 }
 
 void Run::choose_view() {
-  const Screen screen{options_.screen_height.value_or(default_screen_height),
-                      options_.fov.value_or(default_fov) / 180 * std::numbers::pi};
+  const Screen screen{screen_height(), options_.fov.value_or(default_fov) / 180 * std::numbers::pi};
   std::vector<std::pair<double, double>> levels;  // tolerance, pixels
   for (const double pixels : options_.pixels) {
     for (const std::string& text : options_.distances) {
@@ -195,6 +214,9 @@ void Run::open_outputs() {
   folder_.emplace(options_.folder);
   for (std::size_t i = 0; i < tolerances_.size(); ++i) outputs_.emplace_back(level_path(i), stop(), options_.write);
   check_writable(chain_path());
+  if (options_.tileset) check_writable(tileset_path());
+  if (!options_.one_file.empty())
+    one_file_.emplace(options_.one_file, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted_});
   if (!options_.common.json.empty()) check_writable(options_.common.json);
 }
 
@@ -203,10 +225,13 @@ void Run::make_levels() {
   report_.verdict = Verdict::Within;
   SimplifyOptions options = decimation(outputs_.back(), *bar_);
   options.tolerance = tolerances_.back();
-  LevelRun run(original_, options);
+  SceneRun run(original_, attributes_, options);
   set_lines(run.lines());
-  for (std::size_t i = 0; i < tolerances_.size(); ++i)
-    if (!take(i, run.next(tolerances_[i], 0))) break;
+  for (std::size_t i = 0; i < tolerances_.size(); ++i) {
+    SimplifiedLevel level = run.next(before_rounding(tolerances_[i]), 0);
+    level.tolerance = tolerances_[i];
+    if (!take(i, level)) break;
+  }
   SimplifyResult run_of_all;
   run.describe(run_of_all);
   report_.locked_vertices = run_of_all.locked_vertices;
@@ -226,8 +251,8 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   report_.seconds.write += watch_.lap();
   const auto redo = [&](double tolerance) {
     SimplifyOptions again = decimation(output, *bar_);
-    again.tolerance = tolerance;
-    return decimate_levels(original_, again).last();
+    again.tolerance = before_rounding(tolerance);
+    return decimate_levels(original_, again, attributes_).last();
   };
   const DecidedBy decided_by = prove(output, level.tolerance, index > 0 ? &outputs_[index - 1] : nullptr, redo);
   report_.seconds.certify += watch_.lap();
@@ -260,12 +285,31 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
 
 void Run::publish() {
   const std::vector<std::filesystem::path> stale = stale_files();
+  if (one_file_) {
+    const PixelError limit{report_.view ? report_.view->pixels : 1, screen_height()};
+    write_levels(*one_file_, outputs_, original_, attributes_, limit);
+    one_file_->complete();
+  }
   const UninterruptedScope together;
   // The report names the files, so it comes last; an interrupted rename leaves the old report with the old names.
   for (GatedOutput& output : outputs_) output.publish();
+  if (one_file_) one_file_->commit();
+  if (options_.tileset) write_tileset();
   write_text(chain_path(), to_json(report_));
   std::error_code ignored;  // the new chain.json does not name them, whether they go or not
   for (const std::filesystem::path& path : stale) std::filesystem::remove(path, ignored);
+}
+
+void Run::write_tileset() const {
+  std::vector<TileLevel> levels;
+  for (const LodReport::Level& level : report_.levels) levels.push_back({level.file, level.distance.bounds.upper});
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : original_.triangles)
+    for (const std::uint32_t v : t) box.extend(original_.vertices[v]);
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(levels.back().error);  // a level may stand out by that
+  box.extend(Eigen::Vector3d(box.min() - margin));
+  box.extend(Eigen::Vector3d(box.max() + margin));
+  write_text(tileset_path(), tileset(levels, box));
 }
 
 /// Levels of an earlier run in the same folder that this run neither reads nor writes.

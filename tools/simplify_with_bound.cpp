@@ -49,7 +49,7 @@ std::string is_effort(const std::string& effort) {
 }
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY or STL");
+  app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF");
   app.add_option("OUT", options.output, "File for the result; its extension chooses the format");
   app.add_option("--tolerance", options.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
@@ -276,12 +276,12 @@ void Run::open_outputs() {
 void Run::simplify() {
   ProgressBar bar("simplifying", options_.common.quiet);
   SimplifyOptions simplify = decimation_options(bar);
-  simplify.tolerance = tolerances_.back();
+  simplify.tolerance = before_rounding(tolerances_.back());
   if (texture_locks_) simplify.locked_vertices = texture_locks_->locked();
   if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
     simplify.tolerance = std::min(simplify.tolerance, original_texture_->tolerance);
-  simplify.levels.assign(tolerances_.begin(), tolerances_.end() - 1);
-  result_ = decimate_levels(original_, simplify);
+  for (std::size_t i = 0; i + 1 < tolerances_.size(); ++i) simplify.levels.push_back(before_rounding(tolerances_[i]));
+  result_ = decimate_levels(original_, simplify, attributes_);
   set_lines(result_.lines);
   report_.effort = options_.effort;
   report_.driver = options_.driver;
@@ -319,8 +319,8 @@ void Run::certify() {
     bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
     const auto redo = [&](double tolerance) {
       SimplifyOptions again = decimation_options(bar);
-      again.tolerance = tolerance;
-      return decimate_levels(original_, again).last();
+      again.tolerance = before_rounding(tolerance);
+      return decimate_levels(original_, again, attributes_).last();
     };
     decided_by_.push_back(prove(outputs_[i], tolerances_[level], i > 0 ? &outputs_[i - 1] : nullptr, redo));
     verdict_ = outputs_[i].verdict();

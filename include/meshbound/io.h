@@ -11,8 +11,8 @@
 
 namespace meshbound {
 
-/// The formats that are read and written.
-enum class FileFormat { Off, Obj, Ply, Stl };
+/// The formats that are read and written. `Gltf` is glTF 2 as a text, `Glb` glTF 2 in one binary file.
+enum class FileFormat { Off, Obj, Ply, Stl, Gltf, Glb };
 
 /// From the extension of `path`, upper or lower case. Throws `InvalidInput` when it is none of ours.
 [[nodiscard]] FileFormat format_of(const std::filesystem::path& path);
@@ -27,7 +27,8 @@ struct DroppedAttributes {
   std::size_t groups = 0;               ///< names of groups and objects (OBJ); solids where a file has several (STL)
   std::size_t smoothing_groups = 0;     ///< OBJ
   std::size_t facet_attributes = 0;     ///< binary STL: facets whose attribute bytes are not 0
-  std::size_t other_properties = 0;     ///< PLY: properties of any other name, once each
+  std::size_t other_properties = 0;     ///< PLY and glTF: properties of any other name, once each
+  std::size_t scene_objects = 0;        ///< glTF: textures, cameras, animations, skins
 
   [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;  ///< the same counts of all
 };
@@ -36,10 +37,11 @@ struct DroppedAttributes {
 struct MeshFile {
   TriangleMesh mesh;                      ///< model units, as in the file
   std::size_t triangulated_polygons = 0;  ///< faces of more than three corners, split into triangles
-  std::size_t decoded_strips = 0;         ///< triangle strips (PLY `tristrips`)
+  std::size_t decoded_strips = 0;         ///< triangle strips and fans (PLY `tristrips`, glTF)
   std::size_t ignored_elements = 0;       ///< faces of fewer than three corners, lines and points
   DroppedAttributes dropped;              ///< what the file holds beyond that and `attributes`
-  MeshAttributes attributes;              ///< when they were asked for, and the reader of the format knows them (OBJ)
+  std::size_t rest_pose_parts = 0;        ///< glTF: primitives with a skin or morph targets, read without these
+  MeshAttributes attributes;              ///< when they were asked for
 };
 
 /// How a file is read.
@@ -50,11 +52,15 @@ struct ReadOptions {
   bool attributes = false;  ///< read `MeshFile::attributes`, too
 };
 
-/// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double) or STL (ascii, binary; corners welded by
-/// exact coordinates). Polygons are split into fans from their first corner. Degenerate and duplicate triangles are
-/// kept. Throws `IoError` when the file cannot be read, `Interrupted` and `Stopped` as the options say, `InvalidInput`
-/// with path, line or byte offset and defect when it is malformed, holds no faces, a non-finite used coordinate or an
-/// index out of range. O(size), one pass, never allocates more than the file can justify.
+/// Reads OFF, OBJ, PLY (ascii, binary of either byte order, float and double), STL (ascii, binary; corners welded by
+/// exact coordinates) or glTF 2 (.glb, .gltf). Polygons are split into fans from their first corner. Degenerate and
+/// duplicate triangles are kept. Of glTF it is the default scene that is read, as it stands there in rest: all
+/// triangles of its meshes, each placed by its node (a mesh of several nodes several times), without skins and morph
+/// targets; a placed vertex is the float of the file under the matrix of the node, computed in doubles, and corners of
+/// a node are welded by exact coordinates. Throws `IoError` when the file cannot be read, `Interrupted` and `Stopped`
+/// as the options say, `InvalidInput` with path, line or byte offset and defect when it is malformed, holds no faces, a
+/// non-finite used coordinate or an index out of range. O(size), one pass, never allocates more than the file can
+/// justify.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// How a file is written.
@@ -73,15 +79,21 @@ struct WriteOptions {
 [[nodiscard]] TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& mesh,
                                        const WriteOptions& options = {});
 
-/// Writes to a temporary name in the same folder, then renames: `path` either keeps what it had or holds the whole
+/// Writes the mesh, and those of its attributes that the format carries (`carried_by`), to a temporary name in the same
+/// folder, then renames: `path` either keeps what it had or holds the whole
 /// mesh. Symbolic links are followed, also to a file that is not there yet; a file that is replaced leaves its
 /// permissions to the new one; devices and FIFOs are written to as they are. Throws `IoError` (also when the disk is
 /// full, and for a file that grants writing to nobody, whoever asks), `InvalidInput` for an unknown extension and where
 /// `rounded_for` does, `Interrupted` and `Stopped` as the options say; nothing is written then. O(n). Safe to call from
 /// several threads, as is all of this header.
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {});
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {},
+                const MeshAttributes& attributes = {});
 
-/// Whether files of this format are read and written with `MeshAttributes`: OBJ.
+/// The attributes that files of this format carry; `lost` is increased by what the others held, in the counts of
+/// `MeshFile::dropped`. O(n).
+[[nodiscard]] MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedAttributes& lost);
+
+/// Whether files of this format are read and written with any `MeshAttributes`: all but STL.
 [[nodiscard]] bool carries_attributes(FileFormat format);
 
 }  // namespace meshbound

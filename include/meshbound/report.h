@@ -36,6 +36,7 @@ struct MeshReport {
   std::size_t ignored_elements = 0;               ///< see `MeshFile`
   std::optional<DroppedAttributes> dropped = {};  ///< of a mesh that is written again
   std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
+  std::size_t rest_pose_parts = 0;                ///< see `MeshFile`
 };
 
 /// False for a direction that nobody has looked at, such as the second one of a decision that the first one ended: its

@@ -19,10 +19,21 @@ void check_size(std::size_t size, std::size_t triangles, const char* what) {
                        std::to_string(triangles));
 }
 
-bool is_equal(const CornerAttribute& attribute, std::uint32_t a, std::uint32_t b) {
+bool equal_values(const CornerAttribute& attribute, std::uint32_t a, std::uint32_t b) {
+  return attribute.values[a] == attribute.values[b];
+}
+
+bool equal_values(const NamedAttribute& attribute, std::uint32_t a, std::uint32_t b) {
+  const auto first = attribute.values.begin();
+  const auto width = static_cast<std::ptrdiff_t>(attribute.width);
+  return std::equal(first + a * width, first + (a + 1) * width, first + b * width);
+}
+
+template <class Attribute>
+bool is_equal(const Attribute& attribute, std::uint32_t a, std::uint32_t b) {
   if (a == b) return true;
   if (a == CornerAttribute::none || b == CornerAttribute::none) return false;
-  return attribute.values[a] == attribute.values[b];
+  return equal_values(attribute, a, b);
 }
 
 /// The corner of a triangle at a position, given by its first vertex.
@@ -32,18 +43,56 @@ std::size_t corner_at(const Triangle& triangle, const std::vector<std::uint32_t>
   return 0;
 }
 
-/// Whether two triangles differ along the edge of `t` from corner k to the next.
-bool differ(const TriangleMesh& mesh, const MeshAttributes& attributes, const std::vector<std::uint32_t>& first,
-            std::uint32_t t, std::size_t k, std::uint32_t other) {
-  const auto& materials = attributes.materials.index;
-  if (!materials.empty() && materials[t] != materials[other]) return true;
-  const CornerAttribute& coordinates = attributes.texture_coordinates;
-  if (coordinates.empty()) return false;
-  for (const std::size_t corner : {k, (k + 1) % 3}) {
-    const std::size_t there = corner_at(mesh.triangles[other], first, first[mesh.triangles[t][corner]]);
-    if (!is_equal(coordinates, coordinates.index[t][corner], coordinates.index[other][there])) return true;
+/// Two triangles with a common edge, and their corners at its ends.
+struct Neighbours {
+  std::array<std::uint32_t, 2> triangles;
+  std::array<std::array<std::size_t, 2>, 2> corners;  ///< by end: that of the first triangle, that of the second
+};
+
+/// Across the edge of `t` from corner k to the next.
+Neighbours neighbours_across(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first, std::uint32_t t,
+                             std::size_t k, std::uint32_t other) {
+  Neighbours result{{t, other}, {}};
+  for (std::size_t end = 0; end < 2; ++end) {
+    const std::size_t corner = (k + end) % 3;
+    result.corners[end] = {corner, corner_at(mesh.triangles[other], first, first[mesh.triangles[t][corner]])};
   }
-  return false;
+  return result;
+}
+
+template <class Attribute>
+bool differs(const Attribute& attribute, const Neighbours& at) {
+  if (attribute.index.empty()) return false;
+  const auto [t, other] = at.triangles;
+  return std::any_of(at.corners.begin(), at.corners.end(), [&](const std::array<std::size_t, 2>& corner) {
+    return !is_equal(attribute, attribute.index[t][corner[0]], attribute.index[other][corner[1]]);
+  });
+}
+
+bool differs(const std::vector<std::uint32_t>& by_triangle, const Neighbours& at) {
+  return !by_triangle.empty() && by_triangle[at.triangles[0]] != by_triangle[at.triangles[1]];
+}
+
+bool is_seam(const MeshAttributes& attributes, const Neighbours& at) {
+  return differs(attributes.materials.index, at) || differs(attributes.part, at) ||
+         differs(attributes.texture_coordinates, at) ||
+         std::any_of(attributes.named.begin(), attributes.named.end(),
+                     [&](const NamedAttribute& named) { return named.has_seams && differs(named, at); });
+}
+
+/// Colours and other numbers alone have no need that borders stay where they are.
+bool has_chart_borders(const MeshAttributes& attributes) {
+  return !attributes.texture_coordinates.empty() || !attributes.materials.empty() || !attributes.part.empty();
+}
+
+void check_sizes(const MeshAttributes& attributes, std::size_t triangles) {
+  check_size(attributes.texture_coordinates.index.size(), triangles, "texture coordinates");
+  check_size(attributes.normals.index.size(), triangles, "normals");
+  check_size(attributes.materials.index.size(), triangles, "materials");
+  check_size(attributes.groups.index.size(), triangles, "groups");
+  check_size(attributes.smoothing_groups.index.size(), triangles, "smoothing groups");
+  check_size(attributes.part.size(), triangles, "parts");
+  for (const NamedAttribute& named : attributes.named) check_size(named.index.size(), triangles, named.name.c_str());
 }
 
 /// Numbers the components of the triangles that hang together across edges that are no seams.
@@ -73,10 +122,7 @@ void number_charts(Charts& charts) {
 
 Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
   const std::size_t triangles = mesh.triangles.size();
-  check_size(attributes.texture_coordinates.index.size(), triangles, "texture coordinates");
-  check_size(attributes.normals.index.size(), triangles, "normals");
-  check_size(attributes.materials.index.size(), triangles, "materials");
-  check_size(attributes.groups.index.size(), triangles, "groups");
+  check_sizes(attributes, triangles);
   Charts result;
   const std::vector<Vec3> positions = positions_of(mesh);
   result.first = first_at_position(positions);
@@ -85,7 +131,8 @@ Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
   for (std::uint32_t t = 0; t < triangles; ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = result.neighbours[t][k];
-      if (other != no_index && differ(mesh, attributes, result.first, t, k, other)) result.is_seam[t][k] = 1;
+      if (other == no_index) continue;
+      if (is_seam(attributes, neighbours_across(mesh, result.first, t, k, other))) result.is_seam[t][k] = 1;
     }
   }
   number_charts(result);
@@ -95,11 +142,11 @@ Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
 std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes) {
   const Charts all = charts(mesh, attributes);
   std::vector<Edge> edges;
-  if (attributes.texture_coordinates.empty() && attributes.materials.empty()) return edges;
+  const bool has_borders = has_chart_borders(attributes);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = all.neighbours[t][k];
-      const bool is_line = other == no_index || (all.is_seam[t][k] != 0 && t < other);
+      const bool is_line = other == no_index ? has_borders : all.is_seam[t][k] != 0 && t < other;
       if (is_line) edges.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]});
     }
   }

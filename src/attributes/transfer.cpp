@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
-#include "attributes/seams.h"
-#include "geometry/position_table.h"
-#include "mesh/mesh_arrays.h"
-#include "meshbound/bvh.h"
+#include "attributes/chart_surface.h"
+#include "attributes/sectors.h"
 #include "meshbound/simplify.h"
-#include "numeric/no_index.h"
-#include "proof/edge_neighbours.h"
 
 namespace meshbound {
 namespace {
@@ -23,115 +15,45 @@ constexpr std::uint32_t none = CornerAttribute::none;
 /// How far from its corner towards the middle of its triangle the normal of a corner is looked up, as a share.
 constexpr double share_inside = 0.1;
 
-/// Barycentric coordinates of a point of a triangle's plane; the first corner where the triangle has no area.
-Eigen::Vector3d barycentric(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], w = p - corners[0];
-  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double determinant = uu * vv - uv * uv;
-  if (!(determinant > 0)) return {1, 0, 0};
-  const double second = std::clamp((vv * uw - uv * vw) / determinant, 0.0, 1.0);
-  const double third = std::clamp((uu * vw - uv * uw) / determinant, 0.0, 1.0 - second);
-  return {1 - second - third, second, third};
+/// Cosine of the largest angle between normals of neighbouring corners that become one: 15 degrees, which shading hides
+/// on a coarse mesh. Every sharper edge has a normal on each side.
+constexpr double smooth_cosine = 0.9659;
+
+/// The numbers of a value; nothing where a corner of the triangle has none.
+std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const WeightedPoint& at) {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t index = attribute.index[at.triangle][k];
+    if (index == none) return std::nullopt;
+    value += at.weights[static_cast<Eigen::Index>(k)] * attribute.values[index];
+  }
+  return value;
 }
 
-/// The original with its charts, and closest points on one chart at a time.
-class Original {
- public:
-  Original(const TriangleMesh& mesh, const MeshAttributes& attributes)
-      : mesh_(mesh), charts_(charts(mesh, attributes)), triangles_of_(charts_.count), trees_(charts_.count) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles_of_[charts_.chart_of[t]].push_back(t);
-    positions_ = positions_of(mesh);
-    at_position_.emplace(positions_);
-    corners_at_.resize(mesh.vertices.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k) corners_at_[charts_.first[mesh.triangles[t][k]]].push_back(3 * t + k);
+/// Appends the value of an attribute at a point to `values`. False where a corner of the triangle has none.
+bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std::vector<double>& values) {
+  const Triangle& index = attribute.index[at.triangle];
+  if (index[0] == none || index[1] == none || index[2] == none) return false;
+  const auto number = [&](std::size_t corner, std::size_t i) {
+    return attribute.values[index[corner] * attribute.width + i];
+  };
+  const std::size_t nearest = at.nearest_corner(), first = values.size();
+  for (std::size_t i = 0; i < attribute.width; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += at.weights[static_cast<Eigen::Index>(k)] * number(k, i);
+    const bool is_mean = attribute.interpolation == Interpolation::Linear ||
+                         (attribute.interpolation == Interpolation::Direction && i < 3);
+    values.push_back(is_mean ? sum : number(nearest, i));
   }
-
-  [[nodiscard]] std::uint32_t chart_of(std::uint32_t triangle) const { return charts_.chart_of[triangle]; }
-  /// Corners 3 t + k of triangles at exactly this position.
-  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(const Eigen::Vector3d& p) const {
-    static const std::vector<std::uint32_t> no_corners;
-    const std::uint32_t v = at_position_->find({p.x(), p.y(), p.z()});
-    return v == no_index ? no_corners : corners_at_[v];
+  if (attribute.interpolation != Interpolation::Direction || attribute.width < 3) return true;
+  Eigen::Map<Eigen::Vector3d> direction(values.data() + first);
+  if (direction.norm() > 0) {
+    direction.normalize();
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) values[first + i] = number(nearest, i);
   }
-  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t t) const {
-    const Triangle& v = mesh_.triangles[t];
-    return {mesh_.vertices[v[0]], mesh_.vertices[v[1]], mesh_.vertices[v[2]]};
-  }
-  /// The closest point of a chart, by its triangle of the original.
-  [[nodiscard]] SurfacePoint closest(std::uint32_t chart, const Eigen::Vector3d& p) {
-    if (!trees_[chart]) {
-      trees_[chart] = std::make_unique<Bvh>(part_of(triangles_of_[chart]));
-    }
-    SurfacePoint found = closest_point(*trees_[chart], p).point;
-    found.triangle = triangles_of_[chart][found.triangle];
-    return found;
-  }
-  /// The value at a point of a triangle; nothing where a corner has none.
-  [[nodiscard]] std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute,
-                                                        const SurfacePoint& at) const {
-    const Triangle& index = attribute.index[at.triangle];
-    const Eigen::Vector3d weights = barycentric(corners(at.triangle), at.position);
-    Eigen::Vector3d value = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (index[k] == none) return std::nullopt;
-      value += weights[static_cast<Eigen::Index>(k)] * attribute.values[index[k]];
-    }
-    return value;
-  }
-
- private:
-  [[nodiscard]] TriangleMesh part_of(const std::vector<std::uint32_t>& triangles) const {
-    TriangleMesh part;
-    for (const std::uint32_t t : triangles) {
-      const auto first = static_cast<std::uint32_t>(part.vertices.size());
-      for (const Eigen::Vector3d& p : corners(t)) part.vertices.push_back(p);
-      part.triangles.push_back({first, first + 1, first + 2});
-    }
-    return part;
-  }
-
-  const TriangleMesh& mesh_;
-  Charts charts_;
-  std::vector<Vec3> positions_;
-  std::optional<PositionTable> at_position_;
-  std::vector<std::vector<std::uint32_t>> corners_at_;    ///< by first vertex at a position
-  std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< by chart
-  std::vector<std::unique_ptr<Bvh>> trees_;               ///< by chart, made when asked for
-};
-
-/// The corners of a level, in sectors: those around one vertex that hang together without crossing a line.
-class Sectors {
- public:
-  explicit Sectors(const SimplifiedLevel& level) : parent_(3 * level.mesh.triangles.size()) {
-    for (std::uint32_t c = 0; c < parent_.size(); ++c) parent_[c] = c;
-    std::vector<Edge> lines = level.lines;
-    for (Edge& edge : lines) std::sort(edge.begin(), edge.end());
-    std::sort(lines.begin(), lines.end());
-    const std::vector<Triangle>& triangles = level.mesh.triangles;
-    std::map<Edge, std::uint32_t> open;  // edges seen once, with their corner
-    for (std::uint32_t c = 0; c < parent_.size(); ++c) {
-      Edge edge = {triangles[c / 3][c % 3], triangles[c / 3][(c + 1) % 3]};
-      std::sort(edge.begin(), edge.end());
-      if (std::binary_search(lines.begin(), lines.end(), edge)) continue;
-      const auto [at, is_new] = open.emplace(edge, c);
-      if (is_new) continue;
-      const std::uint32_t d = at->second;
-      for (const std::uint32_t i : {c, next(c)})
-        for (const std::uint32_t j : {d, next(d)})
-          if (triangles[i / 3][i % 3] == triangles[j / 3][j % 3]) parent_[root(i)] = root(j);
-    }
-  }
-  /// A corner that stands for the sector.
-  [[nodiscard]] std::uint32_t root(std::uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-
- private:
-  static std::uint32_t next(std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
-  std::vector<std::uint32_t> parent_;
-};
+  return true;
+}
 
 class Transfer {
  public:
@@ -144,19 +66,25 @@ class Transfer {
   MeshAttributes run() {
     MeshAttributes result;
     result.material_libraries = from_.material_libraries;
+    result.document = from_.document;
     result.materials = labels(from_.materials);
     result.groups = labels(from_.groups);
-    if (!from_.texture_coordinates.empty()) result.texture_coordinates = texture_coordinates();
+    result.smoothing_groups = labels(from_.smoothing_groups);
+    result.part = by_source_triangle(from_.part);
+    if (!from_.texture_coordinates.empty() || !from_.named.empty()) take_values_of_sectors(result);
     if (!from_.normals.empty()) result.normals = normals();
     return result;
   }
 
  private:
-  [[nodiscard]] TriangleLabels labels(const TriangleLabels& from) const {
-    TriangleLabels result{from.names, {}};
+  [[nodiscard]] std::vector<std::uint32_t> by_source_triangle(const std::vector<std::uint32_t>& from) const {
+    std::vector<std::uint32_t> result;
     if (from.empty()) return result;
-    for (const std::uint32_t source : level_.source_triangle) result.index.push_back(from.index[source]);
+    for (const std::uint32_t source : level_.source_triangle) result.push_back(from[source]);
     return result;
+  }
+  [[nodiscard]] TriangleLabels labels(const TriangleLabels& from) const {
+    return {from.names, by_source_triangle(from.index)};
   }
 
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t corner) const {
@@ -171,72 +99,87 @@ class Transfer {
   [[nodiscard]] std::uint32_t chart(std::uint32_t corner) const {
     return original_.chart_of(level_.source_triangle[corner / 3]);
   }
-
-  /// One value for each sector, that of its corners together.
-  CornerAttribute texture_coordinates() {
-    CornerAttribute result;
-    Sectors sectors(level_);
-    std::map<std::uint32_t, std::vector<std::uint32_t>> corners_of;
-    for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) corners_of[sectors.root(c)].push_back(c);
-    result.index.assign(level_.mesh.triangles.size(), {none, none, none});
-    for (const auto& [root, corners] : corners_of) {
-      const std::optional<Eigen::Vector3d> value = value_of_sector(corners);
-      if (!value) continue;
-      for (const std::uint32_t c : corners)
-        result.index[c / 3][c % 3] = static_cast<std::uint32_t>(result.values.size());
-      result.values.push_back(*value);
-    }
-    return result;
+  [[nodiscard]] std::vector<Triangle> no_values() const {
+    return std::vector<Triangle>(level_.mesh.triangles.size(), {none, none, none});
   }
 
-  std::optional<Eigen::Vector3d> value_of_sector(const std::vector<std::uint32_t>& corners) {
-    const std::uint32_t c = corners.front();
-    const std::uint32_t vertex = level_.mesh.triangles[c / 3][c % 3];
-    if (on_line_[vertex] != 0) {
-      if (const auto value = value_on_line(corners)) return value;
+  /// Texture coordinates and named attributes: one value for each sector, that of its corners together.
+  void take_values_of_sectors(MeshAttributes& result) {
+    if (!from_.texture_coordinates.empty()) result.texture_coordinates.index = no_values();
+    for (const NamedAttribute& from : from_.named)
+      result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, no_values()});
+    for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
+      const WeightedPoint at = point_of_sector(corners);
+      if (!from_.texture_coordinates.empty()) {
+        if (const auto value = value_at(from_.texture_coordinates, at)) {
+          set_index(result.texture_coordinates.index, corners, result.texture_coordinates.values.size());
+          result.texture_coordinates.values.push_back(*value);
+        }
+      }
+      for (std::size_t i = 0; i < from_.named.size(); ++i) {
+        NamedAttribute& to = result.named[i];
+        const std::size_t count = to.values.size() / to.width;
+        if (append_value(from_.named[i], at, to.values)) set_index(to.index, corners, count);
+      }
     }
-    return original_.value_at(from_.texture_coordinates, original_.closest(chart(c), position(c)));
+  }
+
+  static void set_index(std::vector<Triangle>& index, const std::vector<std::uint32_t>& corners, std::size_t value) {
+    for (const std::uint32_t c : corners) index[c / 3][c % 3] = static_cast<std::uint32_t>(value);
+  }
+
+  WeightedPoint point_of_sector(const std::vector<std::uint32_t>& corners) {
+    const std::uint32_t c = corners.front();
+    if (on_line_[level_.mesh.triangles[c / 3][c % 3]] != 0) {
+      if (const auto point = point_on_line(corners)) return *point;
+    }
+    return original_.closest(chart(c), position(c));
   }
 
   /// Among the corners of the original at the position, in the same chart, the one whose triangle is nearest to the
-  /// sector: all have the same value unless the chart meets itself at the line.
-  std::optional<Eigen::Vector3d> value_on_line(const std::vector<std::uint32_t>& corners) const {
-    const CornerAttribute& from = from_.texture_coordinates;
+  /// sector: all have the same values unless the chart meets itself at the line.
+  std::optional<WeightedPoint> point_on_line(const std::vector<std::uint32_t>& corners) const {
     const Eigen::Vector3d p = position(corners.front());
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
     for (const std::uint32_t c : corners) way += (point_inside(c, 1) - p).normalized();
     double best = -HUGE_VAL;
-    std::optional<Eigen::Vector3d> value;
+    std::optional<WeightedPoint> point;
     for (const std::uint32_t c : original_.corners_at(p)) {
-      const std::uint32_t index = from.index[c / 3][c % 3];
-      if (index == none || original_.chart_of(c / 3) != chart(corners.front())) continue;
+      if (original_.chart_of(c / 3) != chart(corners.front())) continue;
       const auto t = original_.corners(c / 3);
       const double alike = ((t[0] + t[1] + t[2]) / 3 - p).normalized().dot(way);
-      if (alike > best) best = alike, value = from.values[index];
+      if (!(alike > best)) continue;
+      best = alike;
+      point = WeightedPoint{c / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(c % 3))};
     }
-    return value;
+    return point;
   }
 
   CornerAttribute normals() {
-    CornerAttribute result;
+    std::vector<Eigen::Vector3d> by_corner;  // zero where there is none
     for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) {
-      if (c % 3 == 0) result.index.push_back({none, none, none});
-      const auto value = original_.value_at(from_.normals, original_.closest(chart(c), point_inside(c, share_inside)));
-      if (!value || !(value->norm() > 0)) continue;
-      const Eigen::Vector3d unit = value->normalized();
-      const auto [at, is_new] =
-          number_.try_emplace({unit.x(), unit.y(), unit.z()}, static_cast<std::uint32_t>(result.values.size()));
-      if (is_new) result.values.push_back(unit);
-      result.index.back()[c % 3] = at->second;
+      const auto value = value_at(from_.normals, original_.closest(chart(c), point_inside(c, share_inside)));
+      by_corner.push_back(value ? value->normalized() : Eigen::Vector3d::Zero());
+    }
+    CornerAttribute result;
+    result.index = no_values();
+    const auto is_smooth = [&](std::uint32_t i, std::uint32_t j) {
+      return by_corner[i].dot(by_corner[j]) >= smooth_cosine;
+    };
+    for (const std::vector<std::uint32_t>& corners : sectors(level_, is_smooth)) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const std::uint32_t c : corners) sum += by_corner[c];
+      if (!(sum.norm() > 0)) continue;
+      set_index(result.index, corners, result.values.size());
+      result.values.push_back(sum.normalized());
     }
     return result;
   }
 
-  Original original_;
+  ChartSurface original_;
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
   std::vector<std::uint8_t> on_line_;  ///< by vertex
-  std::map<std::array<double, 3>, std::uint32_t> number_;
 };
 
 }  // namespace

@@ -1,36 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "levels/level_run.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include "levels/measured_level.h"
-#include "meshbound/mesh_view.h"
-
 namespace meshbound {
-namespace {
-
-/// Ascending, each once, ending with the tolerance.
-std::vector<double> tolerances(const SimplifyOptions& options) {
-  std::vector<double> all = options.levels;
-  all.push_back(options.tolerance);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-/// Faces to end at in the last level; 0 when no target is given.
-std::size_t target(const TriangleMesh& original, const SimplifyOptions& options) {
-  std::size_t faces = options.target_faces.value_or(0);
-  if (options.target_ratio) {
-    const double share = *options.target_ratio * static_cast<double>(original.triangles.size());
-    faces = std::max(faces, static_cast<std::size_t>(std::floor(share)));
-  }
-  return faces;
-}
-
-}  // namespace
 
 LevelRun::LevelRun(const TriangleMesh& original, const SimplifyOptions& options)
     : original_(original), options_(options) {
@@ -99,22 +72,6 @@ void LevelRun::describe(SimplifyResult& result) const {
   result.lines = lines_;
   result.seconds.prepare = prepare_seconds_;
   result.seconds.simplify = simplify_seconds_;
-}
-
-SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options) {
-  check_options(options);
-  validate(original);
-  SimplifyResult result;
-  LevelRun run(original, options);
-  const std::vector<double> levels = tolerances(options);
-  for (const double tolerance : levels) {
-    const bool is_last = tolerance == levels.back();
-    result.levels.push_back(run.next(tolerance, is_last ? target(original, options) : 0));
-    if (options.progress)
-      options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
-  }
-  run.describe(result);
-  return result;
 }
 
 }  // namespace meshbound

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "meshbound/attributes.h"
 #include "simplify/decimation.h"
 
 namespace meshbound {
@@ -37,7 +38,9 @@ class LevelRun {
   std::optional<EndedBy> stopped_;  ///< before anything was decimated: the original itself stands for every level
 };
 
-/// The levels of a run, ascending, not measured. Throws as `simplify_with_bound`.
-[[nodiscard]] SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options);
+/// The levels of a run, ascending, not measured. Where `attributes` say that parts are copies of each other, they stay
+/// so. Throws as `simplify_with_bound`.
+[[nodiscard]] SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options,
+                                             const MeshAttributes& attributes = {});
 
 }  // namespace meshbound

@@ -15,7 +15,10 @@ FileFormat format_of(const std::filesystem::path& path) {
   if (extension == ".obj") return FileFormat::Obj;
   if (extension == ".ply") return FileFormat::Ply;
   if (extension == ".stl") return FileFormat::Stl;
-  throw InvalidInput(path.string() + ": unknown mesh format; the file name must end in .off, .obj, .ply or .stl");
+  if (extension == ".gltf") return FileFormat::Gltf;
+  if (extension == ".glb") return FileFormat::Glb;
+  throw InvalidInput(path.string() +
+                     ": unknown mesh format; the file name must end in .off, .obj, .ply, .stl, .glb or .gltf");
 }
 
 }  // namespace meshbound

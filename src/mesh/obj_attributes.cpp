@@ -35,6 +35,20 @@ void ObjAttributes::add_value(std::string_view keyword, const Eigen::Vector3d& v
   (keyword == "vt" ? attributes_.texture_coordinates : attributes_.normals).values.push_back(value);
 }
 
+void ObjAttributes::add_colour(std::size_t vertex, const Eigen::Vector3d& colour) {
+  colour_of_.resize(vertex, none);
+  colour_of_.push_back(static_cast<std::uint32_t>(colours_.values.size() / colours_.width));
+  colours_.values.insert(colours_.values.end(), colour.begin(), colour.end());
+}
+
+void ObjAttributes::take_colours(const std::vector<Triangle>& triangles) {
+  for (const Triangle& t : triangles) {
+    Triangle& index = colours_.index.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) index[k] = t[k] < colour_of_.size() ? colour_of_[t[k]] : none;
+  }
+  attributes_.named.push_back(std::move(colours_));
+}
+
 void ObjAttributes::Labels::set(std::string name) {
   const auto [at, is_new] = number.try_emplace(name, static_cast<std::uint32_t>(all.names.size()));
   if (is_new) all.names.push_back(std::move(name));
@@ -44,6 +58,7 @@ void ObjAttributes::Labels::set(std::string name) {
 void ObjAttributes::set_label(std::string_view keyword, std::string_view argument) {
   if (keyword == "usemtl" && !argument.empty()) materials_.set(std::string(argument));
   if (keyword == "g" || keyword == "o") groups_.set(std::string(keyword) + ' ' + std::string(argument));
+  if (keyword == "s" && !argument.empty()) smoothing_groups_.set(argument == "0" ? "off" : std::string(argument));
   if (keyword == "mtllib" && !argument.empty()) attributes_.material_libraries.emplace_back(argument);
 }
 
@@ -64,15 +79,22 @@ void ObjAttributes::end_polygon() {
     attributes_.normals.index.push_back(normal);
     materials_.all.index.push_back(materials_.current);
     groups_.all.index.push_back(groups_.current);
+    smoothing_groups_.all.index.push_back(smoothing_groups_.current);
   }
 }
 
-MeshAttributes ObjAttributes::finish(DroppedAttributes& dropped) {
+MeshAttributes ObjAttributes::finish(const std::vector<Triangle>& triangles, DroppedAttributes& dropped) {
   check_indices(attributes_.texture_coordinates);
   check_indices(attributes_.normals);
   if (!materials_.all.names.empty()) attributes_.materials = std::move(materials_.all);
   if (!groups_.all.names.empty()) attributes_.groups = std::move(groups_.all);
+  const auto is_off = [](const std::string& name) { return name == "off"; };
+  const std::vector<std::string>& smoothing = smoothing_groups_.all.names;
+  if (!std::all_of(smoothing.begin(), smoothing.end(), is_off))
+    attributes_.smoothing_groups = std::move(smoothing_groups_.all);
+  if (!colours_.values.empty()) take_colours(triangles);
   dropped.texture_coordinates = dropped.normals = dropped.materials = dropped.groups = 0;
+  dropped.colours = dropped.smoothing_groups = 0;
   return std::move(attributes_);
 }
 

@@ -15,7 +15,10 @@ class ObjAttributes {
  public:
   /// A value of `vt` or `vn`.
   void add_value(std::string_view keyword, const Eigen::Vector3d& value);
-  /// What polygons from now on belong to: `usemtl`, `g`, `o`; or a library, `mtllib`. Other statements say nothing.
+  /// Of a vertex, counted from 0; red, green and blue.
+  void add_colour(std::size_t vertex, const Eigen::Vector3d& colour);
+  /// What polygons from now on belong to: `usemtl`, `g`, `o`, `s`; or a library, `mtllib`. Other statements say
+  /// nothing.
   void set_label(std::string_view keyword, std::string_view argument);
 
   void begin_polygon() { corners_.clear(); }
@@ -23,8 +26,8 @@ class ObjAttributes {
   void add_corner(std::int64_t texture_coordinate, std::int64_t normal);
   void end_polygon();
 
-  /// What was collected. Counts that speak of it are taken off `dropped`.
-  [[nodiscard]] MeshAttributes finish(DroppedAttributes& dropped);
+  /// What was collected of the mesh with these triangles. Counts that speak of it are taken off `dropped`.
+  [[nodiscard]] MeshAttributes finish(const std::vector<Triangle>& triangles, DroppedAttributes& dropped);
 
  private:
   struct Labels {
@@ -38,7 +41,11 @@ class ObjAttributes {
   };
 
   MeshAttributes attributes_;
-  Labels materials_, groups_;
+  void take_colours(const std::vector<Triangle>& triangles);
+
+  Labels materials_, groups_, smoothing_groups_;
+  std::vector<std::uint32_t> colour_of_;  ///< by vertex, up to the last one that has a colour
+  NamedAttribute colours_{.name = "COLOR_0", .width = 3};
   std::vector<Corner> corners_;
 };
 

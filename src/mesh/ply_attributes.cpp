@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace meshbound {
 namespace {
@@ -27,11 +28,33 @@ bool is_geometry(const PlyElement& element, const PlyProperty& property) {
   return (element.name == "face" || element.name == "tristrips") && contains(corner_names, property);
 }
 
+bool is_colour(const PlyProperty& property) { return !property.is_list && contains(colour_names, property); }
+
+/// Whether `PlyAttributes` takes the numbers of a property.
+bool is_collected(const PlyElement& element, const PlyProperty& property) {
+  if (element.name == "vertex") return !property.is_list;
+  return element.name == "face" && is_colour(property);
+}
+
+/// 0 for the first of the names that stand for one number of a value, and so on.
+template <std::size_t N>
+std::size_t component_of(const std::array<std::string_view, N>& names, const PlyProperty& property, std::size_t width) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), property.name) - names.begin()) % width;
+}
+
+/// The number that stands for the full intensity of a colour.
+double full_intensity(PlyType type) {
+  if (type == PlyType::Float32 || type == PlyType::Float64) return 1;
+  return type == PlyType::UInt16 || type == PlyType::Int16 ? 65535 : 255;
+}
+
+constexpr std::uint32_t none = CornerAttribute::none;
+
 }  // namespace
 
 bool lists_texture_coordinates(const PlyProperty& property) { return property.is_list && property.name == "texcoord"; }
 
-void count_attributes(const PlyElement& element, DroppedAttributes& dropped) {
+void count_attributes(const PlyElement& element, bool but_collected, DroppedAttributes& dropped) {
   if (element.count == 0) return;
   if (element.name == "material") {
     dropped.materials += element.count;
@@ -40,6 +63,7 @@ void count_attributes(const PlyElement& element, DroppedAttributes& dropped) {
   bool normals = false, texture = false, colours = false;
   for (const PlyProperty& property : element.properties) {
     if (is_geometry(element, property) || lists_texture_coordinates(property)) continue;
+    if (but_collected && is_collected(element, property)) continue;
     if (contains(normal_names, property))
       normals = true;
     else if (contains(texture_names, property))
@@ -52,6 +76,108 @@ void count_attributes(const PlyElement& element, DroppedAttributes& dropped) {
   if (normals) dropped.normals += element.count;
   if (texture) dropped.texture_coordinates += element.count;
   if (colours) dropped.colours += element.count;
+}
+
+PlyAttributes::Role PlyAttributes::role_of(const PlyProperty& property) {
+  if (property.is_list) return {};
+  if (contains(texture_names, property)) return {Kind::Texture, component_of(texture_names, property, 2), 1};
+  if (contains(normal_names, property)) return {Kind::Normal, component_of(normal_names, property, 3), 1};
+  if (contains(colour_names, property))
+    return {Kind::Colour, component_of(colour_names, property, 4), full_intensity(property.type)};
+  return {Kind::Scalar, 0, 1};
+}
+
+void PlyAttributes::begin_vertices(const PlyElement& element) {
+  for (const PlyProperty& property : element.properties) {
+    Role role = is_geometry(element, property) ? Role{} : role_of(property);
+    has_texture_ = has_texture_ || role.kind == Kind::Texture;
+    has_normals_ = has_normals_ || role.kind == Kind::Normal;
+    has_vertex_colours_ = has_vertex_colours_ || role.kind == Kind::Colour;
+    if (role.kind == Kind::Colour && role.component == 3) colour_width_ = 4;
+    if (role.kind == Kind::Scalar) {
+      role.component = scalars_.size();
+      scalars_.push_back(0);
+      all_.named.push_back({.name = property.name});
+    }
+    vertex_roles_.push_back(role);
+  }
+}
+
+/// Colours of faces are taken where vertices have none.
+void PlyAttributes::begin_faces(const PlyElement& element) {
+  for (const PlyProperty& property : element.properties) {
+    const Role role = is_colour(property) && !has_vertex_colours_ ? role_of(property) : Role{};
+    has_face_colours_ = has_face_colours_ || role.kind == Kind::Colour;
+    if (role.kind == Kind::Colour && role.component == 3) colour_width_ = 4;
+    face_roles_.push_back(role);
+  }
+}
+
+void PlyAttributes::take(const Role& role, double value) {
+  switch (role.kind) {
+    case Kind::Texture:
+      texture_[role.component] = value;
+      return;
+    case Kind::Normal:
+      normal_[role.component] = value;
+      return;
+    case Kind::Colour:
+      colour_[role.component] = value / role.unit;
+      return;
+    case Kind::Scalar:
+      scalars_[role.component] = value;
+      return;
+    case Kind::Nothing:
+      return;
+  }
+}
+
+void PlyAttributes::add_colour() {
+  const auto width = static_cast<std::ptrdiff_t>(colour_width_);
+  colours_.values.insert(colours_.values.end(), colour_.begin(), colour_.begin() + width);
+}
+
+void PlyAttributes::end_vertex() {
+  if (has_texture_) all_.texture_coordinates.values.emplace_back(texture_[0], texture_[1], 0);
+  if (has_normals_) all_.normals.values.emplace_back(normal_[0], normal_[1], normal_[2]);
+  if (has_vertex_colours_) add_colour();
+  for (std::size_t i = 0; i < scalars_.size(); ++i) all_.named[i].values.push_back(scalars_[i]);
+}
+
+void PlyAttributes::end_face(std::size_t corners, const std::vector<double>& texture_coordinates) {
+  if (corners < 3) return;
+  if (has_face_colours_) {
+    const auto colour = static_cast<std::uint32_t>(colours_.values.size() / colour_width_);
+    add_colour();
+    colours_.index.insert(colours_.index.end(), corners - 2, {colour, colour, colour});
+  }
+  if (has_texture_) return;
+  std::vector<Eigen::Vector3d>& values = all_.texture_coordinates.values;
+  const auto first = static_cast<std::uint32_t>(values.size());
+  const bool has_coordinates = texture_coordinates.size() == 2 * corners;
+  for (std::size_t i = 0; has_coordinates && i < corners; ++i)
+    values.emplace_back(texture_coordinates[2 * i], texture_coordinates[2 * i + 1], 0);
+  for (std::uint32_t i = 2; i < corners; ++i)
+    corner_texture_.push_back(has_coordinates ? Triangle{first, first + i - 1, first + i} : Triangle{none, none, none});
+}
+
+MeshAttributes PlyAttributes::finish(const std::vector<Triangle>& triangles) {
+  const Triangle nothing = {none, none, none};
+  if (has_texture_) all_.texture_coordinates.index = triangles;
+  if (has_normals_) all_.normals.index = triangles;
+  for (NamedAttribute& named : all_.named) named.index = triangles;
+  if (!has_texture_ && !all_.texture_coordinates.values.empty()) {
+    all_.texture_coordinates.index = std::move(corner_texture_);
+    all_.texture_coordinates.index.resize(triangles.size(), nothing);
+  }
+  if (has_vertex_colours_ || has_face_colours_) {
+    colours_.name = "COLOR_0";
+    colours_.width = colour_width_;
+    if (has_vertex_colours_) colours_.index = triangles;
+    colours_.index.resize(triangles.size(), nothing);
+    all_.named.push_back(std::move(colours_));
+  }
+  return std::move(all_);
 }
 
 }  // namespace meshbound

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "mesh/ply_header.h"
 #include "meshbound/io.h"
 
@@ -10,7 +16,53 @@ namespace meshbound {
 
 /// Adds what an element has beyond positions and corners: texture coordinates, normals and colours by the usual names
 /// of their properties, every other property as such. What the lists of `lists_texture_coordinates` hold is not known
-/// from the header and left out.
-void count_attributes(const PlyElement& element, DroppedAttributes& dropped);
+/// from the header and left out. With `but_collected` only what `PlyAttributes` does not collect.
+void count_attributes(const PlyElement& element, bool but_collected, DroppedAttributes& dropped);
+
+/// Collects texture coordinates, normals, colours and other numbers of vertices, and colours and texture coordinates of
+/// faces.
+class PlyAttributes {
+ public:
+  /// The properties of the vertices, and of the faces, whose numbers follow.
+  void begin_vertices(const PlyElement& element);
+  void begin_faces(const PlyElement& element);
+
+  /// Whether the numbers of a property are asked for.
+  [[nodiscard]] bool wants_of_vertex(std::size_t property) const {
+    return vertex_roles_[property].kind != Kind::Nothing;
+  }
+  [[nodiscard]] bool wants_of_face(std::size_t property) const { return face_roles_[property].kind != Kind::Nothing; }
+
+  void add_to_vertex(std::size_t property, double value) { take(vertex_roles_[property], value); }
+  void end_vertex();
+  void add_to_face(std::size_t property, double value) { take(face_roles_[property], value); }
+  /// A polygon of so many corners is complete; texture coordinates are given two for each corner, or none.
+  void end_face(std::size_t corners, const std::vector<double>& texture_coordinates);
+
+  /// What was collected of the mesh with these triangles.
+  [[nodiscard]] MeshAttributes finish(const std::vector<Triangle>& triangles);
+
+ private:
+  enum class Kind : std::uint8_t { Nothing, Texture, Normal, Colour, Scalar };
+  struct Role {
+    Kind kind = Kind::Nothing;
+    std::size_t component = 0;  ///< of the value; of a scalar: which one
+    double unit = 1;            ///< the number that stands for 1
+  };
+
+  [[nodiscard]] static Role role_of(const PlyProperty& property);
+  void take(const Role& role, double value);
+  void add_colour();
+
+  std::vector<Role> vertex_roles_, face_roles_;
+  bool has_texture_ = false, has_normals_ = false, has_vertex_colours_ = false, has_face_colours_ = false;
+  std::size_t colour_width_ = 3;
+  std::array<double, 3> texture_{}, normal_{};  // of the vertex that is read
+  std::array<double, 4> colour_{};              // of the vertex or face that is read
+  std::vector<double> scalars_;                 // of the vertex that is read
+  MeshAttributes all_;
+  NamedAttribute colours_;
+  std::vector<Triangle> corner_texture_;  // by triangle, where faces list texture coordinates
+};
 
 }  // namespace meshbound

@@ -17,6 +17,8 @@ MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, c
   if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
   // The header of a binary STL may hold any bytes; its reader recognises text for itself.
   if (format == FileFormat::Stl) return read_stl(source);
+  if (source.bytes.starts_with("glTF") && (format == FileFormat::Glb || format == FileFormat::Gltf))
+    return read_gltf(source);
 
   if (is_utf16(source.bytes)) source.fail_at_byte(0, "the text is UTF-16; save it as ASCII or UTF-8");
   if (source.bytes.starts_with("\xEF\xBB\xBF")) source.begin = 3;
@@ -25,6 +27,9 @@ MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, c
       return read_off(source);
     case FileFormat::Obj:
       return read_obj(source);
+    case FileFormat::Gltf:
+    case FileFormat::Glb:
+      return read_gltf(source);
     default:
       return read_ply(source);
   }

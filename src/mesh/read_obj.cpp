@@ -46,7 +46,7 @@ class ObjReader {
                                std::to_string(assembler_.vertex_count()) + " (counted from 1)");
     count_names();
     MeshFile file = assembler_.finish();
-    if (source_.with_attributes) file.attributes = attributes_.finish(file.dropped);
+    if (source_.with_attributes) file.attributes = attributes_.finish(file.mesh.triangles, file.dropped);
     return file;
   }
 
@@ -109,9 +109,16 @@ class ObjReader {
     const double x = read_coordinate();
     const double y = read_coordinate();
     const double z = read_coordinate();
-    int more = 0;
-    for (; cursor_.find_word_in_line(); ++more) cursor_.number("a weight or a colour");
-    if (more >= 3) ++assembler_.dropped().colours;
+    Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+    Eigen::Index more = 0;
+    for (; cursor_.find_word_in_line(); ++more) {
+      const double number = cursor_.number("a weight or a colour");
+      if (more < 3) colour[more] = number;
+    }
+    if (more >= 3) {
+      ++assembler_.dropped().colours;
+      if (source_.with_attributes) attributes_.add_colour(assembler_.vertex_count(), colour);
+    }
     if (assembler_.vertex_count() == std::numeric_limits<std::uint32_t>::max())
       cursor_.fail("more than 2^32-1 vertices");
     assembler_.add_vertex({x, y, z}, offset);

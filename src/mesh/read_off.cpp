@@ -55,13 +55,76 @@ std::size_t read_count(TextCursor& cursor, const char* what) {
   return static_cast<std::size_t>(count);
 }
 
-/// Steps over the numbers of attributes to the next line. Returns whether there were any.
-bool skip_numbers_in_line(TextCursor& cursor) {
-  bool any = false;
-  for (; cursor.find_word_in_line(); any = true) cursor.number("a number");
+/// The numbers of attributes up to the next line.
+struct NumbersInLine {
+  std::vector<double> values;
+  bool has_point = false;  ///< in one of them: colours are then from 0 to 1, else from 0 to 255
+};
+
+void read_numbers_in_line(TextCursor& cursor, NumbersInLine& numbers) {
+  numbers.values.clear();
+  numbers.has_point = false;
+  while (cursor.find_word_in_line()) {
+    numbers.has_point = numbers.has_point || cursor.peek_word().find_first_of(".eE") != std::string_view::npos;
+    numbers.values.push_back(cursor.number("a number"));
+  }
   cursor.skip_line();
-  return any;
 }
+
+/// Collects the colours of vertices, or of faces where vertices have none. Three or four numbers are a colour; a single
+/// one is the index of a table that nobody has, and is counted as dropped.
+class OffColours {
+ public:
+  explicit OffColours(DroppedAttributes& dropped) : dropped_(dropped) {}
+
+  void add_vertex(const NumbersInLine& numbers) {
+    vertices_.push_back(add(numbers));
+    has_vertex_colours_ = has_vertex_colours_ || vertices_.back() != CornerAttribute::none;
+  }
+  void add_face(const NumbersInLine& numbers, std::size_t corners) {
+    if (has_vertex_colours_) {
+      if (!numbers.values.empty()) ++dropped_.colours;
+      return;
+    }
+    const std::uint32_t colour = add(numbers);
+    if (corners > 2) faces_.insert(faces_.end(), corners - 2, colour);
+  }
+
+  /// Of the mesh with these triangles; nothing where there are no colours.
+  void put_into(MeshAttributes& attributes, const std::vector<Triangle>& triangles) {
+    if (values_.empty()) return;
+    NamedAttribute colours{.name = "COLOR_0", .width = width};
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto [a, b, c] = triangles[t];
+      colours.index.push_back(has_vertex_colours_ ? Triangle{vertices_[a], vertices_[b], vertices_[c]}
+                                                  : Triangle{faces_[t], faces_[t], faces_[t]});
+    }
+    colours.values = std::move(values_);
+    attributes.named.push_back(std::move(colours));
+  }
+
+ private:
+  static constexpr std::size_t width = 4;
+  static constexpr double max_byte = 255;
+
+  std::uint32_t add(const NumbersInLine& numbers) {
+    if (numbers.values.empty()) return CornerAttribute::none;
+    if (numbers.values.size() < 3) {
+      ++dropped_.colours;
+      return CornerAttribute::none;
+    }
+    for (std::size_t k = 0; k < width; ++k) {
+      const bool is_given = k < numbers.values.size();
+      values_.push_back(!is_given ? 1 : numbers.has_point ? numbers.values[k] : numbers.values[k] / max_byte);
+    }
+    return static_cast<std::uint32_t>(values_.size() / width - 1);
+  }
+
+  DroppedAttributes& dropped_;
+  bool has_vertex_colours_ = false;
+  std::vector<std::uint32_t> vertices_, faces_;  // by vertex and by triangle: the colour, or `none`
+  std::vector<double> values_;
+};
 
 /// Numbers behind the coordinates that no keyword announces are colours.
 void count_attributes(const Announced& announced, DroppedAttributes& dropped) {
@@ -107,8 +170,9 @@ double read_coordinate(TextCursor& cursor) {
   return cursor.number("a vertex coordinate");
 }
 
-/// Returns whether the face has a colour.
-bool read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::uint32_t>& corners) {
+/// What stands behind the corners is the colour of the face.
+void read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::uint32_t>& corners,
+               NumbersInLine& colour) {
   corners.clear();
   const std::size_t size = read_count(cursor, "the number of corners of a face");
   if (size > cursor.remaining() / 2 + 1)
@@ -121,7 +185,7 @@ bool read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::ui
                   std::to_string(vertex_count) + " (counted from 0)");
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  return skip_numbers_in_line(cursor);
+  read_numbers_in_line(cursor, colour);
 }
 
 }  // namespace
@@ -133,22 +197,37 @@ MeshFile read_off(const MeshSource& source) {
   const Counts counts = read_counts(cursor);
   constexpr std::size_t shortest_triangle = 8;  // bytes: "3 0 1 2\n"
   assembler.reserve(counts.vertices, std::min(counts.faces, cursor.remaining() / shortest_triangle + 1));
+  // Texture coordinates and normals are not collected, nor are colours that stand between them.
+  const bool are_colours = !announced.texture_coordinates && !announced.normals;
+  const bool collects = source.with_attributes;
+  OffColours colours(assembler.dropped());
+  NumbersInLine numbers;
   for (std::size_t i = 0; i < counts.vertices; ++i) {
     const double x = read_coordinate(cursor);
     const std::size_t offset = cursor.offset();
     const double y = read_coordinate(cursor);
     const double z = read_coordinate(cursor);
     assembler.add_vertex({x, y, z}, offset);
-    if (skip_numbers_in_line(cursor)) count_attributes(announced, assembler.dropped());
+    read_numbers_in_line(cursor, numbers);
+    if (collects && are_colours)
+      colours.add_vertex(numbers);
+    else if (!numbers.values.empty())
+      count_attributes(announced, assembler.dropped());
   }
   std::vector<std::uint32_t> corners;
   for (std::size_t i = 0; i < counts.faces; ++i) {
-    if (read_face(cursor, counts.vertices, corners)) ++assembler.dropped().colours;
+    read_face(cursor, counts.vertices, corners, numbers);
+    if (collects)
+      colours.add_face(numbers, corners.size());
+    else if (!numbers.values.empty())
+      ++assembler.dropped().colours;
     assembler.add_polygon(corners);
   }
   if (cursor.find_word())
     cursor.fail("the file goes on after the " + std::to_string(counts.faces) + " faces that its header declares");
-  return assembler.finish();
+  MeshFile file = assembler.finish();
+  if (collects) colours.put_into(file.attributes, file.mesh.triangles);
+  return file;
 }
 
 }  // namespace meshbound

@@ -35,7 +35,7 @@ class PlyReader {
     reserve();
     for (const PlyElement& element : header_.elements) {
       refuse_count_beyond_file(element);
-      count_attributes(element, assembler_.dropped());
+      count_attributes(element, source_.with_attributes, assembler_.dropped());
       if (element.name == "vertex") {
         read_vertices(element);
       } else if (element.name == "face") {
@@ -49,7 +49,9 @@ class PlyReader {
     if (!values_.at_end()) values_.fail("the file goes on after the last element that its header declares");
     assembler_.dropped().texture_coordinates += texture_numbers_ / 2;
     assembler_.dropped().materials += header_.texture_files;
-    return assembler_.finish();
+    MeshFile file = assembler_.finish();
+    if (source_.with_attributes) file.attributes = attributes_.finish(file.mesh.triangles);
+    return file;
   }
 
  private:
@@ -59,6 +61,7 @@ class PlyReader {
       if (element.name == "vertex") {
         if (vertex_count_ != 0) source_.fail_at_line(element.declared_at, "a second element 'vertex'");
         vertex_roles_ = vertex_roles(element);
+        if (source_.with_attributes) attributes_.begin_vertices(element);
         refuse_count_beyond_file(element);
         vertex_count_ = element.count;
       }
@@ -85,7 +88,9 @@ class PlyReader {
       std::size_t offset = values_.offset();
       Eigen::Vector3d p;
       for (std::size_t k = 0; k < vertex_roles_.size(); ++k) {
-        if (vertex_roles_[k] == Nothing) {
+        if (vertex_roles_[k] == Nothing && source_.with_attributes && attributes_.wants_of_vertex(k)) {
+          attributes_.add_to_vertex(k, values_.real(element.properties[k].type));
+        } else if (vertex_roles_[k] == Nothing) {
           skip_property(element.properties[k]);
         } else {
           p[vertex_roles_[k]] = values_.real(element.properties[k].type);
@@ -94,6 +99,7 @@ class PlyReader {
       }
       values_.end_element();
       assembler_.add_vertex(p, offset);
+      if (source_.with_attributes) attributes_.end_vertex();
     }
   }
 
@@ -113,17 +119,20 @@ class PlyReader {
   }
 
   void read_lists(const PlyElement& element, bool strips) {
+    const bool collects_faces = source_.with_attributes && !strips;
     const std::size_t found =
         static_cast<std::size_t>(std::count_if(element.properties.begin(), element.properties.end(), lists_corners));
     const auto list = std::find_if(element.properties.begin(), element.properties.end(), lists_corners);
     if (element.count > 0 && (found != 1 || !list->is_list))
       source_.fail_at_line(element.declared_at, "element " + quote(element.name) +
                                                     " needs exactly one list 'vertex_indices' or 'vertex_index'");
+    if (collects_faces) attributes_.begin_faces(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (const PlyProperty& p : element.properties) {
+      texture_coordinates_.clear();
+      for (std::size_t k = 0; k < element.properties.size(); ++k) {
+        const PlyProperty& p = element.properties[k];
         if (!lists_corners(p)) {
-          const std::uint64_t skipped = skip_property(p);
-          if (lists_texture_coordinates(p)) texture_numbers_ += skipped;
+          read_property_of_face(p, k, collects_faces);
         } else if (strips) {
           read_strip(p);
         } else {
@@ -131,6 +140,18 @@ class PlyReader {
         }
       }
       values_.end_element();
+      if (collects_faces) attributes_.end_face(corners_.size(), texture_coordinates_);
+    }
+  }
+
+  void read_property_of_face(const PlyProperty& p, std::size_t number, bool collects) {
+    if (collects && lists_texture_coordinates(p)) {
+      for (std::uint64_t n = list_size(p); n > 0; --n) texture_coordinates_.push_back(values_.real(p.type));
+    } else if (collects && attributes_.wants_of_face(number)) {
+      attributes_.add_to_face(number, values_.real(p.type));
+    } else {
+      const std::uint64_t skipped = skip_property(p);
+      if (lists_texture_coordinates(p)) texture_numbers_ += skipped;
     }
   }
 
@@ -192,7 +213,9 @@ class PlyReader {
   std::vector<Role> vertex_roles_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::int64_t> strip_;
-  std::uint64_t texture_numbers_ = 0;  // in lists of texture coordinates
+  std::uint64_t texture_numbers_ = 0;  // in lists of texture coordinates that are stepped over
+  PlyAttributes attributes_;
+  std::vector<double> texture_coordinates_;  // that the face lists which is read
 };
 
 }  // namespace

@@ -17,5 +17,6 @@ namespace meshbound {
 [[nodiscard]] MeshFile read_obj(const MeshSource& source);
 [[nodiscard]] MeshFile read_ply(const MeshSource& source);
 [[nodiscard]] MeshFile read_stl(const MeshSource& source);
+[[nodiscard]] MeshFile read_gltf(const MeshSource& source);
 
 }  // namespace meshbound

@@ -13,7 +13,8 @@ namespace meshbound {
 namespace {
 
 bool stores_floats(FileFormat format, const WriteOptions& options) {
-  return format == FileFormat::Stl || options.single_precision;
+  return format == FileFormat::Stl || format == FileFormat::Gltf || format == FileFormat::Glb ||
+         options.single_precision;
 }
 
 void refuse_beyond_float(const std::filesystem::path& path, const TriangleMesh& mesh) {
@@ -75,23 +76,25 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Trian
   }
   switch (format) {
     case FileFormat::Off:
-      return write_off(file, mesh);
+      return write_off(file, mesh, attributes);
     case FileFormat::Obj:
       return write_obj(file, mesh, attributes);
     case FileFormat::Ply:
-      return write_ply(file, mesh, options);
+      return write_ply(file, mesh, options, attributes);
     case FileFormat::Stl:
       return write_stl(file, mesh, options);
+    case FileFormat::Gltf:
+    case FileFormat::Glb:
+      return write_gltf(file, format, mesh, attributes);
   }
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options,
+                const MeshAttributes& attributes) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
   AtomicFile file(path, AtomicFile::Stream::Direct, {options.deadline, options.cancel});
-  write_mesh(file, path, mesh, options);
+  write_mesh(file, path, mesh, options, attributes);
   file.commit();
 }
-
-bool carries_attributes(FileFormat format) { return format == FileFormat::Obj; }
 
 }  // namespace meshbound

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <numeric>
+
+#include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 
 namespace meshbound {
@@ -36,25 +39,46 @@ void put_corner(AtomicFile& file, std::uint32_t vertex, std::uint32_t texture, s
   put(file, std::uint64_t{normal} + 1, after);
 }
 
+/// The triangles, by the vertices that were written: those of the mesh, but one for each colour that a vertex has.
+std::vector<Triangle> put_vertices(AtomicFile& file, const TriangleMesh& mesh, const NamedAttribute* colours) {
+  if (colours == nullptr) {
+    for (const Eigen::Vector3d& p : mesh.vertices) {
+      file.write("v ");
+      put(file, p, '\n');
+    }
+    return mesh.triangles;
+  }
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  SplitVertices vertices = split_vertices(mesh, all, {&colours->index});
+  for (std::size_t v = 0; v < vertices.corners.size(); ++v) {
+    file.write("v ");
+    const std::uint32_t colour = vertices.value(colours->index, v);
+    put(file, mesh.vertices[vertices.source(mesh, v)], colour == none ? '\n' : ' ');
+    if (colour == none) continue;
+    const double* const rgb = colours->values.data() + colour * colours->width;
+    put(file, Eigen::Vector3d(rgb[0], rgb[1], rgb[2]), '\n');
+  }
+  return std::move(vertices.triangles);
+}
+
 }  // namespace
 
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes) {
   for (const std::string& library : attributes.material_libraries) file.write("mtllib " + library + "\n");
-  for (const Eigen::Vector3d& p : mesh.vertices) {
-    file.write("v ");
-    put(file, p, '\n');
-  }
+  const std::vector<Triangle> triangles = put_vertices(file, mesh, colours_of(attributes));
   put_values(file, attributes);
   const auto value = [](const CornerAttribute& attribute, std::size_t t, std::size_t k) {
     return attribute.empty() ? none : attribute.index[t][k];
   };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
     put_label(file, attributes.groups, t, "");
+    put_label(file, attributes.smoothing_groups, t, "s ");
     put_label(file, attributes.materials, t, "usemtl ");
     file.write("f ");
     for (std::size_t k = 0; k < 3; ++k)
-      put_corner(file, mesh.triangles[t][k], value(attributes.texture_coordinates, t, k),
-                 value(attributes.normals, t, k), k == 2 ? '\n' : ' ');
+      put_corner(file, triangles[t][k], value(attributes.texture_coordinates, t, k), value(attributes.normals, t, k),
+                 k == 2 ? '\n' : ' ');
   }
 }
 

@@ -1,57 +1,156 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
+#include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 
 namespace meshbound {
 namespace {
 
-std::string header_of(const TriangleMesh& mesh, const WriteOptions& options) {
-  const std::string real = options.single_precision ? "float" : "double";
-  const bool fits_int = mesh.vertices.size() <= std::numeric_limits<std::int32_t>::max();
-  return std::string("ply\nformat ") + (options.ascii ? "ascii" : "binary_little_endian") + " 1.0\nelement vertex " +
-         std::to_string(mesh.vertices.size()) + "\nproperty " + real + " x\nproperty " + real + " y\nproperty " + real +
-         " z\nelement face " + std::to_string(mesh.triangles.size()) + "\nproperty list uchar " +
-         (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
-}
+constexpr std::uint32_t none = CornerAttribute::none;
 
-void write_text(AtomicFile& file, const TriangleMesh& mesh, bool single_precision) {
-  // Floats are printed as the doubles they are equal to, so that readers of either kind get the same number.
-  for (const Eigen::Vector3d& p : mesh.vertices) put(file, single_precision ? rounded_to_float(p) : p, '\n');
-  for (const Triangle& t : mesh.triangles) {
-    file.write("3 ");
-    put(file, t[0], ' ');
-    put(file, t[1], ' ');
-    put(file, t[2], '\n');
+enum class Kind { Double, Float, Byte };
+
+/// A property of the vertices: its numbers by value, of which each vertex has one.
+struct Column {
+  std::string name;
+  Kind kind = Kind::Double;
+  const std::vector<Triangle>* index = nullptr;
+  std::vector<double> values;
+};
+
+class PlyWriter {
+ public:
+  PlyWriter(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options, const MeshAttributes& attributes)
+      : file_(file), mesh_(mesh), options_(options) {
+    add_columns(attributes);
+    if (!columns_.empty()) split();
   }
-}
 
-void write_binary(AtomicFile& file, const TriangleMesh& mesh, bool single_precision) {
-  for (const Eigen::Vector3d& p : mesh.vertices) {
-    for (const double x : p) {
-      if (single_precision) {
-        put_little_endian(file, static_cast<float>(x));
-      } else {
-        put_little_endian(file, x);
+  void write() {
+    write_header();
+    for (std::size_t v = 0; v < vertex_count(); ++v) write_vertex(v);
+    for (const Triangle& t : triangles()) write_triangle(t);
+  }
+
+ private:
+  void add_columns(const MeshAttributes& attributes) {
+    const Kind real = options_.single_precision ? Kind::Float : Kind::Double;
+    add_columns(attributes.normals, {"nx", "ny", "nz"}, Kind::Float);
+    add_columns(attributes.texture_coordinates, {"s", "t"}, Kind::Float);
+    for (const NamedAttribute& named : attributes.named) {
+      if (&named == colours_of(attributes)) {
+        add_columns(named, {"red", "green", "blue", "alpha"}, holds_bytes(named) ? Kind::Byte : Kind::Float);
+      } else if (named.width == 1) {
+        add_columns(named, {named.name}, real);
       }
     }
   }
-  for (const Triangle& t : mesh.triangles) {
-    put_little_endian(file, std::uint8_t{3});
-    for (const std::uint32_t v : t) put_little_endian(file, v);
+
+  void add_columns(const CornerAttribute& attribute, const std::vector<std::string>& names, Kind kind) {
+    if (attribute.empty()) return;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      Column& column = columns_.emplace_back(Column{names[k], kind, &attribute.index, {}});
+      for (const Eigen::Vector3d& value : attribute.values)
+        column.values.push_back(value[static_cast<Eigen::Index>(k)]);
+    }
   }
-}
+
+  void add_columns(const NamedAttribute& attribute, const std::vector<std::string>& names, Kind kind) {
+    for (std::size_t k = 0; k < std::min(names.size(), attribute.width); ++k) {
+      Column& column = columns_.emplace_back(Column{names[k], kind, &attribute.index, {}});
+      for (std::size_t i = k; i < attribute.values.size(); i += attribute.width)
+        column.values.push_back(attribute.values[i]);
+    }
+  }
+
+  void split() {
+    std::vector<const std::vector<Triangle>*> indices;
+    for (const Column& column : columns_)
+      if (indices.empty() || indices.back() != column.index) indices.push_back(column.index);
+    std::vector<std::uint32_t> all(mesh_.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    split_ = split_vertices(mesh_, all, indices);
+  }
+
+  [[nodiscard]] std::size_t vertex_count() const {
+    return columns_.empty() ? mesh_.vertices.size() : split_.corners.size();
+  }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const {
+    return columns_.empty() ? mesh_.triangles : split_.triangles;
+  }
+
+  void write_header() {
+    static constexpr std::array<const char*, 3> types = {"double", "float", "uchar"};
+    const bool fits_int = vertex_count() <= std::numeric_limits<std::int32_t>::max();
+    std::string header = std::string("ply\nformat ") + (options_.ascii ? "ascii" : "binary_little_endian") +
+                         " 1.0\nelement vertex " + std::to_string(vertex_count()) + "\n";
+    for (const char* const axis : {"x", "y", "z"})
+      header += std::string("property ") + (options_.single_precision ? "float " : "double ") + axis + "\n";
+    for (const Column& column : columns_)
+      header += std::string("property ") + types[static_cast<std::size_t>(column.kind)] + ' ' + column.name + "\n";
+    file_.write(header + "element face " + std::to_string(mesh_.triangles.size()) + "\nproperty list uchar " +
+                (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n");
+  }
+
+  void write_vertex(std::size_t v) {
+    const Eigen::Vector3d& p = mesh_.vertices[columns_.empty() ? v : split_.source(mesh_, v)];
+    for (Eigen::Index k = 0; k < 3; ++k)
+      write_number(options_.single_precision ? Kind::Float : Kind::Double, p[k], k == 2 && columns_.empty());
+    for (const Column& column : columns_) {
+      const std::uint32_t value = split_.value(*column.index, v);
+      write_number(column.kind, value == none ? 0 : column.values[value], &column == &columns_.back());
+    }
+  }
+
+  /// Floats are printed as the doubles they are equal to, so that readers of either kind get the same number.
+  void write_number(Kind kind, double value, bool is_last) {
+    const char after = is_last ? '\n' : ' ';
+    if (kind == Kind::Byte) {
+      const auto byte = static_cast<std::uint8_t>(std::lround(255 * value));
+      if (options_.ascii)
+        put(file_, std::uint32_t{byte}, after);
+      else
+        put_little_endian(file_, byte);
+    } else if (options_.ascii) {
+      put(file_, kind == Kind::Float ? rounded_to_float(value) : value, after);
+    } else if (kind == Kind::Float) {
+      put_little_endian(file_, static_cast<float>(value));
+    } else {
+      put_little_endian(file_, value);
+    }
+  }
+
+  void write_triangle(const Triangle& t) {
+    if (options_.ascii) {
+      file_.write("3 ");
+      put(file_, t[0], ' ');
+      put(file_, t[1], ' ');
+      put(file_, t[2], '\n');
+      return;
+    }
+    put_little_endian(file_, std::uint8_t{3});
+    for (const std::uint32_t v : t) put_little_endian(file_, v);
+  }
+
+  AtomicFile& file_;
+  const TriangleMesh& mesh_;
+  const WriteOptions& options_;
+  std::vector<Column> columns_;
+  SplitVertices split_;  ///< where there are columns
+};
 
 }  // namespace
 
-void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options) {
-  file.write(header_of(mesh, options));
-  if (options.ascii) {
-    write_text(file, mesh, options.single_precision);
-  } else {
-    write_binary(file, mesh, options.single_precision);
-  }
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
+               const MeshAttributes& attributes) {
+  PlyWriter(file, mesh, options, attributes).write();
 }
 
 }  // namespace meshbound

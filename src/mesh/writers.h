@@ -10,15 +10,20 @@
 
 namespace meshbound {
 
+struct GltfContent;
+
 /// `write_mesh` into a file that the caller commits, in the format that the extension of `path` names.
 void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
                 const WriteOptions& options, const MeshAttributes& attributes = {});
 
 // One writer per format, for a mesh that `write_mesh` has found to be valid and within the range of the format.
-void write_off(AtomicFile& file, const TriangleMesh& mesh);
+void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes);
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes);
-void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
+void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
+               const MeshAttributes& attributes);
 void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
+void write_gltf(AtomicFile& file, FileFormat format, const TriangleMesh& mesh, const MeshAttributes& attributes);
+void write_gltf(AtomicFile& file, FileFormat format, GltfContent content);
 
 /// Writes a number and then `after`: an integer, or the shortest decimal that reads back as the same double (at most 17
 /// digits).

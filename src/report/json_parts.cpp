@@ -17,7 +17,8 @@ Json dropped(const DroppedAttributes& dropped) {
           {"groups", dropped.groups},
           {"smoothing_groups", dropped.smoothing_groups},
           {"facet_attributes", dropped.facet_attributes},
-          {"other_properties", dropped.other_properties}};
+          {"other_properties", dropped.other_properties},
+          {"scene_objects", dropped.scene_objects}};
 }
 
 Json texture_one_sided(const OneSidedTextureDeviation& from) {
@@ -60,6 +61,7 @@ Json mesh(const MeshReport& mesh) {
                {"decoded_strips", mesh.decoded_strips},
                {"ignored_elements", mesh.ignored_elements}};
   if (mesh.dropped) json["dropped"] = dropped(*mesh.dropped);
+  if (mesh.rest_pose_parts > 0) json["rest_pose_parts"] = mesh.rest_pose_parts;
   if (!mesh.sha256.empty()) json["sha256"] = mesh.sha256;
   return json;
 }

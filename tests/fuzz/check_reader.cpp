@@ -2,17 +2,44 @@
 #include <stdexcept>
 
 #include "fuzz/claims.h"
+#include "mesh/gltf_content.h"
 #include "mesh/readers.h"
 #include "meshbound/error.h"
+#include "meshbound/io.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound::fuzz {
+
+namespace {
+
+/// Attributes fit the triangles, and a document can be written again or says in one exception why not.
+void check_attributes(const MeshFile& file) {
+  (void)seams(file.mesh, file.attributes);
+  DroppedAttributes lost;
+  (void)carried_by(FileFormat::Stl, file.attributes, lost);
+  if (!file.attributes.document) return;
+  try {
+    (void)gltf_content(file.mesh, file.attributes);
+  } catch (const InvalidInput&) {
+    return;
+  }
+}
+
+}  // namespace
 
 void check_reader(const std::string& extension, Bytes content) {
   const std::string name = "fuzz" + extension;
   const std::string_view bytes(reinterpret_cast<const char*>(content.data()), content.size());
   try {
-    validate(parse_mesh(name, bytes).mesh);
+    const TriangleMesh mesh = parse_mesh(name, bytes).mesh;
+    validate(mesh);
+    ReadOptions options;
+    options.attributes = true;
+    const MeshFile file = parse_mesh(name, bytes, options);
+    if (file.mesh.triangles != mesh.triangles) throw std::logic_error("the triangles depend on the attributes");
+    check_attributes(file);
+  } catch (const IoError&) {
+    return;  // a file that a glTF names and that is not there
   } catch (const InvalidInput& refusal) {
     const std::string line = refusal.what();
     if (line.find(name) == std::string::npos) throw std::logic_error("the refusal does not name the file: " + line);

@@ -27,6 +27,19 @@ HausdorffDistance distance_between(MeshWithTree& original, const TriangleMesh& m
   return hausdorff_distance(original_tree, mesh_tree, options);
 }
 
+/// Among points in the order of their first coordinates, the nearest one within a distance.
+std::optional<Eigen::Vector3d> nearest_of(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& p,
+                                          double distance) {
+  const auto is_left = [](const Eigen::Vector3d& point, double x) { return point.x() < x; };
+  std::optional<Eigen::Vector3d> nearest;
+  for (auto point = std::lower_bound(points.begin(), points.end(), p.x() - distance, is_left);
+       point != points.end() && point->x() <= p.x() + distance; ++point) {
+    if ((*point - p).norm() > (nearest ? (*nearest - p).norm() : distance)) continue;
+    nearest = *point;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 GatedOutput::GatedOutput(std::filesystem::path path, const StopToken& stop, const WriteOptions& options)
@@ -38,13 +51,16 @@ GatedOutput::GatedOutput(std::filesystem::path path, const StopToken& stop, cons
 void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, stop_); }
 
 Precision GatedOutput::precision() const {
-  return format_of(path_) == FileFormat::Stl || options_.single_precision ? Precision::Single : Precision::Double;
+  const FileFormat format = format_of(path_);
+  const bool has_floats = format == FileFormat::Stl || format == FileFormat::Gltf || format == FileFormat::Glb;
+  return has_floats || options_.single_precision ? Precision::Single : Precision::Double;
 }
 
 void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {
   restart();
   lines_ = line_mesh(mesh, lines);
-  write_mesh(*file_, path_, rounded_for(path_, mesh, options_), options_, attributes);
+  // Where a document places parts in frames of their own, floats are rounded there.
+  write_mesh(*file_, path_, attributes.document ? mesh : rounded_for(path_, mesh, options_), options_, attributes);
   file_->complete();
 }
 
@@ -93,9 +109,13 @@ void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions opt
   };
   std::vector<Eigen::Vector3d> points = written.vertices;
   std::sort(points.begin(), points.end(), before);
-  for (const Eigen::Vector3d& p : lines_.vertices)
-    if (!std::binary_search(points.begin(), points.end(), p, before))
+  for (Eigen::Vector3d& p : lines_.vertices) {
+    if (std::binary_search(points.begin(), points.end(), p, before)) continue;
+    const auto written_as = nearest_of(points, p, original_lines_->rounding);
+    if (!written_as)
       throw Error("internal error: a vertex of a feature line is not in " + path_.string() + " as it was written");
+    p = *written_as;
+  }
   options.tolerance = std::min(original_lines_->tolerance, *options.tolerance);
   options.budget.seconds = std::min(options.budget.seconds, stop_.seconds_left());
   const Bvh tree(lines_, BvhOptions{options.threads, stop_});

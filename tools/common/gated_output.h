@@ -21,6 +21,7 @@ namespace meshbound::tools {
 struct OriginalLines {
   Bvh tree;  ///< of their `line_mesh`
   double tolerance = 0;
+  double rounding = 0;  ///< what writing may move a vertex by
 };
 
 /// An original whose texture a result must not move further than this.
@@ -71,7 +72,9 @@ class GatedOutput {
   [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
   [[nodiscard]] std::size_t line_edges() const { return lines_.triangles.size(); }
   [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
-  [[nodiscard]] std::string checksum() const;                            ///< SHA-256 of the file; before `publish`
+  /// The file that holds what was written, until `publish`.
+  [[nodiscard]] const std::filesystem::path& staged() const { return file_->staged(); }
+  [[nodiscard]] std::string checksum() const;  ///< SHA-256 of the file; before `publish`
 
   /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
   /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the

@@ -41,7 +41,7 @@ std::vector<fs::path> level_files_of(const fs::path& chain) {
   std::ifstream in(chain, std::ios::binary);
   const Json document = Json::parse(in, nullptr, false);
   if (word(document, "schema") != "meshbound/lod/1" || !document.contains("levels")) return {};
-  static const std::regex level_name("lod_[0-9]+[.](ply|obj|off|stl)");
+  static const std::regex level_name("lod_[0-9]+[.](ply|obj|off|stl|glb|gltf)");
   std::vector<fs::path> files;
   for (const Json& level : document["levels"]) {
     const std::string name = word(level, "file"), checksum = word(level, "sha256");

@@ -28,7 +28,8 @@ TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport&
             content.decoded_strips,
             content.ignored_elements,
             content.dropped,
-            std::move(file.sha256)};
+            std::move(file.sha256),
+            content.rest_pose_parts};
   if (attributes != nullptr) *attributes = std::move(content.attributes);
   return std::move(content.mesh);
 }

@@ -28,16 +28,20 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
                  "Where vertices of the result stand: where they cost least, or only where the original has vertices")
       ->check(CLI::IsMember({"optimal", "subset"}))
       ->capture_default_str();
-  app.add_flag("--drop-attributes", options.drop_attributes,
-               "Write bare triangles also where attributes could come along, and do not keep seams");
+  auto* const drop = app.add_flag("--drop-attributes", options.drop_attributes,
+                                  "Write bare triangles also where attributes could come along, and do not keep seams");
+  app.add_flag("--strict", options.strict,
+               "Refuse an input that holds what the format of the output does not carry; nothing is written")
+      ->excludes(drop);
   app.add_option("--error-bound", options.error_bound,
                  "Width of the interval that the distance of a result is measured to, once it is proven to be within "
                  "its tolerance (default: 1% of that)");
   add_write_options(app, options.write);
   add_common_options(app, options.common);
-  app.description(app.get_description() +
-                  " Between OBJ files texture coordinates, normals, materials and groups come along; whatever else "
-                  "outputs do not carry is counted and dropped.");
+  app.description(
+      app.get_description() +
+      " Texture coordinates, normals, colours, materials and what else the format of the output carries come "
+      "along; whatever it does not carry is counted and dropped.");
 }
 
 }  // namespace meshbound::tools

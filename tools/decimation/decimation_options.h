@@ -15,12 +15,14 @@ struct DecimationOptions {
   std::string line_tolerance;           ///< a length as typed; empty: no feature lines
   std::string placement = "optimal";
   bool drop_attributes = false;
+  bool strict = false;  ///< refuse an input of which outputs would not carry everything
   WriteOptions write;
   std::string error_bound;  ///< of the measurements, a length as typed; empty: the default
   CommonOptions common;
 };
 
 /// Adds --driver, --cost, --preserve-boundary, --feature-angle, --line-tolerance, --placement, --drop-attributes,
+/// --strict,
 /// --error-bound, what `add_write_options` and what `add_common_options` adds, and says in the description what outputs
 /// do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);

@@ -43,11 +43,17 @@ DecimationRun::DecimationRun(const DecimationOptions& options)
 }
 
 void DecimationRun::read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output) {
-  const bool carries = !shared_.drop_attributes && carries_attributes(format_of(output));
+  const FileFormat format = format_of(output);
+  const bool carries = !shared_.drop_attributes && carries_attributes(format);
   original_ = read_input(shared_.input, with_checksum, report, stop_of_reading(shared_.common, watch_),
                          carries ? &attributes_ : nullptr);
   validate(original_);
+  if (carries) attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
+  if (shared_.strict && *report.dropped != DroppedAttributes{})
+    throw InvalidInput(shared_.input + ": " + output.string() + " would not carry " + listed(*report.dropped) +
+                       "; choose another format, or leave out --strict");
   if (!attributes_.empty()) seams_ = seams(original_, attributes_);
+  rounding_ = placement_rounding(original_, attributes_);
   diagonal_ = report.summary.bbox_diagonal;
 }
 
@@ -69,12 +75,17 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
     options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
   options.feature_edges = seams_;
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
-  options.precision = output.precision();
+  // Frames of nodes round by themselves (`rounding_`).
+  options.precision = rounding_ > 0 ? Precision::Double : output.precision();
   options.time_limit = remaining(simplify_share);
   options.threads = shared_.common.threads;
   options.cancel = &interrupted_;
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   return options;
+}
+
+double DecimationRun::before_rounding(double tolerance) const {
+  return rounding_ > 0 ? std::max(tolerance - rounding_, tolerance / 2) : tolerance;
 }
 
 DistanceOptions DecimationRun::measurement(double tolerance) const {
@@ -97,7 +108,8 @@ bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) co
   try {
     const MeshAttributes attributes =
         attributes_.empty() ? MeshAttributes() : transferred_attributes(original_, attributes_, level);
-    output.write(level.mesh, level.lines, attributes);
+    const SimplifiedLevel placed = placed_as_written(level, attributes);
+    output.write(placed.mesh, placed.lines, attributes);
     return true;
   } catch (const Stopped&) {
     return false;
@@ -142,7 +154,7 @@ void DecimationRun::set_lines(std::vector<Edge> lines) {
                                ? std::numeric_limits<double>::infinity()  // that of the mesh
                                : parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
   original_lines_.emplace(
-      OriginalLines{Bvh(line_mesh(original_, lines_), BvhOptions{shared_.common.threads}), tolerance});
+      OriginalLines{Bvh(line_mesh(original_, lines_), BvhOptions{shared_.common.threads}), tolerance, rounding_});
 }
 
 std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output, double tolerance) const {
@@ -158,6 +170,9 @@ int DecimationRun::threads() const {
 void print_dropped(const MeshReport& original) {
   if (original.dropped && *original.dropped != DroppedAttributes{})
     std::printf("dropped: %s\n", listed(*original.dropped).c_str());
+  if (original.rest_pose_parts > 0)
+    std::printf("rest pose: %zu parts have a skin or morph targets, and the bound is of how they are without these\n",
+                original.rest_pose_parts);
 }
 
 std::string explanation(DecidedBy how) {

@@ -37,6 +37,8 @@ class DecimationRun {
   [[nodiscard]] bool writes(GatedOutput& output, const SimplifiedLevel& level) const;
   /// Measures what was written; true when the verdict is known.
   [[nodiscard]] bool decides(GatedOutput& output, const DistanceOptions& options);
+  /// What a decimation may use up of a tolerance: the rest is for the rounding in the frames of nodes.
+  [[nodiscard]] double before_rounding(double tolerance) const;
   [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
   /// Seconds of this share of the time limit that are left.
   [[nodiscard]] double remaining(double share) const;
@@ -65,6 +67,7 @@ class DecimationRun {
   double diagonal_ = 0;
   std::vector<double> tolerances_;
   MeshAttributes attributes_;  ///< of the original, where outputs carry them
+  double rounding_ = 0;        ///< what the frames of nodes may move vertices by, model units
   std::vector<Edge> seams_;    ///< of these
   std::vector<Edge> lines_;    ///< of the original
   std::optional<OriginalLines> original_lines_;
@@ -74,7 +77,8 @@ class DecimationRun {
   MeshWithTree measured_original_;
 };
 
-/// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries.
+/// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries, and
+/// another one where it has parts that were measured in rest pose.
 void print_dropped(const MeshReport& original);
 
 /// What to tell the user about a result that was not decided at once: a sentence, empty where there is nothing to say.

@@ -2,6 +2,7 @@
 #include "hausdorff/nearest.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <string>
@@ -42,7 +43,8 @@ bool is_mesh(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
+  static constexpr std::array known = {".off", ".obj", ".ply", ".stl", ".glb", ".gltf"};
+  return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 /// Mesh files below a folder, by name, without the query itself.
@@ -58,7 +60,7 @@ std::vector<std::string> mesh_files(const std::string& folder, const std::string
     if (it->is_regular_file(none) && is_mesh(it->path()) && !fs::equivalent(it->path(), query, none))
       paths.push_back(it->path().string());
   }
-  if (paths.empty()) throw InvalidInput("--nearest: there is no OFF, OBJ, PLY or STL file below " + folder);
+  if (paths.empty()) throw InvalidInput("--nearest: there is no mesh file below " + folder);
   std::sort(paths.begin(), paths.end());
   return paths;
 }

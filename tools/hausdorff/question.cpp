@@ -11,7 +11,7 @@
 namespace meshbound::tools {
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
-  app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY or STL")->required();
+  app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF")->required();
   app.add_option("B", arguments.b, "The mesh to compare with it; not with --nearest");
   app.add_option("--error-bound", arguments.error_bound,
                  "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");

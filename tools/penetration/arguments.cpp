@@ -9,7 +9,7 @@
 namespace meshbound::tools {
 
 void add_arguments(CLI::App& app, PenetrationArguments& arguments) {
-  app.add_option("A", arguments.a, "A closed mesh: OFF, OBJ, PLY or STL")->required();
+  app.add_option("A", arguments.a, "A closed mesh: OFF, OBJ, PLY, STL, GLB or glTF")->required();
   app.add_option("B", arguments.b, "The other one")->required();
   const char* const map = "Affine map for the vertices: 16 numbers, row-major, or a file that holds them";
   app.add_option("--transform-a", arguments.transform_a, map);

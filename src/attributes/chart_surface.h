@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "attributes/seams.h"
+#include "geometry/position_table.h"
+#include "meshbound/bvh.h"
+
+namespace meshbound {
+
+/// A point of a triangle by its barycentric coordinates.
+struct WeightedPoint {
+  std::uint32_t triangle = 0;
+  Eigen::Vector3d weights = {1, 0, 0};
+
+  /// The corner with the largest weight, the first of several.
+  [[nodiscard]] std::size_t nearest_corner() const;
+};
+
+/// A mesh with its charts, and closest points on one chart at a time. Not thread-safe: trees are made when asked for.
+class ChartSurface {
+ public:
+  /// `mesh` must outlive this. Throws as `charts`.
+  ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes);
+
+  [[nodiscard]] std::uint32_t chart_of(std::uint32_t triangle) const { return charts_.chart_of[triangle]; }
+  /// Corners 3 t + k of triangles at exactly this position.
+  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(const Eigen::Vector3d& p) const;
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const;
+  /// The closest point of a chart.
+  [[nodiscard]] WeightedPoint closest(std::uint32_t chart, const Eigen::Vector3d& p);
+
+ private:
+  [[nodiscard]] TriangleMesh mesh_of(const std::vector<std::uint32_t>& triangles) const;
+
+  const TriangleMesh& mesh_;
+  Charts charts_;
+  std::vector<Vec3> positions_;
+  std::optional<PositionTable> at_position_;
+  std::vector<std::vector<std::uint32_t>> corners_at_;    ///< by first vertex at a position
+  std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< by chart
+  std::vector<std::unique_ptr<Bvh>> trees_;               ///< by chart, made when asked for
+};
+
+}  // namespace meshbound

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Which attributes the formats carry.
+#include <algorithm>
+#include <utility>
+
+#include "mesh/gltf_document.h"
+#include "meshbound/io.h"
+
+namespace meshbound {
+namespace {
+
+struct Carried {
+  bool texture_coordinates = false, normals = false, colours = false, scalars = false;
+  bool materials = false;
+  bool groups = false;  ///< smoothing groups, too
+  bool document = false;
+};
+
+Carried carried_in(FileFormat format) {
+  switch (format) {
+    case FileFormat::Stl:
+      return {};
+    case FileFormat::Off:
+      return {.colours = true};
+    case FileFormat::Ply:
+      return {.texture_coordinates = true, .normals = true, .colours = true, .scalars = true};
+    case FileFormat::Obj:
+      return {.texture_coordinates = true, .normals = true, .colours = true, .materials = true, .groups = true};
+    case FileFormat::Gltf:
+    case FileFormat::Glb:
+      break;
+  }
+  return {.texture_coordinates = true,
+          .normals = true,
+          .colours = true,
+          .scalars = true,
+          .materials = true,
+          .document = true};
+}
+
+void drop(CornerAttribute& attribute, std::size_t& lost) {
+  lost += attribute.values.size();
+  attribute = {};
+}
+
+void drop(TriangleLabels& labels, std::size_t& lost) {
+  lost += labels.names.size();
+  labels = {};
+}
+
+void drop_named(const Carried& carried, MeshAttributes& attributes, DroppedAttributes& lost) {
+  const auto drops = [&](const NamedAttribute& named) {
+    if (attributes.document != nullptr || (named.width == 1 && carried.scalars)) return false;
+    if (named.name == "COLOR_0") {
+      if (!carried.colours) lost.colours += named.values.size() / named.width;
+      return !carried.colours;
+    }
+    ++lost.other_properties;
+    return true;
+  };
+  std::erase_if(attributes.named, drops);
+}
+
+}  // namespace
+
+MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedAttributes& lost) {
+  const Carried carried = carried_in(format);
+  if (!carried.document && attributes.document) {
+    lost.scene_objects += count_scene_objects(*attributes.document);
+    attributes.document = nullptr;
+    attributes.part.clear();
+  }
+  if (!carried.texture_coordinates) drop(attributes.texture_coordinates, lost.texture_coordinates);
+  if (!carried.normals) drop(attributes.normals, lost.normals);
+  drop_named(carried, attributes, lost);
+  const bool has_only_libraries = attributes.materials.empty();
+  if (!carried.materials) drop(attributes.materials, lost.materials);
+  if (carried.groups) return attributes;
+  if (has_only_libraries) lost.materials += attributes.material_libraries.size();
+  attributes.material_libraries.clear();
+  std::size_t known_to_document = 0;
+  drop(attributes.groups, attributes.document ? known_to_document : lost.groups);
+  drop(attributes.smoothing_groups, lost.smoothing_groups);
+  return attributes;
+}
+
+bool carries_attributes(FileFormat format) {
+  const Carried carried = carried_in(format);
+  return carried.colours;
+}
+
+}  // namespace meshbound

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mesh/gltf_document.h"
+#include "meshbound/io.h"
+
+namespace meshbound {
+
+/// Accessors that were read, each once: primitives often share them.
+class AccessorCache {
+ public:
+  /// Both must outlive this.
+  AccessorCache(const MeshSource& source, const GltfDocument& document) : source_(source), document_(document) {}
+
+  /// Throws as `read_accessor`. Valid as long as this.
+  [[nodiscard]] const GltfAccessor& at(std::size_t index);
+
+ private:
+  const MeshSource& source_;
+  const GltfDocument& document_;
+  std::map<std::size_t, GltfAccessor> read_;
+};
+
+/// The name in `MeshAttributes::named` of a property of a morph target.
+[[nodiscard]] std::string target_name(std::size_t target, std::string_view semantic);
+
+/// Collects the attributes of primitives, triangle by triangle.
+class GltfAttributes {
+ public:
+  GltfAttributes(AccessorCache& accessors, const GltfValue& root);
+
+  /// Triangles that follow are of this primitive of this placed mesh, which is number `part`.
+  void begin_primitive(const GltfValue& primitive, const NodePlacement& placement, std::uint32_t part,
+                       std::uint32_t group, std::size_t vertices);
+  /// A new group; its name is that of the mesh.
+  [[nodiscard]] std::uint32_t add_group(const GltfValue& mesh, std::size_t number);
+  /// Corners as vertices of the primitive.
+  void add_triangle(const Triangle& corners);
+
+  /// All but the document.
+  [[nodiscard]] MeshAttributes finish();
+
+ private:
+  void use_normals(const GltfValue& accessor, const NodePlacement& placement, std::size_t vertices);
+  void use_texture_coordinates(const GltfValue& accessor, std::size_t vertices);
+  void use_named(const std::string& name, std::string_view semantic, const GltfValue& accessor, std::size_t vertices);
+  void name_missing_materials();
+  const GltfAccessor& checked(const GltfValue& accessor, std::size_t vertices, std::size_t min_width);
+
+  AccessorCache& accessors_;
+  std::size_t accessor_count_, material_count_;
+  MeshAttributes all_;
+  std::map<std::string, std::size_t> number_of_;                                 // of `all_.named`
+  std::map<std::pair<std::string, std::size_t>, std::uint32_t> first_value_of_;  // by name and accessor
+
+  // Of the primitive: the number of the value of its first vertex, or `none`.
+  std::uint32_t texture_coordinates_ = CornerAttribute::none, normals_ = CornerAttribute::none;
+  std::vector<std::uint32_t> named_;
+  std::uint32_t material_ = CornerAttribute::none, part_ = 0, group_ = 0;
+};
+
+/// Adds what `GltfAttributes` would collect from a primitive to the counts of what is dropped.
+void count_attributes(const GltfValue& primitive, std::size_t vertices, DroppedAttributes& dropped);
+
+}  // namespace meshbound

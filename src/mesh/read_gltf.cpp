@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0 and GLB (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html): the triangles of the default scene.
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/gltf_attributes.h"
+#include "mesh/gltf_document.h"
+#include "mesh/mesh_assembler.h"
+#include "mesh/readers.h"
+#include "mesh/weld.h"
+#include "mesh/writers.h"
+#include "numeric/no_index.h"
+
+namespace meshbound {
+namespace {
+
+enum Mode : std::size_t { Triangles = 4, Strip = 5, Fan = 6 };
+
+/// The corners of a primitive, as numbers of its vertices, in threes.
+std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, std::size_t mode) {
+  std::vector<Triangle> triangles;
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const bool joins_runs = mode != Triangles && (a == b || b == c || c == a);
+    if (!joins_runs) triangles.push_back({a, b, c});
+  };
+  const std::size_t step = mode == Triangles ? 3 : 1;
+  for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
+    if (mode == Fan)
+      add(corners[i + 1], corners[i + 2], corners[0]);
+    else if (mode == Strip && i % 2 == 1)
+      add(corners[i], corners[i + 2], corners[i + 1]);
+    else
+      add(corners[i], corners[i + 1], corners[i + 2]);
+  }
+  return triangles;
+}
+
+class GltfReader {
+ public:
+  explicit GltfReader(const MeshSource& source)
+      : source_(source),
+        document_(std::make_shared<GltfDocument>(read_gltf_document(source))),
+        root_(source, document_->json),
+        accessors_(source, *document_),
+        assembler_(source, Position::Byte) {
+    if (source.with_attributes) attributes_.emplace(accessors_, root_);
+  }
+
+  MeshFile read() {
+    document_->placed = placed_meshes(source_, *document_);
+    for (std::uint32_t i = 0; i < document_->placed.size(); ++i) read_placed(i);
+    if (!attributes_) {
+      assembler_.dropped().materials = root_.count("materials");
+      assembler_.dropped().scene_objects = count_scene_objects(*document_);
+    }
+    MeshFile file = assembler_.finish();
+    file.decoded_strips = decoded_strips_;
+    file.rest_pose_parts = rest_pose_parts_;
+    if (attributes_) {
+      file.attributes = attributes_->finish();
+      file.attributes.document = std::move(document_);
+    }
+    return file;
+  }
+
+ private:
+  void read_placed(std::uint32_t number) {
+    const std::uint32_t mesh_number = document_->placed[number].mesh;
+    const GltfValue mesh = root_.at("meshes").item(mesh_number);
+    vertex_of_.clear();
+    welder_ = Welder();
+    first_vertex_ = static_cast<std::uint32_t>(assembler_.vertex_count());
+    const std::uint32_t group = attributes_ ? attributes_->add_group(mesh, mesh_number) : 0;
+    const GltfValue primitives = mesh.at("primitives");
+    for (std::uint32_t i = 0; i < primitives.size(); ++i) {
+      const GltfValue primitive = primitives.item(i);
+      const std::size_t mode = primitive.integer_or("mode", Triangles);
+      if (mode < Triangles || mode > Fan || !primitive.at("attributes").find("POSITION"))
+        assembler_.ignore_element();
+      else
+        read_primitive(primitive, mode, number, i, group);
+    }
+  }
+
+  void read_primitive(const GltfValue& primitive, std::size_t mode, std::uint32_t placed, std::uint32_t number,
+                      std::uint32_t group) {
+    refuse_compression(primitive);
+    const GltfValue where = primitive.at("attributes").at("POSITION");
+    const std::size_t accessor = where.index(root_.count("accessors"), "accessors");
+    const GltfAccessor& positions = accessors_.at(accessor);
+    if (positions.numbers.width != 3) where.fail("the positions are not of three numbers");
+    const NodePlacement placement = document_->placed[placed].placement;
+    document_->parts.push_back({placed, number});
+    if (attributes_)
+      attributes_->begin_primitive(primitive, placement, static_cast<std::uint32_t>(document_->parts.size() - 1), group,
+                                   positions.count);
+    else
+      count_attributes(primitive, positions.count, assembler_.dropped());
+    if (document_->placed[placed].has_skin || primitive.count("targets") > 0) ++rest_pose_parts_;
+    if (mode != Triangles) ++decoded_strips_;
+    const bool is_mirrored = placement.is_mirrored();
+    for (Triangle t : triangles_of(corners_of(primitive, positions.count), mode)) {
+      if (is_mirrored) std::swap(t[1], t[2]);
+      std::array<std::uint32_t, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(where, accessor, positions, placement, t[k]);
+      assembler_.add_polygon(corners);
+      if (attributes_) attributes_->add_triangle(t);
+    }
+  }
+
+  static void refuse_compression(const GltfValue& primitive) {
+    const auto extensions = primitive.find("extensions");
+    if (extensions && extensions->find("KHR_draco_mesh_compression"))
+      primitive.fail("data compressed by KHR_draco_mesh_compression are not read; convert the file to one without it");
+  }
+
+  std::vector<std::uint32_t> corners_of(const GltfValue& primitive, std::size_t vertices) {
+    std::vector<std::uint32_t> corners;
+    const auto indices = primitive.find("indices");
+    if (!indices) {
+      for (std::uint32_t i = 0; i < vertices; ++i) corners.push_back(i);
+      return corners;
+    }
+    const GltfAccessor& accessor = accessors_.at(indices->index(root_.count("accessors"), "accessors"));
+    if (accessor.numbers.width != 1 || accessor.numbers.component == GltfComponent::Float)
+      indices->fail("the indices are not single integers");
+    for (const double value : accessor.values) {
+      if (!(value >= 0 && value < static_cast<double>(vertices)))
+        indices->fail("a triangle refers to vertex " + std::to_string(static_cast<std::int64_t>(value)) +
+                      ", but the primitive has only " + std::to_string(vertices) + " (counted from 0)");
+      corners.push_back(static_cast<std::uint32_t>(value));
+    }
+    return corners;
+  }
+
+  /// The vertex of the mesh that stands for a vertex of the primitive: the same one for equal positions of a node.
+  std::uint32_t vertex(const GltfValue& where, std::size_t accessor, const GltfAccessor& positions,
+                       const NodePlacement& placement, std::uint32_t number) {
+    std::vector<std::uint32_t>& known = vertex_of_[accessor];
+    if (known.empty()) known.assign(positions.count, no_index);
+    if (known[number] != no_index) return known[number];
+    const double* const from = positions.values.data() + std::size_t{3} * number;
+    // Normalised integers are quotients, which a viewer rounds to floats; all others are floats already.
+    const Eigen::Vector3d local = rounded_to_float(Eigen::Vector3d(from[0], from[1], from[2]));
+    if (!local.allFinite()) where.fail("the position of vertex " + std::to_string(number) + " is not finite");
+    const Eigen::Vector3d p = placement.to_scene(local);
+    const std::uint32_t welded = first_vertex_ + welder_.index_of(p);
+    if (welded == assembler_.vertex_count()) assembler_.add_vertex(p, source_.bytes.size());
+    return known[number] = welded;
+  }
+
+  const MeshSource& source_;
+  std::shared_ptr<GltfDocument> document_;
+  GltfValue root_;
+  AccessorCache accessors_;
+  MeshAssembler assembler_;
+  std::optional<GltfAttributes> attributes_;
+  std::size_t decoded_strips_ = 0, rest_pose_parts_ = 0;
+
+  // Of the placed mesh that is read:
+  std::map<std::size_t, std::vector<std::uint32_t>> vertex_of_;  ///< by accessor of positions and vertex
+  Welder welder_;
+  std::uint32_t first_vertex_ = 0;
+};
+
+}  // namespace
+
+MeshFile read_gltf(const MeshSource& source) { return GltfReader(source).read(); }
+
+}  // namespace meshbound

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0 and GLB: a new document for a mesh of another format; else the document that the mesh was read from, with
+// new triangles and nothing else changed.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/data_uri.h"
+#include "mesh/file_bytes.h"
+#include "mesh/gltf_attributes.h"
+#include "mesh/gltf_buffer.h"
+#include "mesh/gltf_content.h"
+#include "mesh/gltf_document.h"
+#include "mesh/gltf_primitives.h"
+#include "mesh/split_vertices.h"
+#include "mesh/writers.h"
+#include "meshbound/error.h"
+
+namespace meshbound {
+namespace {
+
+constexpr std::uint32_t none = CornerAttribute::none;
+
+/// The number in an object, where it is the number of an item of an array of the document.
+std::optional<std::size_t> number_in(const GltfJson& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  if (!object.is_object() || found == object.end() || !found->is_number_unsigned()) return std::nullopt;
+  return found->get<std::size_t>();
+}
+
+/// Visits the numbers of the accessors of a primitive.
+template <class Visit>
+void visit_accessors(const GltfJson& primitive, const Visit& visit) {
+  if (const auto indices = number_in(primitive, "indices")) visit(*indices);
+  const auto visit_properties = [&](const GltfJson& properties) {
+    if (!properties.is_object()) return;
+    for (const auto& item : properties.items())
+      if (item.value().is_number_unsigned()) visit(item.value().template get<std::size_t>());
+  };
+  if (primitive.contains("attributes")) visit_properties(primitive["attributes"]);
+  if (primitive.contains("targets"))
+    for (const GltfJson& target : primitive["targets"]) visit_properties(target);
+}
+
+/// The items of an array that is a member of an object; none where there is no such array.
+const GltfJson& items_of(const GltfJson& object, const char* key) {
+  static const GltfJson nothing = GltfJson::array();
+  if (!object.is_object()) return nothing;
+  const auto found = object.find(key);
+  return found != object.end() && found->is_array() ? *found : nothing;
+}
+
+/// How the properties of a primitive of the document are stored.
+GltfLayout layout_of(const GltfJson& document, const GltfJson& primitive) {
+  GltfLayout layout;
+  const auto add = [&](const std::string& name, const GltfJson& number) {
+    if (name == "POSITION" || !number.is_number_unsigned()) return;
+    const GltfJson& accessor = document["accessors"][number.get<std::size_t>()];
+    static constexpr std::array<const char*, 4> types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    const auto type = std::find(types.begin(), types.end(), accessor["type"].get<std::string>());
+    layout[name] = {static_cast<GltfComponent>(accessor["componentType"].get<int>()),
+                    accessor.value("normalized", false), static_cast<std::size_t>(type - types.begin()) + 1};
+  };
+  for (const auto& item : primitive["attributes"].items()) add(item.key(), item.value());
+  std::size_t number = 0;
+  for (const GltfJson& target : items_of(primitive, "targets")) {
+    for (const auto& item : target.items()) {
+      const std::string name = target_name(number, item.key());
+      add(name, item.value());
+      if (layout.contains(name) && item.key() == "POSITION") layout[name] = {GltfComponent::Float, false, 3};
+    }
+    ++number;
+  }
+  return layout;
+}
+
+/// The document of a mesh, with the triangles of a level in place of its own.
+class DocumentEdit {
+ public:
+  DocumentEdit(const TriangleMesh& mesh, const MeshAttributes& attributes)
+      : mesh_(mesh),
+        attributes_(attributes),
+        from_(*attributes.document),
+        json_(from_.json),
+        buffer_(json_, from_.buffers),
+        triangles_of_(from_.parts.size()) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles_of_[attributes.part[t]].push_back(t);
+  }
+
+  GltfContent run() {
+    choose_parts();
+    std::vector<GltfLayout> layouts;
+    for (const std::uint32_t part : replaced_) layouts.push_back(layout_of(json_, primitive(part)));
+    buffer_.free_accessors(accessors_to_free());
+    for (std::size_t i = 0; i < replaced_.size(); ++i) {
+      const std::uint32_t part = replaced_[i];
+      if (!triangles_of_[part].empty())
+        write_primitive(buffer_, primitive(part), mesh_, attributes_, triangles_of_[part],
+                        from_.placed_of(part).placement, layouts[i]);
+    }
+    remove_empty_primitives();
+    embed_images();
+    std::string bytes = buffer_.finish();
+    return {std::move(json_), std::move(bytes)};
+  }
+
+ private:
+  GltfJson& primitive(std::uint32_t part) {
+    return json_["meshes"][from_.placed_of(part).mesh]["primitives"][from_.parts[part].primitive];
+  }
+
+  /// A mesh that several nodes show is taken from the first node that does not flatten it.
+  void choose_parts() {
+    std::map<std::uint32_t, std::uint32_t> placed_of_mesh;
+    for (std::uint32_t i = 0; i < from_.placed.size(); ++i)
+      if (from_.placed[i].placement.is_invertible()) placed_of_mesh.try_emplace(from_.placed[i].mesh, i);
+    for (std::uint32_t part = 0; part < from_.parts.size(); ++part) {
+      const auto chosen = placed_of_mesh.find(from_.placed_of(part).mesh);
+      if (chosen != placed_of_mesh.end() && chosen->second == from_.parts[part].placed) replaced_.push_back(part);
+    }
+  }
+
+  /// Those that only the primitives that are replaced refer to.
+  [[nodiscard]] std::vector<std::size_t> accessors_to_free() {
+    std::set<std::size_t> freed;
+    std::set<const GltfJson*> replaced;
+    for (const std::uint32_t part : replaced_) {
+      replaced.insert(&primitive(part));
+      visit_accessors(primitive(part), [&](std::size_t accessor) { freed.insert(accessor); });
+    }
+    const auto keep = [&](std::optional<std::size_t> accessor) {
+      if (accessor) freed.erase(*accessor);
+    };
+    for (const GltfJson& mesh : items_of(json_, "meshes"))
+      for (const GltfJson& other : items_of(mesh, "primitives"))
+        if (!replaced.contains(&other)) visit_accessors(other, keep);
+    for (const GltfJson& animation : items_of(json_, "animations"))
+      for (const GltfJson& sampler : items_of(animation, "samplers"))
+        keep(number_in(sampler, "input")), keep(number_in(sampler, "output"));
+    for (const GltfJson& skin : items_of(json_, "skins")) keep(number_in(skin, "inverseBindMatrices"));
+    return {freed.begin(), freed.end()};
+  }
+
+  /// A primitive needs a triangle, and a mesh a primitive.
+  void remove_empty_primitives() {
+    std::vector<std::pair<std::size_t, std::size_t>> empty;  // mesh and primitive
+    for (const std::uint32_t part : replaced_)
+      if (triangles_of_[part].empty()) empty.emplace_back(from_.placed_of(part).mesh, from_.parts[part].primitive);
+    std::sort(empty.rbegin(), empty.rend());
+    for (const auto& [mesh, primitive] : empty) {
+      GltfJson& primitives = json_["meshes"][mesh]["primitives"];
+      primitives.erase(primitive);
+      if (primitives.empty()) remove_mesh(mesh);
+    }
+  }
+
+  void remove_mesh(std::size_t mesh) {
+    json_["meshes"].erase(mesh);
+    if (json_["meshes"].empty()) json_.erase("meshes");
+    for (GltfJson& node : json_["nodes"]) {
+      const auto shown = number_in(node, "mesh");
+      if (!shown || *shown < mesh) continue;
+      if (*shown > mesh) {
+        node["mesh"] = *shown - 1;
+      } else {
+        for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
+      }
+    }
+  }
+
+  /// The file is to be complete wherever it is: images in files of their own come into it as they are.
+  void embed_images() {
+    const auto images = json_.find("images");
+    if (images == json_.end() || !images->is_array()) return;
+    for (GltfJson& image : *images) {
+      if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+      const auto path = relative_path_of(image["uri"].get<std::string>());
+      if (!path) continue;
+      embed_image(image, from_.folder / *path);
+    }
+  }
+
+  void embed_image(GltfJson& image, const std::filesystem::path& path) {
+    try {
+      const FileBytes file(path);
+      const std::string type = image_type(file.bytes());
+      if (type.empty()) return;
+      image["bufferView"] = buffer_.add_view(file.bytes(), 0, 0);
+      image["mimeType"] = type;
+      image.erase("uri");
+    } catch (const IoError&) {
+      // An image that is not there was not there for the original either: its name stays.
+    }
+  }
+
+  static std::string image_type(std::string_view bytes) {
+    if (bytes.starts_with("\x89PNG")) return "image/png";
+    if (bytes.starts_with("\xFF\xD8\xFF")) return "image/jpeg";
+    if (bytes.starts_with("\xABKTX 20")) return "image/ktx2";
+    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
+    return "";
+  }
+
+  const TriangleMesh& mesh_;
+  const MeshAttributes& attributes_;
+  const GltfDocument& from_;
+  GltfJson json_;
+  GltfBuffer buffer_;
+  std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< by part
+  std::vector<std::uint32_t> replaced_;                   ///< parts
+};
+
+/// Attributes of other formats under names that glTF allows: its own, or an underscore and capitals.
+MeshAttributes named_for_gltf(const MeshAttributes& attributes) {
+  MeshAttributes result = attributes;
+  for (NamedAttribute& named : result.named) {
+    if (named.name.starts_with("COLOR_")) continue;
+    std::string name = "_";
+    for (const char c : named.name) {
+      const bool is_small = c >= 'a' && c <= 'z', is_allowed = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+      name += is_small ? static_cast<char>(c - 'a' + 'A') : is_allowed ? c : '_';
+    }
+    named.name = std::move(name);
+  }
+  return result;
+}
+
+/// A document of one node for a mesh of another format: one primitive for each material.
+GltfContent new_document(const TriangleMesh& mesh, const MeshAttributes& given) {
+  const MeshAttributes attributes = named_for_gltf(given);
+  GltfLayout layout;
+  if (!attributes.normals.empty()) layout["NORMAL"] = {GltfComponent::Float, false, 3};
+  if (!attributes.texture_coordinates.empty()) layout["TEXCOORD_0"] = {GltfComponent::Float, false, 2};
+  for (const NamedAttribute& named : attributes.named) {
+    const bool in_bytes = named.name.starts_with("COLOR_") && holds_bytes(named);
+    layout[named.name] = {in_bytes ? GltfComponent::UInt8 : GltfComponent::Float, in_bytes, named.width};
+  }
+  GltfJson json = {{"asset", {{"version", "2.0"}, {"generator", "meshbound"}}},
+                   {"scene", 0},
+                   {"scenes", GltfJson::array({{{"nodes", GltfJson::array({0})}}})},
+                   {"nodes", GltfJson::array({{{"mesh", 0}}})}};
+  std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_of;  // by material
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    triangles_of[attributes.materials.empty() ? none : attributes.materials.index[t]].push_back(t);
+  const std::vector<std::string> no_buffers;
+  GltfBuffer buffer(json, no_buffers);
+  GltfJson primitives = GltfJson::array();
+  for (const auto& [material, triangles] : triangles_of) {
+    GltfJson primitive = GltfJson::object();
+    write_primitive(buffer, primitive, mesh, attributes, triangles, {}, layout);
+    if (material != none) primitive["material"] = material;
+    primitives.push_back(std::move(primitive));
+  }
+  json["meshes"] = GltfJson::array({{{"primitives", std::move(primitives)}}});
+  for (const std::string& name : attributes.materials.names)
+    json["materials"].push_back({{"name", name}, {"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+  std::string bytes = buffer.finish();
+  return {std::move(json), std::move(bytes)};
+}
+
+/// As UTF-8, bytes of names that are none replaced.
+std::string text_of(const GltfJson& json) { return json.dump(-1, ' ', false, GltfJson::error_handler_t::replace); }
+
+void write_glb(AtomicFile& file, std::string text, std::string_view bytes) {
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::size_t size = 12 + 8 + text.size() + (bytes.empty() ? 0 : 8 + bytes.size());
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw InvalidInput(file.path().string() + ": a GLB file holds at most 4 GiB; write PLY");
+  file.write("glTF");
+  put_little_endian(file, std::uint32_t{2});
+  put_little_endian(file, static_cast<std::uint32_t>(size));
+  put_little_endian(file, static_cast<std::uint32_t>(text.size()));
+  file.write("JSON");
+  file.write(text);
+  if (bytes.empty()) return;
+  put_little_endian(file, static_cast<std::uint32_t>(bytes.size()));
+  file.write(std::string_view("BIN\0", 4));
+  file.write(bytes);
+}
+
+}  // namespace
+
+GltfContent gltf_content(const TriangleMesh& mesh, const MeshAttributes& attributes) {
+  try {
+    return attributes.document ? DocumentEdit(mesh, attributes).run() : new_document(mesh, attributes);
+  } catch (const GltfJson::exception& error) {
+    throw InvalidInput(std::string("the JSON of the glTF file that the mesh comes from is malformed: ") + error.what());
+  }
+}
+
+void write_gltf(AtomicFile& file, FileFormat format, const TriangleMesh& mesh, const MeshAttributes& attributes) {
+  write_gltf(file, format, gltf_content(mesh, attributes));
+}
+
+void write_gltf(AtomicFile& file, FileFormat format, GltfContent content) {
+  if (format == FileFormat::Glb) return write_glb(file, text_of(content.json), content.bytes);
+  if (!content.bytes.empty())
+    content.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + encode_base64(content.bytes);
+  file.write(text_of(content.json));
+}
+
+}  // namespace meshbound

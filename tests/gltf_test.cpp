@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+// glTF is written again with new triangles and everything else as it was; copies of a mesh stay copies; seams stay
+// closed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "datasets.h"
+#include "datasets/analytic_meshes.h"
+#include "gltf_file.h"
+#include "json_claims.h"
+#include "levels/level_run.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/simplify.h"
+#include "temporary_folder.h"
+
+namespace meshbound {
+namespace {
+
+using test::glb_content;
+using test::GlbContent;
+using test::GltfFile;
+using test::GltfJson;
+using testing_tools::content_of;
+
+MeshFile read_with_attributes(const std::filesystem::path& path) {
+  ReadOptions options;
+  options.attributes = true;
+  return read_mesh(path, options);
+}
+
+/// A sphere of radius 1 whose longitude is the texture coordinate, in one primitive: the seam has its vertices twice.
+GltfFile textured_sphere(std::uint32_t around, std::uint32_t along) {
+  GltfFile file;
+  std::vector<float> positions, normals, coordinates;
+  std::vector<std::uint16_t> indices;
+  for (std::uint32_t j = 0; j <= along; ++j) {
+    for (std::uint32_t i = 0; i <= around; ++i) {
+      const double u = i / static_cast<double>(around), v = j / static_cast<double>(along);
+      const double longitude = 2 * M_PI * (i % around) / around, latitude = M_PI * (v - 0.5);
+      const bool is_pole = j == 0 || j == along;
+      const double radius = is_pole ? 0 : std::cos(latitude);
+      for (const double x : {radius * std::cos(longitude), radius * std::sin(longitude), std::sin(latitude)})
+        positions.push_back(static_cast<float>(x)), normals.push_back(static_cast<float>(x));
+      coordinates.push_back(static_cast<float>(u)), coordinates.push_back(static_cast<float>(v));
+      if (i == around || j == along) continue;
+      const auto a = static_cast<std::uint16_t>(j * (around + 1) + i), b = static_cast<std::uint16_t>(a + around + 1);
+      if (j > 0)
+        indices.insert(indices.end(), {a, static_cast<std::uint16_t>(a + 1), static_cast<std::uint16_t>(b + 1)});
+      if (j + 1 < along) indices.insert(indices.end(), {a, static_cast<std::uint16_t>(b + 1), b});
+    }
+  }
+  file.add_positions(positions);
+  file.add_floats(normals, 3);
+  file.add_floats(coordinates, 2);
+  file.add_indices(indices);
+  file.json["materials"] = {{{"name", "globe"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["images"] = {
+      {{"bufferView", file.add_view<std::uint8_t>({0x89, 'P', 'N', 'G', 1, 2, 3, 4})}, {"mimeType", "image/png"}}};
+  file.json["meshes"] = {
+      {{"name", "sphere"},
+       {"primitives",
+        {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}, {"indices", 3}, {"material", 0}}}}}};
+  file.json["nodes"] = {{{"mesh", 0}}};
+  return file;
+}
+
+class Gltf : public testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path in(const std::string& name) const { return folder_ / name; }
+
+  /// Simplifies `in.glb` to `out.glb` within a tolerance, both seen as scenes. Returns what was written, as read.
+  MeshFile simplified(double tolerance) {
+    const MeshFile from = read_with_attributes(in("in.glb"));
+    SimplifyOptions options;
+    options.tolerance = tolerance - placement_rounding(from.mesh, from.attributes);
+    options.feature_edges = seams(from.mesh, from.attributes);
+    options.precision = Precision::Single;
+    if (placement_rounding(from.mesh, from.attributes) > 0) options.precision = Precision::Double;
+    const SimplifiedLevel level = decimate_levels(from.mesh, options, from.attributes).last();
+    const MeshAttributes attributes = transferred_attributes(from.mesh, from.attributes, level);
+    const SimplifiedLevel placed = placed_as_written(level, attributes);
+    write_mesh(in("out.glb"), placed.mesh, {}, attributes);
+    MeshFile result = read_with_attributes(in("out.glb"));
+    EXPECT_EQ(check_tolerance(Bvh(from.mesh), Bvh(result.mesh), tolerance).verdict, Verdict::Within);
+    EXPECT_LT(result.mesh.triangles.size(), from.mesh.triangles.size() / 2);
+    std::set<std::array<double, 3>> written;
+    for (const Eigen::Vector3d& p : result.mesh.vertices) written.insert({p.x(), p.y(), p.z()});
+    for (const Eigen::Vector3d& p : placed.mesh.vertices)
+      ASSERT_TRUE(written.contains({p.x(), p.y(), p.z()})) << "the file has the vertices that were foreseen";
+    return result;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+/// The bytes of a buffer view.
+std::string view_bytes(const GlbContent& file, std::size_t view) {
+  const GltfJson& of = file.json["bufferViews"][view];
+  return file.bytes.substr(of.value("byteOffset", std::size_t{0}), of["byteLength"].get<std::size_t>());
+}
+
+TEST_F(Gltf, PassesThroughWhatIsNoTriangle) {
+  GltfFile file = textured_sphere(48, 24);
+  const std::size_t times = file.add_floats({0, 1}, 1), moves = file.add_floats({0, 0, 0, 1, 2, 3}, 3);
+  file.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+                              {"samplers", {{{"input", times}, {"output", moves}}}}}};
+  file.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.01}}}}};
+  file.json["nodes"].push_back({{"camera", 0}, {"extras", {{"note", "keep \u00e9"}, {"list", {1, 2.5, nullptr}}}}});
+  file.json["extensionsUsed"] = {"ACME_unknown"};
+  file.json["extensions"] = {{"ACME_unknown", {{"deep", {{"er", {1, 2}}}}}}};
+  file.write(in("in.glb"));
+  (void)simplified(0.02);
+  const GlbContent before = glb_content(content_of(in("in.glb"))), after = glb_content(content_of(in("out.glb")));
+  for (const char* const key : {"asset", "scene", "scenes", "nodes", "materials", "textures", "images", "animations",
+                                "cameras", "extensionsUsed", "extensions"})
+    EXPECT_EQ(after.json[key], before.json[key]) << key;
+  for (const std::size_t accessor : {times, moves}) {
+    EXPECT_EQ(after.json["accessors"][accessor], before.json["accessors"][accessor]);
+    const std::size_t view = before.json["accessors"][accessor]["bufferView"];
+    EXPECT_EQ(view_bytes(after, view), view_bytes(before, view));
+  }
+  const std::size_t image = before.json["images"][0]["bufferView"];
+  EXPECT_EQ(view_bytes(after, image), view_bytes(before, image));
+  EXPECT_EQ(after.json["accessors"].size(), before.json["accessors"].size()) << "freed places are taken again";
+  EXPECT_EQ(after.json["bufferViews"].size(), before.json["bufferViews"].size());
+  EXPECT_LT(after.bytes.size(), before.bytes.size() / 2);
+}
+
+TEST_F(Gltf, SeamsStayClosedAndHaveTheCoordinatesOfTheirSides) {
+  textured_sphere(64, 32).write(in("in.glb"));
+  const MeshFile result = simplified(0.03);
+  const CornerAttribute& uv = result.attributes.texture_coordinates;
+  std::size_t on_seam = 0;
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+    double min = 2, max = -1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = result.mesh.vertices[result.mesh.triangles[t][k]];
+      const double u = uv.values[uv.index[t][k]].x();
+      if (p.head<2>().norm() < 1e-6) continue;  // a pole
+      min = std::min(min, u), max = std::max(max, u);
+      if (p.y() == 0 && p.x() > 0) ++on_seam;
+      EXPECT_NEAR(std::abs(std::remainder(u - std::atan2(p.y(), p.x()) / (2 * M_PI), 1.0)), 0, 0.02);
+      EXPECT_NEAR(result.attributes.normals.values[result.attributes.normals.index[t][k]].dot(p.normalized()), 1, 0.02);
+    }
+    EXPECT_LT(max - min, 0.6) << "no triangle reaches across the seam";
+  }
+  EXPECT_GT(on_seam, 4U);
+  EXPECT_TRUE(summarise(result.mesh).closed) << "both sides of the seam have equal positions";
+}
+
+TEST_F(Gltf, CopiesOfAMeshStayCopies) {
+  GltfFile file = textured_sphere(48, 24);
+  file.json["nodes"] = {{{"mesh", 0}, {"translation", {-5, 0, 0}}},
+                        {{"mesh", 0}, {"translation", {5, 0, 0}}, {"scale", {2, 1, 0.5}}},
+                        {{"mesh", 0}, {"translation", {0, 7, 0}}, {"scale", {-1, 1, 1}}}};
+  file.json["scenes"][0]["nodes"] = {0, 1, 2};
+  file.write(in("in.glb"));
+  const MeshFile result = simplified(0.02);
+  const std::size_t faces = result.mesh.triangles.size() / 3;
+  EXPECT_EQ(result.mesh.triangles.size(), 3 * faces);
+  const GlbContent after = glb_content(content_of(in("out.glb")));
+  EXPECT_EQ(after.json["meshes"].size(), 1U);
+  EXPECT_EQ(after.json["accessors"][3]["count"], 3 * faces);
+  // The second copy is stretched to twice its length: within 0.01 in the frame of the mesh.
+  TriangleMesh first;
+  first.vertices = result.mesh.vertices;
+  for (std::size_t t = 0; t < faces; ++t) first.triangles.push_back(result.mesh.triangles[t]);
+  TriangleMesh original = read_mesh(in("in.glb")).mesh;
+  original.triangles.resize(original.triangles.size() / 3);
+  EXPECT_EQ(check_tolerance(Bvh(original), Bvh(first), 0.01).verdict, Verdict::Within);
+}
+
+TEST_F(Gltf, PartsInTheSameFrameStayTogether) {
+  GltfFile file = textured_sphere(48, 24);
+  // The half of the triangles with another material.
+  const std::size_t half = file.json["accessors"][3]["count"].get<std::size_t>() / 6 * 3;
+  const std::size_t total = file.json["accessors"][3]["count"];
+  GltfJson second = file.json["accessors"][3];
+  file.json["accessors"][3]["count"] = half;
+  second["count"] = total - half;
+  second["byteOffset"] = 2 * half;
+  GltfJson primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["indices"] = file.add_accessor(second);
+  primitive["material"] = 1;
+  file.json["meshes"][0]["primitives"].push_back(primitive);
+  file.json["materials"].push_back({{"name", "north"}});
+  file.json["nodes"][0]["translation"] = {1000, 0, 0};
+  file.write(in("in.glb"));
+  const MeshFile result = simplified(0.03);
+  EXPECT_TRUE(summarise(result.mesh).closed) << "the border between materials has equal positions on both sides";
+  EXPECT_EQ(glb_content(content_of(in("out.glb"))).json["meshes"][0]["primitives"].size(), 2U);
+  EXPECT_EQ(std::set<std::uint32_t>(result.attributes.materials.index.begin(), result.attributes.materials.index.end()),
+            (std::set<std::uint32_t>{0, 1}));
+}
+
+TEST_F(Gltf, JointsComeFromOneVertexAndTargetsAreBlended) {
+  GltfFile file = textured_sphere(48, 24);
+  const std::size_t vertices = file.json["accessors"][0]["count"];
+  std::vector<std::uint8_t> joints, weights;
+  std::vector<float> target;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    joints.insert(joints.end(), {static_cast<std::uint8_t>(v % 2), static_cast<std::uint8_t>(2 + v % 3), 0, 0});
+    weights.insert(weights.end(), {static_cast<std::uint8_t>(v % 200), static_cast<std::uint8_t>(255 - v % 200), 0, 0});
+    target.insert(target.end(), {2, 0, 0});
+  }
+  GltfJson attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = file.add(joints, 5121, "VEC4", 4);
+  attributes["WEIGHTS_0"] = file.add(weights, 5121, "VEC4", 4);
+  file.json["accessors"].back()["normalized"] = true;
+  file.json["meshes"][0]["primitives"][0]["attributes"] = attributes;
+  file.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", file.add_positions(target)}}};
+  file.json["meshes"][0]["weights"] = {0.5};
+  file.write(in("in.glb"));
+  const MeshFile result = simplified(0.02);
+  EXPECT_EQ(result.rest_pose_parts, 1U);
+  std::map<std::string, const NamedAttribute*> named;
+  for (const NamedAttribute& one : result.attributes.named) named[one.name] = &one;
+  ASSERT_TRUE(named.contains("JOINTS_0") && named.contains("WEIGHTS_0") && named.contains("targets/0/POSITION"));
+  const std::vector<double>& written = named["WEIGHTS_0"]->values;
+  for (std::size_t v = 0; v < written.size(); v += 4) {
+    const double first = std::round(written[v] * 255), second = std::round(written[v + 1] * 255);
+    EXPECT_EQ(first + second, 255);
+    const double joint = named["JOINTS_0"]->values[v];
+    EXPECT_EQ(joint, std::fmod(first, 2)) << "joints and weights are those of one vertex";
+  }
+  for (std::size_t i = 0; i < named["targets/0/POSITION"]->values.size(); i += 3)
+    EXPECT_EQ(named["targets/0/POSITION"]->values[i], 2);
+}
+
+TEST_F(Gltf, PrimitivesOfOtherKindsKeepTheirData) {
+  GltfFile file = textured_sphere(48, 24);
+  file.json["meshes"][0]["primitives"].push_back(
+      {{"attributes", {{"POSITION", 0}}}, {"indices", file.add_indices({0, 1, 1, 2})}, {"mode", 1}});
+  file.write(in("in.glb"));
+  (void)simplified(0.02);
+  const GlbContent before = glb_content(content_of(in("in.glb"))), after = glb_content(content_of(in("out.glb")));
+  EXPECT_EQ(after.json["meshes"][0]["primitives"][1], before.json["meshes"][0]["primitives"][1]);
+  EXPECT_EQ(after.json["accessors"][0], before.json["accessors"][0]);
+  EXPECT_EQ(view_bytes(after, 0), view_bytes(before, 0)) << "the lines use the vertices that the triangles had";
+}
+
+TEST_F(Gltf, IsMadeFromOtherFormatsAndTurnedIntoThem) {
+  std::ofstream(in("in.obj")) << "mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\n"
+                                 "vt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 1\nvn 0 0 1\nusemtl red\nf 1/1/1 2/2/1 3/3/1\n"
+                                 "usemtl blue\ns 3\nf 1/1/1 3/3/1 4/4/1\n";
+  const MeshFile from = read_with_attributes(in("in.obj"));
+  DroppedAttributes lost;
+  for (const std::string name : {"out.glb", "out.gltf"}) {
+    write_mesh(in(name), from.mesh, {}, carried_by(format_of(name), from.attributes, lost));
+    const MeshFile back = read_with_attributes(in(name));
+    ASSERT_EQ(back.mesh.triangles.size(), 2U);
+    EXPECT_EQ(back.mesh.vertices, from.mesh.vertices);
+    EXPECT_EQ(back.attributes.materials.names, (std::vector<std::string>{"red", "blue"}));
+    EXPECT_EQ(back.attributes.materials.index, (std::vector<std::uint32_t>{0, 1}));
+    const CornerAttribute& uv = back.attributes.texture_coordinates;
+    EXPECT_EQ(uv.values[uv.index[0][2]], Eigen::Vector3d(1, 0.75, 0));
+    ASSERT_EQ(back.attributes.named.size(), 1U);
+    const NamedAttribute& colours = back.attributes.named[0];
+    EXPECT_EQ(colours.values[4 * colours.index[0][1] + 1], 1);
+    EXPECT_EQ(colours.values[4 * colours.index[0][1] + 0], 0);
+  }
+  EXPECT_EQ(lost.smoothing_groups, 2U * 1U);
+
+  const MeshFile glb = read_with_attributes(in("out.glb"));
+  DroppedAttributes lost_again;
+  write_mesh(in("again.obj"), glb.mesh, {}, carried_by(FileFormat::Obj, glb.attributes, lost_again));
+  EXPECT_EQ(lost_again, DroppedAttributes{});
+  const MeshAttributes again = read_with_attributes(in("again.obj")).attributes;
+  EXPECT_EQ(again.materials.names, (std::vector<std::string>{"red", "blue"}));
+  EXPECT_EQ(again.texture_coordinates.values[again.texture_coordinates.index[0][2]], Eigen::Vector3d(1, 0.75, 0));
+  EXPECT_EQ(again.named.at(0).name, "COLOR_0");
+}
+
+TEST_F(Gltf, TakesImageFilesIntoTheFile) {
+  GltfFile file = textured_sphere(24, 12);
+  std::filesystem::create_directories(in("maps"));
+  const std::string png = "\x89PNG and more";
+  std::ofstream(in("maps/skin 1.png"), std::ios::binary) << png;
+  file.json["images"] = {{{"uri", "maps/skin%201.png"}, {"name", "skin"}}, {{"uri", "lost.png"}}};
+  file.write(in("in.glb"));
+  (void)simplified(0.05);
+  const GlbContent after = glb_content(content_of(in("out.glb")));
+  EXPECT_EQ(after.json["images"][0]["mimeType"], "image/png");
+  EXPECT_EQ(after.json["images"][0]["name"], "skin");
+  EXPECT_EQ(view_bytes(after, after.json["images"][0]["bufferView"]), png);
+  EXPECT_EQ(after.json["images"][1]["uri"], "lost.png") << "what is not there keeps its name";
+}
+
+TEST_F(Gltf, RemovesAPrimitiveOfWhichNothingIsLeft) {
+  GltfFile file = textured_sphere(24, 12);
+  file.json["meshes"].push_back(file.json["meshes"][0]);
+  file.json["meshes"][0]["primitives"].push_back(file.json["meshes"][0]["primitives"][0]);
+  file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 1}, {"translation", {5, 0, 0}}, {"name", "empty"}}};
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  file.write(in("in.glb"));
+  const MeshFile from = read_with_attributes(in("in.glb"));
+  // Keeps the triangles of the second primitive alone.
+  TriangleMesh kept{from.mesh.vertices, {}};
+  SimplifiedLevel level;
+  for (std::uint32_t t = 0; t < from.mesh.triangles.size(); ++t) {
+    if (from.attributes.part[t] != 1) continue;
+    level.mesh.triangles.push_back(from.mesh.triangles[t]);
+    level.source_triangle.push_back(t);
+  }
+  level.mesh.vertices = from.mesh.vertices;
+  write_mesh(in("out.glb"), level.mesh, {}, transferred_attributes(from.mesh, from.attributes, level));
+  const GltfJson after = glb_content(content_of(in("out.glb"))).json;
+  ASSERT_EQ(after["meshes"].size(), 1U);
+  EXPECT_EQ(after["meshes"][0]["primitives"].size(), 1U);
+  EXPECT_EQ(after["nodes"][0]["mesh"], 0);
+  EXPECT_FALSE(after["nodes"][1].contains("mesh"));
+  EXPECT_EQ(after["nodes"][1]["name"], "empty");
+  EXPECT_EQ(read_mesh(in("out.glb")).mesh.triangles.size(), level.mesh.triangles.size());
+}
+
+}  // namespace
+}  // namespace meshbound

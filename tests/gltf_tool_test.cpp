@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// The tools with glTF through their command lines: scenes in, scenes out, and what Khronos' validator says of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <vector>
+
+#include "datasets.h"
+#include "gltf_file.h"
+#include "json_claims.h"
+#include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
+#include "run_tool.h"
+
+namespace meshbound {
+namespace {
+
+using test::GltfFile;
+using test::GltfJson;
+using testing_tools::checked_document;
+using testing_tools::content_of;
+using testing_tools::Json;
+using testing_tools::run_tool;
+using testing_tools::ToolRun;
+
+/// A wavy sheet of n x n squares of side 1 / n with texture coordinates, normals, colours, joints and a morph target,
+/// its halves with a material each. Two nodes show it; one of them is turned, and stretched to three times its size.
+GltfFile sheets(std::uint16_t n) {
+  GltfFile file;
+  std::vector<float> positions, normals, coordinates, colours, moves, weights;
+  std::vector<std::uint8_t> joints;
+  std::vector<std::uint16_t> indices;
+  for (std::uint16_t j = 0; j <= n; ++j) {
+    for (std::uint16_t i = 0; i <= n; ++i) {
+      const float x = static_cast<float>(i) / n, y = static_cast<float>(j) / n;
+      positions.insert(positions.end(), {x, y, 0.05F * std::sin(7 * x) * std::cos(5 * y)});
+      normals.insert(normals.end(), {0, 0, 1});
+      coordinates.insert(coordinates.end(), {x, y});
+      colours.insert(colours.end(), {x, y, 0, 1});
+      moves.insert(moves.end(), {0, 0, 1});
+      weights.insert(weights.end(), {1, 0, 0, 0});
+      joints.insert(joints.end(), {0, 0, 0, 0});
+      const auto a = static_cast<std::uint16_t>(j * (n + 1) + i), b = static_cast<std::uint16_t>(a + n + 1);
+      if (i == n || j == n) continue;
+      const auto c = static_cast<std::uint16_t>(a + 1), d = static_cast<std::uint16_t>(b + 1);
+      indices.insert(indices.end(), {a, c, d, a, d, b});
+    }
+  }
+  const std::size_t half = indices.size() / 2;
+  GltfJson attributes;
+  attributes["POSITION"] = file.add_positions(positions);
+  attributes["NORMAL"] = file.add_floats(normals, 3);
+  attributes["TEXCOORD_0"] = file.add_floats(coordinates, 2);
+  attributes["COLOR_0"] = file.add_floats(colours, 4);
+  attributes["JOINTS_0"] = file.add(joints, 5121, "VEC4", 4);
+  attributes["WEIGHTS_0"] = file.add_floats(weights, 4);
+  const std::size_t target = file.add_positions(moves);
+  const auto begin = indices.begin(), middle = begin + static_cast<std::ptrdiff_t>(half);
+  GltfJson primitives = GltfJson::array();
+  for (const auto& part :
+       {std::vector<std::uint16_t>(begin, middle), std::vector<std::uint16_t>(middle, indices.end())})
+    primitives.push_back({{"attributes", attributes},
+                          {"indices", file.add_indices(part)},
+                          {"material", primitives.size()},
+                          {"targets", {{{"POSITION", target}}}}});
+  file.json["meshes"] = {{{"primitives", primitives}, {"weights", {0}}}};
+  file.json["materials"] = {{{"name", "south"}}, {{"name", "north"}}};
+  file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}},
+                        {{"mesh", 0}, {"translation", {5, 0, 0}}, {"rotation", {0, 1, 0, 0}}, {"scale", {3, 3, 3}}},
+                        {{"name", "joint"}}};
+  file.json["skins"] = {{{"joints", {2}}}};
+  file.json["scenes"][0]["nodes"] = {0, 1, 2};
+  return file;
+}
+
+/// What the first node of `sheets(24)` shows.
+TriangleMesh sheet() {
+  const test::TemporaryFolder folder;
+  GltfFile one = sheets(24);
+  one.json["scenes"][0]["nodes"] = {0};
+  one.write(folder / "sheet.glb");
+  return read_mesh(folder / "sheet.glb").mesh;
+}
+
+class GltfTool : public testing::Test {
+ protected:
+  GltfTool() { sheets(24).write(in("in.glb")); }
+  [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] ToolRun simplify(const std::string& from, const std::string& to,
+                                 const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {in(from), in(to), "--tolerance", "0.01", "--threads", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(SIMPLIFY_WITH_BOUND, arguments);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(GltfTool, SimplifiesAScene) {
+  const ToolRun result = simplify("in.glb", "out.glb", {"--json", in("r.json"), "--strict"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("rest pose: 4 parts have a skin or morph targets"), std::string::npos) << result.out;
+  const Json json = checked_document(content_of(in("r.json")));
+  EXPECT_EQ(json["verdict"], "within");
+  EXPECT_EQ(json["original"]["faces"], 4 * 24 * 24);
+  EXPECT_EQ(json["original"]["rest_pose_parts"], 4);
+  EXPECT_LT(json["simplified"]["faces"].get<int>(), 24 * 24);
+  EXPECT_EQ(json["lines"]["edges"].get<int>() % 2, 0) << "lines of both copies";
+  const ToolRun distance = run_tool(HAUSDORFF_DISTANCE, {in("in.glb"), in("out.glb"), "--tolerance", "0.01"});
+  EXPECT_EQ(distance.exit_code, 0) << distance.out;
+}
+
+TEST_F(GltfTool, TheSecondCopySetsTheTolerance) {
+  ASSERT_EQ(simplify("in.glb", "out.glb").exit_code, 0);
+  // In the frame of the mesh, where the first copy stands, a third of the tolerance holds.
+  GltfFile alone = sheets(24);
+  alone.json["scenes"][0]["nodes"] = {0};
+  alone.write(in("one.glb"));
+  test::GlbContent out = test::glb_content(content_of(in("out.glb")));
+  out.json["scenes"][0]["nodes"] = {0};
+  GltfFile one;
+  one.json = out.json;
+  one.bytes = out.bytes;
+  one.write(in("one_out.glb"));
+  const ToolRun distance =
+      run_tool(HAUSDORFF_DISTANCE, {in("one.glb"), in("one_out.glb"), "--tolerance", "0.003333334"});
+  EXPECT_EQ(distance.exit_code, 0) << distance.out;
+}
+
+TEST_F(GltfTool, ComparesAScenesWithOtherFormats) {
+  ASSERT_EQ(simplify("in.glb", "out.obj", {"--json", in("r.json")}).exit_code, 0);
+  const Json dropped = checked_document(content_of(in("r.json")))["original"]["dropped"];
+  EXPECT_EQ(dropped["scene_objects"], 1) << "the skin";
+  EXPECT_EQ(dropped["texture_coordinates"], 0);
+  EXPECT_NE(content_of(in("out.obj")).find("usemtl north"), std::string::npos);
+  EXPECT_EQ(run_tool(HAUSDORFF_DISTANCE, {in("in.glb"), in("out.obj"), "--tolerance", "0.01"}).exit_code, 0);
+  EXPECT_EQ(simplify("in.glb", "strict.obj", {"--strict"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(in("strict.obj")));
+}
+
+TEST_F(GltfTool, CertifiesWhatItWrote) {
+  ASSERT_EQ(simplify("in.glb", "out.glb", {"--certificate", in("out.cert")}).exit_code, 0);
+  EXPECT_EQ(run_tool(VERIFY_CERTIFICATE, {in("in.glb"), in("out.glb"), in("out.cert")}).exit_code, 0);
+}
+
+TEST_F(GltfTool, WritesTheOriginalWhereNothingMayMove) {
+  const ToolRun result = run_tool(SIMPLIFY_WITH_BOUND, {in("in.glb"), in("out.glb"), "--tolerance", "1e-12"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_mesh(in("out.glb")).mesh.vertices, read_mesh(in("in.glb")).mesh.vertices);
+}
+
+TEST_F(GltfTool, IsTheSameForAnyNumberOfThreads) {
+  ASSERT_EQ(simplify("in.glb", "one.glb").exit_code, 0);
+  ASSERT_EQ(
+      run_tool(SIMPLIFY_WITH_BOUND, {in("in.glb"), in("three.glb"), "--tolerance", "0.01", "--threads", "3"}).exit_code,
+      0);
+  EXPECT_EQ(content_of(in("one.glb")), content_of(in("three.glb")));
+}
+
+TEST_F(GltfTool, WritesAllLevelsIntoOneFileAndATileset) {
+  GltfFile scene = sheets(24);
+  scene.json["nodes"][1]["children"] = {3};
+  scene.json["nodes"].push_back({{"name", "child"}});
+  scene.write(in("in.glb"));
+  const ToolRun result = run_tool(LOD_CHAIN, {in("in.glb"), in("lods"), "--levels", "0.005,0.02,0.08", "--format",
+                                              "glb", "--glb", in("all.glb"), "--tileset", "--json", in("r.json")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json report = checked_document(content_of(in("r.json")));
+  const GltfJson all = test::glb_content(content_of(in("all.glb"))).json;
+  EXPECT_EQ(all["extensionsUsed"], GltfJson({"MSFT_lod"}));
+  ASSERT_EQ(all["meshes"].size(), 3U);
+  // Node 1 has a child, so a new one shows its mesh, and moves with it.
+  EXPECT_FALSE(all["nodes"][1].contains("mesh"));
+  const std::size_t shown = all["nodes"][1]["children"][1];
+  EXPECT_EQ(all["nodes"][shown]["mesh"], 0);
+  for (const std::size_t node : {std::size_t{0}, shown}) {
+    const GltfJson& finest = all["nodes"][node];
+    const GltfJson& ids = finest["extensions"]["MSFT_lod"]["ids"];
+    ASSERT_EQ(ids.size(), 2U);
+    EXPECT_EQ(finest.contains("skin"), node == 0);
+    for (std::size_t level = 1; level < 3; ++level) {
+      const GltfJson& coarser = all["nodes"][ids[level - 1].get<std::size_t>()];
+      EXPECT_EQ(coarser["mesh"], level);
+      EXPECT_EQ(coarser.contains("skin"), node == 0);
+      std::size_t faces = 0;
+      for (const GltfJson& primitive : all["meshes"][level]["primitives"])
+        faces += all["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>() / 3;
+      EXPECT_EQ(2 * faces, report["levels"][level]["faces"]) << "both nodes show it";
+    }
+    // An error of e covers a pixel of 1080 where the sheet, as large as its node shows it, covers this share.
+    const GltfJson& shares = finest["extras"]["MSFT_screencoverage"];
+    ASSERT_EQ(shares.size(), 3U);
+    const double size = (node == 0 ? 1 : 3) * bounding_box_diagonal(sheet());
+    EXPECT_NEAR(shares[0].get<double>(), size / (1080 * report["levels"][1]["distance"]["upper"].get<double>()), 1e-6);
+    EXPECT_EQ(shares[2], 0);
+  }
+  EXPECT_EQ(read_mesh(in("all.glb")).mesh.triangles, read_mesh(in("lods/lod_0.glb")).mesh.triangles);
+
+  const Json tiles = Json::parse(content_of(in("lods/tileset.json")));
+  const Json& root = tiles["root"];
+  EXPECT_EQ(root["content"]["uri"], "lod_2.glb");
+  EXPECT_EQ(root["geometricError"], report["levels"][2]["distance"]["upper"]);
+  EXPECT_EQ(root["children"][0]["children"][0]["content"]["uri"], "lod_0.glb");
+  EXPECT_EQ(root["children"][0]["geometricError"], report["levels"][1]["distance"]["upper"]);
+  EXPECT_GT(tiles["geometricError"].get<double>(), root["geometricError"].get<double>());
+  EXPECT_EQ(root["refine"], "REPLACE");
+  EXPECT_EQ(run_tool(LOD_CHAIN, {in("in.glb"), in("x"), "--levels", "0.1", "--glb", in("x.glb")}).exit_code, 2);
+  EXPECT_EQ(run_tool(LOD_CHAIN, {in("in.glb"), in("x"), "--levels", "0.1", "--format", "glb", "--glb", in("in.glb")})
+                .exit_code,
+            2);
+}
+
+TEST_F(GltfTool, PassesTheValidator) {
+  const auto validator = test::dataset("npm/gltf-validator/index.js");
+  if (!validator) GTEST_SKIP() << "the validator of glTF is not on this machine: datasets/fetch brings it";
+  if (testing_tools::run_shell("node --version").exit_code != 0) GTEST_SKIP() << "node is not installed";
+  ASSERT_EQ(simplify("in.glb", "out.glb").exit_code, 0);
+  ASSERT_EQ(simplify("out.glb", "out.gltf").exit_code, 0);
+  ASSERT_EQ(simplify("in.glb", "out.ply").exit_code, 0);
+  ASSERT_EQ(simplify("out.ply", "new.glb").exit_code, 0);
+  ASSERT_EQ(simplify("in.glb", "bare.glb", {"--drop-attributes"}).exit_code, 0);
+  ASSERT_EQ(run_tool(LOD_CHAIN,
+                     {in("in.glb"), in("lods"), "--levels", "0.01,0.05", "--format", "glb", "--glb", in("all.glb")})
+                .exit_code,
+            0);
+  const ToolRun result =
+      run_tool("node", {std::string(MESHBOUND_SOURCE_DIR) + "/tests/validate_gltf.js", validator->parent_path(),
+                        in("in.glb"), in("out.glb"), in("out.gltf"), in("new.glb"), in("bare.glb"), in("all.glb")});
+  EXPECT_EQ(result.out, "0 errors\n");
+}
+
+}  // namespace
+}  // namespace meshbound
