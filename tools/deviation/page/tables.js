@@ -38,6 +38,14 @@ function sentence() {
   return `${parts.join('')}.`;
 }
 
+function writeTexture() {
+  const { texture } = document_;
+  if (!texture) return;
+  const tolerance = texture.tolerance ? `, the tolerance is ${short(texture.tolerance.absolute)}` : '';
+  byId('sentence-texture').hidden = false;
+  byId('sentence-texture').textContent = `Texture: how far it moves on the surface, both ways, is in ${exact(texture)}${tolerance}.`;
+}
+
 export function writeHeader() {
   const { provenance, verdict, distance } = document_;
   byId('tool').textContent = `${provenance.tool} ${provenance.version}, ${provenance.date}`;
@@ -46,6 +54,7 @@ export function writeHeader() {
   byId('interval').textContent = exact(distance);
   byId('sentence').textContent = sentence();
   document.title = `${verdict}: ${meshReports[1].path || meshReports[0].path}`;
+  writeTexture();
   if (!document_.lines) return;
   const { lines } = document_;
   byId('sentence-lines').hidden = false;
