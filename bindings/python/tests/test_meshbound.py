@@ -266,11 +266,18 @@ class LongCalls(unittest.TestCase):
             thread.join()
 
     def test_interrupt_from_the_keyboard(self):
+        # The handler runs while threads of the call are still there, and its exception ends the call.
         program = (
-            "import sys, test_meshbound, meshbound\n"
+            "import os, signal, sys, test_meshbound, meshbound\n"
+            "def threads(): return len(os.listdir('/proc/self/task'))\n"
+            "before = threads()\n"
+            "def interrupt(*_):\n"
+            "    print('during the call' if threads() > before else 'after it', flush=True)\n"
+            "    raise KeyboardInterrupt\n"
+            "signal.signal(signal.SIGINT, interrupt)\n"
             "print('started', flush=True)\n"
             "try:\n"
-            "    while True: meshbound.simplify(test_meshbound.LongCalls.large, '0.05%')\n"
+            "    meshbound.simplify(test_meshbound.sheet(500, 5), '0.02%', effort='high')\n"
             "except KeyboardInterrupt:\n"
             "    sys.exit(42)\n"
         )
@@ -279,6 +286,7 @@ class LongCalls(unittest.TestCase):
             self.assertEqual(child.stdout.readline(), b"started\n")
             threading.Event().wait(0.3)
             child.send_signal(signal.SIGINT)
+            self.assertEqual(child.stdout.readline(), b"during the call\n")
             self.assertEqual(child.wait(60), 42)
 
 
