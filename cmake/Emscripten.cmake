@@ -12,13 +12,21 @@ set(compat ${PROJECT_SOURCE_DIR}/bindings/js/compat/standard_library.h)
 add_compile_options(-include ${compat} -fwasm-exceptions -msimd128)
 add_link_options(-fwasm-exceptions)
 
-# meshbound_without_files(target): leaves out what reads and writes files, and penetration depths, which need GMP.
+# meshbound_without_files(target): leaves out what reads and writes files or knows their attributes, and what needs
+# GMP.
 function(meshbound_without_files target)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/headers)
   get_target_property(sources ${target} SOURCES)
-  set(folders numeric geometry bvh proof distance attributes simplify certificate levels)
+  set(folders numeric geometry bvh proof distance simplify certificate levels)
   list(JOIN folders "|" folders)
-  set(files mesh/line_mesh mesh/mesh_summary mesh/mesh_view mesh/weld mesh/transform)
+  set(files mesh/line_mesh mesh/mesh_summary mesh/mesh_view mesh/weld mesh/transform
+    mesh/gltf_nodes)
   list(JOIN files "|" files)
   list(FILTER sources INCLUDE REGEX "^(${folders})/|^(${files})[.]cpp$")
+  # Headers alone, which may not bring the rest of /usr/include with them.
+  find_path(nlohmann_dir nlohmann/json.hpp PATHS /usr/include NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+  file(CREATE_LINK ${nlohmann_dir}/nlohmann ${PROJECT_BINARY_DIR}/headers/nlohmann SYMBOLIC)
+  set_source_files_properties(levels/scene_run.cpp mesh/gltf_nodes.cpp PROPERTIES
+     INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/headers)
   set_target_properties(${target} PROPERTIES SOURCES "${sources};report/worst_spot.cpp")
 endfunction()

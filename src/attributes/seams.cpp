@@ -63,7 +63,7 @@ Neighbours neighbours_across(const TriangleMesh& mesh, const std::vector<std::ui
 template <class Attribute>
 bool differs(const Attribute& attribute, const Neighbours& at) {
   if (attribute.index.empty()) return false;
-  const auto [t, other] = at.triangles;
+  const auto t = at.triangles[0], other = at.triangles[1];  // clang 14 captures no structured bindings
   return std::any_of(at.corners.begin(), at.corners.end(), [&](const std::array<std::size_t, 2>& corner) {
     return !is_equal(attribute, attribute.index[t][corner[0]], attribute.index[other][corner[1]]);
   });
