@@ -126,5 +126,35 @@ TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {
   EXPECT_EQ(document["texture"]["upper"], 0);
 }
 
+/// Folds of 45 degrees that are lower than the tolerance: only the normals keep them.
+TEST_F(TextureTool, KeepsFacesFromTurning) {
+  constexpr int n = 16;
+  const std::string folded = folder_ / "folded.off", out = folder_ / "out.off";
+  {
+    std::ofstream off(folded);
+    off << "OFF\n" << (n + 1) * (n + 1) << ' ' << 2 * n * n << " 0\n";
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) off << i << ' ' << j << ' ' << i % 2 << '\n';
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const int a = j * (n + 1) + i, c = a + n + 1;
+        off << "3 " << a << ' ' << a + 1 << ' ' << c + 1 << "\n3 " << a << ' ' << c + 1 << ' ' << c << '\n';
+      }
+    }
+  }
+  const auto faces = [](const json& document) { return document["simplified"]["faces"].get<int>(); };
+  const std::vector<std::string> wide = {folded, out, "--tolerance", "1.5", "--json", "-"};
+  const json without = checked_document(simplify(wide).out);
+  std::vector<std::string> with_normals = wide;
+  with_normals.insert(with_normals.end(), {"--normal-tolerance", "20"});
+  const ToolRun kept = simplify(with_normals);
+  ASSERT_EQ(kept.exit_code, 0) << kept.err;
+  const json document = checked_document(kept.out);
+  EXPECT_LE(document["normals"]["max_degrees"].get<double>(), 20);
+  EXPECT_EQ(document["normals"]["tolerance"], 20);
+  EXPECT_GT(faces(document), faces(without));
+  EXPECT_LT(faces(document), 2 * n * n);
+}
+
 }  // namespace
 }  // namespace meshbound

@@ -21,7 +21,7 @@
 #include "common/texture_length.h"
 #include "common/texture_text.h"
 #include "decimation/decimation_run.h"
-#include "decimation/texture_locks.h"
+#include "decimation/kept_vertices.h"
 #include "deviation/deviation_outputs.h"
 #include "levels/level_run.h"
 #include "mesh/atomic_file.h"
@@ -36,7 +36,7 @@ struct Options : DecimationOptions {
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::string target_ratio, texture_tolerance;
-  std::optional<double> texture_size;
+  std::optional<double> texture_size, normal_tolerance;
   bool prune = false;
   bool dry_run = false;
   BatchOptions batch;
@@ -83,6 +83,10 @@ void declare(CLI::App& app, Options& options) {
                  "How far the texture may move on the surface at most: a length as above, or '2texels' with "
                  "--texture-size. Measured of what was written, between points of the same texture coordinate");
   app.add_option("--texture-size", options.texture_size, "Texels of a side of the texture")->check(CLI::PositiveNumber);
+  app.add_option("--normal-tolerance", options.normal_tolerance,
+                 "How far faces may turn at most, in degrees: each face of IN against the face of OUT that is nearest "
+                 "to its centroid")
+      ->check(CLI::Range(0.0, 180.0));
   add_deviation_options(app, options.deviation, "IN", "OUT");
   add_decimation_options(app, options);
   add_examples(app,
@@ -108,9 +112,9 @@ class Run : DecimationRun {
   void print_estimate() const;
   void open_outputs();
   void simplify();
-  void choose_texture_tolerance();
-  [[nodiscard]] bool tightens_texture();
-  [[nodiscard]] bool is_texture_within() const;
+  void choose_appearance();
+  [[nodiscard]] bool tightens_appearance();
+  [[nodiscard]] bool keeps_appearance() const;
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void certify();
   void write_certificates();
@@ -141,7 +145,7 @@ class Run : DecimationRun {
   std::optional<TextureLength> typed_texture_tolerance_;
   std::optional<OriginalTexture> original_texture_;
   double texel_length_ = 0;
-  std::optional<TextureLocks> texture_locks_;
+  std::optional<KeptVertices> kept_vertices_;
   std::vector<std::string> checksums_;  ///< of the outputs, when a document is to name them
   std::vector<DecidedBy> decided_by_;   ///< of the outputs
 };
@@ -151,7 +155,7 @@ int Run::operator()() {
   check_paths();
   read();
   choose_tolerances();
-  choose_texture_tolerance();
+  choose_appearance();
   if (options_.dry_run) {
     print_estimate();
     return ExitDone;
@@ -161,7 +165,7 @@ int Run::operator()() {
     simplify();
     end_if_interrupted();
     certify();
-  } while (tightens_texture());
+  } while (tightens_appearance());
   if (verdict_ == Verdict::Within) write_certificates();
   if (verdict_ == Verdict::Within && deviation_) measure_deviation();
   if (verdict_ == Verdict::Within) publish();
@@ -200,7 +204,8 @@ void Run::choose_tolerances() {
   report_.tolerance = tolerances_.back();
 }
 
-void Run::choose_texture_tolerance() {
+void Run::choose_appearance() {
+  if (typed_texture_tolerance_ || options_.normal_tolerance) kept_vertices_.emplace(original_);
   if (!typed_texture_tolerance_) return;
   if (attributes_.texture_coordinates.empty())
     throw InvalidInput(
@@ -212,7 +217,6 @@ void Run::choose_texture_tolerance() {
         texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *options_.texture_size);
   const double tolerance = typed_texture_tolerance_->in_model_units(diagonal_, texel_length_);
   original_texture_ = OriginalTexture{&original_, &attributes_, tolerance};
-  texture_locks_.emplace(original_);
 }
 
 /// `index` 0 is that of the smallest tolerance.
@@ -277,7 +281,7 @@ void Run::simplify() {
   ProgressBar bar("simplifying", options_.common.quiet);
   SimplifyOptions simplify = decimation_options(bar);
   simplify.tolerance = before_rounding(tolerances_.back());
-  if (texture_locks_) simplify.locked_vertices = texture_locks_->locked();
+  if (kept_vertices_) simplify.locked_vertices = kept_vertices_->locked();
   if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
     simplify.tolerance = std::min(simplify.tolerance, original_texture_->tolerance);
   for (std::size_t i = 0; i + 1 < tolerances_.size(); ++i) simplify.levels.push_back(before_rounding(tolerances_[i]));
@@ -313,6 +317,7 @@ void Run::certify() {
     watch_.lap();
     if (original_lines_) outputs_[i].require_lines(&*original_lines_);
     if (original_texture_) outputs_[i].require_texture(&*original_texture_);
+    outputs_[i].require_normals(options_.normal_tolerance);
     (void)writes(outputs_[i], result_.levels[level]);  // where it does not, `prove` falls back
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
@@ -333,25 +338,28 @@ void Run::certify() {
   }
 }
 
-bool Run::is_texture_within() const {
+bool Run::keeps_appearance() const {
   return std::all_of(outputs_.begin(), outputs_.end(), [](const GatedOutput& output) {
-    return output.verdict() != Verdict::Within || output.is_texture_within();
+    return output.verdict() != Verdict::Within || output.keeps_appearance();
   });
 }
 
-/// Where the texture of a result has moved too far: keeps more vertices of the original there, for another run. The
-/// original stands for a result that does not come within the texture tolerance in this way, or not in time.
-bool Run::tightens_texture() {
-  if (!texture_locks_ || is_texture_within()) return false;
+/// Where the texture of a result has moved too far or faces have turned too much: keeps more vertices of the original
+/// there, for another run. The original stands for a result that does not come within these tolerances in this way, or
+/// not in time.
+bool Run::tightens_appearance() {
+  if (!kept_vertices_ || keeps_appearance()) return false;
   end_if_interrupted();
   if (!is_out_of_time()) {
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      if (outputs_[i].texture_deviation()) texture_locks_->learn(*outputs_[i].texture_deviation(), original_tree());
-    if (texture_locks_->tighten()) return true;
+    for (const GatedOutput& output : outputs_) {
+      if (output.texture_deviation()) kept_vertices_->learn(*output.texture_deviation(), original_tree());
+      if (output.normal_deviation()) kept_vertices_->learn(*output.normal_deviation());
+    }
+    if (kept_vertices_->tighten()) return true;
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (outputs_[i].is_texture_within()) continue;
-    const bool has_smaller = i > 0 && outputs_[i - 1].is_texture_within();
+    if (outputs_[i].keeps_appearance()) continue;
+    const bool has_smaller = i > 0 && outputs_[i - 1].keeps_appearance();
     const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
     decided_by_[i] = fall_back(outputs_[i], has_smaller ? &outputs_[i - 1] : nullptr, measurement(tolerance));
   }
@@ -472,6 +480,8 @@ void Run::report() {
   if (original_texture_ && out.texture_deviation())
     report_.texture =
         TextureReport{*out.texture_deviation(), original_texture_->tolerance, options_.texture_size, texel_length_};
+  if (options_.normal_tolerance && out.normal_deviation())
+    report_.normals = NormalReport{*out.normal_deviation(), *options_.normal_tolerance};
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
                               outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
@@ -528,6 +538,7 @@ void Run::print_summary() const {
       print_line("decided", outputs_[i].path().string() + ": " + how);
   }
   print_lines(report_.lines, diagonal_);
+  if (report_.normals) print_normals(*report_.normals);
   if (report_.texture) print_texture(*report_.texture, {"original to simplified", "simplified to original"}, diagonal_);
   if (report_.deviation) print_deviation(*report_.deviation, "original to simplified", "simplified to original");
   print_locked(result_.locked_vertices, report_.original.summary);

@@ -18,6 +18,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/motion.h"
+#include "meshbound/normal_deviation.h"
 #include "meshbound/penetration_depth.h"
 #include "meshbound/proximity.h"
 #include "meshbound/report.h"

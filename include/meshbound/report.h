@@ -14,6 +14,7 @@
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/normal_deviation.h"
 #include "meshbound/screen_space.h"
 #include "meshbound/texture_deviation.h"
 
@@ -72,6 +73,12 @@ struct DeviationReport {
   std::string unit;            ///< of lengths, as the user named it; may be empty
   DeviationStatistics a_to_b;  ///< of points of A (the original), distances to B
   DeviationStatistics b_to_a;  ///< of points of B (the simplified mesh), distances to A
+};
+
+/// How far the faces of an original turn in a result.
+struct NormalReport {
+  NormalDeviation deviation;  ///< from the original to the simplified mesh
+  double tolerance = 0;       ///< degrees
 };
 
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
@@ -149,6 +156,7 @@ struct SimplifyReport {
   std::optional<LineReport> lines;                ///< where there are feature lines
   std::optional<TextureReport> texture;           ///< where it was asked for
   std::optional<DeviationReport> deviation;       ///< where an output that shows it was asked for
+  std::optional<NormalReport> normals;            ///< where it was asked for
   std::string stopped_by;  ///< which bound came first: "tolerance", "target", "rounding", "time_limit", "cancelled"
   /// What `SimplifyOptions::prune` dropped.
   struct Pruned {

@@ -133,6 +133,17 @@ Json texture(const TextureReport& from, double diagonal, const char* from_a, con
   return json;
 }
 
+Json normals(const NormalReport& from) {
+  Json json = {{"tolerance", number(from.tolerance)}, {"max_degrees", number(from.deviation.degrees)}};
+  if (!from.deviation.worst) return json;
+  const FaceTurn& turn = *from.deviation.worst;
+  json["witness"] = {{"from", point(turn.from.position)},
+                     {"to", point(turn.nearest.position)},
+                     {"from_triangle", turn.from.triangle},
+                     {"to_triangle", turn.nearest.triangle}};
+  return json;
+}
+
 Json stats(const std::vector<const OneSidedDistance*>& directions) {
   DistanceStats sum;
   double culled_triangles = 0;

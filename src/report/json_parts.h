@@ -46,6 +46,9 @@ using Json = nlohmann::ordered_json;
 /// Statistics of both directions; `from_a` and `from_b` name them.
 [[nodiscard]] Json deviation(const DeviationReport& report, const char* from_a, const char* from_b);
 
+/// {"tolerance":..,"max_degrees":..,"witness":{..}}
+[[nodiscard]] Json normals(const NormalReport& normals);
+
 /// Statistics over the directions that were searched: sums of counts, and means of percentages weighted by those
 /// counts.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);

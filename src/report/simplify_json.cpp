@@ -17,6 +17,7 @@ std::string to_json(const SimplifyReport& from) {
         texture(*from.texture, from.original.summary.bbox_diagonal, "original_to_simplified", "simplified_to_original");
   if (from.deviation)
     json["deviation"] = deviation(*from.deviation, "original_to_simplified", "simplified_to_original");
+  if (from.normals) json["normals"] = normals(*from.normals);
   json["decided_by"] = to_string(from.decided_by);
   const HausdorffDistance& distance = from.distance;
   if (const auto spot = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a))

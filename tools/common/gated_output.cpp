@@ -76,6 +76,7 @@ std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->stage
 const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const DistanceOptions& options) {
   verdict_ = Verdict::Undecided;
   texture_.reset();
+  normals_.reset();
   const MeshFile file = written_file(stop_);
   const TriangleMesh& mesh = file.mesh;
   summary_ = summarise(mesh);
@@ -83,6 +84,8 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
   if (original_texture_ != nullptr && verdict_ == Verdict::Within) measure_texture(file, options);
+  if (normal_tolerance_ && verdict_ == Verdict::Within)
+    normals_ = meshbound::normal_deviation(original.mesh(), mesh, {normal_tolerance_, options.threads});
   return distance_;
 }
 
@@ -97,6 +100,8 @@ void GatedOutput::measure_texture(const MeshFile& written, const DistanceOptions
   texture.stop = stop_;
   texture_ = meshbound::texture_deviation(meshes[0], meshes[1], texture);
 }
+
+bool GatedOutput::are_normals_within() const { return !normal_tolerance_ || (normals_ && normals_->exceeding.empty()); }
 
 bool GatedOutput::is_texture_within() const {
   if (original_texture_ == nullptr) return true;
@@ -140,11 +145,12 @@ void GatedOutput::fall_back(const GatedOutput* smaller, MeshWithTree& original, 
   lines_ = smaller->lines_;
   line_distance_ = smaller->line_distance_;
   texture_ = smaller->texture_;
+  normals_ = smaller->normals_;
   summary_ = smaller->summary_;
 }
 
 void GatedOutput::publish() {
-  if (verdict_ != Verdict::Within || !is_texture_within())
+  if (verdict_ != Verdict::Within || !keeps_appearance())
     throw Error(path_.string() + " is not proven to be within the tolerance: not written");
   file_->commit();
 }

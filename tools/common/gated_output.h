@@ -11,6 +11,7 @@
 #include "meshbound/io.h"
 #include "meshbound/line_mesh.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/normal_deviation.h"
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/texture_deviation.h"
@@ -51,6 +52,9 @@ class GatedOutput {
   /// From now on the texture deviation is measured as well; null: it is not. Must outlive this.
   void require_texture(const OriginalTexture* texture) { original_texture_ = texture; }
 
+  /// From now on it is measured as well how far faces of the original turn; none: it is not. Degrees.
+  void require_normals(std::optional<double> tolerance) { normal_tolerance_ = tolerance; }
+
   /// `lines` are edges of the mesh, `attributes` those of its triangles where the format carries them. Throws
   /// `IoError`; `InvalidInput` when a coordinate leaves the range of the format. After `Stopped` only `write` and
   /// `fall_back` may be called.
@@ -68,6 +72,10 @@ class GatedOutput {
   /// not measured.
   [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }
   [[nodiscard]] bool is_texture_within() const;
+  /// As these two, of normals.
+  [[nodiscard]] const std::optional<NormalDeviation>& normal_deviation() const { return normals_; }
+  [[nodiscard]] bool are_normals_within() const;
+  [[nodiscard]] bool keeps_appearance() const { return is_texture_within() && are_normals_within(); }
   [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
   [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
   [[nodiscard]] std::size_t line_edges() const { return lines_.triangles.size(); }
@@ -82,7 +90,7 @@ class GatedOutput {
   void fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
                  const MeshAttributes& attributes, DistanceOptions options);
 
-  /// Throws `Error` unless the verdict is Within and the texture is, `IoError` when the file cannot be renamed.
+  /// Throws `Error` unless the verdict is Within and `keeps_appearance`, `IoError` when the file cannot be renamed.
   void publish();
 
   /// A copy of what was written and found too far, for whoever looks for the reason.
@@ -104,6 +112,8 @@ class GatedOutput {
   const OriginalLines* original_lines_ = nullptr;
   const OriginalTexture* original_texture_ = nullptr;
   std::optional<TextureDeviation> texture_;
+  std::optional<double> normal_tolerance_;
+  std::optional<NormalDeviation> normals_;
   TriangleMesh lines_;  ///< of what was written
   std::optional<HausdorffDistance> line_distance_;
   MeshSummary summary_;

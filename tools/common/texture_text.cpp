@@ -38,4 +38,14 @@ void print_texture(const TextureReport& texture, const DirectionNames& names, do
   print_direction(names.b_to_a, texture.deviation.b_to_a);
 }
 
+void print_normals(const NormalReport& normals) {
+  const NormalDeviation& deviation = normals.deviation;
+  print_line("normals", "faces turn by at most " + short_number(deviation.degrees) + " degrees, tolerance " +
+                            exact_number(normals.tolerance));
+  if (deviation.worst)
+    print_line("", "triangle " + std::to_string(deviation.worst->from.triangle) + " at " +
+                       short_point(deviation.worst->from.position) + " against triangle " +
+                       std::to_string(deviation.worst->nearest.triangle));
+}
+
 }  // namespace meshbound::tools

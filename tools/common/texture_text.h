@@ -9,4 +9,7 @@ namespace meshbound::tools {
 /// diagonal and in texels, then each direction with its witness and the share of the area that is not covered.
 void print_texture(const TextureReport& texture, const DirectionNames& names, double diagonal);
 
+/// The line that says how far faces turn, and where.
+void print_normals(const NormalReport& normals);
+
 }  // namespace meshbound::tools

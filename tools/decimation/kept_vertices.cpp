@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "decimation/texture_locks.h"
+#include "decimation/kept_vertices.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace meshbound::tools {
 
-void TextureLocks::note(std::uint32_t face, std::uint32_t triangle, double distance) {
+void KeptVertices::note(std::uint32_t face, std::uint32_t triangle, double amount) {
   exceeding_.push_back(triangle);
   Worst& worst = worst_of_face_[face];
-  if (distance > worst.distance) worst = {distance, triangle};
+  if (amount > worst.amount) worst = {amount, triangle};
 }
 
-void TextureLocks::learn(const TextureDeviation& deviation, const Bvh& original) {
+void KeptVertices::learn(const TextureDeviation& deviation, const Bvh& original) {
   for (const TextureWitness& w : deviation.a_to_b.exceeding) note(w.nearest.triangle, w.from.triangle, w.distance);
   for (const TextureWitness& w : deviation.b_to_a.exceeding)
     note(w.from.triangle, closest_point(original, w.from.position).point.triangle, w.distance);
 }
 
-bool TextureLocks::lock(std::uint32_t triangle) {
+void KeptVertices::learn(const NormalDeviation& deviation) {
+  for (const FaceTurn& turn : deviation.exceeding) note(turn.nearest.triangle, turn.from.triangle, turn.degrees);
+}
+
+bool KeptVertices::lock(std::uint32_t triangle) {
   bool locks_more = false;
   for (const std::uint32_t v : original_.triangles[triangle]) {
     locks_more = locks_more || !locked_[v];
@@ -27,7 +31,7 @@ bool TextureLocks::lock(std::uint32_t triangle) {
   return locks_more;
 }
 
-bool TextureLocks::lock_around() {
+bool KeptVertices::lock_around() {
   std::vector<bool> reached(original_.vertices.size());
   for (const std::uint32_t t : exceeding_)
     for (const std::uint32_t v : original_.triangles[t]) reached[v] = true;
@@ -47,7 +51,7 @@ bool TextureLocks::lock_around() {
   return false;
 }
 
-bool TextureLocks::tighten() {
+bool KeptVertices::tighten() {
   if (++rounds_ > max_rounds) return false;
   locked_.resize(original_.vertices.size());
   bool locks_more = false;

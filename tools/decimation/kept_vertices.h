@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "meshbound/bvh.h"
+#include "meshbound/normal_deviation.h"
 #include "meshbound/texture_deviation.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound::tools {
 
-/// Vertices of an original that a simplification must keep so that the texture does not move too far: more after each
-/// attempt whose texture deviation was measured. A vertex that stays where it is keeps its texture coordinate.
-class TextureLocks {
+/// Vertices of an original that a simplification must keep so that the texture does not move too far and faces do not
+/// turn too much: more after each attempt that was measured. A vertex that stays where it is keeps its texture
+/// coordinate.
+class KeptVertices {
  public:
   /// `original` must outlive this.
-  explicit TextureLocks(const TriangleMesh& original) : original_(original) {}
+  explicit KeptVertices(const TriangleMesh& original) : original_(original) {}
 
   /// By vertex; empty while none is locked.
   [[nodiscard]] const std::vector<bool>& locked() const { return locked_; }
@@ -24,6 +26,8 @@ class TextureLocks {
   /// face of the attempt exceeds by is noted where the original is nearest to it in space: the point with the same
   /// texture coordinate may be anywhere.
   void learn(const TextureDeviation& deviation, const Bvh& original);
+  /// Notes which faces of the original turn too much in an attempt.
+  void learn(const NormalDeviation& deviation);
 
   /// Locks, for each face of the attempts that exceeds, the corners of the original triangle where it does so most;
   /// after `gradual_rounds` of this, those of all triangles that exceed; where these are locked already, rings of
@@ -33,10 +37,10 @@ class TextureLocks {
  private:
   static constexpr int gradual_rounds = 6, max_rounds = 12;
   struct Worst {
-    double distance = -1;
+    double amount = -1;  ///< a length or an angle: they are compared only to choose where to begin
     std::uint32_t triangle = 0;
   };
-  void note(std::uint32_t face, std::uint32_t triangle, double distance);
+  void note(std::uint32_t face, std::uint32_t triangle, double amount);
   [[nodiscard]] bool lock(std::uint32_t triangle);
   [[nodiscard]] bool lock_around();
 

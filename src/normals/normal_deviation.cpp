@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "meshbound/normal_deviation.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/point_triangle.h"
+#include "meshbound/error.h"
+#include "numeric/tasks.h"
+#include "simplify/cover/box_tree.h"
+
+namespace meshbound {
+namespace {
+
+constexpr double tie_share = 1e-9;          ///< of the diagonal of A
+constexpr double rounding_share = 0x1p-40;  ///< of the largest coordinate
+constexpr std::size_t grain = 256;          ///< faces that a thread takes at once
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+Corners corners_of(const MeshView& mesh, std::size_t triangle) {
+  const Triangle t = mesh.triangle(triangle);
+  return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
+}
+
+/// Unit length; none without an area.
+std::optional<Eigen::Vector3d> normal_of(const Corners& c) {
+  const double longest = std::max({(c[1] - c[0]).stableNorm(), (c[2] - c[1]).stableNorm(), (c[0] - c[2]).stableNorm()});
+  if (!(longest > 0)) return std::nullopt;
+  const Eigen::Vector3d normal = ((c[1] - c[0]) / longest).cross((c[2] - c[0]) / longest);
+  const double length = normal.norm();
+  if (!(length > 0)) return std::nullopt;
+  return normal / length;
+}
+
+double degrees_between(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  return std::atan2(p.cross(q).norm(), p.dot(q)) * (180 / std::numbers::pi);
+}
+
+/// The faces of B that have an area.
+class Faces {
+ public:
+  explicit Faces(const MeshView& mesh) {
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      const Corners corners = corners_of(mesh, t);
+      const auto normal = normal_of(corners);
+      if (!normal) continue;
+      const auto first = static_cast<std::uint32_t>(3 * triangles_.size());
+      vertices_.insert(vertices_.end(), corners.begin(), corners.end());
+      triangles_.push_back({first, first + 1, first + 2});
+      normals_.push_back(*normal);
+      source_.push_back(static_cast<std::uint32_t>(t));
+    }
+    if (triangles_.empty()) throw InvalidInput("no triangle has an area, so there are no normals to compare with");
+  }
+  [[nodiscard]] TriangleMesh mesh() const { return {vertices_, triangles_}; }
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
+  [[nodiscard]] Corners corners(std::uint32_t face) const {
+    return {vertices_[3 * face], vertices_[3 * face + 1], vertices_[3 * face + 2]};
+  }
+  [[nodiscard]] const Eigen::Vector3d& normal(std::uint32_t face) const { return normals_[face]; }
+  [[nodiscard]] std::uint32_t source(std::uint32_t face) const { return source_[face]; }
+  [[nodiscard]] std::vector<Eigen::AlignedBox3d> boxes() const {
+    std::vector<Eigen::AlignedBox3d> boxes(size());
+    for (std::uint32_t f = 0; f < size(); ++f)
+      for (const Eigen::Vector3d& p : corners(f)) boxes[f].extend(p);
+    return boxes;
+  }
+
+ private:
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<std::uint32_t> source_;
+};
+
+/// The vector from the point of the triangle that is nearest to p, to p.
+Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
+  std::array<Vec3, 3> c;  // around p
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d way = corners[k] - p;
+    c[k] = {way.x(), way.y(), way.z()};
+  }
+  std::size_t first = 0;  // of the longest edge
+  for (std::size_t k = 1; k < 3; ++k)
+    if (squared_length(c[(k + 1) % 3] - c[k]) > squared_length(c[(first + 1) % 3] - c[first])) first = k;
+  const CornerTriangle<double> t{c[first], c[(first + 1) % 3] - c[first], c[(first + 2) % 3] - c[first]};
+  const Vec3 offset = closest_on_triangle(t, Vec3{}).offset;
+  return {offset.x, offset.y, offset.z};
+}
+
+/// Faces nearer to each other than this, as seen from a point, are equally near.
+double tie_of(const MeshView& mesh) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (const Eigen::Vector3d& p : corners_of(mesh, t)) box.extend(p);
+  if (box.isEmpty()) return 0;
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return std::max(tie_share * box.diagonal().stableNorm(), rounding_share * largest);
+}
+
+/// Finds the faces that stand for others.
+class StandIns {
+ public:
+  StandIns(const MeshView& a, const MeshView& b, int threads)
+      : faces_(b), tree_(faces_.mesh(), {threads}), boxes_(faces_.boxes()), tie_(tie_of(a)) {}
+
+  [[nodiscard]] FaceTurn of(const Corners& corners, const Eigen::Vector3d& normal, std::uint32_t triangle) const {
+    FaceTurn turn;
+    turn.from = {(corners[0] + corners[1] + corners[2]) / 3, triangle};
+    const double reach = closest_point(tree_, turn.from.position).distance.upper + tie_;
+    std::vector<std::uint32_t> near;
+    const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
+    boxes_.find({turn.from.position - around, turn.from.position + around}, near);
+    turn.degrees = HUGE_VAL;
+    for (const std::uint32_t f : near) {
+      const Eigen::Vector3d offset = offset_from(faces_.corners(f), turn.from.position);
+      const double degrees = degrees_between(normal, faces_.normal(f));
+      if (offset.norm() > reach || degrees >= turn.degrees) continue;
+      turn.degrees = degrees;
+      turn.nearest = {turn.from.position - offset, faces_.source(f)};
+    }
+    return turn;
+  }
+
+ private:
+  Faces faces_;
+  Bvh tree_;
+  BoxTree boxes_;
+  double tie_;
+};
+
+}  // namespace
+
+NormalDeviation normal_deviation(const MeshView& a, const MeshView& b, const NormalDeviationOptions& options) {
+  validate(a);
+  validate(b);
+  if (options.tolerance && !(*options.tolerance >= 0))
+    throw InvalidInput("the normal tolerance must be an angle in degrees, 0 or more");
+  const StandIns stand_ins(a, b, options.threads);
+  std::vector<std::optional<FaceTurn>> turns(a.triangle_count());
+  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
+    for_each_range(turns.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const Corners corners = corners_of(a, t);
+        if (const auto normal = normal_of(corners))
+          turns[t] = stand_ins.of(corners, *normal, static_cast<std::uint32_t>(t));
+      }
+    });
+  });
+  NormalDeviation result;
+  for (const std::optional<FaceTurn>& turn : turns) {
+    if (!turn) continue;
+    if (!result.worst || turn->degrees > result.degrees) {
+      result.degrees = turn->degrees;
+      result.worst = turn;
+    }
+    if (options.tolerance && turn->degrees > *options.tolerance) result.exceeding.push_back(*turn);
+  }
+  return result;
+}
+
+}  // namespace meshbound
