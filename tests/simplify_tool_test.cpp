@@ -288,6 +288,18 @@ TEST_F(SimplifyTool, WritesTheBestMeshThatIsDecided) {
   EXPECT_EQ(faces_before, 1280u);
 }
 
+/// The original, which is left in the end, has other coordinates in a file of floats, and so have its lines.
+TEST_F(SimplifyTool, LinesOfTheOriginalAreFoundInAFileOfFloats) {
+  write_mesh(in("terrain.off"), datasets::terrain(1, 12, 1));
+  const test::EnvironmentSetting fault("UNDECIDED_MEASUREMENTS", "3");
+  const Result result = run("terrain.off terrain.stl --tolerance 0.02 --line-tolerance 0.01 --json r.json",
+                            SIMPLIFY_WITH_UNDECIDED_MEASUREMENTS);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json json = checked_document(content_of(in("r.json")));
+  EXPECT_EQ(json["decided_by"], "original");
+  EXPECT_EQ(json["lines"]["edges"], 48);
+}
+
 /// The interval is as narrow as 1% of the tolerance, or as narrow as asked.
 TEST_F(SimplifyTool, MeasuresToOnePercentOfTheToleranceOrTheErrorBound) {
   const auto width = [&](const std::string& more) {

@@ -59,6 +59,8 @@ Precision GatedOutput::precision() const {
 void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {
   restart();
   lines_ = line_mesh(mesh, lines);
+  if (precision() == Precision::Single && !attributes.document)
+    for (Eigen::Vector3d& p : lines_.vertices) p = rounded_to_float(p);
   // Where a document places parts in frames of their own, floats are rounded there.
   write_mesh(*file_, path_, attributes.document ? mesh : rounded_for(path_, mesh, options_), options_, attributes);
   file_->complete();
