@@ -210,7 +210,7 @@ void Run::choose_appearance() {
   if (attributes_.texture_coordinates.empty())
     throw InvalidInput(
         "--texture-tolerance needs texture coordinates, and an IN and OUT of a format that carries them "
-        "(OBJ): none were found in " +
+        "(OBJ, PLY, glTF): none were found in " +
         options_.input);
   if (options_.texture_size)
     texel_length_ =
