@@ -93,7 +93,7 @@ class Gltf : public testing::Test {
     std::set<std::array<double, 3>> written;
     for (const Eigen::Vector3d& p : result.mesh.vertices) written.insert({p.x(), p.y(), p.z()});
     for (const Eigen::Vector3d& p : placed.mesh.vertices)
-      ASSERT_TRUE(written.contains({p.x(), p.y(), p.z()})) << "the file has the vertices that were foreseen";
+      EXPECT_TRUE(written.contains({p.x(), p.y(), p.z()})) << "the file has the vertices that were foreseen";
     return result;
   }
 
