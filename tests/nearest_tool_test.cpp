@@ -106,7 +106,7 @@ TEST_F(NearestTool, RefusesBadUsageInOneLine) {
   expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, "--nearest", query_}), "is no folder");
   expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, query_, "--align"}), "--align");
   fs::create_directories(folder_ / "empty");
-  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, "--nearest", folder_ / "empty"}), "there is no OFF");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, "--nearest", folder_ / "empty"}), "there is no mesh file");
 }
 
 }  // namespace
