@@ -58,7 +58,7 @@ class GltfAttributes {
   std::map<std::string, std::size_t> number_of_;                                 // of `all_.named`
   std::map<std::pair<std::string, std::size_t>, std::uint32_t> first_value_of_;  // by name and accessor
 
-  // Of the primitive: the number of the value of its first vertex, or `none`.
+  // The values of the primitive's first vertex by number, or `none`.
   std::uint32_t texture_coordinates_ = CornerAttribute::none, normals_ = CornerAttribute::none;
   std::vector<std::uint32_t> named_;
   std::uint32_t material_ = CornerAttribute::none, part_ = 0, group_ = 0;

@@ -15,7 +15,7 @@ class ObjAttributes {
  public:
   /// A value of `vt` or `vn`.
   void add_value(std::string_view keyword, const Eigen::Vector3d& value);
-  /// Of a vertex, counted from 0; red, green and blue.
+  /// Gives red, green and blue to a vertex, counted from 0.
   void add_colour(std::size_t vertex, const Eigen::Vector3d& colour);
   /// What polygons from now on belong to: `usemtl`, `g`, `o`, `s`; or a library, `mtllib`. Other statements say
   /// nothing.

@@ -162,7 +162,7 @@ class GltfReader {
   std::optional<GltfAttributes> attributes_;
   std::size_t decoded_strips_ = 0, rest_pose_parts_ = 0;
 
-  // Of the placed mesh that is read:
+  // What belongs to the placed mesh that is read:
   std::map<std::size_t, std::vector<std::uint32_t>> vertex_of_;  ///< by accessor of positions and vertex
   Welder welder_;
   std::uint32_t first_vertex_ = 0;

@@ -90,7 +90,7 @@ class OffColours {
     if (corners > 2) faces_.insert(faces_.end(), corners - 2, colour);
   }
 
-  /// Of the mesh with these triangles; nothing where there are no colours.
+  /// Adds the colours to a mesh with these triangles, if there are any.
   void put_into(MeshAttributes& attributes, const std::vector<Triangle>& triangles) {
     if (values_.empty()) return;
     NamedAttribute colours{.name = "COLOR_0", .width = width};

@@ -23,8 +23,8 @@ struct SplitVertices {
   }
 };
 
-/// Of the triangles that are given by number; vertices are numbered as these reach them. `indices` are those of the
-/// attributes that the format keeps, none of them null; empty ones are no attributes. Expected O(n).
+/// Splits the vertices of the triangles that are given by number, and numbers them as these reach them. `indices` are
+/// those of the attributes that the format keeps, none of them null; empty ones are no attributes. Expected O(n).
 [[nodiscard]] SplitVertices split_vertices(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
                                            const std::vector<const std::vector<Triangle>*>& indices);
 

@@ -43,7 +43,7 @@ class Charts {
   }
 
  private:
-  /// Of the texture coordinates; the third one keeps materials apart.
+  /// The box of the texture coordinates; the third side keeps materials apart.
   static Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector2d& uv : t.coordinates) box.extend(Eigen::Vector3d(uv.x(), uv.y(), t.material));
