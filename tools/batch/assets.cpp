@@ -4,22 +4,13 @@
 #include <algorithm>
 #include <fstream>
 
+#include "common/mesh_input.h"
 #include "meshbound/error.h"
-#include "meshbound/io.h"
 
 namespace meshbound::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_mesh(const fs::path& path) {
-  try {
-    (void)format_of(path);
-    return true;
-  } catch (const InvalidInput&) {
-    return false;
-  }
-}
 
 std::vector<Asset> below_folder(const std::string& folder, const fs::path& output_dir) {
   std::vector<Asset> assets;
@@ -32,7 +23,7 @@ std::vector<Asset> below_folder(const std::string& folder, const fs::path& outpu
       it.disable_recursion_pending();
       continue;
     }
-    if (it->is_regular_file(none) && is_mesh(it->path()))
+    if (it->is_regular_file(none) && has_mesh_extension(it->path()))
       assets.push_back({it->path(), it->path().lexically_relative(folder).string()});
   }
   if (error) throw IoError("--batch: cannot read " + folder + ": " + error.message());

@@ -36,6 +36,13 @@ std::string checksum_of(const fs::path& path) {
   });
 }
 
+/// "3: 2 within, 0 exceed, 0 undecided, 1 failed"
+std::string listed(const BatchCounts& counts) {
+  return std::to_string(counts.all()) + ": " + std::to_string(counts.within) + " within, " +
+         std::to_string(counts.exceeds) + " exceed, " + std::to_string(counts.undecided) + " undecided, " +
+         std::to_string(counts.failed) + " failed";
+}
+
 /// One run of the batch, in the order of its phases.
 class BatchRun {
  public:
@@ -205,10 +212,7 @@ class BatchRun {
   [[nodiscard]] int conclude() const {
     const BatchCounts counts = count_by_status(records_);
     if (!common_.quiet) {
-      print_line("meshes", std::to_string(counts.all()) + ": " + std::to_string(counts.within) + " within, " +
-                               std::to_string(counts.exceeds) + " exceed, " + std::to_string(counts.undecided) +
-                               " undecided, " + std::to_string(counts.failed) + " failed; " + std::to_string(reused_) +
-                               " from an earlier run");
+      print_line("meshes", listed(counts) + "; " + std::to_string(reused_) + " from an earlier run");
       for (const auto& [name, record] : records_)
         if (record.status != "within") print_line(record.status, name + ": " + record.message);
       print_line("wrote", report_path().string());
@@ -236,9 +240,7 @@ int merge(const std::string& folder, const CommonOptions& common) {
   write_tables(folder, records);
   const BatchCounts counts = count_by_status(records);
   if (!common.quiet) {
-    print_line("meshes", std::to_string(counts.all()) + ": " + std::to_string(counts.within) + " within, " +
-                             std::to_string(counts.exceeds) + " exceed, " + std::to_string(counts.undecided) +
-                             " undecided, " + std::to_string(counts.failed) + " failed");
+    print_line("meshes", listed(counts));
     print_line("wrote", (fs::path(folder) / "batch.csv").string() + ", batch.html");
   }
   return ExitDone;

@@ -7,8 +7,18 @@
 #include "mesh/file_bytes.h"
 #include "mesh/file_stop.h"
 #include "mesh/readers.h"
+#include "meshbound/error.h"
 
 namespace meshbound::tools {
+
+bool has_mesh_extension(const std::filesystem::path& path) {
+  try {
+    (void)format_of(path);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
 
 InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop, bool with_attributes) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <filesystem>
 #include <string>
 
 #include "meshbound/io.h"
@@ -12,6 +13,9 @@ struct InputFile {
   MeshFile content;
   std::string sha256;  ///< of the bytes that were parsed; empty: not computed
 };
+
+/// Whether the extension is one of those that `format_of` knows.
+[[nodiscard]] bool has_mesh_extension(const std::filesystem::path& path);
 
 /// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says.
 [[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop,

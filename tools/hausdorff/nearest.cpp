@@ -2,8 +2,6 @@
 #include "hausdorff/nearest.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -39,14 +37,6 @@ struct Candidates {
   std::vector<Unreadable> unreadable;
 };
 
-bool is_mesh(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  static constexpr std::array known = {".off", ".obj", ".ply", ".stl", ".glb", ".gltf"};
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
 /// Mesh files below a folder, by name, without the query itself.
 std::vector<std::string> mesh_files(const std::string& folder, const std::string& query) {
   std::error_code error;
@@ -57,7 +47,7 @@ std::vector<std::string> mesh_files(const std::string& folder, const std::string
        it.increment(error)) {
     if (error) throw IoError("--nearest: cannot read " + folder + ": " + error.message());
     std::error_code none;
-    if (it->is_regular_file(none) && is_mesh(it->path()) && !fs::equivalent(it->path(), query, none))
+    if (it->is_regular_file(none) && has_mesh_extension(it->path()) && !fs::equivalent(it->path(), query, none))
       paths.push_back(it->path().string());
   }
   if (paths.empty()) throw InvalidInput("--nearest: there is no mesh file below " + folder);

@@ -66,13 +66,6 @@ SimplifyOptions library_options(const mb_simplify_options& given, const Triangle
     for (size_t i = 0; i < given.feature_edge_count; ++i)
       options.feature_edges.push_back({given.feature_edges[2 * i], given.feature_edges[2 * i + 1]});
   }
-  if (given.face_tolerances != nullptr)
-    options.face_tolerances.assign(given.face_tolerances, given.face_tolerances + mesh.triangles.size());
-  if (given.feature_edge_count > 0) {
-    require(given.feature_edges, "feature_edges");
-    for (size_t i = 0; i < given.feature_edge_count; ++i)
-      options.feature_edges.push_back({given.feature_edges[2 * i], given.feature_edges[2 * i + 1]});
-  }
   options.feature_angle = unless_negative(given.feature_angle);
   options.line_tolerance = unless_negative(given.line_tolerance);
   options.time_limit = given.time_limit;
