@@ -108,27 +108,27 @@ class PieceSearch {
     return upper;
   }
 
-  double least_upper(const Piece& piece, const Node*& where) {
-    double least = HUGE_VAL;
+  double min_upper(const Piece& piece, const Node*& where) {
+    double min = HUGE_VAL;
     for (const std::uint32_t c : piece.full) {
       const Node* at = nullptr;
       const double upper = upper_of(piece, c, at);
-      if (upper < least) least = upper, where = at;
+      if (upper < min) min = upper, where = at;
     }
-    return least;
+    return min;
   }
 
   void bound(Piece piece) {
     ++result_.pieces;
     const Node* where = nullptr;
-    if (const double upper = least_upper(piece, where); upper <= limit()) return accept(upper);
+    if (const double upper = min_upper(piece, where); upper <= limit()) return accept(upper);
     const std::optional<Line> cut = sort_candidates(overlay_, piece);
     if (piece.full.empty()) {
       if (cut) return split(piece, *cut);
       has_uncovered_ = true;
       return;
     }
-    const double upper = least_upper(piece, where);
+    const double upper = min_upper(piece, where);
     if (upper <= limit()) return accept(upper);
     if (result_.pieces >= goal_.max_pieces) {
       result_.gave_up = true;
