@@ -293,6 +293,20 @@ TEST_F(Gltf, TakesImageFilesIntoTheFile) {
   EXPECT_EQ(after.json["images"][1]["uri"], "lost.png") << "what is not there keeps its name";
 }
 
+/// Accessors without a view are all zeros. The array of views is new in the document then.
+TEST_F(Gltf, AddsViewsToADocumentWithoutAny) {
+  GltfFile file;
+  file.add_accessor({{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}});
+  file.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
+  file.json["nodes"] = {{{"mesh", 0}}};
+  file.write(in("in.glb"));
+  const MeshFile zeros = read_with_attributes(in("in.glb"));
+  write_mesh(in("out.glb"), zeros.mesh, {}, zeros.attributes);
+  const MeshFile again = read_with_attributes(in("out.glb"));
+  EXPECT_EQ(again.mesh.triangles.size(), 1U);
+  EXPECT_EQ(glb_content(content_of(in("out.glb"))).json["bufferViews"].size(), 2U);
+}
+
 TEST_F(Gltf, RemovesAPrimitiveOfWhichNothingIsLeft) {
   GltfFile file = textured_sphere(24, 12);
   file.json["meshes"].push_back(file.json["meshes"][0]);

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t alignment = 4;  // bytes: of every buffer view and of the elements of vertices
 constexpr int target_vertices = 34962, target_indices = 34963;
+constexpr std::array<const char*, 2> added_to = {"accessors", "bufferViews"};
 
 const char* type_of_width(std::size_t width) {
   static constexpr std::array<const char*, 4> names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -82,6 +83,13 @@ const GltfJson& unused_accessor() {
 }
 
 }  // namespace
+
+/// The arrays to which something is added are there from the beginning: a key that is added to an ordered object moves
+/// all others in memory, and callers hold references to parts of the document.
+GltfBuffer::GltfBuffer(GltfJson& json, const std::vector<std::string>& buffers) : json_(json), old_(buffers) {
+  for (const char* const key : added_to)
+    if (!json_.contains(key)) json_[key] = GltfJson::array();
+}
 
 void GltfBuffer::free_accessors(const std::vector<std::size_t>& accessors) {
   std::set<std::size_t> views;
@@ -196,9 +204,11 @@ void GltfBuffer::fill_free_places() {
 std::string GltfBuffer::finish() {
   fill_free_places();
   std::sort(new_views_.begin(), new_views_.end());
-  const auto views = json_.find("bufferViews");
-  for (std::size_t i = 0; views != json_.end() && i < views->size(); ++i)
-    if (!std::binary_search(new_views_.begin(), new_views_.end(), i)) move_old_view((*views)[i], i);
+  GltfJson& views = json_["bufferViews"];
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (!std::binary_search(new_views_.begin(), new_views_.end(), i)) move_old_view(views[i], i);
+  for (const char* const key : added_to)
+    if (json_[key].empty()) json_.erase(key);
   if (bytes_.empty()) {
     json_.erase("buffers");
     return {};

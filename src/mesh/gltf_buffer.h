@@ -14,7 +14,7 @@ namespace meshbound {
 class GltfBuffer {
  public:
   /// `json` is changed in place and must outlive this; `buffers` are the bytes it refers to.
-  GltfBuffer(GltfJson& json, const std::vector<std::string>& buffers) : json_(json), old_(buffers) {}
+  GltfBuffer(GltfJson& json, const std::vector<std::string>& buffers);
 
   /// Gives up accessors that nothing refers to any more, and the buffer views that only they used. Call at most once,
   /// before anything is added.

@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "fuzz/claims.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  meshbound::fuzz::check_certificate({data, size});
-  return 0;
-}
