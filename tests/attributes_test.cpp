@@ -182,6 +182,22 @@ TEST(TransferredAttributes, AreThoseOfTheRightSideOfASeam) {
   EXPECT_LT(uv.values.size(), level.mesh.vertices.size() * 3 / 2) << "corners of one side share their value";
 }
 
+/// Products of such coordinates overflow or underflow.
+TEST(TransferredAttributes, DoNotDependOnTheUnitOfLength) {
+  const Textured square = two_charts(24);
+  const SimplifiedLevel level = level_of(square, 0.001);
+  const MeshAttributes plain = transferred_attributes(square.mesh, square.attributes, level);
+  for (const double unit : {0x1p-600, 0x1p600}) {
+    TriangleMesh mesh = square.mesh;
+    SimplifiedLevel same = level;
+    for (Eigen::Vector3d& p : mesh.vertices) p *= unit;
+    for (Eigen::Vector3d& p : same.mesh.vertices) p *= unit;
+    const MeshAttributes scaled = transferred_attributes(mesh, square.attributes, same);
+    EXPECT_EQ(scaled.texture_coordinates.index, plain.texture_coordinates.index);
+    EXPECT_EQ(scaled.texture_coordinates.values, plain.texture_coordinates.values);
+  }
+}
+
 TEST(TransferredAttributes, DoNotWrapAroundWhereAChartMeetsItself) {
   const Textured around = tube(48, 12);
   const SimplifiedLevel level = level_of(around, 0.03);

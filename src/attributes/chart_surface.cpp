@@ -9,9 +9,13 @@
 namespace meshbound {
 namespace {
 
-/// Barycentric coordinates of a point of a triangle's plane; the first corner where the triangle has no area.
+/// Barycentric coordinates of a point of a triangle's plane; the first corner where the triangle has no area. Products
+/// are of shares of the longest side, so that they neither overflow nor underflow.
 Eigen::Vector3d barycentric(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], w = p - corners[0];
+  Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], w = p - corners[0];
+  const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
+  if (!(size > 0)) return {1, 0, 0};
+  u /= size, v /= size, w /= size;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
   const double determinant = uu * vv - uv * uv;
   if (!(determinant > 0)) return {1, 0, 0};

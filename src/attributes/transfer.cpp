@@ -141,13 +141,13 @@ class Transfer {
   std::optional<WeightedPoint> point_on_line(const std::vector<std::uint32_t>& corners) const {
     const Eigen::Vector3d p = position(corners.front());
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
-    for (const std::uint32_t c : corners) way += (point_inside(c, 1) - p).normalized();
+    for (const std::uint32_t c : corners) way += (point_inside(c, 1) - p).stableNormalized();
     double best = -HUGE_VAL;
     std::optional<WeightedPoint> point;
     for (const std::uint32_t c : original_.corners_at(p)) {
       if (original_.chart_of(c / 3) != chart(corners.front())) continue;
       const auto t = original_.corners(c / 3);
-      const double alike = ((t[0] + t[1] + t[2]) / 3 - p).normalized().dot(way);
+      const double alike = ((t[0] + t[1] + t[2]) / 3 - p).stableNormalized().dot(way);
       if (!(alike > best)) continue;
       best = alike;
       point = WeightedPoint{c / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(c % 3))};
@@ -159,7 +159,7 @@ class Transfer {
     std::vector<Eigen::Vector3d> by_corner;  // zero where there is none
     for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) {
       const auto value = value_at(from_.normals, original_.closest(chart(c), point_inside(c, share_inside)));
-      by_corner.push_back(value ? value->normalized() : Eigen::Vector3d::Zero());
+      by_corner.push_back(value ? value->stableNormalized() : Eigen::Vector3d::Zero());
     }
     CornerAttribute result;
     result.index = no_values();
