@@ -236,9 +236,11 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
 /// into the frame and back may round.
 Eigen::Vector3d Decimation::in_model(Vec3 p) const {
   const std::optional<std::uint32_t> start = first_at(p);
-  Eigen::Vector3d point = start ? original_.vertices[*start] : frame_.to_model({p.x, p.y, p.z});
-  if (options_.precision == Precision::Single) point = point.cast<float>().cast<double>();
-  return point;
+  return as_written(start ? original_.vertices[*start] : frame_.to_model({p.x, p.y, p.z}));
+}
+
+Eigen::Vector3d Decimation::as_written(const Eigen::Vector3d& point) const {
+  return options_.precision == Precision::Single ? Eigen::Vector3d(point.cast<float>().cast<double>()) : point;
 }
 
 void Decimation::current_mesh(SimplifiedLevel& into) const {
@@ -278,7 +280,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = original_.triangles[t][i];
       corners[i] = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.push_back(in_model(vertices_[v]));
+      mesh.vertices.push_back(as_written(original_.vertices[v]));  // two may have one place in the frame
       into.source_vertex.push_back(order_.vertex[v]);
     }
     mesh.triangles.push_back(corners);
