@@ -26,6 +26,8 @@ void replay(const std::string& target, const std::vector<std::uint8_t>& bytes) {
   if (target == "fuzz_distance") return fuzz::check_distance(bytes);
   if (target == "fuzz_certificate") return fuzz::check_certificate(bytes);
   if (target == "fuzz_penetration") return fuzz::check_penetration(bytes);
+  if (target == "fuzz_texture") return fuzz::check_texture(bytes);
+  if (target == "fuzz_simplify") return fuzz::check_simplify(bytes);
   const std::string reader = "fuzz_read_";
   ASSERT_EQ(target.substr(0, reader.size()), reader) << "a folder of the corpus that no target belongs to";
   fuzz::check_reader("." + target.substr(reader.size()), bytes);

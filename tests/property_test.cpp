@@ -298,23 +298,30 @@ TEST(Property, TheOneSidedDistanceLiesInItsExactEnclosure) {
   });
 }
 
-/// The claims of the fuzzer, for bytes without any sense.
+/// Bytes without any sense.
+std::vector<std::uint8_t> random_bytes(std::uint32_t seed, int count) {
+  Random random(seed);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(count));
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
+  return bytes;
+}
+
 TEST(Property, RandomBytesHoldWhatTheFuzzersCheck) {
   for_all(2000, [](std::uint32_t seed) {
-    Random random(seed);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(2 + random.below(300)));
-    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
-    EXPECT_NO_THROW(fuzz::check_distance(bytes));
+    EXPECT_NO_THROW(fuzz::check_distance(random_bytes(seed, 2 + static_cast<int>(seed % 300))));
   });
 }
 
 TEST(Property, RandomPolyhedraPenetrateAsInRationalArithmetic) {
-  for_all(300, [](std::uint32_t seed) {
-    Random random(seed);
-    std::vector<std::uint8_t> bytes(64);
-    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.below(256));
-    EXPECT_NO_THROW(fuzz::check_penetration(bytes));
-  });
+  for_all(300, [](std::uint32_t seed) { EXPECT_NO_THROW(fuzz::check_penetration(random_bytes(seed, 64))); });
+}
+
+TEST(Property, RandomTexturesDeviateAsInRationalArithmetic) {
+  for_all(300, [](std::uint32_t seed) { EXPECT_NO_THROW(fuzz::check_texture(random_bytes(seed, 300))); });
+}
+
+TEST(Property, RandomSoupsKeepTheirBoundsWhenTheyAreSimplified) {
+  for_all(1000, [](std::uint32_t seed) { EXPECT_NO_THROW(fuzz::check_simplify(random_bytes(seed, 300))); });
 }
 
 }  // namespace

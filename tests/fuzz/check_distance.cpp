@@ -1,170 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
 #include <optional>
-#include <stdexcept>
-#include <vector>
 
+#include "fuzz/choices.h"
 #include "fuzz/claims.h"
+#include "fuzz/enclosure.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "reference/exact_distance.h"
-#include "reference/hard_meshes.h"
 
 namespace meshbound::fuzz {
 namespace {
 
 using reference::exact_distance;
 using reference::ExactLength;
-
-void require(bool holds, const char* claim) {
-  if (!holds) throw std::logic_error(claim);
-}
-
-/// Takes values off the front; zeros once the bytes have run out.
-class Source final : public reference::Choices {
- public:
-  explicit Source(Bytes bytes) : bytes_(bytes) {}
-
-  template <class T>
-  T take() {
-    T value{};
-    const std::size_t size = std::min(sizeof value, bytes_.size());
-    std::memcpy(&value, bytes_.data(), size);
-    bytes_ = bytes_.subspan(size);
-    return value;
-  }
-
-  Eigen::Vector3d point() override {
-    const double x = coordinate(), y = coordinate(), z = coordinate();
-    return {x, y, z};
-  }
-  unsigned below(unsigned n) override { return take<std::uint8_t>() % n; }
-
-  /// A mesh with coordinates of this kind. A first byte below 144 gives a soup; any other a shape of `hard_mesh`,
-  /// chosen by the next byte, or a variant of `other`, where there is one.
-  TriangleMesh mesh(unsigned kind, const TriangleMesh* other = nullptr) {
-    constexpr unsigned soups = 144, max_hard_triangles = 12, variants = 2;
-    kind_ = kind;
-    const unsigned shape = take<std::uint8_t>();
-    if (shape < soups) return small_soup(shape);
-    const unsigned chosen = below(other != nullptr ? reference::hard_shapes + variants : reference::hard_shapes);
-    if (chosen == reference::hard_shapes) return with_seams(*other, *this);
-    if (chosen > reference::hard_shapes) return moved_a_little(*other);
-    return hard_mesh(static_cast<reference::HardShape>(chosen), *this, 1 + shape % max_hard_triangles);
-  }
-
- private:
-  /// Any double there is, a float, a small multiple of 1/8 (ties), or that at an exponent from 2^-1016 to 2^1016.
-  double coordinate() {
-    switch (kind_ % 4) {
-      case 0:
-        return take<double>();
-      case 1:
-        return static_cast<double>(take<float>());
-      case 2:
-        return take<std::int8_t>() / 8.0;
-      default:
-        const int mantissa = take<std::int8_t>();
-        return std::ldexp(mantissa, 8 * take<std::int8_t>());
-    }
-  }
-
-  /// Up to 8 vertices and 1 to 6 triangles over them, so that neighbours, duplicates and degenerate ones are common.
-  TriangleMesh small_soup(unsigned shape) {
-    TriangleMesh mesh;
-    const unsigned vertices = 1 + shape % 8, triangles = 1 + shape / 8 % 6;
-    for (unsigned i = 0; i < vertices; ++i) mesh.vertices.push_back(point());
-    for (unsigned i = 0; i < triangles; ++i) {
-      const std::uint32_t a = take<std::uint8_t>(), b = take<std::uint8_t>(), c = take<std::uint8_t>();
-      mesh.triangles.push_back({a % vertices, b % vertices, c % vertices});
-    }
-    return mesh;
-  }
-
-  TriangleMesh moved_a_little(TriangleMesh mesh) {
-    const double factor = std::ldexp(1.0, -static_cast<int>(below(64)));
-    for (Eigen::Vector3d& vertex : mesh.vertices)
-      if (below(2) == 0) vertex += factor * point();
-    return mesh;
-  }
-
-  Bytes bytes_;
-  unsigned kind_ = 0;
-};
-
-/// Exact distances of points to each triangle of one mesh, computed once for each point.
-class ExactDistances {
- public:
-  explicit ExactDistances(const TriangleMesh& to) {
-    for (std::size_t i = 0; i < to.triangles.size(); ++i) triangles_.push_back(reference::corners(to, i));
-  }
-
-  const std::vector<ExactLength>& from(const Eigen::Vector3d& point) {
-    std::vector<ExactLength>& lengths = known_[{point.x(), point.y(), point.z()}];
-    if (lengths.empty())
-      for (const reference::Corners& triangle : triangles_) lengths.push_back(exact_distance(point, triangle));
-    return lengths;
-  }
-
- private:
-  std::vector<reference::Corners> triangles_;
-  std::map<std::array<double, 3>, std::vector<ExactLength>> known_;
-};
-
-/// Where it is a point of doubles.
-std::optional<Eigen::Vector3d> exact_midpoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  Eigen::Vector3d middle;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double x = a[axis] / 2, y = b[axis] / 2, sum = x + y;
-    const double y_part = sum - x, rounding = (x - (sum - y_part)) + (y - y_part);
-    if (2 * x != a[axis] || 2 * y != b[axis] || rounding != 0) return std::nullopt;
-    middle[axis] = sum;
-  }
-  return middle;
-}
-
-/// Exact lengths with `lower <= h(A,B) <= upper`. A corner or the middle of an edge of A is a point of A. The distance
-/// to one triangle is convex, so that on a triangle of A, or on each of the four that the middles of its edges make of
-/// it, it is largest at a corner.
-struct Enclosure {
-  ExactLength lower{0, 1, 0}, upper{0, 1, 0};
-
-  void include(const reference::Corners& corners, ExactDistances& distances) {
-    std::vector<ExactLength> furthest = distances.from(corners[0]);
-    for (const Eigen::Vector3d& corner : corners) {
-      const std::vector<ExactLength>& lengths = distances.from(corner);
-      lower = std::max(lower, *std::min_element(lengths.begin(), lengths.end()));
-      for (std::size_t j = 0; j < lengths.size(); ++j) furthest[j] = std::max(furthest[j], lengths[j]);
-    }
-    upper = std::max(upper, *std::min_element(furthest.begin(), furthest.end()));
-  }
-};
-
-Enclosure enclosure(const TriangleMesh& a, const TriangleMesh& b) {
-  Enclosure result;
-  ExactDistances distances(b);
-  for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-    const auto [p, q, r] = reference::corners(a, i);
-    const auto pq = exact_midpoint(p, q), qr = exact_midpoint(q, r), rp = exact_midpoint(r, p);
-    if (pq && qr && rp) {
-      for (const reference::Corners& quarter : {reference::Corners{p, *pq, *rp}, reference::Corners{*pq, q, *qr},
-                                                reference::Corners{*rp, *qr, r}, reference::Corners{*pq, *qr, *rp}})
-        result.include(quarter, distances);
-    } else {
-      result.include({p, q, r}, distances);
-    }
-  }
-  return result;
-}
-
-void check_bounds(const Bounds& bounds, const Enclosure& exact) {
-  require(bounds.lower >= 0 && bounds.lower <= bounds.upper, "0 <= lower <= upper");
-  require(std::isinf(bounds.upper) || exact.lower.compare(bounds.upper) <= 0, "a corner is further away than upper");
-  require(exact.upper.compare(bounds.lower) >= 0, "no point is as far away as lower");
-}
 
 /// Two intervals that hold the same number.
 void check_meet(const Bounds& one, const Bounds& other) {

@@ -20,10 +20,6 @@ using reference::ExactPart;
 /// Coordinates are at most some dozens; what is rounded is off by far less.
 constexpr double slack = 1e-9;
 
-void require(bool holds, const std::string& claim) {
-  if (!holds) throw std::logic_error(claim);
-}
-
 /// Takes a byte for each choice; zeros once they have run out.
 class ByteChoices {
  public:

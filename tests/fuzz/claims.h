@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "meshbound/triangle_mesh.h"
@@ -11,6 +12,11 @@
 namespace meshbound::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
+
+/// Throws `std::logic_error` with the claim unless it holds.
+inline void require(bool holds, const std::string& claim) {
+  if (!holds) throw std::logic_error(claim);
+}
 
 /// A mesh file of this extension (".off") and content is read into a mesh that `validate` accepts, or refused in one
 /// line that names the file.
@@ -32,5 +38,13 @@ void check_certificate(Bytes content);
 /// The bytes as two closed polyhedra with small integer coordinates, under poses: content, parts of the surfaces and
 /// depth agree with rational arithmetic.
 void check_penetration(Bytes content);
+
+/// The bytes as two small meshes with texture coordinates: every bound on their texture deviation and on the area that
+/// is not covered agrees with rational arithmetic.
+void check_texture(Bytes content);
+
+/// The bytes as a soup of a few triangles with attributes, and options: every level of its simplification keeps the
+/// bounds of its verdict in exact arithmetic, what the options promise of it, and attributes that fit.
+void check_simplify(Bytes content);
 
 }  // namespace meshbound::fuzz

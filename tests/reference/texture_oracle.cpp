@@ -167,8 +167,6 @@ mpq_class hull_share(const std::vector<RationalWeights>& weights) {
   return share;
 }
 
-bool has_area(const TexturedTriangle& t) { return turn(coordinate(t, 0), coordinate(t, 1), coordinate(t, 2)) != 0; }
-
 }  // namespace
 
 std::optional<mpq_class> squared_deviation_at(const TexturedTriangle& a, const RationalWeights& weights,
@@ -184,13 +182,17 @@ std::optional<mpq_class> squared_deviation_at(const TexturedTriangle& a, const R
   return least;
 }
 
-mpq_class squared_deviation_of_charts(const TexturedMesh& a, const TexturedMesh& b) {
+bool has_area_in_texture(const TexturedTriangle& t) {
+  return turn(coordinate(t, 0), coordinate(t, 1), coordinate(t, 2)) != 0;
+}
+
+mpq_class squared_deviation_of_charts(const TexturedMesh& a, const TexturedMesh& b, bool with_touches) {
   mpq_class largest = 0;
   for (const TexturedTriangle& t : a.triangles) {
     for (const TexturedTriangle& s : b.triangles) {
-      if (!has_area(t) || !has_area(s) || t.material != s.material) continue;
+      if (!has_area_in_texture(t) || !has_area_in_texture(s) || t.material != s.material) continue;
       const std::vector<RationalWeights> corners = overlap(t, s);
-      if (hull_share(corners) == 0) continue;
+      if (!with_touches && hull_share(corners) == 0) continue;
       for (const RationalWeights& w : corners)
         largest = std::max<mpq_class>(largest,
                                       *to_fibre(weighted<Point3>(t, w, corner), s, weighted<Point2>(t, w, coordinate)));
@@ -202,7 +204,7 @@ mpq_class squared_deviation_of_charts(const TexturedMesh& a, const TexturedMesh&
 mpq_class uncovered_share(const TexturedTriangle& a, const TexturedMesh& mesh) {
   mpq_class covered = 0;
   for (const TexturedTriangle& b : mesh.triangles)
-    if (has_area(b) && b.material == a.material) covered += hull_share(overlap(a, b));
+    if (has_area_in_texture(b) && b.material == a.material) covered += hull_share(overlap(a, b));
   return 1 - covered;
 }
 

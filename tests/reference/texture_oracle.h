@@ -20,8 +20,13 @@ using RationalWeights = std::array<mpq_class, 3>;  ///< barycentric, of sum 1
 
 /// The largest squared distance at a corner of what a triangle of `b` covers of a triangle of `a`, over all pairs that
 /// meet in an area: the square of T(A, B) where triangles of `b` do not overlap in the texture, and no triangle of `a`
-/// meets them in a line or point alone. O(n m).
-[[nodiscard]] mpq_class squared_deviation_of_charts(const TexturedMesh& a, const TexturedMesh& b);
+/// meets them in a line or point alone. With touches, over all pairs that meet at all: never below the square of T(A,
+/// B) where all triangles have an area in the texture. O(n m).
+[[nodiscard]] mpq_class squared_deviation_of_charts(const TexturedMesh& a, const TexturedMesh& b,
+                                                    bool with_touches = false);
+
+/// Whether the triangle has an area in the texture.
+[[nodiscard]] bool has_area_in_texture(const TexturedTriangle& triangle);
 
 /// The share of a triangle's area that no triangle of `mesh` covers, where these do not overlap in the texture.
 [[nodiscard]] mpq_class uncovered_share(const TexturedTriangle& a, const TexturedMesh& mesh);
