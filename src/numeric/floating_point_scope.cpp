@@ -5,7 +5,9 @@
 
 namespace meshbound {
 
-// Flush-to-zero and the rounding mode are part of the floating-point environment of <cfenv>.
+// Flush-to-zero and the rounding mode are part of the floating-point environment of <cfenv>. The OpenMP of clang gives
+// the calling thread at the end of a parallel region the environment that it had at its beginning, and the threads of
+// the next region that of the calling thread. So that is set outside of regions.
 
 FloatingPointScope::FloatingPointScope() {
   std::fenv_t own;
@@ -16,11 +18,13 @@ FloatingPointScope::FloatingPointScope() {
     std::fegetenv(&before_[static_cast<std::size_t>(omp_get_thread_num())]);
     std::fesetenv(FE_DFL_ENV);
   }
+  std::fesetenv(FE_DFL_ENV);
 }
 
 FloatingPointScope::~FloatingPointScope() {
 #pragma omp parallel num_threads(static_cast <int>(before_.size()))
   std::fesetenv(&before_[static_cast<std::size_t>(omp_get_thread_num())]);
+  std::fesetenv(&before_[0]);
 }
 
 }  // namespace meshbound
