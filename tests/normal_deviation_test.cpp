@@ -65,6 +65,17 @@ TEST(NormalDeviation, LeavesOutFacesWithoutArea) {
   EXPECT_THROW((void)measured(square(0), line), InvalidInput);
 }
 
+/// Squares of such coordinates overflow or underflow.
+TEST(NormalDeviation, DoesNotDependOnTheUnitOfLength) {
+  const NormalDeviation plain = measured(square(0, 0.5), square(30));
+  for (const double unit : {0x1p-900, 0x1p600}) {
+    const NormalDeviation found =
+        measured(reference::scaled(square(0, 0.5), unit), reference::scaled(square(30), unit));
+    EXPECT_DOUBLE_EQ(found.degrees, plain.degrees);
+    EXPECT_TRUE((found.worst->nearest.position / unit).isApprox(plain.worst->nearest.position)) << unit;
+  }
+}
+
 TEST(NormalDeviation, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh fine = reference::icosphere(4), coarse = reference::icosphere(2);
   const NormalDeviation one = measured(fine, coarse, 5, 1), four = measured(fine, coarse, 5, 4);

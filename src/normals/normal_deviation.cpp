@@ -77,11 +77,15 @@ class Faces {
   std::vector<std::uint32_t> source_;
 };
 
-/// The vector from the point of the triangle that is nearest to p, to p.
+/// The vector from the point of the triangle that is nearest to p, to p. Squares are of shares of the largest
+/// coordinate around p, so that they neither overflow nor underflow.
 Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
+  double size = 0;
+  for (const Eigen::Vector3d& corner : corners) size = std::max(size, (corner - p).cwiseAbs().maxCoeff());
+  if (!(size > 0)) return Eigen::Vector3d::Zero();
   std::array<Vec3, 3> c;  // around p
   for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d way = corners[k] - p;
+    const Eigen::Vector3d way = (corners[k] - p) / size;
     c[k] = {way.x(), way.y(), way.z()};
   }
   std::size_t first = 0;  // of the longest edge
@@ -89,7 +93,7 @@ Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
     if (squared_length(c[(k + 1) % 3] - c[k]) > squared_length(c[(first + 1) % 3] - c[first])) first = k;
   const CornerTriangle<double> t{c[first], c[(first + 1) % 3] - c[first], c[(first + 2) % 3] - c[first]};
   const Vec3 offset = closest_on_triangle(t, Vec3{}).offset;
-  return {offset.x, offset.y, offset.z};
+  return size * Eigen::Vector3d(offset.x, offset.y, offset.z);
 }
 
 /// Faces nearer to each other than this, as seen from a point, are equally near.
@@ -119,7 +123,7 @@ class StandIns {
     for (const std::uint32_t f : near) {
       const Eigen::Vector3d offset = offset_from(faces_.corners(f), turn.from.position);
       const double degrees = degrees_between(normal, faces_.normal(f));
-      if (offset.norm() > reach || degrees >= turn.degrees) continue;
+      if (offset.stableNorm() > reach || degrees >= turn.degrees) continue;
       turn.degrees = degrees;
       turn.nearest = {turn.from.position - offset, faces_.source(f)};
     }
