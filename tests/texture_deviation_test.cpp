@@ -166,6 +166,21 @@ TEST(TextureDeviation, CountsPointsThatAreCoveredOnABorder) {
   EXPECT_GT(found.a_to_b.uncovered.lower, 1 - 1e-12);
 }
 
+/// A chart inside of a triangle, far below the error bound: no corner of the triangle tells where it is.
+TEST(TextureDeviation, NamesAPointOfATriangleBeyondTheTolerance) {
+  const TexturedMesh inside = grid(1, [](double s, double t) { return Corner{{s, t, 5}, {(1 + s) / 3, (1 + t) / 8}}; });
+  TextureDeviationOptions options;
+  options.threads = 1;
+  options.error_bound = 100;
+  options.tolerance = 1;
+  const OneSidedTextureDeviation found = texture_deviation(grid(1, flat), inside, options).a_to_b;
+  ASSERT_TRUE(found.witness);
+  EXPECT_GE(found.witness->distance, 5);
+  EXPECT_NEAR(found.bounds.lower, found.witness->distance, tight);
+  ASSERT_EQ(found.exceeding.size(), 1U);
+  EXPECT_EQ(found.exceeding[0].from.triangle, 0U);
+}
+
 TEST(TextureDeviation, KeepsMaterialsApart) {
   TexturedMesh a = grid(1, flat), b = grid(1, flat);
   for (TexturedTriangle& t : b.triangles) t.material = 1;

@@ -62,6 +62,22 @@ std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay, Chart cha
   return found;
 }
 
+/// Raises the lower bound to the distance of a point from the nearest candidate that covers it, if that is larger or
+/// the first that is known.
+void include(Overlay& overlay, const Node& node, double precision, TriangleDeviation& result) {
+  double nearest = HUGE_VAL;
+  std::uint32_t candidate = 0;
+  for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
+    if (!overlay.covers(c, node)) continue;
+    const double lower = overlay.distance(c, node, precision).lower;
+    if (lower < nearest) nearest = lower, candidate = c;
+    if (result.far && nearest <= result.bounds.lower) return;
+  }
+  if (nearest == HUGE_VAL) return;
+  result.bounds.lower = nearest;
+  result.far = FarPoint{node, candidate};
+}
+
 class PieceSearch {
  public:
   PieceSearch(Overlay& overlay, const DeviationGoal& goal) : overlay_(overlay), goal_(goal) {}
@@ -166,19 +182,7 @@ class PieceSearch {
     if (piece.full.size() > 1) raise(Overlay::given(middle));
   }
 
-  void raise(const Node& node) {
-    double nearest = HUGE_VAL;
-    std::uint32_t candidate = 0;
-    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
-      if (!overlay_.covers(c, node)) continue;
-      const double lower = overlay_.distance(c, node, goal_.precision).lower;
-      if (lower < nearest) nearest = lower, candidate = c;
-      if (nearest <= result_.bounds.lower) return;
-    }
-    if (nearest == HUGE_VAL || nearest <= result_.bounds.lower) return;
-    result_.bounds.lower = nearest;
-    result_.far = FarPoint{node, candidate};
-  }
+  void raise(const Node& node) { include(overlay_, node, goal_.precision, result_); }
 
   /// Across the piece where it is longest; none where it is too short for that.
   std::optional<Line> middle_line(const Polygon& polygon) {
@@ -229,24 +233,16 @@ class Uncovered {
 
 TriangleDeviation deviation_by_candidates(Overlay& overlay, const DeviationGoal& goal) {
   TriangleDeviation result;
+  std::optional<Node> covered_point;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     Polygon covered = overlay.whole();
     overlay.clip(covered, c);
     for (const auto& corner : covered)
       result.bounds.upper = std::max(result.bounds.upper, overlay.distance(c, corner.node, goal.precision).upper);
+    if (!covered.empty()) covered_point = covered.front().node;
   }
-  for (const auto& corner : overlay.whole()) {
-    double nearest = HUGE_VAL;
-    std::uint32_t candidate = 0;
-    for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
-      if (!overlay.covers(c, corner.node)) continue;
-      const double lower = overlay.distance(c, corner.node, goal.precision).lower;
-      if (lower < nearest) nearest = lower, candidate = c;
-    }
-    if (nearest == HUGE_VAL || (result.far && nearest <= result.bounds.lower)) continue;
-    result.bounds.lower = nearest;
-    result.far = FarPoint{corner.node, candidate};
-  }
+  for (const auto& corner : overlay.whole()) include(overlay, corner.node, goal.precision, result);
+  if (!result.far && covered_point) include(overlay, *covered_point, goal.precision, result);
   return result;
 }
 

@@ -17,7 +17,7 @@ struct FarPoint {
 /// How far a triangle A is from the candidates of its overlay, at equal texture coordinates.
 struct TriangleDeviation {
   Bounds bounds{0, 0};          ///< of the sup over the points of A that a candidate covers; 0 where there are none
-  std::optional<FarPoint> far;  ///< where `bounds.lower` was found
+  std::optional<FarPoint> far;  ///< where `bounds.lower` was found; none where nothing is covered
   bool gave_up = false;         ///< pieces ran out
   std::uint64_t pieces = 0;     ///< that were looked at
 };
@@ -30,9 +30,9 @@ struct DeviationGoal {
   std::uint64_t max_pieces = 0;
 };
 
-/// Looks at each candidate alone, and at the corners of A: the distance to one candidate is convex over what it covers,
-/// so it is largest at a corner of that. The upper bound holds, but is that of the worst candidate instead of the
-/// nearest one where several cover the same points. O(candidates).
+/// Looks at each candidate alone, and at the corners of A, or a point that is covered where no corner is: the distance
+/// to one candidate is convex over what it covers, so it is largest at a corner of that. The upper bound holds, but is
+/// that of the worst candidate instead of the nearest one where several cover the same points. O(candidates).
 [[nodiscard]] TriangleDeviation deviation_by_candidates(Overlay& overlay, const DeviationGoal& goal);
 
 /// Then cuts what a candidate covers where others cover it as well, and takes the nearest of them: branch and bound,
