@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <stdexcept>
+#include <utility>
 
 #include "fuzz/claims.h"
 #include "mesh/gltf_content.h"
@@ -12,17 +13,25 @@ namespace meshbound::fuzz {
 
 namespace {
 
-/// Attributes fit the triangles, and a document can be written again or says in one exception why not.
+/// The content of a glTF file, or one exception that says why there is none.
+void check_gltf_content(const TriangleMesh& mesh, const MeshAttributes& attributes) {
+  try {
+    (void)gltf_content(mesh, attributes);
+  } catch (const InvalidInput&) {
+    return;
+  }
+}
+
+/// Attributes fit the triangles, and can be written as glTF: into the document that they come from, and into a new one.
 void check_attributes(const MeshFile& file) {
   (void)seams(file.mesh, file.attributes);
   DroppedAttributes lost;
   (void)carried_by(FileFormat::Stl, file.attributes, lost);
-  if (!file.attributes.document) return;
-  try {
-    (void)gltf_content(file.mesh, file.attributes);
-  } catch (const InvalidInput&) {
-    return;
-  }
+  check_gltf_content(file.mesh, file.attributes);
+  MeshAttributes without_document = file.attributes;
+  without_document.document.reset();
+  without_document.part.clear();
+  check_gltf_content(file.mesh, carried_by(FileFormat::Glb, std::move(without_document), lost));
 }
 
 }  // namespace
