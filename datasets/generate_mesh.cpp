@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // generate_mesh KIND --size N -o FILE: one of our own analytic meshes as a file.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
 

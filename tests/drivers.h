@@ -6,7 +6,7 @@
 #include <vector>
 
 #if defined(MESHBOUND_WITH_CGAL)
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/cgal/edge_collapse_driver.h"
 #endif
 #include "meshbound/simplify.h"
 

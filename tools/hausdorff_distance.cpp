@@ -2,6 +2,7 @@
 // The Hausdorff distance between two meshes as a proven interval, or the decision whether it is at most a tolerance.
 #include <omp.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -95,7 +96,7 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Trian
   options.threads = arguments.common.threads;
   options.cancel = &interrupted();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
-  if (arguments.common.has_time_limit) options.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
+  options.seconds = seconds_left(arguments.common, watch);
   const auto certificate = build_certificate(a, b, tolerance, options);
   if (!certificate) return false;
   file.write({reinterpret_cast<const char*>(certificate->bytes.data()), certificate->bytes.size()});

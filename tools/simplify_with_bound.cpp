@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // simplify_with_bound IN OUT --tolerance T: as few triangles as possible, never further than T from the original. What
 // appears under OUT has been written, read back and measured against IN before.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
-#include "batch/batch_run.h"
 #include "common/distance_text.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
@@ -27,79 +26,16 @@
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
+#include "simplify/arguments.h"
+#include "simplify/reproducer.h"
 
 namespace meshbound::tools {
 namespace {
 
-struct Options : DecimationOptions {
-  std::string output, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
-  std::vector<std::string> levels;
-  std::optional<std::int64_t> target_faces;
-  std::string target_ratio, texture_tolerance;
-  std::optional<double> texture_size, normal_tolerance;
-  bool prune = false;
-  bool dry_run = false;
-  BatchOptions batch;
-  DeviationRequest deviation;
-};
-
-/// Says what to use in place of an effort of earlier versions.
-std::string is_effort(const std::string& effort) {
-  return effort == "fast" ? "there is no fast any more: use normal, which is faster than it was" : "";
-}
-
-void declare(CLI::App& app, Options& options) {
-  app.add_option("IN", options.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF");
-  app.add_option("OUT", options.output, "File for the result; its extension chooses the format");
-  app.add_option("--tolerance", options.tolerance,
-                 "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
-  auto* faces = app.add_option("--target-faces", options.target_faces, "End at this many faces, tolerance permitting")
-                    ->check(CLI::NonNegativeNumber);
-  app.add_option("--target-ratio", options.target_ratio, "The same as a share of the faces of IN: 0.1 or 10%")
-      ->excludes(faces);
-  app.add_option("--on-exceed", options.on_exceed,
-                 "At a collapse that would exceed the tolerance: skip it and go on, or stop there")
-      ->check(CLI::IsMember({"skip", "stop"}))
-      ->capture_default_str();
-  app.add_option("--levels", options.levels,
-                 "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
-                 "itself the coarsest")
-      ->delimiter(',');
-  app.add_option("--output-dir", options.output_dir,
-                 "Folder for the levels (default: that of OUT), or for the results of --batch");
-  app.add_option("--certificate", options.certificate,
-                 "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
-                 "FILE_level_0 and so on");
-  app.add_option("--effort", options.effort,
-                 "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
-      ->check(is_effort)
-      ->check(CLI::IsMember({"normal", "high"}))
-      ->capture_default_str();
-  app.add_flag("--prune", options.prune, "Drop whole components that lie within the tolerance of what remains");
-  app.add_flag("--dry-run", options.dry_run,
-               "Read and check everything, say what a run would take in memory and time, and write nothing");
-  add_batch_options(app, options.batch);
-  app.add_option("--texture-tolerance", options.texture_tolerance,
-                 "How far the texture may move on the surface at most: a length as above, or '2texels' with "
-                 "--texture-size. Measured of what was written, between points of the same texture coordinate");
-  app.add_option("--texture-size", options.texture_size, "Texels of a side of the texture")->check(CLI::PositiveNumber);
-  app.add_option("--normal-tolerance", options.normal_tolerance,
-                 "How far faces may turn at most, in degrees: each face of IN against the face of OUT that is nearest "
-                 "to its centroid")
-      ->check(CLI::Range(0.0, 180.0));
-  add_deviation_options(app, options.deviation, "IN", "OUT");
-  add_decimation_options(app, options);
-  add_examples(app,
-               {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
-                "simplify_with_bound bunny.ply part.stl --tolerance 0.05 --feature-angle 30 --line-tolerance 0.01",
-                "simplify_with_bound bunny.ply small.ply --tolerance 0.1% --certificate small.cert --json small.json",
-                "simplify_with_bound --batch models --output-dir small --tolerance 0.1% --jobs 2"});
-}
-
 /// One run of the tool, in the order of its phases.
 class Run : DecimationRun {
  public:
-  explicit Run(const Options& options) : DecimationRun(options), options_(options) {}
+  explicit Run(const SimplifyArguments& options) : DecimationRun(options), options_(options) {}
   int operator()();
 
  private:
@@ -120,13 +56,12 @@ class Run : DecimationRun {
   void write_certificates();
   void measure_deviation();
   void end_if_interrupted() const;
-  [[nodiscard]] std::filesystem::path save_reproducer(const GatedOutput& rejected, double tolerance) const;
   void publish();
   void report();
   void print_summary() const;
   [[nodiscard]] std::string end_reason() const;
 
-  const Options& options_;
+  const SimplifyArguments& options_;
   std::optional<OutputFolder> folder_;  ///< of the levels
   std::vector<GatedOutput> outputs_;
   std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
@@ -334,7 +269,7 @@ void Run::certify() {
       throw Error(
           "internal error: the result is further from the original than was proven during decimation; nothing was "
           "written under its name. Please report this with the folder " +
-          save_reproducer(outputs_[i], tolerances_[level]).string());
+          save_reproducer(options_, outputs_[i], {tolerances_, tolerances_[level], target_ratio_}).string());
   }
 }
 
@@ -368,38 +303,6 @@ bool Run::tightens_appearance() {
 
 void Run::end_if_interrupted() const {
   if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
-}
-
-/// The folder OUT.reproducer: the original, the mesh that was rejected, and everything that led from one to the other.
-std::filesystem::path Run::save_reproducer(const GatedOutput& rejected, double tolerance) const {
-  const std::filesystem::path folder = options_.output + ".reproducer", input = options_.input;
-  const auto original = folder / ("original" + input.extension().string());
-  const auto result = folder / ("rejected" + rejected.path().extension().string());
-  std::filesystem::create_directories(folder);
-  std::filesystem::copy_file(input, original, std::filesystem::copy_options::overwrite_existing);
-  rejected.copy_rejected_to(result);
-  nlohmann::json options = {{"schema", "meshbound/reproducer/1"},
-                            {"version", MESHBOUND_VERSION},
-                            {"original", original.filename().string()},
-                            {"rejected", result.filename().string()},
-                            {"rejected_tolerance", tolerance},
-                            {"distance", {{"lower", rejected.distance().bounds.lower}}},
-                            {"tolerances", tolerances_},
-                            {"on_exceed", options_.on_exceed},
-                            {"driver", options_.driver},
-                            {"cost", options_.cost},
-                            {"effort", options_.effort},
-                            {"preserve_boundary", options_.preserve_boundary},
-                            {"prune", options_.prune},
-                            {"threads", options_.common.threads}};
-  if (options_.target_faces) options["target_faces"] = *options_.target_faces;
-  if (options_.feature_angle) options["feature_angle"] = *options_.feature_angle;
-  if (!options_.line_tolerance.empty()) options["line_tolerance"] = options_.line_tolerance;
-  options["placement"] = options_.placement;
-  if (target_ratio_) options["target_ratio"] = *target_ratio_;
-  if (options_.common.has_time_limit) options["time_limit"] = options_.common.time_limit;
-  write_text(folder / "options.json", options.dump(2) + '\n');
-  return folder;
 }
 
 /// Proves the files as they read. A result whose certificate is not complete in time gives way to the original, which
@@ -566,8 +469,8 @@ void Run::print_summary() const {
 
 int main(int argc, char** argv) {
   CLI::App app("Simplifies a triangle mesh and proves how far the result is from the original.", "simplify_with_bound");
-  meshbound::tools::Options options;
-  meshbound::tools::declare(app, options);
+  meshbound::tools::SimplifyArguments options;
+  meshbound::tools::add_simplify_arguments(app, options);
   return meshbound::tools::tool_main(app, argc, argv, [&] {
     meshbound::tools::check_batch_usage(app, options.batch);
     if (options.batch.is_wanted())

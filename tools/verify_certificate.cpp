@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // verify_certificate ORIGINAL SIMPLIFIED CERTIFICATE: exit 0 when the certificate proves that the two meshes are within
 // its tolerance of each other, 1 when it does not, 2 for bad usage and files that cannot be read.
+#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/cgal/edge_collapse_driver.h"
 
 namespace meshbound::cgal {
 

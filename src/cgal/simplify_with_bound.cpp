@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshbound/cgal/simplify_with_bound.h"
-
+#include "meshbound/cgal/edge_collapse_driver.h"
 #include "meshbound/cgal/lod_chain.h"
 
 namespace meshbound::cgal {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/completion.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <regex>
 #include <vector>

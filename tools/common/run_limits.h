@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
-
 #include "common/progress.h"
 #include "common/signals.h"
 #include "common/stopwatch.h"
+#include "common/time_limit.h"
 #include "common/tool_main.h"
 
 namespace meshbound::tools {
@@ -16,7 +15,7 @@ void set_run_limits(Options& options, const CommonOptions& common, const Stopwat
   options.threads = common.threads;
   options.cancel = &interrupted();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
-  if (common.has_time_limit) options.budget.seconds = std::max(0.0, common.time_limit - watch.seconds());
+  options.budget.seconds = seconds_left(common, watch);
 }
 
 }  // namespace meshbound::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <limits>
 
 #include "common/signals.h"
 #include "common/stopwatch.h"
@@ -17,6 +18,12 @@ inline constexpr double patience = 0.2;
 [[nodiscard]] inline StopToken stop_of_run(const CommonOptions& options, const Stopwatch& watch, double later = 0) {
   const StopToken signals{.cancel = &interrupted()};
   return options.has_time_limit ? signals.until(watch.start(), options.time_limit + later) : signals;
+}
+
+/// Seconds of the time limit that are left, 0 after it, infinite without one.
+[[nodiscard]] inline double seconds_left(const CommonOptions& options, const Stopwatch& watch) {
+  return options.has_time_limit ? std::max(0.0, options.time_limit - watch.seconds())
+                                : std::numeric_limits<double>::infinity();
 }
 
 /// For what is read from now on.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/tool_main.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// What all tools have in common: exit codes, options, and one line on stderr when something is wrong.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,6 +8,10 @@
 #include "common/exit_code.h"
 #include "meshbound/bounds.h"
 #include "meshbound/io.h"
+
+namespace CLI {
+class App;
+}
 
 namespace meshbound::tools {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "decimation/decimation_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "decimation/drivers.h"
 
 namespace meshbound::tools {

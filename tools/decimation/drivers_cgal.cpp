@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What --driver chooses from in a build with CGAL.
 #include "decimation/drivers.h"
-#include "meshbound/cgal/simplify_with_bound.h"
+#include "meshbound/cgal/edge_collapse_driver.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {

@@ -79,8 +79,8 @@ void follow(Motion& motion, const Bvh& a, const Bvh& b, const std::vector<Eigen:
   options.threads = arguments.common.threads;
   options.cancel = &interrupted();
   for (const Eigen::Isometry3d& pose : poses) {
-    if (arguments.common.has_time_limit) options.budget.seconds = arguments.common.time_limit - watch.seconds();
-    if (interrupted() || options.budget.seconds <= 0) break;
+    options.budget.seconds = seconds_left(arguments.common, watch);
+    if (interrupted() || options.budget.seconds == 0) break;
     motion.steps.push_back(answer_at(pair, pose, motion.question, options));
     const Answer& step = motion.steps.back();
     motion.exit_code = worse(motion.exit_code, step.exit_code);

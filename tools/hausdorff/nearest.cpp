@@ -86,8 +86,7 @@ SimilarityOptions options_of(const Arguments& arguments, const Stopwatch& watch)
   options.distance.method = arguments.method;
   options.distance.threads = arguments.common.threads;
   options.distance.cancel = &interrupted();
-  if (arguments.common.has_time_limit)
-    options.distance.budget.seconds = std::max(0.0, arguments.common.time_limit - watch.seconds());
+  options.distance.budget.seconds = seconds_left(arguments.common, watch);
   return options;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hausdorff/question.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "meshbound/distance.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "penetration/arguments.h"
 
+#include <CLI/CLI.hpp>
+
 #include "common/distinct_files.h"
 #include "common/output.h"
 #include "meshbound/error.h"

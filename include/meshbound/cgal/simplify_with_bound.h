@@ -2,10 +2,10 @@
 /// `meshbound::simplify_with_bound` with CGAL's `edge_collapse` in charge of the collapses that are proven one by one,
 /// for triangle soups and for CGAL's face graphs.
 #pragma once
-#include <memory>
 #include <type_traits>
 #include <vector>
 
+#include "meshbound/cgal/edge_collapse_driver.h"
 #include "meshbound/cgal/surface_mesh.h"
 #include "meshbound/simplify.h"
 
@@ -21,23 +21,6 @@ using meshbound::SimplifiedLevel;
 using meshbound::SimplifyOptions;
 using meshbound::SimplifyResult;
 using meshbound::to_string;
-
-/// What decides the order in which edges are collapsed, and where the vertex goes if the bound allows.
-enum class CollapseCost {
-  GarlandHeckbert,  ///< the quadrics of the core: both drivers ask for the same collapses in nearly the same order
-  LindstromTurk     ///< volume, area and shape as in CGAL. Proposals, which samples admit, still go by quadrics
-};
-
-/// CGAL's `edge_collapse` on a `Surface_mesh` of each region asks for every collapse that is proven on its own, and
-/// makes it. For `SimplifyOptions::driver`; may be shared among runs and threads.
-[[nodiscard]] std::shared_ptr<const CollapseDriver> edge_collapse_driver(
-    CollapseCost cost = CollapseCost::GarlandHeckbert);
-
-/// The options with this driver where they name none.
-[[nodiscard]] SimplifyOptions with_edge_collapse(SimplifyOptions options);
-
-/// `meshbound::simplify_with_bound`, driven by `edge_collapse_driver()` unless `options.driver` is another.
-[[nodiscard]] SimplifyResult simplify_with_bound(const TriangleMesh& original, const SimplifyOptions& options);
 
 /// A vertex property map of a face graph as `SimplifyOptions::locked_vertices` for that graph. O(n).
 template <class FaceGraph, class LockMap>

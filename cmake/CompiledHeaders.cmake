@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+# Headers of other projects that nearly all files of a folder include, compiled once: without them most of the time of a
+# build goes into reading the same headers hundreds of times. None of our own, so that a change of one compiles again only
+# what includes it.
+
+# Compiler caches as launchers cannot cache what is compiled with them.
+if(CMAKE_CXX_COMPILER_LAUNCHER OR EMSCRIPTEN)
+  set(MESHBOUND_PRECOMPILED_HEADERS_DEFAULT OFF)
+else()
+  set(MESHBOUND_PRECOMPILED_HEADERS_DEFAULT ON)
+endif()
+option(MESHBOUND_PRECOMPILED_HEADERS "Compile the common headers of other projects once" ${MESHBOUND_PRECOMPILED_HEADERS_DEFAULT})
+
+set(MESHBOUND_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <fstream> <functional>
+  <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <thread> <unordered_map> <utility>
+  <variant> <vector> <Eigen/Geometry>)
+
+# Only headers whose time is spent in reading them belong here: GCC compiles again, for each file, inline functions of
+# classes with virtual ones and templates that the headers themselves instantiate.
+
+# meshbound_compile_headers(name LIBRARIES libraries... [OPTIONS options...] [HEADERS headers...]): the standard headers
+# and these, compiled once for targets with the same options and libraries.
+function(meshbound_compile_headers name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;OPTIONS;HEADERS")
+  if(NOT MESHBOUND_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  file(CONFIGURE OUTPUT ${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE meshbound::meshbound ${arg_LIBRARIES})
+  target_compile_options(${name} PRIVATE ${arg_OPTIONS})
+  target_precompile_headers(${name} PRIVATE ${MESHBOUND_STANDARD_HEADERS} ${arg_HEADERS})
+endfunction()
+
+# meshbound_use_headers(name targets...): the targets use the headers of meshbound_compile_headers(name).
+function(meshbound_use_headers name)
+  if(TARGET ${name})
+    foreach(target IN LISTS ARGN)
+      target_precompile_headers(${target} REUSE_FROM ${name})
+    endforeach()
+  endif()
+endfunction()

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/arguments.h"
+
+#include <CLI/CLI.hpp>
+
+namespace meshbound::tools {
+namespace {
+
+/// Says what to use in place of an effort of earlier versions.
+std::string is_effort(const std::string& effort) {
+  return effort == "fast" ? "there is no fast any more: use normal, which is faster than it was" : "";
+}
+
+}  // namespace
+
+void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
+  app.add_option("IN", arguments.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF");
+  app.add_option("OUT", arguments.output, "File for the result; its extension chooses the format");
+  app.add_option("--tolerance", arguments.tolerance,
+                 "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
+  auto* faces = app.add_option("--target-faces", arguments.target_faces, "End at this many faces, tolerance permitting")
+                    ->check(CLI::NonNegativeNumber);
+  app.add_option("--target-ratio", arguments.target_ratio, "The same as a share of the faces of IN: 0.1 or 10%")
+      ->excludes(faces);
+  app.add_option("--on-exceed", arguments.on_exceed,
+                 "At a collapse that would exceed the tolerance: skip it and go on, or stop there")
+      ->check(CLI::IsMember({"skip", "stop"}))
+      ->capture_default_str();
+  app.add_option("--levels", arguments.levels,
+                 "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
+                 "itself the coarsest")
+      ->delimiter(',');
+  app.add_option("--output-dir", arguments.output_dir,
+                 "Folder for the levels (default: that of OUT), or for the results of --batch");
+  app.add_option("--certificate", arguments.certificate,
+                 "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
+                 "FILE_level_0 and so on");
+  app.add_option("--effort", arguments.effort,
+                 "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
+      ->check(is_effort)
+      ->check(CLI::IsMember({"normal", "high"}))
+      ->capture_default_str();
+  app.add_flag("--prune", arguments.prune, "Drop whole components that lie within the tolerance of what remains");
+  app.add_flag("--dry-run", arguments.dry_run,
+               "Read and check everything, say what a run would take in memory and time, and write nothing");
+  add_batch_options(app, arguments.batch);
+  app.add_option("--texture-tolerance", arguments.texture_tolerance,
+                 "How far the texture may move on the surface at most: a length as above, or '2texels' with "
+                 "--texture-size. Measured of what was written, between points of the same texture coordinate");
+  app.add_option("--texture-size", arguments.texture_size, "Texels of a side of the texture")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--normal-tolerance", arguments.normal_tolerance,
+                 "How far faces may turn at most, in degrees: each face of IN against the face of OUT that is nearest "
+                 "to its centroid")
+      ->check(CLI::Range(0.0, 180.0));
+  add_deviation_options(app, arguments.deviation, "IN", "OUT");
+  add_decimation_options(app, arguments);
+  add_examples(app,
+               {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
+                "simplify_with_bound bunny.ply part.stl --tolerance 0.05 --feature-angle 30 --line-tolerance 0.01",
+                "simplify_with_bound bunny.ply small.ply --tolerance 0.1% --certificate small.cert --json small.json",
+                "simplify_with_bound --batch models --output-dir small --tolerance 0.1% --jobs 2"});
+}
+
+}  // namespace meshbound::tools

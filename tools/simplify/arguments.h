@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch/batch_run.h"
+#include "decimation/decimation_options.h"
+#include "deviation/deviation_request.h"
+
+namespace meshbound::tools {
+
+/// What the command line of simplify_with_bound says.
+struct SimplifyArguments : DecimationOptions {
+  std::string output, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
+  std::vector<std::string> levels;
+  std::optional<std::int64_t> target_faces;
+  std::string target_ratio, texture_tolerance;
+  std::optional<double> texture_size, normal_tolerance;
+  bool prune = false;
+  bool dry_run = false;
+  BatchOptions batch;
+  DeviationRequest deviation;
+};
+
+/// Adds all options of simplify_with_bound; `arguments` must outlive the parsing.
+void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments);
+
+}  // namespace meshbound::tools
