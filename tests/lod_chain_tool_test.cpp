@@ -239,6 +239,33 @@ TEST_F(LodChainTool, SaysWhatItDrops) {
 }
 
 /// No level is left out: where the time ended before its own mesh was proven, it has the best one that was.
+TEST_F(LodChainTool, ReportsItsLevelsOnOnePage) {
+  const ToolRun result = run({"--levels", "0.002,0.008,0.02", "--units", "mm", "--report", in("r.html")});
+  if (result.err.find("npm") != std::string::npos) GTEST_SKIP() << "the tools were built without the page of reports";
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string document = content_of(in("chain/chain.json"));
+  const Json json = checked_document(document);
+  EXPECT_EQ(json["deviation"]["scale"], 0.02);
+  EXPECT_EQ(json["deviation"]["unit"], "mm");
+  for (const char* direction : {"original_to_simplified", "simplified_to_original"})
+    EXPECT_LE(json["deviation"][direction]["largest_sample"].get<double>(),
+              json["levels"][2]["distance"][direction]["upper"].get<double>())
+        << direction;
+  const std::string page = content_of(in("r.html"));
+  EXPECT_NE(page.find(document), std::string::npos) << "the page does not hold the document";
+  for (const char* name : {"level 0", "level 1", "level 2"})
+    EXPECT_NE(page.find("\"name\":\"" + std::string(name) + "\""), std::string::npos) << name;
+}
+
+TEST_F(LodChainTool, RefusesReportsThatItCannotWrite) {
+  expect_refused({"--levels", "0.01", "--report", in("torus.off")});
+  expect_refused({"--levels", "0.01", "--report", in("missing/r.html")});
+  const ToolRun scene =
+      testing_tools::run_tool(LOD_CHAIN, {"--scene", in("s.json"), in("chain"), "--report", in("r.html")});
+  EXPECT_EQ(scene.exit_code, 2);
+  EXPECT_NE(scene.err.find("leave it out with --scene"), std::string::npos) << scene.err;
+}
+
 TEST_F(LodChainTool, HasAProvenMeshForEveryLevelWhenItIsOutOfTime) {
   for (const std::string format : {"ply", "stl"}) {
     const ToolRun late = run({"--levels", "0.001,0.002", "--time-limit", "0", "--format", format});

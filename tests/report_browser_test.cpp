@@ -50,6 +50,14 @@ TEST_F(ReportInABrowser, ShowsAResultWithItsLevels) {
   expect_faultless(in("r.html"), in("r.json"));
 }
 
+TEST_F(ReportInABrowser, ShowsAChainOfLevels) {
+  write_mesh(in("in.off"), datasets::torus(1, 0.3, 80, 32));
+  const ToolRun run = run_tool(LOD_CHAIN, {in("in.off"), in("lods"), "--levels", "0.002,0.008,0.02", "--units", "mm",
+                                           "--report", in("r.html"), "--json", in("r.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  expect_faultless(in("r.html"), in("r.json"));
+}
+
 TEST_F(ReportInABrowser, ShowsADistanceThatExceedsATolerance) {
   write_mesh(in("a.off"), datasets::gear(1, 0.4, 12, 12, 4));
   write_mesh(in("b.off"), datasets::gear(1.02, 0.4, 12, 12, 4));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lod_chain IN DIR: levels of detail, each with a proven distance to IN. The files appear together, once every one of
 // them has been written, read back and measured.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
@@ -17,6 +18,7 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "decimation/decimation_run.h"
+#include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
 #include "lod/one_file.h"
 #include "lod/tileset.h"
@@ -32,6 +34,7 @@ struct Options : DecimationOptions {
   std::vector<std::string> levels, distances;
   std::vector<double> pixels;
   std::optional<double> screen_height, fov;
+  DeviationRequest deviation;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -66,6 +69,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--tileset", options.tileset,
                "With --format glb: write DIR/tileset.json, too, for viewers of 3D Tiles; geometricError is the proven "
                "error of each level");
+  add_report_options(app, options.deviation);
   add_decimation_options(app, options);
   add_examples(
       app, {"lod_chain bunny.ply lods --levels 0.1%,0.3%,1%", "lod_chain bunny.ply lods --pixels 1,2,4 --distances 3"});
@@ -84,6 +88,8 @@ int run_scene(const Options& options) {
       options.fov)
     throw InvalidInput(
         "--scene gives pixels, screen and cameras; leave out --levels, --pixels and what belongs to them");
+  if (options.deviation.has_any())
+    throw InvalidInput("--report shows the levels of one mesh; leave it out with --scene");
   return run_view(options, options.scene, options.input, options.format);
 }
 
@@ -105,6 +111,7 @@ class Run : DecimationRun {
   void open_outputs();
   void make_levels();
   [[nodiscard]] bool take(std::size_t index, const SimplifiedLevel& level);
+  void measure_deviation();
   void publish();
   void write_tileset() const;
   [[nodiscard]] std::vector<std::filesystem::path> stale_files() const;
@@ -116,6 +123,7 @@ class Run : DecimationRun {
   std::optional<OutputFolder> folder_;
   std::vector<GatedOutput> outputs_;  ///< one for each tolerance
   std::optional<AtomicFile> one_file_;
+  std::optional<DeviationOutputs> deviation_;
   std::vector<double> pixels_;  ///< of the tolerances, where they come from a view
   LodReport report_;
   std::optional<ProgressBar> bar_;
@@ -129,11 +137,14 @@ int Run::operator()() {
   choose_tolerances();
   open_outputs();
   make_levels();
-  if (report_.verdict == Verdict::Within)
+  if (report_.verdict == Verdict::Within) {
+    if (deviation_) measure_deviation();
     publish();
-  else if (interrupted_)
+  } else if (interrupted_) {
     throw Error("interrupted before every level was proven; nothing was written");
+  }
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
+  if (report_.deviation) deviation_->write(to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
   if (report_.verdict != Verdict::Within)
     std::fprintf(stderr,
@@ -141,7 +152,8 @@ int Run::operator()() {
                  "nothing was written\n");
   else if (ended_by_time_)
     std::fprintf(stderr, "lod_chain: the time limit came first: levels are the best meshes that were proven by then\n");
-  return report_.verdict == Verdict::Within && ended_by_time_ ? ExitUndecided : exit_code(report_.verdict);
+  const bool is_complete = !ended_by_time_ && options_.deviation.has_any() == report_.deviation.has_value();
+  return report_.verdict == Verdict::Within && !is_complete ? ExitUndecided : exit_code(report_.verdict);
 }
 
 void Run::check_usage() const {
@@ -174,11 +186,14 @@ std::filesystem::path Run::chain_path() const { return std::filesystem::path(opt
 std::filesystem::path Run::tileset_path() const { return std::filesystem::path(options_.folder) / "tileset.json"; }
 
 void Run::check_paths() const {
-  std::vector<NamedPath> outputs{{"DIR", chain_path()}, {"--json", options_.common.json}, {"--glb", options_.one_file}};
+  std::vector<NamedPath> outputs = options_.deviation.outputs();
+  outputs.insert(outputs.end(),
+                 {{"DIR", chain_path()}, {"--json", options_.common.json}, {"--glb", options_.one_file}});
   if (options_.tileset) outputs.push_back({"DIR", tileset_path()});
   const std::size_t of_view = std::max(options_.pixels.size(), options_.distances.size());
   for (std::size_t i = 0; i < options_.levels.size() + of_view; ++i) outputs.push_back({"DIR", level_path(i)});
   require_distinct_files({{"IN", options_.input}}, outputs);
+  options_.deviation.check();
 }
 
 void Run::read() {
@@ -218,6 +233,7 @@ void Run::open_outputs() {
   if (!options_.one_file.empty())
     one_file_.emplace(options_.one_file, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted_});
   if (!options_.common.json.empty()) check_writable(options_.common.json);
+  if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
 }
 
 void Run::make_levels() {
@@ -283,6 +299,27 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   return true;
 }
 
+/// Measures deviations of the levels as their files read back. Leaves `deviation_` empty when there was no time for it.
+void Run::measure_deviation() {
+  const GatedOutput& coarsest = outputs_.back();
+  const TriangleMesh result = coarsest.written_mesh();
+  DeviationSubject subject;
+  subject.original = &original_;
+  subject.result = &result;
+  subject.original_name = "original";
+  subject.result_name = "level " + std::to_string(outputs_.size() - 1);
+  subject.scale = scale_for(tolerances_.back(), coarsest.distance().bounds, diagonal_);
+  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) subject.levels.push_back(outputs_[i].written_mesh());
+  try {
+    deviation_->measure(subject, {threads(), stop()});
+    report_.deviation = deviation_->report();
+  } catch (const Stopped&) {
+    if (interrupted_) throw Error("interrupted before the deviations were measured; nothing was written");
+    deviation_.reset();
+    std::fprintf(stderr, "lod_chain: no time was left to measure deviations; the report was not written\n");
+  }
+}
+
 void Run::publish() {
   const std::vector<std::filesystem::path> stale = stale_files();
   if (one_file_) {
@@ -337,6 +374,8 @@ void Run::print_summary() const {
                          " on the screen from view distance " + short_number(*level.view_distance) + " on");
     if (const std::string how = explanation(level.decided_by); !how.empty()) print_line("", "decided: " + how);
   }
+  if (report_.deviation)
+    print_deviation(*report_.deviation, "original to coarsest level", "coarsest level to original");
   print_line("verdict", to_string(report_.verdict));
   print_locked(report_.locked_vertices, report_.original.summary);
   print_dropped(report_.original);

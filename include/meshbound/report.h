@@ -203,15 +203,16 @@ struct LodReport {
     std::optional<double> view_distance;  ///< the one that the tolerance was made for
     std::string stopped_by;               ///< as in `SimplifyReport`
   };
-  std::optional<Provenance> provenance;  ///< of the document
-  Verdict verdict = Verdict::Undecided;  ///< of all levels together
-  std::string driver;                    ///< "cgal" or "core"
-  MeshReport original;                   ///< as read
-  std::optional<View> view;              ///< absent where tolerances were given
-  std::vector<Level> levels;             ///< those that were proven, ascending by tolerance
-  SimplifyReport::Seconds seconds;       ///< that it took
-  std::size_t locked_vertices = 0;       ///< that options kept from moving
-  int threads = 1;                       ///< that were used
+  std::optional<Provenance> provenance;      ///< of the document
+  Verdict verdict = Verdict::Undecided;      ///< of all levels together
+  std::string driver;                        ///< "cgal" or "core"
+  MeshReport original;                       ///< as read
+  std::optional<View> view;                  ///< absent where tolerances were given
+  std::vector<Level> levels;                 ///< those that were proven, ascending by tolerance
+  std::optional<DeviationReport> deviation;  ///< of the coarsest level, where a report was asked for
+  SimplifyReport::Seconds seconds;           ///< that it took
+  std::size_t locked_vertices = 0;           ///< that options kept from moving
+  int threads = 1;                           ///< that were used
 };
 
 /// "within", "exceeds" or "undecided".

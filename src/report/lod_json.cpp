@@ -43,6 +43,8 @@ std::string to_json(const LodReport& from) {
   json["levels"] = Json::array();
   for (const LodReport::Level& level : from.levels)
     json["levels"].push_back(level_json(json["levels"].size(), level, from.original.summary.bbox_diagonal));
+  if (from.deviation)
+    json["deviation"] = deviation(*from.deviation, "original_to_simplified", "simplified_to_original");
   json["seconds"] = seconds(from.seconds);
   json["threads"] = from.threads;
   return text(json);

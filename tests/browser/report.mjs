@@ -9,8 +9,13 @@ import { chromium } from 'playwright-core';
 
 const [, , executablePath, report, json, screenshots] = process.argv;
 const document_ = JSON.parse(await readFile(json, 'utf8'));
+const isChain = document_.schema.startsWith('meshbound/lod');
 const isSimplify = document_.schema.startsWith('meshbound/simplify');
-const keys = isSimplify ? ['original_to_simplified', 'simplified_to_original'] : ['a_to_b', 'b_to_a'];
+const keys = isSimplify || isChain ? ['original_to_simplified', 'simplified_to_original'] : ['a_to_b', 'b_to_a'];
+
+const measured = isChain ? document_.levels.at(-1) : document_;
+const inputs = isChain ? [document_.original, ...document_.levels]
+  : isSimplify ? [document_.original, document_.simplified] : [document_.a, document_.b];
 
 const faults = [];
 const expect = (condition, what) => { if (!condition) faults.push(what); };
@@ -47,11 +52,11 @@ async function checkNumbers(page) {
   const text = (id) => page.locator(`#${id}`).innerText();
   equal(await text('verdict'), document_.verdict, 'verdict');
   const [lower, upper] = (await text('interval')).replace(/[[\]]/g, '').split(', ').map(Number.parseFloat);
-  equal(lower, document_.distance.lower, 'lower bound');
-  equal(upper, document_.distance.upper, 'upper bound');
+  equal(lower, measured.distance.lower, 'lower bound');
+  equal(upper, measured.distance.upper, 'upper bound');
   const values = await page.locator('#distances data').evaluateAll((nodes) => nodes.map((node) => Number(node.value)));
   const wanted = keys.flatMap((key) => {
-    const { lower: low, upper: high } = document_.distance[key];
+    const { lower: low, upper: high } = measured.distance[key];
     const s = document_.deviation[key];
     return [low, high, s.mean, s.root_mean_square, s.percentile_95, s.largest_sample];
   });
@@ -62,7 +67,7 @@ async function checkNumbers(page) {
   for (const word of [document_.provenance.date, document_.provenance.version, document_.provenance.command[1]])
     expect(settings.includes(word), `the settings do not name ${word}`);
   const meshes = await text('meshes');
-  for (const mesh of isSimplify ? [document_.original, document_.simplified] : [document_.a, document_.b])
+  for (const mesh of inputs)
     expect(meshes.includes(mesh.sha256), `no checksum of ${mesh.path}`);
 }
 
@@ -103,10 +108,11 @@ async function checkControls(page, where) {
   await changed('dragging');
   await page.mouse.wheel(0, -400);
   await changed('the wheel');
-  if (!isSimplify || document_.levels.length === 0) return;
+  if ((document_.levels ?? []).length === 0) return;
   await page.selectOption('#show', 'second');
   before = await look(page);
-  for (let level = document_.levels.length - 1; level >= 0; --level) {
+  const coarsest = document_.levels.length - 1;
+  for (let level = isChain ? coarsest - 1 : coarsest; level >= 0; --level) {
     await page.locator('#level').fill(String(level));
     await changed(`level ${level}`);
     expect((await page.locator('#level-name').innerText()).includes(String(document_.levels[level].faces)),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "deviation/deviation_request.h"
 
+#include <CLI/CLI.hpp>
 #include <map>
 
 #include "deviation/report_file.h"
@@ -27,6 +28,16 @@ void DeviationRequest::check() const {
   }
 }
 
+void add_report_options(CLI::App& app, DeviationRequest& request) {
+  app.add_option("--report", request.report,
+                 "Write a report as one HTML file: the meshes in 3D with their deviation, statistics, and the JSON "
+                 "document");
+  app.add_option("--units", request.units, "What a length is called in a report or picture, such as mm");
+  app.add_option("--up", request.up, "Axis that points up in a report or picture: x, y or z (default)")
+      ->transform(CLI::Transformer(std::map<std::string, UpAxis>{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}},
+                                   CLI::ignore_case));
+}
+
 void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::string& original,
                            const std::string& result) {
   app.add_option(
@@ -35,14 +46,8 @@ void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::
           " (quality) and its colour, from 0 to the tolerance, or to the proven maximum where there is none");
   app.add_option("--heatmap-original", request.original_heatmap,
                  "Write " + original + " as PLY with the distance of each vertex to " + result);
-  app.add_option("--report", request.report,
-                 "Write a report as one HTML file: both meshes in 3D with their deviation, statistics, and the JSON "
-                 "document");
   app.add_option("--image", request.image, "Write a PNG picture of both meshes and the deviation; needs no display");
-  app.add_option("--units", request.units, "What a length is called in the report and the picture, such as mm");
-  app.add_option("--up", request.up, "Axis that points up in the report and the picture: x, y or z (default)")
-      ->transform(CLI::Transformer(std::map<std::string, UpAxis>{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}},
-                                   CLI::ignore_case));
+  add_report_options(app, request);
 }
 
 }  // namespace meshbound::tools

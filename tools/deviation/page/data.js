@@ -11,27 +11,45 @@ export const scene = read('scene');
 
 const isSimplify = document_.schema.startsWith('meshbound/simplify/');
 
-const first = isSimplify ? 'original_to_simplified' : 'a_to_b';
-const second = isSimplify ? 'simplified_to_original' : 'b_to_a';
+/** Whether the document is of `lod_chain`. */
+export const isChain = document_.schema.startsWith('meshbound/lod/');
+
+/** Of a chain the coarsest level; its distance and tolerance are those at the top of the page. */
+const coarsest = isChain ? document_.levels.at(-1) : null;
+
+export const distance = isChain ? coarsest.distance : document_.distance;
+
+/** In model units; undefined where there is none. */
+export const tolerance = isChain ? coarsest.tolerance : document_.tolerance?.absolute;
+
+const first = isSimplify || isChain ? 'original_to_simplified' : 'a_to_b';
+const second = isSimplify || isChain ? 'simplified_to_original' : 'b_to_a';
 
 /** "original to simplified": from the first mesh to the second; and the other way round. */
 export const directions = [first, second].map((key) => ({
   key,
   name: key.replaceAll('_', ' ').replace(/^a to b$/, 'A to B').replace(/^b to a$/, 'B to A'),
-  distance: document_.distance[key],
+  distance: distance[key],
   statistics: document_.deviation?.[key],
 }));
 
-export const meshNames = isSimplify ? ['original', 'simplified'] : ['A', 'B'];
-export const meshReports = isSimplify ? [document_.original, document_.simplified] : [document_.a, document_.b];
+/** The two meshes of the 3D view: how they are called there, and what the document says of them. */
+export const meshNames = isSimplify || isChain ? ['original', 'simplified'] : ['A', 'B'];
+export const meshReports = isSimplify || isChain ? [document_.original, coarsest ?? document_.simplified] : [document_.a, document_.b];
 
-/** Levels from the finest on, the result last; empty where there is none but the result. */
-export const levels = (isSimplify && document_.levels.length > 0)
-  ? [...document_.levels.map((level) => ({
-      faces: level.faces, tolerance: level.tolerance, distance: level.distance, path: level.path })),
-    { faces: document_.simplified.faces, tolerance: document_.tolerance.absolute, distance: document_.distance,
-      path: document_.simplified.path }]
-  : [];
+/** The rows of the table of meshes. */
+export const files = isChain
+  ? [{ name: 'original', mesh: document_.original }, ...document_.levels.map((mesh, i) => ({ name: `level ${i}`, mesh }))]
+  : meshNames.map((name, i) => ({ name, mesh: meshReports[i] }));
+
+function levelsOf() {
+  const all = (document_.levels ?? []).map((level, i) => ({ ...level, name: `level ${i}` }));
+  if (isSimplify && all.length > 0) all.push({ ...document_.simplified, name: 'result', tolerance, distance });
+  return all;
+}
+
+/** Levels from the finest on, in a document of one result that result last; empty where there is none but the result. */
+export const levels = levelsOf();
 
 /** The view has each level, or where there are too many the result alone. */
 export const showsLevels = scene.meshes.filter((mesh) => mesh.role === 'second').length === levels.length;

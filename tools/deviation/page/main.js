@@ -2,7 +2,7 @@
 // Fills the page and connects its controls.
 import { histogram, levelCurve } from './charts.js';
 import { drawLegend } from './colours.js';
-import { directions, levels, meshNames, meshReports, scene, short, showsLevels } from './data.js';
+import { directions, distance, levels, meshNames, meshReports, scene, short, showsLevels } from './data.js';
 import { writeDistances, writeHeader, writeLevels, writeMeshes, writeSettings } from './tables.js';
 import { Viewer } from './viewer.js';
 
@@ -41,8 +41,7 @@ function labels() {
 function showLevel() {
   if (levels.length === 0) return;
   const level = levels[state.level];
-  const name = state.level + 1 < levels.length ? `level ${state.level}` : 'result';
-  byId('level-name').textContent = `${name}: ${level.faces} triangles, at most ${short(level.distance.upper)}`;
+  byId('level-name').textContent = `${level.name}: ${level.faces} triangles, at most ${short(level.distance.upper)}`;
   byId('level-chart').replaceChildren(levelCurve(levels, state.level));
   writeLevels(state.level);
 }
@@ -59,10 +58,10 @@ function connect(viewer) {
   byId('level').addEventListener('input', (event) => { state.level = Number(event.target.value); update(); });
   byId('whole').addEventListener('click', () => viewer?.showAll());
   ['worst-first', 'worst-second'].forEach((id, i) => {
-    const witness = directions[i].distance?.witness;
+    const witness = () => (levels[state.level]?.distance ?? distance)[directions[i].key]?.witness;
     byId(id).textContent = `Worst spot ${directions[i].name}`;
-    byId(id).hidden = !witness;
-    byId(id).addEventListener('click', () => viewer?.showWitness(witness));
+    byId(id).hidden = !witness();
+    byId(id).addEventListener('click', () => viewer?.showWitness(witness()));
   });
   update();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is written: the sentence at the top and the tables. Every number stands in a <data> element whose value is that
 // of the document.
-import { directions, document_, exact, levels, meshNames, meshReports, scene, short } from './data.js';
+import { directions, distance, document_, exact, files, isChain, levels, meshReports, scene, short, tolerance } from './data.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -29,13 +29,14 @@ const percent = (value) => {
 };
 
 function sentence() {
-  const { lower, upper } = document_.distance;
+  const { lower, upper } = distance;
   const parts = [`The distance between the surfaces, both ways, is proven to be in this interval: ${percent(lower)} to ` +
     `${percent(upper)} of the diagonal`];
-  if (document_.distance.b_to_a === undefined && document_.distance.simplified_to_original === undefined)
+  if (directions[1].distance === undefined)
     parts[0] = `The distance from A to B, one way, is proven to be in this interval: ${percent(lower)} to ${percent(upper)} of the diagonal`;
-  if (document_.tolerance) parts.push(`; the tolerance is ${short(document_.tolerance.absolute)} (${percent(document_.tolerance.absolute)})`);
-  return `${parts.join('')}.`;
+  if (tolerance !== undefined) parts.push(`; the tolerance is ${short(tolerance)} (${percent(tolerance)})`);
+  const which = isChain ? `Of ${levels.length} levels this is the coarsest. ` : '';
+  return `${which}${parts.join('')}.`;
 }
 
 function writeTexture() {
@@ -47,7 +48,7 @@ function writeTexture() {
 }
 
 export function writeHeader() {
-  const { provenance, verdict, distance } = document_;
+  const { provenance, verdict } = document_;
   byId('tool').textContent = `${provenance.tool} ${provenance.version}, ${provenance.date}`;
   byId('verdict').textContent = verdict;
   byId('verdict').className = verdict;
@@ -81,7 +82,7 @@ export function writeLevels(chosen) {
   const table = byId('levels');
   table.replaceChildren(row(['level', 'triangles', 'tolerance', 'distance at least', 'at most'], 'th'));
   levels.forEach((level, i) => {
-    const line = row([i + 1 < levels.length ? String(i) : 'result', number(level.faces, String(level.faces)), number(level.tolerance),
+    const line = row([level.name.replace('level ', ''), number(level.faces, String(level.faces)), number(level.tolerance),
       number(level.distance.lower), number(level.distance.upper)]);
     if (i === chosen) line.className = 'chosen';
     table.append(line);
@@ -91,9 +92,12 @@ export function writeLevels(chosen) {
 export function writeMeshes() {
   const table = byId('meshes');
   table.append(row(['', 'file', 'vertices', 'triangles', 'components', 'closed', 'diagonal', 'SHA-256'], 'th'));
-  meshReports.forEach((mesh, i) => table.append(row([meshNames[i], mesh.path, number(mesh.vertices, String(mesh.vertices)),
-    number(mesh.faces, String(mesh.faces)), String(mesh.components), mesh.closed ? 'yes' : 'no', number(mesh.bbox_diagonal),
-    mesh.sha256 ?? ''])));
+  const known = (value, text) => (value === undefined ? '' : number(value, text));
+  for (const { name, mesh } of files) {
+    const isClosed = mesh.closed === undefined ? '' : mesh.closed ? 'yes' : 'no';
+    table.append(row([name, mesh.path, number(mesh.vertices, String(mesh.vertices)), number(mesh.faces, String(mesh.faces)),
+      String(mesh.components ?? ''), isClosed, known(mesh.bbox_diagonal), mesh.sha256 ?? '']));
+  }
 }
 
 export function writeSettings() {
