@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <thread>
@@ -17,6 +18,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/meshbound.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -411,6 +413,49 @@ TEST(CFree, TakesNull) {
   mb_certificate_free(nullptr);
   mb_cancel_free(nullptr);
   EXPECT_EQ(mb_simplification_level_count(nullptr), 0u);
+}
+
+TEST_F(CInterface, ReadsAndWritesFilesOfEveryFormat) {
+  const meshbound::test::TemporaryFolder folder;
+  for (const char* name : {"a.off", "a.obj", "a.ply", "a.stl", "a.glb"}) {
+    const std::string path = folder / name;
+    ASSERT_EQ(mb_mesh_file_write(path.c_str(), &a_, 0, nullptr), MB_OK) << mb_error_message();
+    const TriangleMesh expected = meshbound::read_mesh(path).mesh;
+    mb_mesh_file* file = nullptr;
+    ASSERT_EQ(mb_mesh_file_read(path.c_str(), nullptr, &file), MB_OK) << mb_error_message();
+    mb_mesh mesh{};
+    ASSERT_EQ(mb_mesh_file_mesh(file, &mesh), MB_OK);
+    ASSERT_EQ(mesh.vertex_count, expected.vertices.size()) << name;
+    ASSERT_EQ(mesh.triangle_count, torus_.triangles.size()) << name;
+    EXPECT_EQ(std::memcmp(mesh.positions, expected.vertices.data(), 24 * mesh.vertex_count), 0) << name;
+    EXPECT_EQ(std::memcmp(mesh.indices, expected.triangles.data(), 12 * mesh.triangle_count), 0) << name;
+    mb_mesh_file_free(file);
+  }
+  ASSERT_EQ(mb_mesh_file_write((folder / "f.ply").c_str(), &a_, 1, nullptr), MB_OK);
+  EXPECT_EQ(meshbound::read_mesh(folder / "f.ply").mesh.vertices[1].x(), static_cast<float>(torus_.vertices[1].x()));
+}
+
+TEST_F(CInterface, SaysWhatIsWrongWithAFile) {
+  const meshbound::test::TemporaryFolder folder;
+  const auto status_of = [](const std::string& path, const mb_cancel* cancel) {
+    mb_mesh_file* file = nullptr;
+    const mb_status status = mb_mesh_file_read(path.c_str(), cancel, &file);
+    EXPECT_EQ(file == nullptr, status != MB_OK);
+    mb_mesh_file_free(file);
+    return status;
+  };
+  EXPECT_EQ(status_of(folder / "missing.ply", nullptr), MB_FAILED);
+  EXPECT_EQ(status_of(folder / "mesh.txt", nullptr), MB_INVALID_INPUT);
+  EXPECT_NE(std::string(mb_error_message()).find("unknown mesh format"), std::string::npos) << mb_error_message();
+  EXPECT_EQ(mb_mesh_file_write((folder / "missing/a.ply").c_str(), &a_, 0, nullptr), MB_FAILED);
+  EXPECT_EQ(mb_mesh_file_write((folder / "a.ply").c_str(), nullptr, 0, nullptr), MB_INVALID_INPUT);
+  EXPECT_EQ(mb_mesh_file_read(nullptr, nullptr, nullptr), MB_INVALID_INPUT);
+  EXPECT_EQ(mb_mesh_file_mesh(nullptr, nullptr), MB_INVALID_INPUT);
+  mb_cancel* cancel = mb_cancel_new();
+  mb_cancel_request(cancel);
+  EXPECT_EQ(mb_mesh_file_write((folder / "b.ply").c_str(), &a_, 0, cancel), MB_CANCELLED);
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.ply"));
+  mb_cancel_free(cancel);
 }
 
 }  // namespace

@@ -99,6 +99,26 @@ void mb_cancel_free(mb_cancel* cancel); /* after the calls that it was passed to
  * other than 0 ends the call with MB_CANCELLED. Must not throw or jump out of the call. */
 typedef int (*mb_progress)(double fraction, void* user);
 
+/* ---- files ---- */
+
+/* The mesh of a file. */
+typedef struct mb_mesh_file mb_mesh_file;
+
+/* Reads OFF, OBJ, PLY, STL or glTF 2, as the end of `path` says: .off, .obj, .ply, .stl, .glb, .gltf. Polygons are split
+ * into triangles; of glTF all triangles of the default scene are read, placed by their nodes. What a file holds beyond
+ * geometry is left out. MB_INVALID_INPUT for a malformed file or another name, with the line or byte in the message;
+ * MB_FAILED for a file that cannot be read. `cancel` may be NULL. O(size of the file). */
+mb_status mb_mesh_file_read(const char* path, const mb_cancel* cancel, mb_mesh_file** file);
+/* The mesh: doubles and 32-bit indices, packed. Its pointers hold until the file is freed. */
+mb_status mb_mesh_file_mesh(const mb_mesh_file* file, mb_mesh* mesh);
+void mb_mesh_file_free(mb_mesh_file* file);
+
+/* Writes a mesh in the format that the end of `path` says; the file appears whole or not at all. Text has the digits
+ * that read back as the same doubles. STL and glTF hold floats, as PLY, OFF and OBJ do where `single_precision` is 1:
+ * coordinates are rounded, and a bound that is to hold for the file must be one of the mesh as it reads (see
+ * mb_simplify_options.single_precision, or measure again). `cancel` may be NULL. O(n). */
+mb_status mb_mesh_file_write(const char* path, const mb_mesh* mesh, int single_precision, const mb_cancel* cancel);
+
 /* ---- distances ---- */
 
 typedef enum mb_verdict { MB_WITHIN = 0, MB_EXCEEDS = 1, MB_UNDECIDED = 2 } mb_verdict;
