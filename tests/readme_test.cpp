@@ -178,4 +178,42 @@ TEST(Benchmarks, RefuseWrongUsageAtOnce) {
   refused("--pair " + file + " " + file + " scaling", "not with scaling");
 }
 
+/// The steps of packaging/ci/github-actions.yml that check levels, as they stand there.
+std::string gate_steps() {
+  const std::string file = content_of(root / "packaging/ci/github-actions.yml"), indent(10, ' ');
+  std::size_t at = file.find("run: |\n", file.find("- name: Check every level"));
+  std::string steps;
+  for (at = file.find('\n', at) + 1; file.compare(at, indent.size(), indent) == 0; at = file.find('\n', at) + 1)
+    steps += file.substr(at, file.find('\n', at) + 1 - at);
+  return steps;
+}
+
+class PullRequestGate : public testing::Test {
+ protected:
+  PullRequestGate() {
+    fs::create_directory(folder_ / "models");
+    meshbound::write_mesh(folder_ / "models/wheel.obj", wheel(1));
+  }
+  static meshbound::TriangleMesh wheel(double radius) { return meshbound::datasets::torus(radius, 0.3, 40, 16); }
+  [[nodiscard]] ToolRun run() const {
+    return run_shell("cd '" + folder_.path().string() + "' && PATH='" TOOLS_FOLDER "':$PATH && set -e\n" +
+                     gate_steps());
+  }
+  [[nodiscard]] bool has_report(const std::string& name) const { return fs::exists(folder_ / ("report/" + name)); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PullRequestGate, FailsWhereALevelIsTooFarAndAttachesReports) {
+  meshbound::write_mesh(folder_ / "models/wheel.lod1.obj", wheel(1.001));
+  const ToolRun passed = run();
+  if (passed.err.find("npm") != std::string::npos) GTEST_SKIP() << "the tools were built without the page of reports";
+  EXPECT_EQ(passed.exit_code, 0) << passed.err;
+  EXPECT_TRUE(has_report("wheel.lod1.obj.json") && has_report("wheel.lod1.obj.html"));
+  meshbound::write_mesh(folder_ / "models/wheel.lod2.obj", wheel(1.1));
+  EXPECT_EQ(run().exit_code, 1);
+  EXPECT_NE(content_of(folder_ / "report/wheel.lod2.obj.json").find("\"exceeds\""), std::string::npos);
+  EXPECT_TRUE(has_report("wheel.lod2.obj.html"));
+}
+
 }  // namespace
