@@ -279,5 +279,8 @@ int main(int argc, char** argv) {
       "hausdorff_distance");
   Arguments arguments;
   add_arguments(app, arguments);
-  return tool_main(app, argc, argv, [&arguments] { return run(arguments); });
+  return tool_main(app, argc, argv, [&arguments] {
+    resolve_streams(arguments);
+    return run(arguments);
+  });
 }

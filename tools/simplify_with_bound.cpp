@@ -17,6 +17,7 @@
 #include "common/output_folder.h"
 #include "common/provenance.h"
 #include "common/signals.h"
+#include "common/standard_streams.h"
 #include "common/texture_length.h"
 #include "common/texture_text.h"
 #include "decimation/decimation_run.h"
@@ -376,7 +377,7 @@ void Run::report() {
   report_.decided_by = decided_by_.empty() ? DecidedBy::Measurement : decided_by_.back();
   if (ended_by_time()) report_.stopped_by = to_string(EndedBy::TimeLimit);
   report_.provenance = provenance();
-  report_.simplified = {verdict_ == Verdict::Within ? options_.output : "", out.summary()};
+  report_.simplified = {verdict_ == Verdict::Within ? as_typed(options_.output) : "", out.summary()};
   if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
   report_.distance = out.distance();
   report_.lines = line_report(out, report_.tolerance);
@@ -393,11 +394,12 @@ void Run::report() {
   report_.seconds.total = watch_.seconds();
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (report_.deviation) deviation_->write(to_json(report_));
-  if (options_.common.json != "-" && !options_.common.quiet) print_summary();
+  const bool is_stdout_taken = options_.common.json == "-" || is_stream_path(options_.output);
+  if (!is_stdout_taken && !options_.common.quiet) print_summary();
   if (verdict_ == Verdict::Within && ended_by_time())
     std::fprintf(stderr,
                  "simplify_with_bound: the time limit came first: %s is the best mesh that was proven by then\n",
-                 options_.output.c_str());
+                 as_typed(options_.output).c_str());
   if (verdict_ != Verdict::Within)
     std::fprintf(stderr,
                  "simplify_with_bound: the tolerance is smaller than the rounding of the output format; use PLY, OFF "
@@ -475,6 +477,7 @@ int main(int argc, char** argv) {
     meshbound::tools::check_batch_usage(app, options.batch);
     if (options.batch.is_wanted())
       return meshbound::tools::run_batch(options.batch, options.common, options.output_dir);
+    meshbound::tools::resolve_streams(options);
     return meshbound::tools::Run(options)();
   });
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/sha256.h"
+#include "common/standard_streams.h"
 #include "mesh/file_bytes.h"
 #include "mesh/readers.h"
 #include "mesh/writers.h"
@@ -48,7 +49,9 @@ GatedOutput::GatedOutput(std::filesystem::path path, const StopToken& stop, cons
   restart();
 }
 
-void GatedOutput::restart() { file_ = std::make_unique<AtomicFile>(path_, AtomicFile::Stream::Staged, stop_); }
+void GatedOutput::restart() {
+  file_ = std::make_unique<AtomicFile>(device_of(path_), AtomicFile::Stream::Staged, stop_);
+}
 
 Precision GatedOutput::precision() const {
   const FileFormat format = format_of(path_);

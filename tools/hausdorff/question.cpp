@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "common/standard_streams.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
@@ -12,8 +13,9 @@
 namespace meshbound::tools {
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
-  app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF")->required();
-  app.add_option("B", arguments.b, "The mesh to compare with it; not with --nearest");
+  app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
+  app.add_option("B", arguments.b, "The mesh to compare with it; - for standard input; not with --nearest");
+  add_stream_format(app, arguments.format);
   app.add_option("--error-bound", arguments.error_bound,
                  "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");
   app.add_option("--tolerance", arguments.tolerance,
@@ -64,6 +66,14 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   add_examples(
       app, {"hausdorff_distance bunny.ply small.ply", "hausdorff_distance bunny.ply small.ply --tolerance 0.1% --quiet",
             "hausdorff_distance bunny.ply --nearest models"});
+}
+
+void resolve_streams(Arguments& arguments) {
+  if (arguments.a == "-" && arguments.b == "-") throw InvalidInput("A and B cannot both be standard input");
+  if (arguments.a != "-" && arguments.b != "-" && !arguments.format.empty())
+    throw InvalidInput("--format is for a mesh on standard input, which is called -; leave it out");
+  arguments.a = stream_path("A", arguments.a, StandardStream::Input, arguments.format);
+  arguments.b = stream_path("B", arguments.b, StandardStream::Input, arguments.format);
 }
 
 TypedLengths parse_lengths(const Arguments& arguments) {

@@ -16,6 +16,7 @@ namespace meshbound::tools {
 struct Arguments {
   std::string a;
   std::string b;
+  std::string format;  ///< of a mesh on standard input
   std::string error_bound;
   std::string tolerance;
   std::string transform_b;
@@ -36,6 +37,9 @@ struct Arguments {
 };
 
 void add_arguments(CLI::App& app, Arguments& arguments);
+
+/// Puts what "-" stands for in place of it. Throws `InvalidInput` where it cannot be used, or not without --format.
+void resolve_streams(Arguments& arguments);
 
 /// The lengths of the command line as typed. They are parsed before any mesh is read, so that a typing error does not
 /// cost a long read.

@@ -3,6 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/standard_streams.h"
+#include "meshbound/error.h"
+
 namespace meshbound::tools {
 namespace {
 
@@ -14,8 +17,11 @@ std::string is_effort(const std::string& effort) {
 }  // namespace
 
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
-  app.add_option("IN", arguments.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF");
-  app.add_option("OUT", arguments.output, "File for the result; its extension chooses the format");
+  app.add_option("IN", arguments.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input");
+  app.add_option("OUT", arguments.output,
+                 "File for the result; its extension chooses the format; - for standard output, where nothing else is "
+                 "printed then");
+  add_stream_format(app, arguments.format);
   app.add_option("--tolerance", arguments.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
   auto* faces = app.add_option("--target-faces", arguments.target_faces, "End at this many faces, tolerance permitting")
@@ -60,6 +66,17 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
                 "simplify_with_bound bunny.ply part.stl --tolerance 0.05 --feature-angle 30 --line-tolerance 0.01",
                 "simplify_with_bound bunny.ply small.ply --tolerance 0.1% --certificate small.cert --json small.json",
                 "simplify_with_bound --batch models --output-dir small --tolerance 0.1% --jobs 2"});
+}
+
+void resolve_streams(SimplifyArguments& arguments) {
+  const bool writes = arguments.output == "-";
+  if (arguments.input != "-" && !writes && !arguments.format.empty())
+    throw InvalidInput("--format is for a mesh on standard input or output, which is called -; leave it out");
+  if (writes && arguments.common.json == "-") throw InvalidInput("OUT and --json cannot both be standard output");
+  if (writes && !arguments.levels.empty())
+    throw InvalidInput("--levels are files named after OUT, which is -; name OUT");
+  arguments.input = stream_path("IN", arguments.input, StandardStream::Input, arguments.format);
+  arguments.output = stream_path("OUT", arguments.output, StandardStream::Output, arguments.format);
 }
 
 }  // namespace meshbound::tools

@@ -13,7 +13,7 @@ namespace meshbound::tools {
 
 /// What the command line of simplify_with_bound says.
 struct SimplifyArguments : DecimationOptions {
-  std::string output, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
+  std::string output, format, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::string target_ratio, texture_tolerance;
@@ -23,6 +23,9 @@ struct SimplifyArguments : DecimationOptions {
   BatchOptions batch;
   DeviationRequest deviation;
 };
+
+/// Puts what "-" stands for in place of it. Throws `InvalidInput` where it cannot be used, or not without --format.
+void resolve_streams(SimplifyArguments& arguments);
 
 /// Adds all options of simplify_with_bound; `arguments` must outlive the parsing.
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments);

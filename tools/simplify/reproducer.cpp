@@ -4,20 +4,23 @@
 #include <nlohmann/json.hpp>
 
 #include "common/output.h"
+#include "common/standard_streams.h"
 
 namespace meshbound::tools {
 
 std::filesystem::path save_reproducer(const SimplifyArguments& arguments, const GatedOutput& rejected,
                                       const RejectedRun& run) {
-  const std::filesystem::path folder = arguments.output + ".reproducer", input = arguments.input;
+  const bool has_name = !is_stream_path(arguments.output), has_file = !is_stream_path(arguments.input);
+  const std::filesystem::path folder = (has_name ? arguments.output : "stdout") + ".reproducer",
+                              input = arguments.input;
   const auto original = folder / ("original" + input.extension().string());
   const auto result = folder / ("rejected" + rejected.path().extension().string());
   std::filesystem::create_directories(folder);
-  std::filesystem::copy_file(input, original, std::filesystem::copy_options::overwrite_existing);
+  if (has_file) std::filesystem::copy_file(input, original, std::filesystem::copy_options::overwrite_existing);
   rejected.copy_rejected_to(result);
   nlohmann::json options = {{"schema", "meshbound/reproducer/1"},
                             {"version", MESHBOUND_VERSION},
-                            {"original", original.filename().string()},
+                            {"original", has_file ? original.filename().string() : "-"},
                             {"rejected", result.filename().string()},
                             {"rejected_tolerance", run.rejected_tolerance},
                             {"distance", {{"lower", rejected.distance().bounds.lower}}},

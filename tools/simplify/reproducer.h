@@ -17,7 +17,8 @@ struct RejectedRun {
 };
 
 /// Writes the folder OUT.reproducer: the original, the mesh that was rejected, and everything that led from one to the
-/// other. Returns the folder. Throws `IoError` and `std::filesystem::filesystem_error`.
+/// other; of standard input nothing is kept. Returns the folder. Throws `IoError` and
+/// `std::filesystem::filesystem_error`.
 std::filesystem::path save_reproducer(const SimplifyArguments& arguments, const GatedOutput& rejected,
                                       const RejectedRun& run);
 
