@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::array layers = std::to_array<std::string_view>(
     {"numeric", "geometry", "mesh", "bvh", "proof", "distance/paper", "distance/kernel", "distance/shortcuts",
      "distance/search", "distance", "distance/levels", "deviation", "penetration", "scene", "attributes", "simplify/kernel", "simplify/mesh",
-     "simplify/cover", "simplify", "normals", "texture", "certificate", "levels", "view", "report", "cgal"});
+     "simplify/cover", "simplify/texture", "simplify", "normals", "texture", "certificate", "levels", "view", "report", "cgal"});
 // clang-format on
 constexpr std::size_t longest_file = 600;
 
@@ -102,6 +102,8 @@ std::string include_violation(const SourceFile& file, const std::string& include
   if (starts_with(file.path, "bindings/") && quoted && layer_of(std::string_view(include).substr(1)) != layers.size())
     return "bindings use public headers alone";
   if (!starts_with(file.path, "src/") || !quoted || include.find("meshbound/") == 1) return {};
+  if (starts_with(file.path, "src/levels/") && starts_with(include, "\"mesh/gltf_"))
+    return "levels know where parts stand (mesh/scene_layout.h), not the document";
   const std::size_t used = layer_of(std::string_view(include).substr(1));
   const std::size_t own = layer_of(std::string_view(file.path).substr(4));
   if (used == layers.size()) return "not a folder of src; write the path from src";
@@ -210,6 +212,13 @@ TEST_F(Layering, RefusesCgalInTheCore) {
 
 TEST_F(Layering, RefusesCgalUnderTheMitLicence) {
   write("tools/simplify.cpp", "#include \"meshbound/cgal/monitor.h\"");
+  EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesADocumentOfGltfInLevels) {
+  write("src/levels/scene.cpp", "#include \"mesh/scene_layout.h\"");
+  EXPECT_EQ(joined(violations(root_)), "");
+  write("src/levels/other.cpp", "#include \"mesh/gltf_document.h\"");
   EXPECT_EQ(violations(root_).size(), 1U);
 }
 

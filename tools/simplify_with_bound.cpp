@@ -53,6 +53,7 @@ class Run : DecimationRun {
   [[nodiscard]] bool tightens_appearance();
   [[nodiscard]] bool keeps_appearance() const;
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
+  void guard_texture(SimplifyOptions& simplify) const;
   void certify();
   void write_certificates();
   void measure_deviation();
@@ -241,7 +242,21 @@ SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
   simplify.on_exceed = options_.on_exceed == "stop" ? OnExceed::Stop : OnExceed::Skip;
   simplify.effort = options_.effort == "high" ? Effort::High : Effort::Normal;
   simplify.prune = options_.prune;
+  if (original_texture_) guard_texture(simplify);
   return simplify;
+}
+
+/// Collapses that move the texture too far are refused.
+void Run::guard_texture(SimplifyOptions& simplify) const {
+  const CornerAttribute& from = attributes_.texture_coordinates;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (const Triangle& index : from.index) {
+    auto& corners = simplify.texture_coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = index[k] == CornerAttribute::none ? Eigen::Vector2d(none, none) : from.values[index[k]].head<2>();
+  }
+  simplify.materials = attributes_.materials.index;
+  simplify.texture_tolerance = original_texture_->tolerance;
 }
 
 /// Writes each mesh under a temporary name, reads it back and measures that.
@@ -288,7 +303,8 @@ bool Run::tightens_appearance() {
   end_if_interrupted();
   if (!is_out_of_time()) {
     for (const GatedOutput& output : outputs_) {
-      if (output.texture_deviation()) kept_vertices_->learn(*output.texture_deviation(), original_tree());
+      if (output.texture_deviation())
+        kept_vertices_->learn(*output.texture_deviation(), original_tree(), output.written_mesh());
       if (output.normal_deviation()) kept_vertices_->learn(*output.normal_deviation());
     }
     if (kept_vertices_->tighten()) return true;

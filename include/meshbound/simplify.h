@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Simplification with a proven bound: as few triangles as possible, never further than a tolerance from the original.
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -93,6 +95,15 @@ struct SimplifyOptions {
   std::optional<double> line_tolerance;
   /// Further edges that are lines, by the vertices of the original; pairs that no triangle has as an edge say nothing.
   std::vector<Edge> feature_edges;
+  /// Texture coordinates at the corners of each triangle of the original, not numbers where there are none; empty: the
+  /// texture does not count. Borders, and edges where those of the two triangles differ, are feature lines then, and
+  /// `Effort::High` is `Effort::Normal`.
+  std::vector<std::array<Eigen::Vector2d, 3>> texture_coordinates;
+  /// By triangle of the original: coordinates of different materials are different. Empty: all have the same one.
+  std::vector<std::uint32_t> materials;
+  /// How far the texture may move on the surface (`texture_deviation`), model units: collapses that move samples of the
+  /// original further are refused. This is no proof, and the verdict of a level does not include it.
+  double texture_tolerance = std::numeric_limits<double>::infinity();
   CollapsePlacements placements = CollapsePlacements::Optimal;  ///< with `Subset`, `Effort::High` only flips edges
   /// By triangle of the original, model units, empty for none: beside `tolerance`, every point of triangle k stays
   /// within face_tolerances[k] of the result, and every point of the result within face_tolerances[g] of the original
@@ -117,6 +128,8 @@ struct SimplifiedLevel {
   std::vector<std::uint32_t> source_vertex;
   /// By triangle of `mesh`: one of the triangles of the original that it stands for.
   std::vector<std::uint32_t> source_triangle;
+  /// By triangle of `mesh`, where `SimplifyOptions::texture_coordinates` are given: those of its corners.
+  std::vector<std::array<Eigen::Vector2d, 3>> texture_coordinates;
   std::vector<Edge> lines;                  ///< edges of `mesh` that are lines, if the mesh has feature lines
   EndedBy ended_by = EndedBy::NothingFits;  ///< why decimation did not go further
   /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.

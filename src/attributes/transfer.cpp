@@ -111,7 +111,7 @@ class Transfer {
     for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
       const WeightedPoint at = point_of_sector(corners);
       if (!from_.texture_coordinates.empty()) {
-        if (const auto value = value_at(from_.texture_coordinates, at)) {
+        if (const auto value = texture_coordinate(corners.front(), at)) {
           set_index(result.texture_coordinates.index, corners, result.texture_coordinates.values.size());
           result.texture_coordinates.values.push_back(*value);
         }
@@ -122,6 +122,14 @@ class Transfer {
         if (append_value(from_.named[i], at, to.values)) set_index(to.index, corners, count);
       }
     }
+  }
+
+  /// The one that the level has at a corner, or that of the original at the corresponding point.
+  [[nodiscard]] std::optional<Eigen::Vector3d> texture_coordinate(std::uint32_t corner, const WeightedPoint& at) const {
+    if (level_.texture_coordinates.empty()) return value_at(from_.texture_coordinates, at);
+    const Eigen::Vector2d& value = level_.texture_coordinates[corner / 3][corner % 3];
+    if (!value.allFinite()) return std::nullopt;
+    return Eigen::Vector3d(value.x(), value.y(), 0);
   }
 
   static void set_index(std::vector<Triangle>& index, const std::vector<std::uint32_t>& corners, std::size_t value) {

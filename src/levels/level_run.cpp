@@ -40,6 +40,7 @@ void LevelRun::take_original(SimplifiedLevel& level) const {
   level.source_triangle.resize(original_.triangles.size());
   std::iota(level.source_vertex.begin(), level.source_vertex.end(), 0u);
   std::iota(level.source_triangle.begin(), level.source_triangle.end(), 0u);
+  level.texture_coordinates = options_.texture_coordinates;
 }
 
 SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {

@@ -20,6 +20,8 @@ void check_options(const SimplifyOptions& options) {
   }
   if (options.line_tolerance && !is_length(*options.line_tolerance))
     throw InvalidInput("the line tolerance must be a length in model units, 0 or more");
+  if (!(options.texture_tolerance >= 0))
+    throw InvalidInput("the texture tolerance must be a length in model units, 0 or more");
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
   if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "levels/measured_level.h"
-#include "mesh/gltf_document.h"
+#include "mesh/scene_layout.h"
 #include "meshbound/mesh_view.h"
 #include "numeric/no_index.h"
 
@@ -19,10 +19,11 @@ double largest_stretch(const NodePlacement& placement) {
 }
 
 /// By placed mesh: its triangles in the original.
-std::vector<std::vector<std::uint32_t>> triangles_by_placed(const MeshAttributes& attributes) {
-  std::vector<std::vector<std::uint32_t>> result(attributes.document->placed.size());
-  for (std::uint32_t t = 0; t < attributes.part.size(); ++t)
-    result[attributes.document->parts[attributes.part[t]].placed].push_back(t);
+std::vector<std::vector<std::uint32_t>> triangles_by_placed(const SceneLayout& layout,
+                                                            const std::vector<std::uint32_t>& part_of_triangle) {
+  std::vector<std::vector<std::uint32_t>> result(layout.placed.size());
+  for (std::uint32_t t = 0; t < part_of_triangle.size(); ++t)
+    result[layout.parts[part_of_triangle[t]].placed].push_back(t);
   return result;
 }
 
@@ -43,14 +44,14 @@ void take_triangles(SceneGroup& group, const TriangleMesh& original) {
   }
 }
 
-SceneGroup group_of_copies(const TriangleMesh& original, const GltfDocument& document,
+SceneGroup group_of_copies(const TriangleMesh& original, const SceneLayout& layout,
                            const std::vector<std::uint32_t>& placed,
                            const std::vector<std::vector<std::uint32_t>>& triangles) {
   SceneGroup group;
-  const NodePlacement& first = document.placed[placed.front()].placement;
+  const NodePlacement& first = layout.placed[placed.front()].placement;
   group.scale = 0;
   for (const std::uint32_t p : placed) {
-    const NodePlacement& placement = document.placed[p].placement;
+    const NodePlacement& placement = layout.placed[p].placement;
     group.scale = std::max(group.scale, largest_stretch(placement));
     group.copies.push_back({p, triangles[p].front(), placement.is_mirrored() != first.is_mirrored()});
   }
@@ -92,18 +93,18 @@ EndedBy ended_by(EndedBy a, EndedBy b) {
 std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAttributes& attributes) {
   std::vector<SceneGroup> groups(1);
   if (attributes.document == nullptr) return groups;
-  const GltfDocument& document = *attributes.document;
-  const auto triangles = triangles_by_placed(attributes);
+  const SceneLayout& layout = *scene_layout(attributes);
+  const auto triangles = triangles_by_placed(layout, attributes.part);
   // Copies of each mesh; the first is one that can be undone. Meshes that nobody can see are left where they are.
   std::map<std::uint32_t, std::vector<std::uint32_t>> placed_of;
-  for (std::uint32_t p = 0; p < document.placed.size(); ++p)
-    if (!triangles[p].empty()) placed_of[document.placed[p].mesh].push_back(p);
+  for (std::uint32_t p = 0; p < layout.placed.size(); ++p)
+    if (!triangles[p].empty()) placed_of[layout.placed[p].mesh].push_back(p);
   for (auto& [mesh, placed] : placed_of) {
     const auto invertible = std::find_if(placed.begin(), placed.end(),
-                                         [&](std::uint32_t p) { return document.placed[p].placement.is_invertible(); });
+                                         [&](std::uint32_t p) { return layout.placed[p].placement.is_invertible(); });
     if (placed.size() > 1 && invertible != placed.end()) {
       std::rotate(placed.begin(), invertible, invertible + 1);
-      groups.push_back(group_of_copies(original, document, placed, triangles));
+      groups.push_back(group_of_copies(original, layout, placed, triangles));
     } else {
       for (const std::uint32_t p : placed)
         groups.front().triangles.insert(groups.front().triangles.end(), triangles[p].begin(), triangles[p].end());
@@ -151,14 +152,18 @@ void SceneRun::start(Group& of) {
   of.options.feature_edges.clear();
   for (const auto& [a, b] : options_.feature_edges)
     if (number[a] != no_index && number[b] != no_index) of.options.feature_edges.push_back({number[a], number[b]});
+  const auto take = [&](const auto& from, auto& to) {  // by triangle
+    if (from.empty()) return;
+    to.clear();
+    for (const std::uint32_t t : group.triangles) to.push_back(from[t]);
+  };
   if (!options_.locked_vertices.empty()) {
     of.options.locked_vertices.clear();
     for (const std::uint32_t v : group.vertices) of.options.locked_vertices.push_back(options_.locked_vertices[v]);
   }
-  if (!options_.face_tolerances.empty()) {
-    of.options.face_tolerances.clear();
-    for (const std::uint32_t t : group.triangles) of.options.face_tolerances.push_back(options_.face_tolerances[t]);
-  }
+  take(options_.face_tolerances, of.options.face_tolerances);
+  take(options_.texture_coordinates, of.options.texture_coordinates);
+  take(options_.materials, of.options.materials);
   of.run.emplace(group.mesh, of.options);
 }
 
@@ -187,7 +192,7 @@ void SceneRun::add_lines(const Group& of) {
 
 void SceneRun::append_copy(const Group& of, const SceneCopy& copy, const SimplifiedLevel& part,
                            SimplifiedLevel& level) const {
-  const NodePlacement& placement = attributes_.document->placed[copy.placed].placement;
+  const NodePlacement& placement = scene_layout(attributes_)->placed[copy.placed].placement;
   const auto first = static_cast<std::uint32_t>(level.mesh.vertices.size());
   const std::vector<std::uint32_t> vertices = vertices_of(of, copy);
   for (const Eigen::Vector3d& p : part.mesh.vertices)
@@ -198,6 +203,10 @@ void SceneRun::append_copy(const Group& of, const SceneCopy& copy, const Simplif
     level.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
   for (const std::uint32_t t : part.source_triangle) level.source_triangle.push_back(copy.first_triangle + t);
+  for (auto corners : part.texture_coordinates) {
+    if (copy.is_turned) std::swap(corners[1], corners[2]);
+    level.texture_coordinates.push_back(corners);
+  }
   for (const auto& [a, b] : part.lines) level.lines.push_back({a + first, b + first});
 }
 
@@ -210,6 +219,8 @@ void SceneRun::append(const Group& of, const SimplifiedLevel& part, SimplifiedLe
   for (const Triangle& t : part.mesh.triangles)
     level.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   for (const std::uint32_t t : part.source_triangle) level.source_triangle.push_back(of.group.triangles[t]);
+  level.texture_coordinates.insert(level.texture_coordinates.end(), part.texture_coordinates.begin(),
+                                   part.texture_coordinates.end());
   for (const auto& [a, b] : part.lines) level.lines.push_back({a + first, b + first});
 }
 

@@ -11,7 +11,7 @@ namespace meshbound {
 
 /// Where a copy of a mesh stands: from the frame in which the mesh is decimated to the scene.
 struct SceneCopy {
-  std::uint32_t placed = 0;          ///< of `GltfDocument::placed`
+  std::uint32_t placed = 0;          ///< of `SceneLayout::placed`
   std::uint32_t first_triangle = 0;  ///< of the original; the copy's triangles follow each other
   bool is_turned = false;            ///< its triangles have their corners 1 and 2 exchanged, as it is mirrored
 };

@@ -166,4 +166,6 @@ std::size_t count_scene_objects(const GltfDocument& document) {
   return count;
 }
 
+const SceneLayout* scene_layout(const MeshAttributes& attributes) { return attributes.document.get(); }
+
 }  // namespace meshbound

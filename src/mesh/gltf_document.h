@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -8,50 +7,17 @@
 #include <vector>
 
 #include "mesh/gltf_value.h"
+#include "mesh/scene_layout.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
 
-/// Where a node places its mesh: x -> linear x + translation.
-struct NodePlacement {
-  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-
-  [[nodiscard]] bool is_identity() const { return linear.isIdentity(0) && translation.isZero(0); }
-  /// A viewer turns the triangles of a mirrored mesh over, so that they still face outwards.
-  [[nodiscard]] bool is_mirrored() const;
-  /// False where the mesh is flattened, also one that a scale of 0 hides: nothing placed tells where it was.
-  [[nodiscard]] bool is_invertible() const;
-  [[nodiscard]] Eigen::Vector3d to_scene(const Eigen::Vector3d& p) const;
-  [[nodiscard]] Eigen::Vector3d to_node(const Eigen::Vector3d& p) const;  ///< needs `is_invertible`
-  /// A placement inside a placement.
-  [[nodiscard]] NodePlacement operator*(const NodePlacement& inner) const;
-};
-
-/// A mesh of the document as a node of the default scene shows it.
-struct PlacedMesh {
-  std::uint32_t mesh = 0;
-  std::uint32_t node = 0;
-  NodePlacement placement;
-  bool has_skin = false;  ///< joints move it; it is read where it is without them
-};
-
-/// A primitive of triangles of a placed mesh: what one number of `MeshAttributes::part` stands for.
-struct GltfPart {
-  std::uint32_t placed = 0;  ///< of `GltfDocument::placed`
-  std::uint32_t primitive = 0;
-};
-
 /// A glTF file beyond the triangles that were read from it: all of its JSON and of its buffers, and where the parts of
 /// the mesh stand in it. Never changed once it is read.
-struct GltfDocument {
+struct GltfDocument : SceneLayout {
   GltfJson json;
   std::vector<std::string> buffers;
-  std::vector<PlacedMesh> placed;
-  std::vector<GltfPart> parts;
   std::filesystem::path folder;  ///< where relative names of image files begin
-
-  [[nodiscard]] const PlacedMesh& placed_of(std::uint32_t part) const { return placed[parts[part].placed]; }
 };
 
 /// The JSON and the buffers of a file, `placed` and `parts` still empty. The version must be 2, the JSON not nested too

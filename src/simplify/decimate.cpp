@@ -64,7 +64,7 @@ class Run {
       if (share < min_share_taken_back || share > max_share_taken_back) break;
     }
     prove_one_by_one();
-    if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip) refine();
+    if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.texture) refine();
     return ended_by_;
   }
 

@@ -31,6 +31,9 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
 
 Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
+/// What samples may reach of the texture tolerance: between them the texture moves further.
+constexpr double share_of_texture_tolerance = 0.9;
+
 bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 bool is_same(Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
 
@@ -81,6 +84,7 @@ void Decimation::make_state(const StopToken& stop) {
                  std::move(soup.vertex_of), std::move(soup.triangle_of));
   stop.check();
   if (has_lines()) set_lines();
+  if (!options_.texture_coordinates.empty()) set_texture();
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
   state_->locked = locked();
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
@@ -154,11 +158,51 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
   std::vector<std::uint8_t> marked(3 * mesh.face_count(), 0);
   for (Corner c = 0; c < marked.size(); ++c) {
     if (options_.feature_angle && is_feature(mesh, c, *options_.feature_angle)) marked[c] = 1;
+    if (is_seam(c)) marked[c] = 1;
     if (wanted.empty()) continue;
     const std::uint32_t p = *first_at(mesh.position(mesh.start(c))), q = *first_at(mesh.position(mesh.end(c)));
     if (wanted.contains({std::min(p, q), std::max(p, q)})) marked[c] = 1;
   }
   return marked;
+}
+
+/// Whether texture coordinates or materials differ between the two faces of an edge.
+bool Decimation::is_seam(Corner edge) const {
+  const ArrayMesh& mesh = state_->mesh;
+  const Corner twin = mesh.twin(edge);
+  if (options_.texture_coordinates.empty() || twin == ArrayMesh::none) return false;
+  const auto triangle = [&](Corner c) { return order_.triangle[state_->source_triangle[c / 3]]; };
+  if (!options_.materials.empty() && options_.materials[triangle(edge)] != options_.materials[triangle(twin)])
+    return true;
+  const auto at = [&](Corner face, std::uint32_t vertex) {
+    const std::uint32_t t = state_->source_triangle[face / 3];
+    std::size_t k = 0;
+    while (k < 2 && !is_same(vertices_[original_.triangles[t][k]], mesh.position(vertex))) ++k;
+    return options_.texture_coordinates[order_.triangle[t]][k];
+  };
+  const auto differ = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a != b && (a.allFinite() || b.allFinite());
+  };
+  const std::uint32_t start = mesh.start(edge), end = mesh.end(edge);
+  return differ(at(edge, start), at(twin, start)) || differ(at(edge, end), at(twin, end));
+}
+
+void Decimation::set_texture() {
+  if (options_.texture_coordinates.size() != order_.triangle.size())
+    throw InvalidInput("texture coordinates must be given for every triangle of the original, or not at all");
+  if (!options_.materials.empty() && options_.materials.size() != order_.triangle.size())
+    throw InvalidInput("materials must be given for every triangle of the original, or not at all");
+  std::vector<CornerCoordinates> coordinates;
+  std::vector<std::uint32_t> materials;
+  for (const std::uint32_t t : order_.triangle) {
+    coordinates.push_back(options_.texture_coordinates[t]);
+    if (!options_.materials.empty()) materials.push_back(options_.materials[t]);
+  }
+  const double tolerance = frame_.length_to_frame(options_.texture_tolerance);
+  state_->texture.emplace(Atlas(vertices_, original_.triangles, std::move(coordinates), std::move(materials)),
+                          state_->mesh, state_->lines, state_->source_triangle, vertices_, original_.triangles,
+                          tolerance);
+  state_->texture->limit = share_of_texture_tolerance * tolerance;
 }
 
 void Decimation::set_lines() {
@@ -260,6 +304,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
   into.source_vertex.clear();
   into.source_triangle.clear();
   into.lines.clear();
+  into.texture_coordinates.clear();
   std::vector<std::uint32_t> index(state.mesh.vertex_count());
   for (const auto& [source, v] : sorted(std::move(vertices))) {
     index[v] = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -270,6 +315,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     const auto corners = state.mesh.corners(f);
     mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
     into.source_triangle.push_back(source);
+    if (state.texture) into.texture_coordinates.push_back(state.texture->of(f));
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))
         into.lines.push_back({index[state.mesh.start(c)], index[state.mesh.end(c)]});
@@ -285,6 +331,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     }
     mesh.triangles.push_back(corners);
     into.source_triangle.push_back(source);
+    if (state.texture) into.texture_coordinates.push_back(options_.texture_coordinates[source]);
   }
 }
 

@@ -33,9 +33,13 @@ class Decimation {
   [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
   [[nodiscard]] std::vector<std::uint8_t> locked() const;
   void lock_features(std::vector<std::uint8_t>& locked) const;
-  [[nodiscard]] bool has_lines() const { return options_.line_tolerance || !options_.feature_edges.empty(); }
+  [[nodiscard]] bool has_lines() const {
+    return options_.line_tolerance || !options_.feature_edges.empty() || !options_.texture_coordinates.empty();
+  }
   void set_lines();
   [[nodiscard]] std::vector<std::uint8_t> marked_edges() const;
+  [[nodiscard]] bool is_seam(Corner edge) const;
+  void set_texture();
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
   [[nodiscard]] double room() const;

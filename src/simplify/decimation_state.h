@@ -12,6 +12,7 @@
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/quadric.h"
+#include "simplify/texture/texture_map.h"
 
 namespace meshbound {
 
@@ -96,9 +97,10 @@ struct EditLog {
   std::uint32_t before = 0;
   std::vector<Edit> edits;
   std::vector<Stamp> stamps;
+  std::vector<CornerCoordinates> coordinates;  ///< by stamp: those of the face before; empty without a texture
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
-  void clear() { edits.clear(), stamps.clear(); }
+  void clear() { edits.clear(), stamps.clear(), coordinates.clear(); }
   /// The faces that change `number` has touched.
   [[nodiscard]] std::span<const Stamp> stamps_of(std::uint32_t number) const {
     const std::size_t k = number - before - 1, begin = edits[k].first_stamp;
@@ -156,6 +158,7 @@ struct DecimationState {
   double line_limit = 0;             ///< what must be found in doubles so that both hold for lines
   bool keeps_positions = false;      ///< vertices stand only where the original has vertices
   std::optional<LocalTolerance> local;
+  std::optional<TextureMap> texture;  ///< where the texture must not move too far
 
   std::vector<std::uint32_t> stamp;  ///< by face: the number of the last change since the last proof, or 0
   std::vector<EditLog> logs;         ///< since the last proof, their numbers ascending

@@ -97,7 +97,9 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
   return keeps_manifold(mesh, edge, around_kept_, around_gone_);
 }
 
-Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {}
+Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {
+  if (state.texture) texture_.emplace(*state.texture, state.mesh, state.lines);
+}
 
 void Proposer::gather_samples() {
   gathered_ = true;
@@ -112,6 +114,7 @@ void Proposer::gather_samples() {
   taken_ = numbers_;
   taken_.insert(taken_.end(), star_.removed.begin(), star_.removed.end());
   samples_.add_faces(taken_);
+  if (texture_) texture_->begin({star_.edge, star_.moved, star_.removed});
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -143,7 +146,14 @@ bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) return false;
   if (!gathered_) gather_samples();
   by_bound_ = true;
-  return samples_.hold(faces_, beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point);
+  return samples_.hold(faces_, beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point) &&
+         keeps_texture(point);
+}
+
+bool Proposer::keeps_texture(Vec3 point) {
+  if (!texture_ || texture_->holds(point)) return true;
+  by_bound_ = false;
+  return false;
 }
 
 /// Ends of border edges that the vertex of the collapse will have.
@@ -336,6 +346,7 @@ void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star
 
 void Proposer::collapse(Region& region, Vec3 point) {
   note_edit(state_, region, Edit::Kind::Collapse, star_.edge, taken_);
+  if (texture_) texture_->apply(*state_.texture);
   apply_collapse(state_, region, star_, point);
 }
 
@@ -346,6 +357,7 @@ void Proposer::assign_samples(Region& region) {
   for (const std::uint32_t face : star_.removed) s.samples.clear(face);
   for (const Corner c : star_.moved) s.samples.clear(c / 3);
   samples_.give(numbers_);
+  if (texture_) texture_->give_samples(*s.texture);
   s.share[kept] = std::min(s.share[kept], s.share[gone]);
   ++region.clock;
   s.touched[kept] = region.clock;

@@ -9,6 +9,7 @@
 #include "simplify/mesh/normal_guard.h"
 #include "simplify/regions.h"
 #include "simplify/star_samples.h"
+#include "simplify/texture/texture_guard.h"
 
 namespace meshbound {
 
@@ -88,6 +89,7 @@ class Proposer {
   void take_few();
   void add_vertex(Vec3 point);
   [[nodiscard]] bool fits(Vec3 point);
+  [[nodiscard]] bool keeps_texture(Vec3 point);
   void find_borders();
   [[nodiscard]] bool is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points);
   [[nodiscard]] bool are_edges_near(Vec3 point);
@@ -97,6 +99,7 @@ class Proposer {
   const Split* split_ = nullptr;  ///< of the last edge
   std::uint32_t region_ = 0;
   StarSamples samples_;
+  std::optional<TextureGuard> texture_;
   DeviationKernel deviation_kernel_ = simplify_kernels().deviations;
   EdgeStar star_;
   std::vector<GuardedFace> before_;    ///< the faces that move

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "simplify/cover/face_box.h"
+#include "simplify/texture/texture_guard.h"
 
 namespace meshbound {
 namespace {
@@ -36,6 +37,12 @@ std::size_t take_back(DecimationState& s, const Edit& edit) {
   }
   s.mesh.move(s.mesh.start(edit.edge), edit.position);
   return faces;
+}
+
+/// The texture coordinates that faces had before they got these stamps.
+void restore_coordinates(DecimationState& s, const EditLog& log, std::size_t first, std::size_t end) {
+  if (!s.texture) return;
+  for (std::size_t i = first; i < end; ++i) s.texture->restore(log.stamps[i].face, log.coordinates[i]);
 }
 
 /// Takes changes back, the last one first, with everything that was built on them.
@@ -103,6 +110,7 @@ class Undoing {
       changed_.push_back(stamp.face);
     }
     give_samples(number);
+    restore_texture(number);
     if (std::binary_search(at_fault_.begin(), at_fault_.end(), number)) lower_share(edit.edge);
     edit.edge = ArrayMesh::none;
     ++undone_;
@@ -134,10 +142,21 @@ class Undoing {
     }
   }
 
+  void restore_texture(std::uint32_t number) {
+    if (!state_.texture) return;
+    const EditLog& log = log_of(number);
+    const std::span<const EditLog::Stamp> stamps = stamps_of(number);
+    const auto first = static_cast<std::size_t>(stamps.data() - log.stamps.data());
+    restore_coordinates(state_, log, first, first + stamps.size());
+    faces_.clear();
+    for (const EditLog::Stamp& stamp : stamps) faces_.push_back(stamp.face);
+    give_back_samples(*state_.texture, state_.mesh, faces_);
+  }
+
   DecimationState& state_;
   std::priority_queue<std::uint32_t> wanted_;
   std::size_t undone_ = 0;
-  std::vector<std::uint32_t> at_fault_, changed_, samples_;
+  std::vector<std::uint32_t> at_fault_, changed_, samples_, faces_;
 };
 
 /// The face nearest to a vertex of the original.
@@ -189,6 +208,7 @@ void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner e
   for (const std::uint32_t face : faces) {
     log.stamps.push_back({face, state.stamp[face]});
     state.stamp[face] = number;
+    if (state.texture) log.coordinates.push_back(state.texture->of(face));
   }
 }
 
@@ -198,7 +218,9 @@ void undo_last(DecimationState& state, Region& region) {
   region.removed_faces -= take_back(state, edit);
   for (std::size_t i = edit.first_stamp; i < log.stamps.size(); ++i)
     state.stamp[log.stamps[i].face] = log.stamps[i].before;
+  restore_coordinates(state, log, edit.first_stamp, log.stamps.size());
   log.stamps.resize(edit.first_stamp);
+  if (state.texture) log.coordinates.resize(edit.first_stamp);
   log.edits.pop_back();
 }
 

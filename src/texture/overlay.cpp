@@ -227,8 +227,15 @@ void Overlay::add(const ChartTriangle& b) {
     line.candidate = candidates();
     line.number = number;
     if (b.chart == Chart::Area) line.ends = edge_of(b, number);
-    for (std::size_t i = 0; i < 3; ++i)
+    bool is_beyond = true;
+    for (std::size_t i = 0; i < 3; ++i) {
       if (!is_end(line.ends, a_->source->coordinates[i])) line.at[i] = line_at(b, points, number, at[i]);
+      is_beyond = is_beyond && line.at[i].value < -line.at[i].error;
+    }
+    if (is_beyond) {
+      lines_.resize(candidate.lines[0]);
+      return;
+    }
     lines_.push_back(std::move(line));
   }
   candidates_.push_back(candidate);

@@ -67,8 +67,10 @@ class Overlay {
 
   /// Begins anew with this triangle.
   void begin(const ChartTriangle& a);
-  /// Adds a candidate. Its number is that of the candidates before it. All triangles must outlive their use.
+  /// Adds a candidate, unless all of A is known to lie beyond one of its lines. Its number is that of the candidates
+  /// before it. All triangles must outlive their use.
   void add(const ChartTriangle& b);
+  [[nodiscard]] const ChartTriangle& triangle() const { return *a_; }
   [[nodiscard]] std::uint32_t candidates() const { return static_cast<std::uint32_t>(candidates_.size()); }
   [[nodiscard]] const ChartTriangle& candidate(std::uint32_t c) const { return *candidates_[c].triangle; }
 

@@ -60,7 +60,13 @@ class Direction {
  public:
   Direction(const Charts& a, const Charts& b, const ExactUnits& units, double error_bound,
             const TextureDeviationOptions& options)
-      : a_(a), b_(b), units_(units), options_(options), bounds_(a.triangles().size()), shares_(a.triangles().size()) {
+      : a_(a),
+        b_(b),
+        units_(units),
+        options_(options),
+        known_(a.triangles().size()),
+        bounds_(a.triangles().size()),
+        shares_(a.triangles().size()) {
     goal_.error_bound = error_bound;
     goal_.precision = precision_share * error_bound;
     goal_.max_pieces = options.max_pieces;
@@ -116,17 +122,15 @@ class Direction {
   void look_at_all() {
     const std::size_t count = bounds_.size();
     pairs_.assign(count, 0);
-    std::vector<char> is_covered(count, 0);
     for_triangles(count, grain, [&](std::size_t i, Workspace& work) {
       overlay(i, work);
-      const TriangleDeviation found = deviation_by_candidates(work.overlay, goal_);
-      bounds_[i] = found.bounds;
-      is_covered[i] = found.far ? 1 : 0;
+      known_[i] = deviation_by_candidates(work.overlay, goal_.precision);
+      bounds_[i] = known_[i].all.bounds;
       pairs_[i] = work.overlay.candidates();
-      shares_[i] = uncovered_share(work.overlay, a_.triangles()[i].chart);
+      shares_[i] = uncovered_share(work.overlay);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      if (is_covered[i] == 0 || (first_ && bounds_[i].lower <= goal_.lower)) continue;
+      if (!known_[i].all.far || (first_ && bounds_[i].lower <= goal_.lower)) continue;
       goal_.lower = bounds_[i].lower;
       first_ = i;
     }
@@ -158,7 +162,7 @@ class Direction {
     for_triangles(triangles.size(), 1, [&](std::size_t k, Workspace& work) {
       if (!is_open(triangles[k])) return;
       overlay(triangles[k], work);
-      found[k] = deviation_by_pieces(work.overlay, a_.triangles()[triangles[k]].chart, goal);
+      found[k] = deviation_by_pieces(work.overlay, known_[triangles[k]], goal);
       if (found[k].far) witnesses[k] = work.overlay.witness(found[k].far->candidate, found[k].far->node);
     });
     for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -180,16 +184,17 @@ class Direction {
     if (witness_ || !first_) return witness_;
     Workspace work(units_);
     overlay(*first_, work);
-    const TriangleDeviation found = deviation_by_candidates(work.overlay, goal_);
-    return work.overlay.witness(found.far->candidate, found.far->node);
+    const FarPoint& far = *known_[*first_].all.far;
+    return work.overlay.witness(far.candidate, far.node);
   }
 
   const Charts &a_, &b_;
   ExactUnits units_;
   const TextureDeviationOptions& options_;
   DeviationGoal goal_;
-  std::vector<Bounds> bounds_;       ///< by triangle of A
-  std::vector<Approximate> shares_;  ///< of each triangle of A that B does not cover
+  std::vector<DeviationByCandidates> known_;  ///< by triangle of A
+  std::vector<Bounds> bounds_;                ///< by triangle of A
+  std::vector<Approximate> shares_;           ///< of each triangle of A that B does not cover
   std::vector<std::uint32_t> pairs_;
   std::optional<std::size_t> first_;  ///< the triangle with the lower bound at one of its corners
   std::optional<TextureWitness> witness_;

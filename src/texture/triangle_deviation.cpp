@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "texture/covering.h"
 
 namespace meshbound {
 namespace {
@@ -54,9 +57,10 @@ std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece) {
   return chosen;
 }
 
-/// Those that can cover a part of A, which lies like `chart`, that is more than a line or a point of it.
-std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay, Chart chart) {
+/// Those that can cover a part of A that is more than a line or a point of it.
+std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay) {
   std::vector<std::uint32_t> found;
+  const Chart chart = overlay.triangle().chart;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c)
     if (chart != Chart::Area || overlay.candidate(c).chart == Chart::Area) found.push_back(c);
   return found;
@@ -80,21 +84,23 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
 
 class PieceSearch {
  public:
-  PieceSearch(Overlay& overlay, const DeviationGoal& goal) : overlay_(overlay), goal_(goal) {}
+  PieceSearch(Overlay& overlay, const DeviationByCandidates& known, const DeviationGoal& goal)
+      : overlay_(overlay), uppers_(known.uppers), goal_(goal), result_(known.all) {}
 
   /// Takes the whole triangle first: what no candidate covers falls away, and every point of a candidate that covers
   /// more than a line or a point of A lies in a piece or on its border. The others count only where something falls
   /// away; then each candidate is looked at by itself, with what it covers as the first piece.
-  TriangleDeviation run(Chart chart) {
-    result_ = deviation_by_candidates(overlay_, goal_);
+  TriangleDeviation run() {
     result_.bounds.upper = 0;
-    search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, chart)});
+    std::vector<std::uint32_t> spanning = spanning_candidates(overlay_);
+    std::erase_if(spanning, [&](std::uint32_t c) { return uppers_[c] < 0; });
+    search(Piece{overlay_.whole(), {}, std::move(spanning)});
     for (std::uint32_t c = 0; c < overlay_.candidates() && has_uncovered_; ++c) {
+      if (uppers_[c] < 0) continue;
       Piece piece{overlay_.whole(), {c}, {}};
       overlay_.clip(piece.polygon, c);
-      if (piece.polygon.empty()) continue;
       for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
-        if (other != c) piece.part.push_back(other);
+        if (other != c && uppers_[other] >= 0) piece.part.push_back(other);
       search(std::move(piece));
     }
     return result_;
@@ -201,11 +207,24 @@ class PieceSearch {
   }
 
   Overlay& overlay_;
+  const std::vector<double>& uppers_;  ///< -1 for a candidate that covers nothing
   const DeviationGoal& goal_;
   TriangleDeviation result_;
   std::vector<Piece> stack_;
   bool has_uncovered_ = false;
 };
+
+/// The largest of the candidates' upper bounds that are at most `limit`, where these candidates together cover all of
+/// A: then it is one for A. None where that is not known.
+std::optional<double> upper_of_near_candidates(Overlay& overlay, const std::vector<double>& uppers, double limit) {
+  if (overlay.triangle().chart != Chart::Area) return std::nullopt;
+  double upper = 0;
+  std::vector<std::uint32_t> near = spanning_candidates(overlay);
+  std::erase_if(near, [&](std::uint32_t c) { return uppers[c] < 0 || uppers[c] > limit; });
+  for (const std::uint32_t c : near) upper = std::max(upper, uppers[c]);
+  if (!Covering().is_complete(overlay, near)) return std::nullopt;
+  return upper;
+}
 
 /// Cuts by lines of candidates, one of the middle first, so that on average a cut halves what is left to look at.
 class Uncovered {
@@ -231,27 +250,37 @@ class Uncovered {
 
 }  // namespace
 
-TriangleDeviation deviation_by_candidates(Overlay& overlay, const DeviationGoal& goal) {
-  TriangleDeviation result;
+DeviationByCandidates deviation_by_candidates(Overlay& overlay, double precision) {
+  DeviationByCandidates found;
+  found.uppers.assign(overlay.candidates(), -1);
   std::optional<Node> covered_point;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     Polygon covered = overlay.whole();
     overlay.clip(covered, c);
     for (const auto& corner : covered)
-      result.bounds.upper = std::max(result.bounds.upper, overlay.distance(c, corner.node, goal.precision).upper);
+      found.uppers[c] = std::max(found.uppers[c], overlay.distance(c, corner.node, precision).upper);
+    found.all.bounds.upper = std::max(found.all.bounds.upper, found.uppers[c]);
     if (!covered.empty()) covered_point = covered.front().node;
   }
-  for (const auto& corner : overlay.whole()) include(overlay, corner.node, goal.precision, result);
-  if (!result.far && covered_point) include(overlay, *covered_point, goal.precision, result);
+  for (const auto& corner : overlay.whole()) include(overlay, corner.node, precision, found.all);
+  if (!found.all.far && covered_point) include(overlay, *covered_point, precision, found.all);
+  return found;
+}
+
+TriangleDeviation deviation_by_pieces(Overlay& overlay, const DeviationByCandidates& known, const DeviationGoal& goal) {
+  const double limit = std::max(goal.lower, known.all.bounds.lower) + goal.error_bound;
+  const auto upper = upper_of_near_candidates(overlay, known.uppers, limit);
+  if (!upper) return PieceSearch(overlay, known, goal).run();
+  TriangleDeviation result = known.all;
+  result.bounds.upper = std::max(*upper, result.bounds.lower);
+  result.pieces = 1;
   return result;
 }
 
-TriangleDeviation deviation_by_pieces(Overlay& overlay, Chart chart, const DeviationGoal& goal) {
-  return PieceSearch(overlay, goal).run(chart);
-}
-
-Approximate uncovered_share(Overlay& overlay, Chart chart) {
-  return Uncovered(overlay).of({overlay.whole(), {}, spanning_candidates(overlay, chart)});
+Approximate uncovered_share(Overlay& overlay) {
+  std::vector<std::uint32_t> candidates = spanning_candidates(overlay);
+  if (overlay.triangle().chart == Chart::Area && Covering().is_complete(overlay, candidates)) return {};
+  return Uncovered(overlay).of({overlay.whole(), {}, std::move(candidates)});
 }
 
 }  // namespace meshbound

@@ -22,6 +22,12 @@ struct TriangleDeviation {
   std::uint64_t pieces = 0;     ///< that were looked at
 };
 
+/// What each candidate alone says.
+struct DeviationByCandidates {
+  TriangleDeviation all;
+  std::vector<double> uppers;  ///< by candidate, over what it covers; -1 where that is nothing
+};
+
 /// What a search may spend, and how near it has to look, model units.
 struct DeviationGoal {
   double lower = 0;        ///< of the whole mesh, known before: nothing below it counts
@@ -33,14 +39,15 @@ struct DeviationGoal {
 /// Looks at each candidate alone, and at the corners of A, or a point that is covered where no corner is: the distance
 /// to one candidate is convex over what it covers, so it is largest at a corner of that. The upper bound holds, but is
 /// that of the worst candidate instead of the nearest one where several cover the same points. O(candidates).
-[[nodiscard]] TriangleDeviation deviation_by_candidates(Overlay& overlay, const DeviationGoal& goal);
+[[nodiscard]] DeviationByCandidates deviation_by_candidates(Overlay& overlay, double precision);
 
-/// Then cuts what a candidate covers where others cover it as well, and takes the nearest of them: branch and bound,
-/// until the upper bound is within the error bound of the lower one.
-/// `chart` is that of A.
-[[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, Chart chart, const DeviationGoal& goal);
+/// Then takes the candidates that are near enough, where these together cover all of A; else cuts what a candidate
+/// covers where others cover it as well, and takes the nearest of them: branch and bound, until the upper bound is
+/// within the error bound of the lower one. `known` is what was found for the same overlay.
+[[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, const DeviationByCandidates& known,
+                                                    const DeviationGoal& goal);
 
 /// The share of A that no candidate covers.
-[[nodiscard]] Approximate uncovered_share(Overlay& overlay, Chart chart);
+[[nodiscard]] Approximate uncovered_share(Overlay& overlay);
 
 }  // namespace meshbound

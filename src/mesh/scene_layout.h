@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/// Where the parts of a mesh stand in the document that it was read from, without the document itself.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "meshbound/attributes.h"
+
+namespace meshbound {
+
+/// Where a node places its mesh: x -> linear x + translation.
+struct NodePlacement {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] bool is_identity() const { return linear.isIdentity(0) && translation.isZero(0); }
+  /// A viewer turns the triangles of a mirrored mesh over, so that they still face outwards.
+  [[nodiscard]] bool is_mirrored() const;
+  /// False where the mesh is flattened, also one that a scale of 0 hides: nothing placed tells where it was.
+  [[nodiscard]] bool is_invertible() const;
+  [[nodiscard]] Eigen::Vector3d to_scene(const Eigen::Vector3d& p) const;
+  [[nodiscard]] Eigen::Vector3d to_node(const Eigen::Vector3d& p) const;  ///< needs `is_invertible`
+  /// A placement inside a placement.
+  [[nodiscard]] NodePlacement operator*(const NodePlacement& inner) const;
+};
+
+/// A mesh of the document as a node of the default scene shows it.
+struct PlacedMesh {
+  std::uint32_t mesh = 0;
+  std::uint32_t node = 0;
+  NodePlacement placement;
+  bool has_skin = false;  ///< joints move it; it is read where it is without them
+};
+
+/// A primitive of triangles of a placed mesh: what one number of `MeshAttributes::part` stands for.
+struct GltfPart {
+  std::uint32_t placed = 0;  ///< of `SceneLayout::placed`
+  std::uint32_t primitive = 0;
+};
+
+/// The placed meshes of a document and their parts.
+struct SceneLayout {
+  std::vector<PlacedMesh> placed;
+  std::vector<GltfPart> parts;
+
+  [[nodiscard]] const PlacedMesh& placed_of(std::uint32_t part) const { return placed[parts[part].placed]; }
+};
+
+/// That of the document which `attributes` belong to; null where there is none.
+[[nodiscard]] const SceneLayout* scene_layout(const MeshAttributes& attributes);
+
+}  // namespace meshbound

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/texture/texture_guard.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/point_triangle.h"
+#include "simplify/cover/face_box.h"
+
+namespace meshbound {
+namespace {
+
+/// A coordinate whose worst sample is below this share of the limit needs no better one.
+constexpr double good_share = 0.5;
+/// Where a sample is farther away than so many limits, no other coordinate of the vertex helps.
+constexpr double hopeful_share = 4;
+/// Newton steps at most; a step that gains nothing ends them.
+constexpr int max_steps = 4;
+/// Points from the line of the original to the one that a collapse makes of it, in the texture, at these shares of the
+/// way.
+constexpr std::array<double, 3> shares_of_strip = {0.02, 0.5, 0.98};
+
+/// Points of a face that are compared with the original, the vertex that moves having the first weight.
+constexpr std::array<std::array<double, 3>, 4> tested_points = {
+    {{1, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}};
+
+/// An edge that becomes a line is compared at the ends of so many parts.
+constexpr int parts_of_line = 8;
+
+/// A sample is inside a face whose barycentric coordinates are not below this: it may lie on the edge.
+constexpr double min_weight = -1e-9;
+
+double doubled_area(const CornerCoordinates& t) {
+  const Eigen::Vector2d u = t[1] - t[0], v = t[2] - t[0];
+  return u.x() * v.y() - u.y() * v.x();
+}
+
+Vec3 point_of(const std::array<Vec3, 3>& corners, const std::array<double, 3>& weights) {
+  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+}
+
+/// The closest point of a segment, as a share of the way.
+double closest_share(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d way = b - a;
+  const double squared = way.squaredNorm();
+  return squared > 0 ? std::clamp((p - a).dot(way) / squared, 0.0, 1.0) : 0;
+}
+
+/// The point of the outline of a triangle in the texture that is closest to a coordinate.
+std::array<double, 3> closest_on_outline(const CornerCoordinates& t, const Eigen::Vector2d& p, double& squared) {
+  std::array<double, 3> best{};
+  squared = HUGE_VAL;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const double share = closest_share(t[k], t[next], p);
+    const double here = (t[k] + share * (t[next] - t[k]) - p).squaredNorm();
+    if (!(here < squared)) continue;
+    squared = here;
+    best = {};
+    best[k] = 1 - share;
+    best[next] = share;
+  }
+  return best;
+}
+
+}  // namespace
+
+void TextureGuard::begin(const TexturedStar& star) {
+  star_ = star;
+  accepted_ = false;
+  samples_.clear();
+  charts_.clear();
+  faces_.clear();
+  area_before_.clear();
+  const auto add_samples = [&](std::uint32_t face) {
+    for (std::uint32_t s = map_.first(face); s != TextureMap::none; s = map_.sample(s).following) {
+      samples_.push_back(s);
+      charts_.push_back(map_.chart(face));
+    }
+  };
+  for (const Corner c : star.moved) {
+    const std::uint32_t f = c / 3;
+    add_samples(f);
+    faces_.push_back({{mesh_.position(mesh_.start(c)), mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))},
+                      {map_.at(c), map_.at(next_corner(c)), map_.at(previous_corner(c))},
+                      map_.chart(f),
+                      f,
+                      Eigen::Matrix2d::Zero(),
+                      false});
+    area_before_.push_back(doubled_area(faces_.back().coordinates));
+  }
+  for (const std::uint32_t f : star.removed) add_samples(f);
+}
+
+/// Gives a coordinate to the corners of the vertex that goes, on one side of its line: those around it that are joined
+/// to the removed face with this corner.
+void TextureGuard::set_sector(Corner of_leaving, const Eigen::Vector2d& coordinate) {
+  const auto set = [&](Corner c) {
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (star_.moved[i] == c) faces_[i].coordinates[0] = coordinate;
+  };
+  const std::uint32_t edge = mesh_.edge(star_.edge);
+  for (Corner c = of_leaving; mesh_.edge(c) != edge && !lines_.is_line(mesh_, c);) {
+    c = next_corner(mesh_.twin(c));
+    if (c == of_leaving) break;
+    set(c);
+  }
+  for (Corner c = previous_corner(of_leaving); mesh_.edge(c) != edge && !lines_.is_line(mesh_, c);) {
+    const Corner next = mesh_.twin(c);
+    if (next == of_leaving) break;
+    set(next);
+    c = previous_corner(next);
+  }
+}
+
+void TextureGuard::set_at_end(std::uint32_t stays, std::uint32_t leaves) {
+  for (const std::uint32_t f : star_.removed) {
+    Corner staying = 0, leaving = 0;
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
+      if (mesh_.start(c) == stays) staying = c;
+      if (mesh_.start(c) == leaves) leaving = c;
+    }
+    set_sector(leaving, map_.at(staying));
+  }
+}
+
+/// The coordinate of the closest point of the faces around, as they are.
+std::optional<Eigen::Vector2d> TextureGuard::coordinate_at(Vec3 point) const {
+  double least = HUGE_VAL;
+  std::optional<Eigen::Vector2d> result;
+  const auto visit = [&](std::uint32_t face) {
+    if (map_.chart(face) == TextureMap::none) return;
+    const auto corners = mesh_.triangle(face);
+    const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0];
+    const Vec3 offset = closest_on_triangle(CornerTriangle<double>{corners[0], u, v}, point).offset;
+    const double squared = squared_length(offset);
+    if (!(squared < least)) return;
+    least = squared;
+    const Vec3 w = point - offset - corners[0];  // in the plane of the face
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > 0)) return;
+    const double second = (vv * uw - uv * vw) / determinant, third = (uu * vw - uv * uw) / determinant;
+    const CornerCoordinates t = map_.of(face);
+    result = t[0] + second * (t[1] - t[0]) + third * (t[2] - t[0]);
+  };
+  for (const Corner c : star_.moved) visit(c / 3);
+  for (const std::uint32_t f : star_.removed) visit(f);
+  return result;
+}
+
+void TextureGuard::move_to(const Eigen::Vector2d& coordinate) {
+  for (Face& face : faces_) face.coordinates[0] = coordinate;
+}
+
+bool TextureGuard::set_faces(Vec3 point) {
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    faces_[i].at[0] = point;
+    faces_[i].coordinates[0] = map_.at(star_.moved[i]);
+  }
+  const std::uint32_t start = mesh_.start(star_.edge), end = mesh_.end(star_.edge);
+  const bool is_at_start = squared_length(point - mesh_.position(start)) == 0;
+  const bool is_at_end = squared_length(point - mesh_.position(end)) == 0;
+  is_free_ = !is_at_start && !is_at_end;
+  if (is_at_start && !(is_at_end && lines_.at(start) == TextureMap::none)) {
+    set_at_end(start, end);
+  } else if (is_at_end) {
+    set_at_end(end, start);
+  } else {
+    const auto coordinate = coordinate_at(point);
+    if (!coordinate) return false;
+    move_to(*coordinate);
+  }
+  return true;
+}
+
+/// Whether a face covers its place in the texture from the other side, or none of it any more.
+bool TextureGuard::is_turned_over() const {
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (faces_[i].chart == TextureMap::none || area_before_[i] == 0) continue;
+    if (!(doubled_area(faces_[i].coordinates) * area_before_[i] > 0)) return true;
+  }
+  return false;
+}
+
+TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
+  Match best;
+  double nearest_squared = HUGE_VAL;
+  for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+    const Face& face = faces_[i];
+    if (face.chart != chart) continue;
+    Match here{i, true, {}, {}};
+    double squared = 0;    // in the texture
+    if (!face.has_area) {  // one coordinate or a line of them: the nearest point stands for it
+      here.weights = {1, 0, 0};
+      const CornerTriangle<double> t{face.at[0], face.at[1] - face.at[0], face.at[2] - face.at[0]};
+      here.offset = -1.0 * closest_on_triangle(t, sample.at).offset;
+    } else {
+      const Eigen::Vector2d weights = face.to_weights * (sample.coordinate - face.coordinates[0]);
+      here.weights = {1 - weights.x() - weights.y(), weights.x(), weights.y()};
+      here.is_inside = std::min({here.weights[0], here.weights[1], here.weights[2]}) >= min_weight;
+      if (!here.is_inside) {
+        if (best.is_inside) continue;
+        here.weights = closest_on_outline(face.coordinates, sample.coordinate, squared);
+      }
+      here.offset = point_of(face.at, here.weights) - sample.at;
+    }
+    const bool is_nearer = here.is_inside ? !best.is_inside || squared_length(here.offset) < squared_length(best.offset)
+                                          : squared < nearest_squared;
+    if (!is_nearer) continue;
+    best = here;
+    nearest_squared = squared;
+  }
+  return best;
+}
+
+void TextureGuard::prepare_weights() {
+  for (Face& face : faces_) {
+    Eigen::Matrix2d sides;
+    sides << face.coordinates[1] - face.coordinates[0], face.coordinates[2] - face.coordinates[0];
+    face.has_area = sides.determinant() != 0;
+    if (face.has_area) face.to_weights = sides.inverse();
+  }
+}
+
+/// Finds a face for each sample. False where there is none, or none as near as that.
+bool TextureGuard::match(double max_squared) {
+  prepare_weights();
+  matches_.resize(samples_.size());
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    matches_[i] = match(map_.sample(samples_[i]), charts_[i]);
+    if (matches_[i].face == TextureMap::none || !(squared_length(matches_[i].offset) <= max_squared)) return false;
+  }
+  return true;
+}
+
+/// How the distance of a sample follows the coordinate of the vertex: where the vertex goes by d in the texture, the
+/// point of the face with the sample's coordinate goes by -weight J d, J being the derivative of the position in the
+/// face by the coordinate.
+void TextureGuard::add_slope(const Face& face, const Match& match, Deviations& deviations) const {
+  if (!face.has_area || !match.is_inside) return;
+  const Vec3 u = face.at[1] - face.at[0], v = face.at[2] - face.at[0];
+  Eigen::Matrix<double, 3, 2> sides;
+  sides << to_eigen(u), to_eigen(v);
+  const Eigen::Matrix<double, 3, 2> derivative = sides * face.to_weights * (-match.weights[0] / map_.limit);
+  const Eigen::Vector3d offset = to_eigen((1 / map_.limit) * match.offset);
+  const double squared = offset.squaredNorm();
+  // The sum of squared^3: its slope is 6 squared^2 D^T e; of its curvature the part that is never negative.
+  const Eigen::Vector2d slope = derivative.transpose() * offset;
+  deviations.sum += squared * squared * squared;
+  deviations.gradient += 6 * squared * squared * slope;
+  deviations.curvature +=
+      6 * squared * squared * derivative.transpose() * derivative + 24 * squared * slope * slope.transpose();
+}
+
+TextureGuard::Deviations TextureGuard::deviations() {
+  Deviations result;
+  for (const Match& m : matches_) {
+    result.worst_squared = std::max(result.worst_squared, squared_length(m.offset));
+    if (is_free_) add_slope(faces_[m.face], m, result);
+  }
+  return result;
+}
+
+/// Moves the coordinate of the vertex until the samples are within the limit, or no step helps. The faces are those of
+/// the best coordinate afterwards.
+bool TextureGuard::improve() {
+  const auto is_within = [&](const Deviations& d) { return d.worst_squared <= map_.limit * map_.limit; };
+  Deviations here = deviations();
+  if (!is_free_) return is_within(here);
+  for (int step = 0; step < max_steps; ++step) {
+    if (here.worst_squared <= good_share * good_share * map_.limit * map_.limit) break;
+    const double determinant = here.curvature.determinant();
+    if (!(determinant > 0)) break;
+    const Eigen::Vector2d before = faces_[0].coordinates[0];
+    const Eigen::Vector2d way = -here.curvature.inverse() * here.gradient;
+    if (!way.allFinite()) break;
+    const std::vector<Match> matches = matches_;
+    move_to(before + way);
+    const bool is_possible = !is_turned_over() && match(here.worst_squared);
+    const Deviations there = is_possible ? deviations() : Deviations{};
+    if (!is_possible || !(there.worst_squared < here.worst_squared)) {
+      move_to(before);
+      matches_ = matches;
+      break;
+    }
+    here = there;
+  }
+  return is_within(here);
+}
+
+/// Whether edge k of a face that stays, the edge opposite to the vertex being 1, is a line or becomes one: where it
+/// merges with the line of a face that goes.
+bool TextureGuard::becomes_line(std::size_t face, std::size_t k) const {
+  const Corner c = star_.moved[face];
+  const Corner edge = k == 0 ? c : k == 1 ? next_corner(c) : previous_corner(c);
+  if (lines_.is_line(mesh_, edge)) return true;
+  const Corner across = mesh_.twin(edge);
+  if (std::find(star_.removed.begin(), star_.removed.end(), across / 3) == star_.removed.end()) return false;
+  const auto is_other_line = [&](Corner other) {
+    return mesh_.edge(other) != mesh_.edge(star_.edge) && lines_.is_line(mesh_, other);
+  };
+  return is_other_line(next_corner(across)) || is_other_line(previous_corner(across));
+}
+
+/// Whether the strip between the line of the original and that of the faces, in the texture, is no place where the
+/// original has something else: the strip shows that, or is shown there.
+bool TextureGuard::is_border_free(std::size_t i) {
+  const TextureMap::Sample& sample = map_.sample(samples_[i]);
+  double least = HUGE_VAL;
+  Eigen::Vector2d nearest = sample.coordinate;
+  std::uint32_t material = 0;
+  const auto visit = [&](const CornerCoordinates& t, std::size_t k, std::uint32_t face) {
+    const std::size_t next = (k + 1) % 3;
+    const Eigen::Vector2d p = t[k] + closest_share(t[k], t[next], sample.coordinate) * (t[next] - t[k]);
+    if (!((p - sample.coordinate).squaredNorm() < least)) return;
+    least = (p - sample.coordinate).squaredNorm();
+    nearest = p;
+    material = map_.material(face);
+  };
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].chart != charts_[i]) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (becomes_line(f, k)) visit(faces_[f].coordinates, k, faces_[f].number);
+  }
+  return least == 0 || least == HUGE_VAL || is_strip_free(sample, nearest, material);
+}
+
+bool TextureGuard::is_strip_free(const TextureMap::Sample& sample, const Eigen::Vector2d& nearest,
+                                 std::uint32_t material) {
+  return std::none_of(shares_of_strip.begin(), shares_of_strip.end(), [&](double share) {
+    const Eigen::Vector2d between = sample.coordinate + share * (nearest - sample.coordinate);
+    return map_.atlas().has_far_point(between, material, sample.at, map_.limit, found_);
+  });
+}
+
+bool TextureGuard::are_borders_free() {
+  if (!lines_.is_line(mesh_, star_.edge)) return true;
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    if (map_.sample(samples_[i]).is_on_line && !is_border_free(i)) return false;
+  return are_lines_near();
+}
+
+/// Whether the samples whose coordinates no face has any more are those of nothing else that is far away: the texture
+/// would move there.
+bool TextureGuard::are_uncovered_free() {
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Match& m = matches_[i];
+    if (m.is_inside) continue;
+    const TextureMap::Sample& sample = map_.sample(samples_[i]);
+    const CornerCoordinates& t = faces_[m.face].coordinates;
+    const Eigen::Vector2d nearest = m.weights[0] * t[0] + m.weights[1] * t[1] + m.weights[2] * t[2];
+    const std::uint32_t material = map_.material(faces_[m.face].number);
+    if (map_.atlas().has_far_point(sample.coordinate, material, sample.at, map_.limit, found_)) return false;
+    if (!is_strip_free(sample, nearest, material)) return false;
+  }
+  return true;
+}
+
+bool TextureGuard::is_near_original(const Face& face, const std::array<double, 3>& weights) {
+  const CornerCoordinates& t = face.coordinates;
+  const Eigen::Vector2d coordinate = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
+  const double squared =
+      map_.atlas().squared_distance(coordinate, map_.material(face.number), point_of(face.at, weights), found_);
+  return squared <= map_.limit * map_.limit || squared == HUGE_VAL;
+}
+
+/// Whether points of the faces are near the points of the original with their coordinates, if there are any.
+bool TextureGuard::are_faces_near() {
+  return std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+    if (face.chart == TextureMap::none) return true;
+    return std::all_of(tested_points.begin(), tested_points.end(),
+                       [&](const std::array<double, 3>& weights) { return is_near_original(face, weights); });
+  });
+}
+
+/// As that, along the edges at the vertex that are lines once an edge of a line has collapsed.
+bool TextureGuard::are_lines_near() {
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].chart == TextureMap::none) continue;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{2}}) {
+      if (!becomes_line(f, k)) continue;
+      for (int i = 1; i < parts_of_line; ++i) {
+        std::array<double, 3> weights{};
+        weights[k] = static_cast<double>(i) / parts_of_line;
+        weights[(k + 1) % 3] = 1 - weights[k];
+        if (!is_near_original(faces_[f], weights)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool TextureGuard::holds(Vec3 point) {
+  accepted_ = false;
+  const bool is_bare =
+      std::all_of(faces_.begin(), faces_.end(), [](const Face& f) { return f.chart == TextureMap::none; });
+  if (is_bare) return true;
+  if (!set_faces(point) || is_turned_over()) return false;
+  const double reach = (is_free_ ? hopeful_share : 1) * map_.limit;
+  if (!match(reach * reach) || !improve()) return false;
+  if (!are_uncovered_free() || !are_borders_free() || !are_faces_near()) return false;
+  accepted_ = true;
+  return true;
+}
+
+void TextureGuard::apply(TextureMap& map) const {
+  if (!accepted_) return;
+  for (std::size_t i = 0; i < faces_.size(); ++i) map.set(star_.moved[i], faces_[i].coordinates[0]);
+}
+
+void TextureGuard::give_samples(TextureMap& map) const {
+  if (!accepted_) return;
+  for (const Face& face : faces_) map.clear(face.number);
+  for (const std::uint32_t f : star_.removed) map.clear(f);
+  for (std::size_t i = 0; i < samples_.size(); ++i) map.give_to(samples_[i], faces_[matches_[i].face].number);
+}
+
+void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> samples;  // with their charts
+  for (const std::uint32_t f : faces) {
+    for (std::uint32_t s = map.first(f); s != TextureMap::none; s = map.sample(s).following)
+      samples.emplace_back(s, map.chart(f));
+    map.clear(f);
+  }
+  for (const auto& [s, chart] : samples) {
+    double least = HUGE_VAL;
+    std::uint32_t best = TextureMap::none;
+    for (const std::uint32_t f : faces) {
+      if (mesh.is_removed(f) || map.chart(f) != chart) continue;
+      const CornerCoordinates corners = map.of(f);
+      double squared = 0;
+      const auto weights = weights_at(corners, map.sample(s).coordinate);
+      if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < 0; }))
+        (void)closest_on_outline(corners, map.sample(s).coordinate, squared);
+      if (squared < least) least = squared, best = f;
+    }
+    map.give_to(s, best);
+  }
+}
+
+}  // namespace meshbound

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+/// Refuses collapses that would move the texture too far, by the samples around them.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simplify/texture/texture_map.h"
+
+namespace meshbound {
+
+/// The faces around the edge of a collapse.
+struct TexturedStar {
+  Corner edge = 0;
+  std::span<const Corner> moved;           ///< of faces that stay: the corner that moves
+  std::span<const std::uint32_t> removed;  ///< faces that go
+};
+
+/// Chooses the texture coordinates of the vertex that a collapse leaves, and compares the samples around with the faces
+/// as they would be: the distance between points of equal texture coordinates, after Cohen, Olano, Manocha,
+/// "Appearance-Preserving Simplification", SIGGRAPH 1998. One for each thread.
+///
+/// A vertex that goes to where an end of the edge is takes the coordinates of that end, on each side of a line its own.
+/// Elsewhere it begins with the coordinate that the mesh has there, and Newton's method on the sum of the sixth powers
+/// of the distances moves that where it has to.
+class TextureGuard {
+ public:
+  TextureGuard(const TextureMap& map, const ArrayMesh& mesh, const FeatureLines& lines)
+      : map_(map), mesh_(mesh), lines_(lines) {}
+
+  /// Starts anew with these faces, which must stay as they are until the next call. O(samples).
+  void begin(const TexturedStar& star);
+  /// Whether the samples stay within the limit of the map with the vertex at `point`. O(samples * faces).
+  [[nodiscard]] bool holds(Vec3 point);
+  /// Writes the coordinates that `holds` has accepted last to the faces that stay.
+  void apply(TextureMap& map) const;
+  /// Gives the samples of the star to the faces that stay, as `holds` has found them. The mesh has collapsed.
+  void give_samples(TextureMap& map) const;
+
+ private:
+  /// A face that stays, as it would be.
+  struct Face {
+    std::array<Vec3, 3> at;
+    CornerCoordinates coordinates;
+    std::uint32_t chart = TextureMap::none, number = 0;
+    /// From a coordinate relative to that of the vertex to the weights of the two other corners; no numbers where the
+    /// face has no area in the texture.
+    Eigen::Matrix2d to_weights;
+    bool has_area = false;
+  };
+  /// The point of a face that a sample is compared with.
+  struct Match {
+    std::uint32_t face = TextureMap::none;  ///< index in `faces_`
+    bool is_inside = false;
+    std::array<double, 3> weights{};
+    Vec3 offset;  ///< from the sample
+  };
+  /// What the samples say of a choice of coordinates.
+  struct Deviations {
+    double worst_squared = 0, sum = 0;
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
+  };
+
+  [[nodiscard]] bool set_faces(Vec3 point);
+  void set_at_end(std::uint32_t stays, std::uint32_t leaves);
+  void set_sector(Corner of_leaving, const Eigen::Vector2d& coordinate);
+  [[nodiscard]] std::optional<Eigen::Vector2d> coordinate_at(Vec3 point) const;
+  [[nodiscard]] bool is_turned_over() const;
+  void prepare_weights();
+  [[nodiscard]] bool match(double max_squared);
+  [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
+  void add_slope(const Face& face, const Match& match, Deviations& deviations) const;
+  [[nodiscard]] Deviations deviations();
+  [[nodiscard]] bool improve();
+  void move_to(const Eigen::Vector2d& coordinate);
+  [[nodiscard]] bool are_borders_free();
+  [[nodiscard]] bool is_border_free(std::size_t sample);
+  [[nodiscard]] bool is_strip_free(const TextureMap::Sample& sample, const Eigen::Vector2d& nearest,
+                                   std::uint32_t material);
+  [[nodiscard]] bool are_uncovered_free();
+  [[nodiscard]] bool is_near_original(const Face& face, const std::array<double, 3>& weights);
+  [[nodiscard]] bool are_faces_near();
+  [[nodiscard]] bool are_lines_near();
+  [[nodiscard]] bool becomes_line(std::size_t face, std::size_t k) const;
+
+  const TextureMap& map_;
+  const ArrayMesh& mesh_;
+  const FeatureLines& lines_;
+  TexturedStar star_;
+  std::vector<std::uint32_t> samples_, charts_;  ///< of the star: samples, and the chart of each
+  std::vector<Face> faces_;                      ///< by moved corner; the vertex comes first
+  std::vector<double> area_before_;              ///< twice those in the texture, by moved corner
+  std::vector<Match> matches_;                   ///< by sample
+  bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be chosen
+  bool accepted_ = false;
+  std::vector<std::uint32_t> found_;
+};
+
+/// Gives the samples of these faces, which have just been restored, to those of them that are left.
+void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const std::uint32_t> faces);
+
+}  // namespace meshbound

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/texture/texture_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace meshbound {
+namespace {
+
+/// Points between the ends of one edge.
+constexpr double max_between = 7;
+
+/// Barycentric coordinates that are negative by no more than this count as 0: a point on an edge belongs to a triangle.
+constexpr double rounding = 1e-12;
+
+bool has_coordinates(const CornerCoordinates& corners) {
+  return std::all_of(corners.begin(), corners.end(), [](const Eigen::Vector2d& uv) { return uv.allFinite(); });
+}
+
+Eigen::AlignedBox3d box_of(const CornerCoordinates& corners, std::uint32_t material) {
+  Eigen::AlignedBox3d box;
+  if (!has_coordinates(corners)) return box;
+  for (const Eigen::Vector2d& uv : corners) box.extend(Eigen::Vector3d(uv.x(), uv.y(), material));
+  return box;
+}
+
+}  // namespace
+
+std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners, const Eigen::Vector2d& coordinate) {
+  const Eigen::Vector2d u = corners[1] - corners[0], v = corners[2] - corners[0], w = coordinate - corners[0];
+  const double area = u.x() * v.y() - u.y() * v.x();
+  if (area == 0) return std::nullopt;
+  const double second = (w.x() * v.y() - w.y() * v.x()) / area, third = (u.x() * w.y() - u.y() * w.x()) / area;
+  return std::array<double, 3>{1 - second - third, second, third};
+}
+
+Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+             std::vector<CornerCoordinates> coordinates, std::vector<std::uint32_t> materials)
+    : vertices_(vertices),
+      triangles_(triangles),
+      coordinates_(std::move(coordinates)),
+      materials_(std::move(materials)) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(coordinates_.size());
+  for (std::uint32_t t = 0; t < coordinates_.size(); ++t) boxes.push_back(box_of(coordinates_[t], material(t)));
+  tree_.emplace(std::move(boxes));
+}
+
+template <class Visit>
+void Atlas::for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
+                           const Visit& visit) const {
+  found.clear();
+  const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material);
+  tree_->find({at, at}, found);
+  for (const std::uint32_t t : found) {
+    const auto weights = weights_at(coordinates_[t], coordinate);
+    if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < -rounding; })) continue;
+    const auto& v = triangles_[t];
+    if (!visit((*weights)[0] * vertices_[v[0]] + (*weights)[1] * vertices_[v[1]] + (*weights)[2] * vertices_[v[2]]))
+      return;
+  }
+}
+
+bool Atlas::has_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
+                          std::vector<std::uint32_t>& found) const {
+  bool is_far = false;
+  for_each_point(coordinate, material, found, [&](Vec3 q) {
+    is_far = squared_length(q - p) > limit * limit;
+    return !is_far;
+  });
+  return is_far;
+}
+
+double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                               std::vector<std::uint32_t>& found) const {
+  double least = HUGE_VAL;
+  for_each_point(coordinate, material, found, [&](Vec3 q) {
+    least = std::min(least, squared_length(q - p));
+    return true;
+  });
+  return least;
+}
+
+TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,
+                       const std::vector<std::uint32_t>& triangle_of_face, const std::vector<Vec3>& vertices,
+                       const std::vector<std::array<std::uint32_t, 3>>& triangles, double spacing)
+    : atlas_(std::move(atlas)), coordinates_(3 * start.face_count()), first_(start.face_count(), none) {
+  for (std::uint32_t f = 0; f < start.face_count(); ++f) {
+    const std::uint32_t t = triangle_of_face[f];
+    material_.push_back(atlas_.material(t));
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
+      const Vec3 p = start.position(start.start(c));  // faces may be turned over
+      for (std::size_t k = 0; k < 3; ++k)
+        if (squared_length(vertices[triangles[t][k]] - p) == 0) coordinates_[c] = atlas_.coordinates(t)[k];
+    }
+  }
+  number_charts(start, lines);
+  take_vertices(start, lines);
+  take_edges(start, lines, spacing);
+}
+
+void TextureMap::number_charts(const ArrayMesh& start, const FeatureLines& lines) {
+  chart_.assign(start.face_count(), none);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t first = 0; first < start.face_count(); ++first) {
+    if (chart_[first] != none || !has_coordinates(of(first))) continue;
+    chart_[first] = first;
+    open.assign(1, first);
+    while (!open.empty()) {
+      const std::uint32_t f = open.back();
+      open.pop_back();
+      for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
+        if (lines.is_line(start, c)) continue;
+        const std::uint32_t other = start.twin(c) / 3;
+        if (chart_[other] != none || !has_coordinates(of(other))) continue;
+        chart_[other] = first;
+        open.push_back(other);
+      }
+    }
+  }
+}
+
+void TextureMap::add_sample(std::uint32_t face, Vec3 at, const Eigen::Vector2d& coordinate, bool is_on_line) {
+  samples_.push_back({at, coordinate, none, is_on_line});
+  give_to(static_cast<std::uint32_t>(samples_.size() - 1), face);
+}
+
+/// One sample for the corners around a vertex that are joined across edges that are no lines.
+void TextureMap::take_vertices(const ArrayMesh& start, const FeatureLines& lines) {
+  std::vector<std::uint8_t> is_taken(3 * start.face_count(), 0);
+  for (Corner first = 0; first < is_taken.size(); ++first) {
+    if (is_taken[first] != 0 || chart_[first / 3] == none) continue;
+    const std::uint32_t v = start.start(first);
+    add_sample(first / 3, start.position(v), at(first), lines.is_on_line(v));
+    for (Corner c = first; is_taken[c] == 0;) {
+      is_taken[c] = 1;
+      if (lines.is_line(start, c)) break;
+      c = next_corner(start.twin(c));
+    }
+    for (Corner c = previous_corner(first); !lines.is_line(start, c); c = previous_corner(start.twin(c))) {
+      if (is_taken[start.twin(c)] != 0) break;
+      is_taken[start.twin(c)] = 1;
+    }
+  }
+}
+
+void TextureMap::take_edges(const ArrayMesh& start, const FeatureLines& lines, double spacing) {
+  for (Corner c = 0; c < 3 * start.face_count(); ++c) {
+    const bool is_line = lines.is_line(start, c);
+    if ((start.edge(c) != c && !is_line) || chart_[c / 3] == none) continue;
+    const Vec3 p = start.position(start.start(c)), q = start.position(start.end(c));
+    const double count = std::min(std::floor(length(q - p) / spacing), max_between);
+    for (int k = 1; k <= count; ++k) {
+      const double share = k / (count + 1);
+      add_sample(c / 3, p + share * (q - p), at(c) + share * (at(next_corner(c)) - at(c)), is_line);
+    }
+  }
+}
+
+}  // namespace meshbound

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+/// Texture coordinates of a mesh under decimation, and samples of the original that show how far the texture moves.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simplify/cover/box_tree.h"
+#include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/feature_lines.h"
+
+namespace meshbound {
+
+/// Texture coordinates of the corners of a triangle; not numbers where it has none.
+using CornerCoordinates = std::array<Eigen::Vector2d, 3>;
+
+/// The triangles of the original, found by a texture coordinate. Immutable, safe to share.
+class Atlas {
+ public:
+  /// `materials` by triangle; empty: all are the same. O(n log n).
+  Atlas(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+        std::vector<CornerCoordinates> coordinates, std::vector<std::uint32_t> materials);
+
+  [[nodiscard]] const CornerCoordinates& coordinates(std::uint32_t triangle) const { return coordinates_[triangle]; }
+  [[nodiscard]] std::uint32_t material(std::uint32_t triangle) const {
+    return materials_.empty() ? 0 : materials_[triangle];
+  }
+  /// Whether a point of the original with this coordinate and material is farther than `limit` from `p`. `found` is
+  /// scratch memory. Expected O(log n) for few such points.
+  [[nodiscard]] bool has_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
+                                   std::vector<std::uint32_t>& found) const;
+  /// The least squared distance from `p` to points of the original with this coordinate and material; infinite where
+  /// there are none.
+  [[nodiscard]] double squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                        std::vector<std::uint32_t>& found) const;
+
+ private:
+  template <class Visit>
+  void for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
+                      const Visit& visit) const;
+
+  const std::vector<Vec3>& vertices_;
+  const std::vector<std::array<std::uint32_t, 3>>& triangles_;
+  std::vector<CornerCoordinates> coordinates_;
+  std::vector<std::uint32_t> materials_;
+  std::optional<BoxTree> tree_;
+};
+
+/// The texture of a mesh under decimation: coordinates at its corners, and samples of the original, each with the face
+/// that has its coordinate. A guide, not a bound. What belongs to faces of different regions may be changed by
+/// different threads.
+class TextureMap {
+ public:
+  static constexpr std::uint32_t none = ArrayMesh::none;
+
+  /// A point of the original.
+  struct Sample {
+    Vec3 at;
+    Eigen::Vector2d coordinate;
+    std::uint32_t following = none;  ///< of the same face
+    bool is_on_line = false;
+  };
+
+  /// `start` is the original, triangle by triangle, as `triangle_of_face` says; edges where coordinates or materials
+  /// differ are `lines`. Samples are the vertices, one for each side of a line, and points between them on edges longer
+  /// than `spacing`. O(n).
+  TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,
+             const std::vector<std::uint32_t>& triangle_of_face, const std::vector<Vec3>& vertices,
+             const std::vector<std::array<std::uint32_t, 3>>& triangles, double spacing);
+
+  [[nodiscard]] const Atlas& atlas() const { return atlas_; }
+  [[nodiscard]] const Eigen::Vector2d& at(Corner corner) const { return coordinates_[corner]; }
+  [[nodiscard]] CornerCoordinates of(std::uint32_t face) const {
+    return {coordinates_[3 * face], coordinates_[3 * face + 1], coordinates_[3 * face + 2]};
+  }
+  void set(Corner corner, const Eigen::Vector2d& coordinate) { coordinates_[corner] = coordinate; }
+  void restore(std::uint32_t face, const CornerCoordinates& before) {
+    for (std::size_t k = 0; k < 3; ++k) coordinates_[3 * face + k] = before[k];
+  }
+  /// Faces of one chart hang together across edges that are no lines; `none`: the face has no coordinates.
+  [[nodiscard]] std::uint32_t chart(std::uint32_t face) const { return chart_[face]; }
+  [[nodiscard]] std::uint32_t material(std::uint32_t face) const { return material_[face]; }
+
+  [[nodiscard]] const Sample& sample(std::uint32_t s) const { return samples_[s]; }
+  [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
+  /// Empties the list of the face; its samples must be given to other faces of the chart then.
+  void clear(std::uint32_t face) { first_[face] = none; }
+  void give_to(std::uint32_t s, std::uint32_t face) {
+    samples_[s].following = first_[face];
+    first_[face] = s;
+  }
+
+  double limit = 0;  ///< how far the texture may move, by the samples
+
+ private:
+  void number_charts(const ArrayMesh& start, const FeatureLines& lines);
+  void take_vertices(const ArrayMesh& start, const FeatureLines& lines);
+  void take_edges(const ArrayMesh& start, const FeatureLines& lines, double spacing);
+  void add_sample(std::uint32_t face, Vec3 at, const Eigen::Vector2d& coordinate, bool is_on_line);
+
+  Atlas atlas_;
+  std::vector<Eigen::Vector2d> coordinates_;     ///< by corner
+  std::vector<std::uint32_t> chart_, material_;  ///< by face
+  std::vector<Sample> samples_;
+  std::vector<std::uint32_t> first_;  ///< by face
+};
+
+/// Barycentric coordinates of a point in a triangle of the texture; nothing where that has no area.
+[[nodiscard]] std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners,
+                                                              const Eigen::Vector2d& coordinate);
+
+}  // namespace meshbound

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Collapses that would move the texture are refused one by one: what comes out is measured by `texture_deviation`.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "meshbound/error.h"
+#include "meshbound/simplify.h"
+#include "meshbound/texture_deviation.h"
+
+namespace meshbound {
+namespace {
+
+using Coordinates = std::array<Eigen::Vector2d, 3>;
+
+/// A mesh with texture coordinates at the corners of its triangles.
+struct Textured {
+  TriangleMesh mesh;
+  std::vector<Coordinates> coordinates;
+  std::vector<std::uint32_t> materials;
+};
+
+using Height = std::function<double(double x, double y)>;
+using Map = std::function<Eigen::Vector2d(double x, double y, bool is_right)>;
+
+/// n x n squares of the unit square at a height; `map` also says what the half right of x = 1/2 has.
+Textured sheet(std::uint32_t n, const Height& height, const Map& map) {
+  Textured result;
+  const auto at = [&](std::uint32_t i) { return i / static_cast<double>(n); };
+  for (std::uint32_t y = 0; y <= n; ++y)
+    for (std::uint32_t x = 0; x <= n; ++x) result.mesh.vertices.emplace_back(at(x), at(y), height(at(x), at(y)));
+  const auto add = [&](const Triangle& t) {
+    double middle = 0;
+    for (const std::uint32_t v : t) middle += result.mesh.vertices[v].x() / 3;
+    Coordinates& corners = result.coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = map(result.mesh.vertices[t[k]].x(), result.mesh.vertices[t[k]].y(), middle > 0.5);
+    result.mesh.triangles.push_back(t);
+  };
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
+      add({a, b, d});
+      add({a, d, c});
+    }
+  }
+  return result;
+}
+
+double flat(double /*x*/, double /*y*/) { return 0; }
+Eigen::Vector2d even(double x, double y, bool /*is_right*/) { return {x, y}; }
+Eigen::Vector2d warped(double x, double y, bool /*is_right*/) {
+  return {x + 0.05 * std::sin(2 * std::numbers::pi * x), y + 0.05 * std::sin(2 * std::numbers::pi * (x + y))};
+}
+
+SimplifyOptions options_of(const Textured& sheet, double tolerance, double texture_tolerance) {
+  SimplifyOptions options;
+  options.tolerance = tolerance;
+  options.texture_coordinates = sheet.coordinates;
+  options.materials = sheet.materials;
+  options.texture_tolerance = texture_tolerance;
+  return options;
+}
+
+TexturedMesh textured(const TriangleMesh& mesh, const std::vector<Coordinates>& coordinates) {
+  TexturedMesh result;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    TexturedTriangle& added = result.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) added.corners[k] = mesh.vertices[mesh.triangles[t][k]];
+    added.coordinates = coordinates[t];
+    added.triangle = t;
+  }
+  return result;
+}
+
+TextureDeviation deviation_of(const Textured& original, const SimplifiedLevel& level) {
+  TextureDeviationOptions options;
+  options.error_bound = 1e-4;
+  return texture_deviation(textured(original.mesh, original.coordinates),
+                           textured(level.mesh, level.texture_coordinates), options);
+}
+
+SimplifiedLevel simplified(const Textured& sheet, double tolerance, double texture_tolerance) {
+  return simplify_with_bound(sheet.mesh, options_of(sheet, tolerance, texture_tolerance)).last();
+}
+
+/// Where the texture is even, it asks for no faces of its own.
+TEST(TextureGuard, LeavesTwoFacesOfAnEvenSquare) {
+  const Textured square = sheet(16, flat, even);
+  const SimplifiedLevel level = simplified(square, 0.01, 0.01);
+  EXPECT_EQ(level.faces(), 2U);
+  EXPECT_LE(deviation_of(square, level).bounds.upper, 1e-4);
+}
+
+/// On a plane every collapse keeps the surface: only the texture limits what may go. Without its tolerance the map of
+/// the two faces that remain is the even one, off by up to 0.05 along u and v.
+TEST(TextureGuard, KeepsFacesWhereTheTextureIsUneven) {
+  const Textured square = sheet(16, flat, warped);
+  EXPECT_GT(deviation_of(square, simplified(square, 0.01, HUGE_VAL)).bounds.lower, 0.04);
+  const SimplifiedLevel level = simplified(square, 0.01, 0.01);
+  EXPECT_LE(deviation_of(square, level).bounds.upper, 0.01);
+  EXPECT_LT(level.faces(), 200U);  // of 512
+  EXPECT_LT(simplified(square, 0.01, 0.02).faces(), level.faces());
+}
+
+/// Proofs fail here, and what is taken back gets its texture coordinates and samples back. A coordinate that stayed
+/// behind would be off by the length of an edge, which is many tolerances.
+TEST(TextureGuard, GivesCoordinatesBackWithWhatIsTakenBack) {
+  const Textured hills = sheet(
+      48, [](double x, double y) { return 0.04 * std::sin(17 * x) * std::cos(13 * y) + 0.01 * std::sin(61 * x * y); },
+      warped);
+  const SimplifyResult result = simplify_with_bound(hills.mesh, options_of(hills, 0.004, 0.006));
+  EXPECT_GT(result.counts.taken_back + result.counts.unproven, 0U);
+  EXPECT_LE(deviation_of(hills, result.last()).bounds.upper, 0.006 * 1.2);  // guard and measurement look elsewhere
+  EXPECT_LT(result.last().faces(), hills.mesh.triangles.size() / 2);
+}
+
+/// The two halves have charts that do not touch. At the line between them each side keeps its own coordinates.
+TEST(TextureGuard, KeepsTheSidesOfASeamApart) {
+  const Textured halves = sheet(16, flat, [](double x, double y, bool is_right) {
+    return is_right ? Eigen::Vector2d(5 - x, y) : Eigen::Vector2d(x, y);
+  });
+  const SimplifiedLevel level = simplified(halves, 0.01, 0.01);
+  EXPECT_EQ(level.faces(), 4U);
+  for (std::size_t t = 0; t < level.faces(); ++t) {
+    const bool is_right = level.texture_coordinates[t][0].x() > 2;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d p = level.mesh.vertices[level.mesh.triangles[t][k]];
+      EXPECT_NEAR(level.texture_coordinates[t][k].x(), is_right ? 5 - p.x() : p.x(), 1e-9);
+      EXPECT_NEAR(level.texture_coordinates[t][k].y(), p.y(), 1e-9);
+    }
+  }
+}
+
+/// In the texture the border of the right half lies along the seam of the left one, in a bow. Cutting one of them short
+/// would show the texture of the other, which is half a unit away.
+TEST(TextureGuard, KeepsALineThatAnotherChartLiesAlong) {
+  const auto bow = [](double y) { return 0.03 * std::sin(std::numbers::pi * y); };
+  const auto beside = [&](double x, double y, bool is_right) {
+    return Eigen::Vector2d(is_right ? 1.5 - x + bow(y) : x + bow(y), y);
+  };
+  const auto apart = [&](double x, double y, bool is_right) {
+    return Eigen::Vector2d(beside(x, y, is_right) + Eigen::Vector2d(is_right ? 3 : 0, 0));
+  };
+  const Textured touching = sheet(16, flat, beside), alone = sheet(16, flat, apart);
+  const SimplifiedLevel kept = simplified(touching, 0.2, 0.2), cut = simplified(alone, 0.2, 0.2);
+  EXPECT_LT(cut.lines.size() + 8, kept.lines.size());
+  EXPECT_LE(deviation_of(touching, kept).bounds.upper, 0.2);
+}
+
+/// Equal coordinates of different materials are different: the line between them is kept though the map is even.
+TEST(TextureGuard, KeepsMaterialsApart) {
+  Textured square = sheet(16, flat, even);
+  for (std::uint32_t t = 0; t < square.mesh.triangles.size(); ++t)
+    square.materials.push_back(square.mesh.vertices[square.mesh.triangles[t][1]].x() > 0.5 ? 1 : 0);
+  EXPECT_GE(simplified(square, 0.01, 0.01).faces(), 4U);
+}
+
+TEST(TextureGuard, CarriesTrianglesWithoutCoordinates) {
+  Textured square = sheet(8, flat, even);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::uint32_t t = 0; t < square.mesh.triangles.size(); ++t)
+    if (square.mesh.vertices[square.mesh.triangles[t][1]].x() > 0.5) square.coordinates[t].fill({none, none});
+  const SimplifiedLevel level = simplified(square, 0.01, 0.01);
+  EXPECT_LE(level.faces(), 8U);
+  const auto bare = std::count_if(level.texture_coordinates.begin(), level.texture_coordinates.end(),
+                                  [](const Coordinates& c) { return std::isnan(c[0].x()); });
+  EXPECT_GT(bare, 0);
+  EXPECT_LT(static_cast<std::size_t>(bare), level.faces());
+}
+
+TEST(TextureGuard, IsTheSameForAnyNumberOfThreads) {
+  const Textured hills = sheet(
+      64, [](double x, double y) { return 0.04 * std::sin(17 * x) * std::cos(13 * y); }, warped);
+  SimplifyOptions options = options_of(hills, 0.004, 0.006);
+  options.threads = 1;
+  const SimplifiedLevel one = simplify_with_bound(hills.mesh, options).last();
+  options.threads = 3;
+  const SimplifiedLevel three = simplify_with_bound(hills.mesh, options).last();
+  EXPECT_EQ(one.mesh.vertices, three.mesh.vertices);
+  EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
+  EXPECT_EQ(one.texture_coordinates, three.texture_coordinates);
+}
+
+TEST(TextureGuard, RefusesWhatDoesNotFitTheMesh) {
+  const Textured square = sheet(4, flat, even);
+  SimplifyOptions options = options_of(square, 0.01, 0.01);
+  options.materials.resize(1);
+  EXPECT_THROW((void)simplify_with_bound(square.mesh, options), InvalidInput);
+  options = options_of(square, 0.01, -1);
+  EXPECT_THROW((void)simplify_with_bound(square.mesh, options), InvalidInput);
+  options = options_of(square, 0.01, 0.01);
+  options.texture_coordinates.pop_back();
+  EXPECT_THROW((void)simplify_with_bound(square.mesh, options), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meshbound
