@@ -187,31 +187,35 @@ bool TextureGuard::is_turned_over() const {
 
 TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
   Match best;
-  double nearest_squared = HUGE_VAL;
   for (std::uint32_t i = 0; i < faces_.size(); ++i) {
     const Face& face = faces_[i];
     if (face.chart != chart) continue;
-    Match here{i, true, {}, {}};
-    double squared = 0;    // in the texture
+    Match here{i, true, {1, 0, 0}, {}};
     if (!face.has_area) {  // one coordinate or a line of them: the nearest point stands for it
-      here.weights = {1, 0, 0};
       const CornerTriangle<double> t{face.at[0], face.at[1] - face.at[0], face.at[2] - face.at[0]};
       here.offset = -1.0 * closest_on_triangle(t, sample.at).offset;
     } else {
       const Eigen::Vector2d weights = face.to_weights * (sample.coordinate - face.coordinates[0]);
       here.weights = {1 - weights.x() - weights.y(), weights.x(), weights.y()};
-      here.is_inside = std::min({here.weights[0], here.weights[1], here.weights[2]}) >= min_weight;
-      if (!here.is_inside) {
-        if (best.is_inside) continue;
-        here.weights = closest_on_outline(face.coordinates, sample.coordinate, squared);
-      }
+      if (std::min({here.weights[0], here.weights[1], here.weights[2]}) < min_weight) continue;
       here.offset = point_of(face.at, here.weights) - sample.at;
     }
-    const bool is_nearer = here.is_inside ? !best.is_inside || squared_length(here.offset) < squared_length(best.offset)
-                                          : squared < nearest_squared;
-    if (!is_nearer) continue;
-    best = here;
-    nearest_squared = squared;
+    if (!best.is_inside || squared_length(here.offset) < squared_length(best.offset)) best = here;
+  }
+  return best.is_inside ? best : match_outside(sample, chart);
+}
+
+/// The point of the faces that is nearest in the texture, where none has the coordinate of the sample.
+TextureGuard::Match TextureGuard::match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const {
+  Match best;
+  double least = HUGE_VAL;
+  for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+    if (faces_[i].chart != chart) continue;
+    double squared = 0;
+    const std::array<double, 3> weights = closest_on_outline(faces_[i].coordinates, sample.coordinate, squared);
+    if (!(squared < least)) continue;
+    least = squared;
+    best = {i, false, weights, point_of(faces_[i].at, weights) - sample.at};
   }
   return best;
 }

@@ -71,6 +71,7 @@ class TextureGuard {
   void prepare_weights();
   [[nodiscard]] bool match(double max_squared);
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
+  [[nodiscard]] Match match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const;
   void add_slope(const Face& face, const Match& match, Deviations& deviations) const;
   [[nodiscard]] Deviations deviations();
   [[nodiscard]] bool improve();
