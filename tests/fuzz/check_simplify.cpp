@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -68,6 +69,17 @@ double size_of(const TriangleMesh& mesh) {
   return size;
 }
 
+void add_texture(SimplifyOptions& options, const MeshAttributes& attributes) {
+  for (const Triangle& index : attributes.texture_coordinates.index) {
+    std::array<Eigen::Vector2d, 3>& corners = options.texture_coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = index[k] == CornerAttribute::none
+                       ? Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())
+                       : Eigen::Vector2d(attributes.texture_coordinates.values[index[k]].head<2>());
+  }
+  options.materials = attributes.materials.index;
+}
+
 SimplifyOptions options_for(Source& source, const TriangleMesh& mesh, const MeshAttributes& attributes) {
   const double size = size_of(mesh);
   const auto length = [&] { return std::ldexp(size, 1 - static_cast<int>(source.below(32))); };
@@ -92,6 +104,8 @@ SimplifyOptions options_for(Source& source, const TriangleMesh& mesh, const Mesh
   if (rest / 16 % 4 == 3)
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) options.locked_vertices.push_back(source.below(4) == 0);
   if (rest / 64 == 3) options.target_faces = source.below(8);
+  if (rest / 64 == 1) add_texture(options, attributes);
+  if (rest / 64 == 1) options.texture_tolerance = length();
   return options;
 }
 
@@ -123,14 +137,19 @@ void check_sources(const SimplifiedLevel& level, const TriangleMesh& original, c
   require(level.source_triangle.size() == level.mesh.triangles.size(), "a source for each triangle");
   for (std::size_t i = 0; i < level.source_vertex.size(); ++i) {
     require(level.source_vertex[i] < original.vertices.size(), "the source of a vertex is one of the original");
+    const Eigen::Vector3d& source = original.vertices[level.source_vertex[i]];  // no number where no triangle uses it
     if (options.placements == CollapsePlacements::Subset && options.precision == Precision::Double)
-      require(level.mesh.vertices[i] == original.vertices[level.source_vertex[i]], "a subset stands where it stood");
+      require(level.mesh.vertices[i] == source || source.hasNaN(), "a subset stands where it stood");
   }
+  require(options.texture_coordinates.empty() || level.texture_coordinates.size() == level.mesh.triangles.size(),
+          "texture coordinates for each triangle");
   for (const std::uint32_t t : level.source_triangle)
     require(t < original.triangles.size(), "the source of a triangle is one of the original");
-  if (options.precision == Precision::Single)
-    for (const Eigen::Vector3d& p : level.mesh.vertices)
-      require(p.cast<float>().cast<double>() == p, "a coordinate is not a float");
+  if (options.precision == Precision::Double) return;
+  for (const Triangle& t : level.mesh.triangles)
+    for (const std::uint32_t v : t)
+      require(level.mesh.vertices[v].cast<float>().cast<double>() == level.mesh.vertices[v],
+              "a coordinate is not a float");
 }
 
 /// Two vertices may be one for the decimation where they are nearer to each other than its coordinates can tell. What
