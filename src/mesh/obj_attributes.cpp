@@ -57,7 +57,7 @@ void ObjAttributes::Labels::set(std::string name) {
 
 void ObjAttributes::set_label(std::string_view keyword, std::string_view argument) {
   if (keyword == "usemtl" && !argument.empty()) materials_.set(std::string(argument));
-  if (keyword == "g" || keyword == "o") groups_.set(std::string(keyword) + ' ' + std::string(argument));
+  if (keyword == "g" || keyword == "o") groups_.set(std::string(keyword).append(" ").append(argument));
   if (keyword == "s" && !argument.empty()) smoothing_groups_.set(argument == "0" ? "off" : std::string(argument));
   if (keyword == "mtllib" && !argument.empty()) attributes_.material_libraries.emplace_back(argument);
 }
