@@ -11,6 +11,7 @@
 #include "common/affine_argument.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
+#include "common/memory.h"
 #include "common/mesh_input.h"
 #include "common/output.h"
 #include "common/progress.h"
@@ -76,6 +77,17 @@ Answer searched_answer(const Question& question, const TriangleMesh& a, const Tr
   } catch (const Stopped&) {
     return unsearched_answer(question);
   }
+}
+
+/// As `searched_answer`, within a limit of memory.
+Answer answer_within_memory(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                            const Arguments& arguments, const Stopwatch& watch) {
+  const TileOptions tiles;
+  ProgressBar bar("measuring", arguments.common.quiet);
+  DistanceOptions options = engine_options(arguments, watch, bar);
+  options.threads = threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
+                                   a.triangles.size() + b.triangles.size(), tiles, cost_of_measuring, options.threads);
+  return answer_in_tiles(question, a, b, options, tiles);
 }
 
 /// Before any work: nothing that is written may replace what is read, and everything can be written.
@@ -205,6 +217,7 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
 int run(const Arguments& arguments) {
   Stopwatch watch;
   const TypedLengths lengths = parse_lengths(arguments);
+  if (!arguments.memory.empty()) limit_memory(parse_memory("--memory", arguments.memory));
   if (!arguments.nearest.empty()) return run_nearest(arguments);
   if (!arguments.poses.empty()) return run_motion(arguments);
   check_paths(arguments);
@@ -237,7 +250,9 @@ int run(const Arguments& arguments) {
   report.seconds.read = watch.lap();
 
   std::optional<Answer> found = answer_without_trees(question, a, b, arguments.method);
-  if (!found) found = searched_answer(question, a, b, arguments, watch, report.seconds.build);
+  if (!found)
+    found = arguments.memory.empty() ? searched_answer(question, a, b, arguments, watch, report.seconds.build)
+                                     : answer_within_memory(question, a, b, arguments, watch);
   Answer& answer = *found;
   conclude(answer, question);
   if (interrupted() && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);

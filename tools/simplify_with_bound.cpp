@@ -13,6 +13,7 @@
 #include "common/distance_text.h"
 #include "common/distinct_files.h"
 #include "common/length.h"
+#include "common/memory.h"
 #include "common/output.h"
 #include "common/output_folder.h"
 #include "common/provenance.h"
@@ -29,6 +30,7 @@
 #include "meshbound/error.h"
 #include "simplify/arguments.h"
 #include "simplify/reproducer.h"
+#include "tiles/decimate_in_tiles.h"
 
 namespace meshbound::tools {
 namespace {
@@ -45,6 +47,8 @@ class Run : DecimationRun {
   [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
   [[nodiscard]] std::filesystem::path certificate_path(std::size_t index) const;
   void read();
+  void plan_memory();
+  [[nodiscard]] SimplifyResult decimated(const SimplifyOptions& options) const;
   void choose_tolerances();
   void print_estimate() const;
   void open_outputs();
@@ -120,7 +124,20 @@ void Run::parse_target() {
 
 void Run::read() {
   read_original(report_.original, has_document(), options_.output);
+  if (!options_.memory.empty()) plan_memory();
   report_.seconds.read = watch_.lap();
+}
+
+/// The limit has held since the beginning.
+void Run::plan_memory() {
+  const TileOptions tiles;
+  work_in_tiles(tiles, threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
+                                      original_.triangles.size(), tiles, cost_of_simplifying, options_.common.threads));
+}
+
+SimplifyResult Run::decimated(const SimplifyOptions& options) const {
+  return options_.memory.empty() ? decimate_levels(original_, options, attributes_)
+                                 : decimate_in_tiles(original_, options, {});
 }
 
 /// The last is that of OUT.
@@ -222,7 +239,7 @@ void Run::simplify() {
   if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
     simplify.tolerance = std::min(simplify.tolerance, original_texture_->tolerance);
   for (std::size_t i = 0; i + 1 < tolerances_.size(); ++i) simplify.levels.push_back(before_rounding(tolerances_[i]));
-  result_ = decimate_levels(original_, simplify, attributes_);
+  result_ = decimated(simplify);
   set_lines(result_.lines);
   report_.effort = options_.effort;
   report_.driver = options_.driver;
@@ -276,7 +293,7 @@ void Run::certify() {
     const auto redo = [&](double tolerance) {
       SimplifyOptions again = decimation_options(bar);
       again.tolerance = before_rounding(tolerance);
-      return decimate_levels(original_, again, attributes_).last();
+      return decimated(again).last();
     };
     decided_by_.push_back(prove(outputs_[i], tolerances_[level], i > 0 ? &outputs_[i - 1] : nullptr, redo));
     verdict_ = outputs_[i].verdict();
@@ -473,6 +490,8 @@ void Run::print_summary() const {
                             std::to_string(result_.kept_triangles) + " kept as they are");
   print_dropped(report_.original);
   print_seconds(report_.seconds, report_.threads);
+  if (!options_.memory.empty())
+    print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + options_.memory);
   if (verdict_ != Verdict::Within) return;
   for (const GatedOutput& output : outputs_)
     print_line("wrote", output.path().string() + ", " + std::to_string(output.summary().faces) + " faces, " +
@@ -490,6 +509,10 @@ int main(int argc, char** argv) {
   meshbound::tools::SimplifyArguments options;
   meshbound::tools::add_simplify_arguments(app, options);
   return meshbound::tools::tool_main(app, argc, argv, [&] {
+    if (!options.memory.empty()) {
+      meshbound::tools::limit_memory(meshbound::tools::parse_memory("--memory", options.memory));
+      options.drop_attributes = true;
+    }
     meshbound::tools::check_batch_usage(app, options.batch);
     if (options.batch.is_wanted())
       return meshbound::tools::run_batch(options.batch, options.common, options.output_dir);

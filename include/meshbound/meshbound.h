@@ -28,6 +28,7 @@
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/texture_deviation.h"
+#include "meshbound/tiles.h"
 #include "meshbound/transform.h"
 #include "meshbound/triangle_mesh.h"
 #include "meshbound/view_levels.h"

@@ -52,7 +52,16 @@ bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
 }  // namespace
 
 Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop)
-    : input_vertices_(original.vertices.size()),
+    : Decimation(original, nullptr, options, stop) {}
+
+Decimation::Decimation(const TriangleMesh& original, const ProvenMesh& start, const SimplifyOptions& options,
+                       const StopToken& stop)
+    : Decimation(original, &start, options, stop) {}
+
+Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
+                       const StopToken& stop)
+    : start_(start),
+      start_vertices_(start != nullptr ? start->mesh.vertices.size() : original.vertices.size()),
       order_(spatial_order(original, {options.threads, stop})),
       original_(order_.mesh),
       options_(options),
@@ -64,6 +73,8 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
   }
   if (options.precision == Precision::Single && largest_ > std::numeric_limits<float>::max() / 2)
     throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
+  if (start != nullptr)
+    for (const Eigen::Vector3d& p : start->mesh.vertices) start_points_.push_back(to_vec3(frame_.to_frame(p)));
   stop.check();
   sort_start_points();
   stop.check();
@@ -72,16 +83,20 @@ Decimation::Decimation(const TriangleMesh& original, const SimplifyOptions& opti
 
 void Decimation::make_state(const StopToken& stop) {
   TriangleMesh framed;
-  framed.triangles = original_.triangles;
-  for (const Vec3 p : vertices_) framed.vertices.emplace_back(p.x, p.y, p.z);
+  framed.triangles = start_mesh().triangles;
+  for (const Vec3 p : start_points()) framed.vertices.emplace_back(p.x, p.y, p.z);
   ManifoldSoup soup = manifold_soup(framed);
   stop.check();
   dropped_triangles_ = soup.dropped_triangles;
   split_ = soup.split;
   std::vector<Vec3> positions;
-  for (const std::uint32_t v : soup.vertex_of) positions.push_back(vertices_[v]);
-  state_.emplace(vertices_, original_.triangles, tree_, ArrayMesh(std::move(positions), soup.faces, soup.twin),
-                 std::move(soup.vertex_of), std::move(soup.triangle_of));
+  for (const std::uint32_t v : soup.vertex_of) positions.push_back(start_points()[v]);
+  ArrayMesh mesh(std::move(positions), soup.faces, soup.twin);
+  if (start_ != nullptr)
+    go_on_from_start(std::move(soup), std::move(mesh));
+  else
+    state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
+                   std::move(soup.triangle_of));
   stop.check();
   if (has_lines()) set_lines();
   if (!options_.texture_coordinates.empty()) set_texture();
@@ -97,19 +112,42 @@ void Decimation::make_state(const StopToken& stop) {
   threads_.emplace(*state_, options_.threads > 0 ? options_.threads : omp_get_max_threads());
 }
 
+void Decimation::go_on_from_start(ManifoldSoup soup, ArrayMesh mesh) {
+  std::vector<std::uint32_t> face(start_->mesh.triangles.size(), no_index);  // by triangle of the start
+  for (std::uint32_t f = 0; f < soup.triangle_of.size(); ++f) face[soup.triangle_of[f]] = f;
+  std::vector<std::uint32_t> index(order_.triangle.size());  // of the original here, by the caller's
+  for (std::uint32_t t = 0; t < index.size(); ++t) index[order_.triangle[t]] = t;
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t t : soup.triangle_of) near.push_back(index[start_->near[t]]);
+  CoverAssignment cover(index.size());
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t t = 0; t < index.size(); ++t) {
+    faces.clear();
+    for (const std::uint32_t of_start : start_->cover[t]) faces.push_back(face[of_start]);
+    // A face that was dropped lies on others, but a cover with it has to be proven again.
+    if (std::find(faces.begin(), faces.end(), no_index) == faces.end()) cover.assign(index[t], faces);
+  }
+  state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
+                 std::move(soup.triangle_of), std::move(near), std::move(cover));
+  if (start_->is_covered.empty()) return;
+  state_->is_kept.resize(index.size());
+  for (std::uint32_t t = 0; t < index.size(); ++t) state_->is_kept[index[t]] = start_->is_covered[t];
+}
+
 void Decimation::sort_start_points() {
-  by_start_point_.resize(vertices_.size());
+  const std::vector<Vec3>& points = start_points();
+  by_start_point_.resize(points.size());
   std::iota(by_start_point_.begin(), by_start_point_.end(), 0u);
   std::sort(by_start_point_.begin(), by_start_point_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return is_before(vertices_[a], vertices_[b]) || (is_same(vertices_[a], vertices_[b]) && a < b);
+    return is_before(points[a], points[b]) || (is_same(points[a], points[b]) && a < b);
   });
 }
 
-/// The first vertex of the original, by index, at this position.
+/// The first vertex of the start, by index, at this position.
 std::optional<std::uint32_t> Decimation::first_at(Vec3 p) const {
   const auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p,
-                                   [&](std::uint32_t v, Vec3 q) { return is_before(vertices_[v], q); });
-  if (at == by_start_point_.end() || !is_same(vertices_[*at], p)) return std::nullopt;
+                                   [&](std::uint32_t v, Vec3 q) { return is_before(start_points()[v], q); });
+  if (at == by_start_point_.end() || !is_same(start_points()[*at], p)) return std::nullopt;
   return *at;
 }
 
@@ -118,11 +156,11 @@ std::vector<std::uint8_t> Decimation::locked() const {
   const ArrayMesh& mesh = state_->mesh;
   std::vector<std::uint8_t> locked(mesh.vertex_count(), 0);
   if (!options_.locked_vertices.empty()) {
-    if (options_.locked_vertices.size() != input_vertices_)
+    if (options_.locked_vertices.size() != start_vertices_)
       throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
-    std::vector<std::uint8_t> locked_at(vertices_.size(), 0);  // by first vertex at the position
-    for (std::size_t v = 0; v < order_.vertex.size(); ++v)
-      if (options_.locked_vertices[order_.vertex[v]]) locked_at[*first_at(vertices_[v])] = 1;
+    std::vector<std::uint8_t> locked_at(start_points().size(), 0);  // by first vertex at the position
+    for (std::uint32_t v = 0; v < start_points().size(); ++v)
+      if (options_.locked_vertices[caller_vertex(v)]) locked_at[*first_at(start_points()[v])] = 1;
     for (std::uint32_t v = 0; v < locked.size(); ++v) locked[v] = locked_at[*first_at(mesh.position(v))];
   }
   lock_features(locked);
@@ -144,13 +182,13 @@ void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {
 /// By corner of the mesh: whether an option makes a line of the edge that starts there.
 std::vector<std::uint8_t> Decimation::marked_edges() const {
   const ArrayMesh& mesh = state_->mesh;
-  std::vector<std::uint32_t> index(input_vertices_, no_index);  // of the original, by vertex of the input
+  std::vector<std::uint32_t> index(start_vertices_, no_index);  // of the original, by vertex of the input
   for (std::uint32_t v = 0; v < order_.vertex.size(); ++v) index[order_.vertex[v]] = v;
   std::set<Edge> wanted;  // by first vertices at their positions
   for (const auto& [a, b] : options_.feature_edges) {
-    if (a >= input_vertices_ || b >= input_vertices_)
+    if (a >= start_vertices_ || b >= start_vertices_)
       throw InvalidInput("a feature edge refers to vertex " + std::to_string(std::max(a, b)) + ", but there are only " +
-                         std::to_string(input_vertices_));
+                         std::to_string(start_vertices_));
     if (index[a] == no_index || index[b] == no_index) continue;
     const std::uint32_t p = *first_at(vertices_[index[a]]), q = *first_at(vertices_[index[b]]);
     wanted.insert({std::min(p, q), std::max(p, q)});
@@ -216,10 +254,11 @@ void Decimation::set_lines() {
   }
 }
 
-/// The vertex of the input that a vertex of the mesh comes from, or where it stands if it stands at vertices only.
+/// The vertex of the start that a vertex of the mesh comes from, or where it stands if it stands at vertices only or is
+/// locked: another vertex may have gone there and kept its number.
 std::uint32_t Decimation::source_of(std::uint32_t vertex) const {
-  return order_
-      .vertex[state_->keeps_positions ? *first_at(state_->mesh.position(vertex)) : state_->source_vertex[vertex]];
+  const bool is_at_start = state_->keeps_positions || state_->locked[vertex] != 0;
+  return caller_vertex(is_at_start ? *first_at(state_->mesh.position(vertex)) : state_->source_vertex[vertex]);
 }
 
 std::vector<double> Decimation::limits_in_frame() const {
@@ -276,15 +315,25 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
   return ended_by;
 }
 
-/// A vertex that never moved, or went to where another one was, gets the coordinates of the input to the bit: the way
+/// A vertex that never moved, or went to where another one was, gets the coordinates of the start to the bit: the way
 /// into the frame and back may round.
 Eigen::Vector3d Decimation::in_model(Vec3 p) const {
   const std::optional<std::uint32_t> start = first_at(p);
-  return as_written(start ? original_.vertices[*start] : frame_.to_model({p.x, p.y, p.z}));
+  return as_written(start ? start_mesh().vertices[*start] : frame_.to_model({p.x, p.y, p.z}));
 }
 
 Eigen::Vector3d Decimation::as_written(const Eigen::Vector3d& point) const {
   return options_.precision == Precision::Single ? Eigen::Vector3d(point.cast<float>().cast<double>()) : point;
+}
+
+/// The faces that are left, by their number in the start.
+std::vector<std::uint32_t> Decimation::faces_in_order() const {
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t f = 0; f < state_->mesh.face_count(); ++f)
+    if (!state_->mesh.is_removed(f)) faces.push_back(f);
+  const auto source = [&](std::uint32_t f) { return caller_triangle(state_->source_triangle[f]); };
+  std::sort(faces.begin(), faces.end(), [&](std::uint32_t f, std::uint32_t g) { return source(f) < source(g); });
+  return faces;
 }
 
 void Decimation::current_mesh(SimplifiedLevel& into) const {
@@ -293,11 +342,9 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     std::sort(items.begin(), items.end());
     return items;
   };
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices, faces, kept;  // by number in the input
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices, kept;  // by number in the start, in the original
   for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
     if (state.mesh.is_vertex(v)) vertices.emplace_back(source_of(v), v);
-  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f)
-    if (!state.mesh.is_removed(f)) faces.emplace_back(order_.triangle[state.source_triangle[f]], f);
   for (const std::uint32_t t : state.kept) kept.emplace_back(order_.triangle[t], t);
   TriangleMesh& mesh = into.mesh;
   mesh = {};
@@ -311,10 +358,10 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     mesh.vertices.push_back(in_model(state.mesh.position(v)));
     into.source_vertex.push_back(source);
   }
-  for (const auto& [source, f] : sorted(std::move(faces))) {
+  for (const std::uint32_t f : faces_in_order()) {
     const auto corners = state.mesh.corners(f);
     mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
-    into.source_triangle.push_back(source);
+    into.source_triangle.push_back(caller_triangle(state.source_triangle[f]));
     if (state.texture) into.texture_coordinates.push_back(state.texture->of(f));
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))
@@ -332,6 +379,22 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     mesh.triangles.push_back(corners);
     into.source_triangle.push_back(source);
     if (state.texture) into.texture_coordinates.push_back(options_.texture_coordinates[source]);
+  }
+}
+
+void Decimation::current_proof(ProvenMesh& into) const {
+  const std::vector<std::uint32_t> faces = faces_in_order();
+  std::vector<std::uint32_t> index(state_->mesh.face_count(), no_index), of_caller(order_.triangle.size());
+  into.near.clear();
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    index[faces[i]] = i;
+    into.near.push_back(order_.triangle[state_->nearest[faces[i]]]);
+  }
+  for (std::uint32_t t = 0; t < of_caller.size(); ++t) of_caller[order_.triangle[t]] = t;
+  into.cover = {};
+  for (const std::uint32_t t : of_caller) {
+    for (const std::uint32_t f : state_->cover.faces_of(t)) into.cover.numbers.push_back(index[f]);
+    into.cover.end_list();
   }
 }
 

@@ -5,7 +5,9 @@
 
 #include "meshbound/simplify.h"
 #include "simplify/decimate.h"
+#include "simplify/mesh/manifold_soup.h"
 #include "simplify/mesh/spatial_order.h"
+#include "simplify/proven_mesh.h"
 #include "simplify/working_frame.h"
 
 namespace meshbound {
@@ -15,6 +17,10 @@ class Decimation {
  public:
   /// `options` must outlive this. Throws `Stopped`.
   Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop);
+  /// Goes on from `start`, which must outlive this too. `SimplifyOptions::locked_vertices` are by its vertices, and the
+  /// sources of a result are numbers of `start` instead of the original. It has no lines and no tolerances of faces.
+  Decimation(const TriangleMesh& original, const ProvenMesh& start, const SimplifyOptions& options,
+             const StopToken& stop);
 
   /// Decimates until nothing fits, `target_faces` are left or `stop` says so. `tolerance` in model units, not smaller
   /// than in the call before.
@@ -22,13 +28,25 @@ class Decimation {
 
   /// The mesh as it is now, in model coordinates, with its sources. What is left of the original comes in its order.
   void current_mesh(SimplifiedLevel& into) const;
+  /// The proof of `current_mesh`, without triangles of the original that are part of it as they are.
+  void current_proof(ProvenMesh& into) const;
   [[nodiscard]] CollapseCounts counts() const { return threads_->counts(); }
   void describe(SimplifyResult& result) const;
   /// Edges of the original that are lines, by its own numbers.
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
 
  private:
+  Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
+             const StopToken& stop);
   void make_state(const StopToken& stop);
+  void go_on_from_start(ManifoldSoup soup, ArrayMesh mesh);
+  [[nodiscard]] const TriangleMesh& start_mesh() const { return start_ != nullptr ? start_->mesh : original_; }
+  [[nodiscard]] const std::vector<Vec3>& start_points() const { return start_ != nullptr ? start_points_ : vertices_; }
+  [[nodiscard]] std::uint32_t caller_vertex(std::uint32_t v) const { return start_ != nullptr ? v : order_.vertex[v]; }
+  [[nodiscard]] std::uint32_t caller_triangle(std::uint32_t t) const {
+    return start_ != nullptr ? t : order_.triangle[t];
+  }
+  [[nodiscard]] std::vector<std::uint32_t> faces_in_order() const;
   void sort_start_points();
   [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
   [[nodiscard]] std::vector<std::uint8_t> locked() const;
@@ -47,14 +65,16 @@ class Decimation {
   [[nodiscard]] Eigen::Vector3d as_written(const Eigen::Vector3d& point) const;
   [[nodiscard]] double rounding_of_output() const;
 
-  std::size_t input_vertices_;
+  const ProvenMesh* start_;     ///< null: the original itself
+  std::size_t start_vertices_;  ///< that the caller knows
   SpatialOrder order_;
   const TriangleMesh& original_;  ///< `order_.mesh`: all indices here are its
   const SimplifyOptions& options_;
   WorkingFrame frame_;
   double largest_ = 0;                         ///< coordinate of the model
   std::vector<Vec3> vertices_;                 ///< of the original, in the frame
-  std::vector<std::uint32_t> by_start_point_;  ///< the vertices sorted by position
+  std::vector<Vec3> start_points_;             ///< vertices of `start_`, in the frame
+  std::vector<std::uint32_t> by_start_point_;  ///< the vertices of the start sorted by position
   Bvh tree_;                                   ///< in the frame
   std::optional<DecimationState> state_;
   std::optional<DecimationThreads> threads_;

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/no_index.h"
 #include "numeric/rounding.h"
+#include "proof/edge_neighbours.h"
+#include "simplify/cover/face_box.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
 #include "simplify/mesh/edge_queue.h"
@@ -25,14 +28,26 @@ constexpr double proven_share = 1 - 1e-4;
 /// Faces whose normals are further apart meet in a crease: 20 degrees.
 constexpr double max_cosine_of_crease = 0.94;
 
-bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
-  if (mesh.twin(edge) == ArrayMesh::none) return true;
-  const auto normal = [&](std::uint32_t face) {
-    const auto [a, b, c] = mesh.triangle(face);
-    return cross(b - a, c - a);
-  };
-  const Vec3 m = normal(edge / 3), n = normal(mesh.twin(edge) / 3);
+using Corners = std::array<Vec3, 3>;
+
+/// Between two triangles that run along their common edge in opposite directions.
+bool is_crease(const Corners& s, const Corners& t) {
+  const Vec3 m = cross(s[1] - s[0], s[2] - s[0]), n = cross(t[1] - t[0], t[2] - t[0]);
   return dot(m, n) < max_cosine_of_crease * std::sqrt(squared_length(m) * squared_length(n));
+}
+
+bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
+  return mesh.twin(edge) == ArrayMesh::none || is_crease(mesh.triangle(edge / 3), mesh.triangle(mesh.twin(edge) / 3));
+}
+
+/// At the edge of original t to the one `across` it.
+bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                         std::uint32_t t, std::uint32_t across) {
+  const auto corners = [&](std::uint32_t of) {
+    const auto& [a, b, c] = triangles[of];
+    return Corners{vertices[a], vertices[b], vertices[c]};
+  };
+  return across == no_index || is_crease(corners(t), corners(across));
 }
 
 }  // namespace
@@ -53,12 +68,45 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
     if (mesh.edge(c) != c) continue;
     const std::uint32_t mark = is_border_or_crease(mesh, c) ? at_edge : 0;
     for (const std::uint32_t v : {mesh.start(c), mesh.end(c)}) triangle_near_[vertex_of_vertex[v]] |= mark;
-    const Vec3 p = mesh.position(mesh.start(c)), q = mesh.position(mesh.end(c));
-    const double count = std::min(std::floor(length(q - p) / spacing), max_between);
-    for (int k = 1; k <= count; ++k) {
-      samples_.push_back({p + (k / (count + 1)) * (q - p), none, none});
-      triangle_near_.push_back(triangle_of_face[c / 3] | mark);
-      give_to(static_cast<std::uint32_t>(samples_.size() - 1), c / 3);
+    add_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing, triangle_of_face[c / 3] | mark,
+                [&](Vec3) { return c / 3; });
+  }
+}
+
+template <class FaceAt>
+void Samples::add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle_and_mark, const FaceAt& face_at) {
+  const double count = std::min(std::floor(length(q - p) / spacing), max_between);
+  for (int k = 1; k <= count; ++k) {
+    const Vec3 at = p + (k / (count + 1)) * (q - p);
+    samples_.push_back({at, none, none});
+    triangle_near_.push_back(triangle_and_mark);
+    give_to(static_cast<std::uint32_t>(samples_.size() - 1), face_at(at));
+  }
+}
+
+Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                 const ArrayMesh& mesh, const CoverAssignment& cover, double spacing)
+    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), none) {
+  for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
+  const auto nearest_face = [&](std::uint32_t original, Vec3 p) {
+    const auto faces = cover.faces_of(original);
+    return *std::min_element(faces.begin(), faces.end(), [&](std::uint32_t f, std::uint32_t g) {
+      return squared_distance(mesh.triangle(f), p) < squared_distance(mesh.triangle(g), p);
+    });
+  };
+  const auto neighbours = edge_neighbours(vertices, triangles);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (cover.faces_of(t).empty()) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = triangles[t][k], w = triangles[t][(k + 1) % 3], across = neighbours[t][k];
+      if (samples_[v].face == none) {
+        triangle_near_[v] |= t;
+        give_to(v, nearest_face(t, vertices[v]));
+      }
+      if (across != no_index && across < t) continue;
+      const std::uint32_t mark = is_border_or_crease(vertices, triangles, t, across) ? at_edge : 0;
+      triangle_near_[v] |= mark, triangle_near_[w] |= mark;
+      add_between(vertices[v], vertices[w], spacing, t | mark, [&](Vec3 p) { return nearest_face(t, p); });
     }
   }
 }
@@ -66,7 +114,8 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
 DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
                                  const std::vector<std::array<std::uint32_t, 3>>& original_triangles,
                                  const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
-                                 std::vector<std::uint32_t> triangle_of_face)
+                                 std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
+                                 CoverAssignment cover_of)
     : vertices(original_vertices),
       triangles(original_triangles),
       tree(original_tree),
@@ -82,10 +131,27 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       refused_at(3 * mesh.face_count(), 0),
       hope(3 * mesh.face_count(), Hope::WithMoreTolerance),
       index_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
-      cover(triangles.size()),
-      nearest(source_triangle) {
+      starts_as_original(false),
+      cover(std::move(cover_of)),
+      nearest(std::move(near)) {
   for (const Vec3 p : vertices) magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
+                                 const std::vector<std::array<std::uint32_t, 3>>& original_triangles,
+                                 const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+                                 std::vector<std::uint32_t> triangle_of_face)
+    : DecimationState(original_vertices, original_triangles, original_tree, std::move(start),
+                      std::move(vertex_of_vertex), triangle_of_face, triangle_of_face,
+                      CoverAssignment(original_triangles.size())) {
+  starts_as_original = true;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
+}
+
+void DecimationState::set_samples(double for_tolerance) {
+  const double spacing = spacing_of_samples * for_tolerance;
+  samples = starts_as_original ? Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing)
+                               : Samples(vertices, triangles, mesh, cover, spacing);
 }
 
 void DecimationState::grow_tolerance(double to) {

@@ -30,6 +30,10 @@ class Samples {
   Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
           const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
           const std::vector<std::uint32_t>& vertex_of_vertex, double spacing);
+  /// The same points of an original that the mesh has left already, each with the nearest of the faces that cover its
+  /// triangle. Originals without a cover have none.
+  Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+          const ArrayMesh& mesh, const CoverAssignment& cover, double spacing);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
@@ -63,6 +67,10 @@ class Samples {
   }
 
  private:
+  /// Points between p and q that are at most `spacing` apart, as far as they are not too many.
+  template <class FaceAt>
+  void add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle_and_mark, const FaceAt& face_at);
+
   static constexpr std::uint32_t goes_with = 0x80000000, at_edge = 0x80000000;
   struct alignas(32) Sample {
     Vec3 at;
@@ -129,10 +137,16 @@ struct DecimationState {
                   const std::vector<std::array<std::uint32_t, 3>>& original_triangles, const Bvh& original_tree,
                   ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face);
+  /// A mesh that is proven already, with the originals that cover its faces: `cover_of(t)` are faces that original t is
+  /// proven to be near, `near` has an original near each face. `vertex_of_vertex` and `triangle_of_face` are numbers of
+  /// what the caller started from. The original must outlive this. Samples are still to be set.
+  DecimationState(const std::vector<Vec3>& original_vertices,
+                  const std::vector<std::array<std::uint32_t, 3>>& original_triangles, const Bvh& original_tree,
+                  ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+                  std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
+                  CoverAssignment cover_of);
   /// Takes samples for proposals of this tolerance.
-  void set_samples(double for_tolerance) {
-    samples = Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing_of_samples * for_tolerance);
-  }
+  void set_samples(double for_tolerance);
   /// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge
   /// and miss its middle. Half as much costs a tenth more time for as many faces, twice as much 4% more faces.
   static constexpr double spacing_of_samples = 3;
@@ -146,8 +160,8 @@ struct DecimationState {
   std::vector<std::uint32_t> source_vertex,
       source_triangle;               ///< by vertex and face: where it comes from in the original
   std::vector<std::uint8_t> locked;  ///< by vertex
-  std::vector<Quadric> quadrics;     ///< by vertex
-  std::vector<float> share;          ///< by vertex: share of the tolerance that samples may reach
+  std::vector<Quadric> quadrics;  ///< by vertex
+  std::vector<float> share;       ///< by vertex: share of the tolerance that samples may reach
   Samples samples;
 
   double magnitude = 0;  ///< largest coordinate of the original
@@ -179,6 +193,7 @@ struct DecimationState {
   }
   std::vector<std::uint32_t> kept;     ///< original triangles without a face near: part of every result as they are
   std::vector<std::uint8_t> is_kept;   ///< by original triangle; empty: none is
+  bool starts_as_original = true;      ///< the mesh was the original when the decimation began
   CoverAssignment cover;               ///< which faces each original triangle is proven to be near
   std::vector<std::uint32_t> nearest;  ///< by face: an original triangle near it
 };

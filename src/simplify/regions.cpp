@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "geometry/cut_axes.h"
 #include "simplify/propose.h"
 
 namespace meshbound {
@@ -14,13 +15,6 @@ constexpr std::uint32_t max_regions = 1024;
 
 /// Where the first cut of a shifted split runs; all others halve.
 constexpr double shifted_cut = 1.0 / 3;
-
-/// The axes that a split cuts across, by shift: orthogonal, with components that are multiples of 1, 1/3 or 1/7. Planes
-/// of different splits share lines at most, where planes along the same axes through the middles of a symmetric mesh
-/// would be the same ones.
-constexpr std::array<std::array<Vec3, 3>, shifts_of_split> axes_of_shift = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                                                             {{{2, 2, 1}, {-2, 1, 2}, {1, -2, 2}}},
-                                                                             {{{6, 2, 3}, {-3, 6, 2}, {2, 3, -6}}}}};
 
 class Cutter {
  public:
@@ -104,7 +98,7 @@ class Cutter {
     for (const std::uint32_t v : vertices_) into_.region_of[v] = number[into_.region_of[v]];
   }
 
-  [[nodiscard]] const std::array<Vec3, 3>& axes() const { return axes_of_shift[static_cast<std::size_t>(shift_)]; }
+  [[nodiscard]] const std::array<Vec3, 3>& axes() const { return cut_axes[static_cast<std::size_t>(shift_)]; }
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t v) const {
     const Vec3 p = state_.mesh.position(v);
     return {dot(axes()[0], p), dot(axes()[1], p), dot(axes()[2], p)};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/cut_axes.h"
 #include "simplify/decimation_state.h"
 
 namespace meshbound {
@@ -26,7 +27,7 @@ struct Split {
 };
 
 /// Number of ways in which `split` can cut a mesh.
-inline constexpr int shifts_of_split = 3;
+inline constexpr int shifts_of_split = cut_directions;
 
 /// Cuts a mesh into regions of about equal numbers of vertices, each between planes, and none of fewer than
 /// `min_vertices`. The number depends on the mesh alone. Cuts of another `shift`, less than `shifts_of_split`, run in

@@ -16,6 +16,7 @@
 #include "batch/merge.h"
 #include "batch/record.h"
 #include "common/distance_text.h"
+#include "common/memory.h"
 #include "common/output_folder.h"
 #include "common/progress.h"
 #include "common/provenance.h"

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/memory.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
@@ -38,10 +39,7 @@ std::string content_of(int file) {
 [[noreturn]] void become(char* const* argv, std::uint64_t memory_limit, int out, int err, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(exit_of_failed_start);
-  if (memory_limit > 0) {
-    const rlimit limit{memory_limit, memory_limit};
-    ::setrlimit(RLIMIT_DATA, &limit);
-  }
+  if (memory_limit > 0) limit_memory(memory_limit);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);

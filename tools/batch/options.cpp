@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <string_view>
 
+#include "common/whole_number.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
@@ -16,13 +16,6 @@ namespace {
 /// What the process of a mesh does not get; each has a value, but for --quiet.
 constexpr std::array<std::string_view, 8> own_options{"--batch",        "--batch-merge", "--jobs",    "--shard",
                                                       "--memory-limit", "--output-dir",  "--threads", "--quiet"};
-
-std::optional<std::uint64_t> whole_number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 std::optional<std::uint64_t> from_environment(const char* name) {
   const char* const text = std::getenv(name);
@@ -90,16 +83,6 @@ Shard parse_shard(const std::string& text) {
   if (!index || !count || *index >= *count)
     throw InvalidInput("--shard " + text + ": give INDEX/COUNT with INDEX from 0 to COUNT - 1, such as 0/8");
   return {*index, *count};
-}
-
-std::uint64_t parse_memory(const std::string& option, const std::string& text) {
-  constexpr std::string_view units = "KMGT";
-  const std::size_t unit = text.empty() ? std::string_view::npos : units.find(text.back());
-  const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
-  const auto value = whole_number(std::string_view(text).substr(0, text.size() - (shift > 0 ? 1 : 0)));
-  if (!value || *value == 0 || *value > (std::uint64_t{1} << (62 - shift)))
-    throw InvalidInput(option + " " + text + ": give a number of bytes, or one with K, M, G or T, such as 4G");
-  return *value << shift;
 }
 
 std::vector<std::string> asset_options(const std::vector<std::string>& command) {

@@ -37,9 +37,6 @@ struct Shard {
 /// array, SLURM_ARRAY_TASK_COUNT. Empty: one shard. Throws `InvalidInput`.
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
-/// Bytes: "4G", "512M", "65536K" in powers of 1024. Throws `InvalidInput`.
-[[nodiscard]] std::uint64_t parse_memory(const std::string& option, const std::string& text);
-
 /// What the result of a mesh depends on: `command` without the program, the options of the batch, --output-dir,
 /// --threads and --quiet.
 [[nodiscard]] std::vector<std::string> asset_options(const std::vector<std::string>& command);

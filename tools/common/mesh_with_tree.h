@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "meshbound/bvh.h"
+#include "meshbound/tiles.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound::tools {
@@ -16,6 +17,10 @@ class MeshWithTree {
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 
+  /// From now on it is to be measured tile by tile, as its tree may not fit into memory.
+  void measure_in_tiles(const TileOptions& tiles) { tiles_ = tiles; }
+  [[nodiscard]] const std::optional<TileOptions>& tiles() const { return tiles_; }
+
   /// Throws `Stopped` as `stop` says; the next call begins anew.
   [[nodiscard]] const Bvh& tree(const StopToken& stop) {
     if (!tree_) tree_.emplace(mesh_, BvhOptions{threads_, stop});
@@ -26,6 +31,7 @@ class MeshWithTree {
   const TriangleMesh& mesh_;
   int threads_;
   std::optional<Bvh> tree_;
+  std::optional<TileOptions> tiles_;
 };
 
 }  // namespace meshbound::tools

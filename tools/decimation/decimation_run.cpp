@@ -38,7 +38,10 @@ constexpr double smaller_tolerance = 0.99;
 int internal::undecided_measurements = 0;
 
 DecimationRun::DecimationRun(const DecimationOptions& options)
-    : interrupted_(interrupted()), shared_(options), measured_original_(original_, options.common.threads) {
+    : interrupted_(interrupted()),
+      shared_(options),
+      measured_original_(original_, options.common.threads),
+      threads_(options.common.threads) {
   (void)collapse_driver(options.driver, options.cost);  // throws before any work where there is none
 }
 
@@ -78,7 +81,7 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
   // Frames of nodes round by themselves (`rounding_`).
   options.precision = rounding_ > 0 ? Precision::Double : output.precision();
   options.time_limit = remaining(simplify_share);
-  options.threads = shared_.common.threads;
+  options.threads = threads_;
   options.cancel = &interrupted_;
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   return options;
@@ -94,7 +97,7 @@ DistanceOptions DecimationRun::measurement(double tolerance) const {
                             ? std::max(default_error_bound * tolerance, min_error_bound * diagonal_)
                             : parse_length("--error-bound", shared_.error_bound).in_model_units(diagonal_);
   options.tolerance = tolerance;
-  options.threads = shared_.common.threads;
+  options.threads = threads_;
   options.cancel = &interrupted_;
   return options;
 }
@@ -163,9 +166,12 @@ std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output, 
                     *output.line_distance()};
 }
 
-int DecimationRun::threads() const {
-  return shared_.common.threads > 0 ? shared_.common.threads : omp_get_max_threads();
+void DecimationRun::work_in_tiles(const TileOptions& tiles, int threads) {
+  measured_original_.measure_in_tiles(tiles);
+  threads_ = threads;
 }
+
+int DecimationRun::threads() const { return threads_ > 0 ? threads_ : omp_get_max_threads(); }
 
 void print_dropped(const MeshReport& original) {
   if (original.dropped && *original.dropped != DroppedAttributes{})

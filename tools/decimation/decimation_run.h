@@ -31,6 +31,8 @@ class DecimationRun {
 
   /// Options of a decimation whose results are measured as they read from files like `output`.
   [[nodiscard]] SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
+  /// From now on meshes are measured tile by tile, and that and what is decimated uses so many threads.
+  void work_in_tiles(const TileOptions& tiles, int threads);
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
   /// Writes; false when the time limit came first.
@@ -75,6 +77,7 @@ class DecimationRun {
  private:
   const DecimationOptions& shared_;
   MeshWithTree measured_original_;
+  int threads_;  ///< 0: as many as OpenMP has
 };
 
 /// "dropped: 6553 texture coordinates, 1 material", a line on stdout where the original has what no output carries, and

@@ -133,6 +133,19 @@ Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b, con
   return question.error_bound ? measure(a, b, question, options) : decide(a, b, question, options);
 }
 
+Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                       const DistanceOptions& from, const TileOptions& tiles) {
+  DistanceOptions options = from;
+  if (question.error_bound) options.error_bound = question.error_bound_of_image();
+  if (question.tolerance) options.tolerance = question.tolerance_of_image();
+  if (question.one_sided) {
+    const OneSidedDistance result = one_sided_hausdorff_distance_in_tiles(a, b, options, tiles);
+    return answer_of(result.bounds, result, {}, question);
+  }
+  const HausdorffDistance result = hausdorff_distance_in_tiles(a, b, options, tiles);
+  return answer_of(result.bounds, result.a_to_b, result.b_to_a, question);
+}
+
 void conclude(Answer& answer, const Question& question) {
   widen(answer, question.displacement);
   const Verdict verdict = question.tolerance ? verdict_of(answer.bounds, *question.tolerance) : Verdict::Undecided;

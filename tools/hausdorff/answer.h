@@ -6,6 +6,7 @@
 #include "common/tool_main.h"
 #include "hausdorff/question.h"
 #include "meshbound/distance.h"
+#include "meshbound/tiles.h"
 
 namespace meshbound::tools {
 
@@ -30,6 +31,10 @@ struct Answer {
 /// Decides, measures, or both. `options` give the method, the threads, the budget of all of it and what watches it.
 [[nodiscard]] Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b,
                                      const DistanceOptions& options);
+
+/// The same tile by tile, without trees of whole meshes.
+[[nodiscard]] Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                                     const DistanceOptions& options, const TileOptions& tiles);
 
 /// Allows for the rounding of B's image, and says what came of the question: verdict, outcome, reason and exit code.
 /// A measurement is "done" only when its interval is as narrow as was asked.

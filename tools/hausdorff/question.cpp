@@ -61,7 +61,13 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
          },
          "cell-walking (default), or cross-culling: the method of Tang, Lee, Kim 2009, Lemma 4 in a sound form")
       ->check(CLI::IsMember({"cell-walking", "cross-culling"}));
+  auto* const memory =
+      app.add_option("--memory", arguments.memory,
+                     "Work tile by tile within this memory, such as 4G, where the trees of whole meshes would not fit");
   add_deviation_options(app, arguments.deviation, "A", "B");
+  for (const char* const name :
+       {"--poses", "--nearest", "--texture", "--certificate", "--heatmap", "--heatmap-original", "--image", "--report"})
+    memory->excludes(app.get_option(name));
   add_common_options(app, arguments.common);
   add_examples(
       app, {"hausdorff_distance bunny.ply small.ply", "hausdorff_distance bunny.ply small.ply --tolerance 0.1% --quiet",

@@ -31,6 +31,7 @@ struct Arguments {
   std::string texture_tolerance;
   std::optional<double> texture_size;
   std::string certificate;
+  std::string memory;  ///< as typed; empty: no limit, and trees of whole meshes
   Method method = Method::CellWalking;
   DeviationRequest deviation;
   CommonOptions common;

@@ -59,8 +59,17 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
                  "How far faces may turn at most, in degrees: each face of IN against the face of OUT that is nearest "
                  "to its centroid")
       ->check(CLI::Range(0.0, 180.0));
+  auto* const memory = app.add_option(
+      "--memory", arguments.memory,
+      "Work tile by tile within this memory, such as 4G; the result is the same for every limit. Bare triangles, "
+      "without attributes");
   add_deviation_options(app, arguments.deviation, "IN", "OUT");
   add_decimation_options(app, arguments);
+  for (const char* const name :
+       {"--levels", "--target-faces", "--target-ratio", "--certificate", "--prune", "--batch", "--texture-tolerance",
+        "--normal-tolerance", "--feature-angle", "--line-tolerance", "--heatmap", "--heatmap-original", "--image",
+        "--report"})
+    memory->excludes(app.get_option(name));
   add_examples(app,
                {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
                 "simplify_with_bound bunny.ply part.stl --tolerance 0.05 --feature-angle 30 --line-tolerance 0.01",

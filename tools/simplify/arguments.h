@@ -20,6 +20,7 @@ struct SimplifyArguments : DecimationOptions {
   std::optional<double> texture_size, normal_tolerance;
   bool prune = false;
   bool dry_run = false;
+  std::string memory;  ///< as typed; empty: no limit, and the mesh in one piece
   BatchOptions batch;
   DeviationRequest deviation;
 };

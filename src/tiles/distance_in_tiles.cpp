@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+/// Distances of meshes whose trees would not fit into memory at once.
+///
+/// A tile of A is compared with the clusters of B whose boxes are within a reach of its box. The upper bound of that
+/// holds for all of B. The lower bound holds up to the least distance of a cluster that was left out; where the upper
+/// bound is beyond that distance, a point of B that was left out might be nearer, and the reach grows.
+#include <omp.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "distance/search/one_sided.h"
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/mesh_view.h"
+#include "meshbound/tiles.h"
+#include "numeric/first_error.h"
+#include "numeric/rounding.h"
+#include "tiles/tile_cut.h"
+
+namespace meshbound {
+namespace {
+
+/// Triangles of a cluster: the finer, the less is taken that lies beyond the reach, and the more boxes are looked at.
+constexpr std::uint64_t triangles_of_cluster = 4096;
+
+/// The first reach where no tolerance tells one, and the least one after that, as shares of the diagonal of both.
+constexpr double first_reach = 1e-2, least_reach = 1e-5;
+
+/// Tiles that start from the same lower bound, so that results do not depend on the number of threads.
+constexpr std::size_t tiles_of_batch = 8;
+
+NumberLists tiles_of(const TriangleMesh& mesh, std::uint64_t max_triangles) {
+  return cut_into_tiles(
+      numbers_below(mesh.triangles.size()), [&](std::uint32_t t) { return sum_of_corners(mesh, t); }, {},
+      max_triangles);
+}
+
+/// A mesh in clusters, with their boxes.
+struct Clusters {
+  explicit Clusters(const TriangleMesh& whole) : mesh(whole), triangles(tiles_of(whole, triangles_of_cluster)) {
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      Eigen::AlignedBox3d& box = boxes.emplace_back();
+      for (const std::uint32_t t : triangles[k])
+        for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.vertices[v]);
+    }
+  }
+  const TriangleMesh& mesh;
+  NumberLists triangles;
+  std::vector<Eigen::AlignedBox3d> boxes;
+};
+
+/// A lower bound of the distance between two boxes: the largest gap along an axis, which rounds once.
+double separation(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  const double gap = (a.min() - b.max()).cwiseMax(b.min() - a.max()).maxCoeff();
+  return std::max(0.0, next_down(gap));
+}
+
+/// The part of B near a box, and a distance within which the box is from none of the rest.
+struct Near {
+  MeshPart part;
+  std::vector<std::uint32_t> triangles;  ///< by triangle of the part: its number in B
+  double rest = std::numeric_limits<double>::infinity();
+};
+
+Near near_to(const Clusters& b, const Eigen::AlignedBox3d& box, double reach) {
+  Near near;
+  for (std::size_t k = 0; k < b.boxes.size(); ++k) {
+    const double apart = separation(box, b.boxes[k]);
+    if (apart <= reach)
+      near.triangles.insert(near.triangles.end(), b.triangles[k].begin(), b.triangles[k].end());
+    else
+      near.rest = std::min(near.rest, apart);
+  }
+  near.part = part_of(b.mesh, near.triangles);
+  return near;
+}
+
+void add(DistanceStats& sum, const DistanceStats& stats) {
+  sum.triangles += stats.triangles;
+  sum.matched += stats.matched;
+  sum.culled_by_node += stats.culled_by_node;
+  sum.culled_by_vertices += stats.culled_by_vertices;
+  sum.walked += stats.walked;
+  sum.closest_point_queries += stats.closest_point_queries;
+  sum.nodes_visited += stats.nodes_visited;
+  sum.triangles_tested += stats.triangles_tested;
+  sum.subdivisions += stats.subdivisions;
+  sum.deepest_subdivision = std::max(sum.deepest_subdivision, stats.deepest_subdivision);
+  sum.pieces += stats.pieces;
+  sum.resolved += stats.resolved;
+  sum.enclosed += stats.enclosed;
+  sum.given_up += stats.given_up;
+  sum.phases.matching += stats.phases.matching;
+  sum.phases.culling_on_a += stats.phases.culling_on_a;
+  sum.phases.culling_on_b += stats.phases.culling_on_b;
+  sum.phases.subdivision += stats.phases.subdivision;
+}
+
+/// How far around a tile B is looked for: at first, and at least from then on. Model units.
+struct Reach {
+  double first, least;
+};
+
+/// One direction.
+class TiledSearch {
+ public:
+  TiledSearch(const TriangleMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
+              const Reach& reach, StopToken::Clock::time_point start)
+      : a_(a), b_(b), options_(options), reach_(reach), start_(start), tiles_(tiles_of(a, max_triangles)) {
+    options_.threads = 1;
+    options_.progress = {};
+  }
+
+  /// `known_lower`: of the quantity that is wanted.
+  OneSidedDistance run(double known_lower, int threads) {
+    OneSidedDistance all;
+    all.bounds = {0, 0};
+    for (std::size_t first = 0; first < tiles_.size(); first += tiles_of_batch) {
+      std::vector<OneSidedDistance> found(std::min(tiles_of_batch, tiles_.size() - first));
+      FirstError error;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+      for (std::size_t i = 0; i < found.size(); ++i)
+        error.guard([&] { found[i] = search(tiles_[first + i], std::max(known_lower, all.bounds.lower)); });
+      error.rethrow();
+      for (const OneSidedDistance& tile : found) merge(all, tile);
+    }
+    all.stats.seconds = seconds_since(start_);
+    return all;
+  }
+
+ private:
+  OneSidedDistance search(std::span<const std::uint32_t> tile, double known_lower) const {
+    const MeshPart part = part_of(a_, tile);
+    const Eigen::AlignedBox3d box = used_bounding_box(part.mesh);
+    const Bvh tree(part.mesh, BvhOptions{1});
+    DistanceStats stats;
+    for (double reach = reach_.first;;) {
+      const double further = std::max(2 * reach, reach_.least);
+      const Near near = near_to(b_, box, reach);
+      if (near.triangles.empty()) {
+        reach = further;
+        continue;
+      }
+      OneSidedDistance found = search_near(tree, near, known_lower);
+      add(stats, found.stats);
+      const bool may_be_nearer = found.bounds.upper > std::max(near.rest, known_lower);
+      if (may_be_nearer && found.outcome != Outcome::BudgetExhausted) {
+        reach = std::min(further, found.bounds.upper);
+        continue;
+      }
+      found.bounds.lower = std::min(found.bounds.lower, near.rest);
+      found.stats = stats;
+      found.witness.from.triangle = tile[found.witness.from.triangle];
+      found.witness.nearest.triangle = near.triangles[found.witness.nearest.triangle];
+      return found;
+    }
+  }
+
+  [[nodiscard]] OneSidedDistance search_near(const Bvh& tile, const Near& near, double known_lower) const {
+    const Bvh tree(near.part.mesh, BvhOptions{1});
+    const PlacedModel a(tile), b(tree);
+    OneSidedTask task{.a = a, .b = b, .options = options_};
+    task.error_bound = *options_.error_bound;
+    task.tolerance = options_.tolerance.value_or(std::numeric_limits<double>::infinity());
+    task.known_lower = known_lower;
+    task.start = start_;
+    return search_one_sided(task);
+  }
+
+  static void merge(OneSidedDistance& all, const OneSidedDistance& tile) {
+    if (all.stats.triangles == 0 || tile.bounds.lower > all.bounds.lower) all.witness = tile.witness;
+    all.bounds.lower = std::max(all.bounds.lower, tile.bounds.lower);
+    all.bounds.upper = std::max(all.bounds.upper, tile.bounds.upper);
+    if (tile.outcome != Outcome::Converged && all.outcome != Outcome::BudgetExhausted) all.outcome = tile.outcome;
+    add(all.stats, tile.stats);
+  }
+
+  const TriangleMesh& a_;
+  const Clusters& b_;
+  DistanceOptions options_;
+  Reach reach_;
+  StopToken::Clock::time_point start_;
+  NumberLists tiles_;
+};
+
+/// What both directions have in common.
+class TiledMeasurement {
+ public:
+  TiledMeasurement(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+                   const TileOptions& tiles)
+      : options_(options), tiles_(tiles) {
+    validate(a);
+    validate(b);
+    const auto is_length = [](double length) { return length >= 0; };
+    if (!is_length(options.error_bound.value_or(0)))
+      throw InvalidInput("the error bound must be a length of 0 or more");
+    if (!is_length(options.tolerance.value_or(0))) throw InvalidInput("the tolerance must be a length of 0 or more");
+    if (!options.error_bound) options_.error_bound = default_error_bound(a, b, bounding_box_diagonal(a));
+    const double diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
+    reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal), least_reach * diagonal};
+  }
+
+  [[nodiscard]] OneSidedDistance search(const TriangleMesh& from, const TriangleMesh& to, double known_lower) const {
+    const Clusters clusters(to);
+    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+    return TiledSearch(from, clusters, options_, tiles_.max_triangles, reach_, start_).run(known_lower, threads);
+  }
+
+ private:
+  DistanceOptions options_;
+  TileOptions tiles_;
+  Reach reach_{};
+  StopToken::Clock::time_point start_ = StopToken::Clock::now();
+};
+
+}  // namespace
+
+OneSidedDistance one_sided_hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
+                                                       const DistanceOptions& options, const TileOptions& tiles) {
+  return TiledMeasurement(a, b, options, tiles).search(a, b, 0);
+}
+
+HausdorffDistance hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
+                                              const DistanceOptions& options, const TileOptions& tiles) {
+  const TiledMeasurement measurement(a, b, options, tiles);
+  HausdorffDistance result;
+  result.a_to_b = measurement.search(a, b, 0);
+  result.b_to_a = measurement.search(b, a, result.a_to_b.bounds.lower);
+  result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
+                   std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
+  return result;
+}
+
+}  // namespace meshbound

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <string>
+
+#include "levels/measured_level.h"
+#include "meshbound/error.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/mesh_view.h"
+#include "meshbound/tiles.h"
+#include "tiles/decimate_in_tiles.h"
+#include "tiles/tiled_mesh.h"
+
+namespace meshbound {
+namespace {
+
+/// Throws where an option asks for what tiles cannot do.
+void check_for_tiles(const SimplifyOptions& options) {
+  check_options(options);
+  const auto refuse = [](bool asked, const char* what) {
+    if (asked) throw InvalidInput(std::string("a mesh in tiles cannot be simplified with ") + what);
+  };
+  refuse(!options.levels.empty(), "several levels: ask for one tolerance at a time");
+  refuse(options.target_faces || options.target_ratio, "a target: ask for a tolerance alone");
+  refuse(options.on_exceed == OnExceed::Stop, "an end at the first refusal: let refused collapses be skipped");
+  refuse(options.prune, "components pruned");
+  refuse(options.line_tolerance || !options.feature_edges.empty() || options.feature_angle, "feature lines or angles");
+  refuse(!options.face_tolerances.empty(), "tolerances of triangles");
+  refuse(!options.texture_coordinates.empty(), "texture coordinates");
+  refuse(options.certificate, "a certificate");
+}
+
+/// The passes. The planes of each run where those before it have left no seams.
+constexpr std::array<TileCut, 6> cuts = {
+    {{0, 1.0 / 2}, {1, 1.0 / 3}, {2, 1.0 / 3}, {0, 2.0 / 3}, {1, 2.0 / 3}, {2, 2.0 / 3}}};
+
+/// The passes end with one that removes a smaller share of the triangles.
+constexpr double min_gain_of_pass = 0.01;
+
+/// Of the time, as far as anyone watches: the others go over what is left.
+constexpr double share_of_first_pass = 0.6;
+
+/// Which end of a tile says most about the run.
+EndedBy stronger(EndedBy a, EndedBy b) { return std::max(a, b); }
+
+/// All passes over one mesh.
+class TiledRun {
+ public:
+  TiledRun(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles)
+      : original_(original),
+        options_(options),
+        tiles_(tiles),
+        threads_(options.threads > 0 ? options.threads : omp_get_max_threads()),
+        stop_(StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.time_limit)),
+        mesh_(original, options.locked_vertices) {
+    of_tile_.threads = 1;
+  }
+
+  SimplifyResult run() {
+    const auto start = StopToken::Clock::now();
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const std::size_t before = mesh_.faces();
+      const std::size_t tiles = pass(k);
+      const auto gain = static_cast<double>(before - mesh_.faces());
+      if (stop_.stopped() || tiles == 1 || gain < min_gain_of_pass * static_cast<double>(before)) break;
+    }
+    SimplifyResult result;
+    SimplifiedLevel& level = result.levels.emplace_back();
+    level.tolerance = options_.tolerance;
+    mesh_.current_mesh(level);
+    if (options_.precision == Precision::Single)
+      for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
+    level.ended_by = ended_by_;
+    level.collapses_performed = counts_.proven_together + counts_.proven_alone;
+    level.collapses_refused = counts_.refused;
+    result.kept_triangles = mesh_.kept_triangles();
+    result.dropped_triangles = dropped_;
+    result.split = split_;
+    result.tolerance_below_rounding = ended_by_ == EndedBy::Rounding;
+    result.counts = counts_;
+    result.seconds.simplify = seconds_since(start);
+    return result;
+  }
+
+ private:
+  std::size_t pass(std::size_t k) {
+    if (k > 0) of_tile_.effort = Effort::Normal;  // flips would change triangles whose vertices stay
+    done_ = 0;
+    return mesh_.pass(cuts[k], tiles_.max_triangles, threads_, [&](const TileInput& input) {
+      TileOutput output = simplify_tile(input, of_tile_, stop_);
+      note(k, input, output);
+      return output;
+    });
+  }
+
+  void note(std::size_t k, const TileInput& input, const TileOutput& output) {
+    const std::lock_guard lock(mutex_);
+    counts_ += output.counts;
+    if (k == 0) {
+      dropped_ += output.dropped_triangles;
+      split_ = split_ || output.split;
+    }
+    ended_by_ = stronger(ended_by_, output.ended_by);
+    done_ += input.original.triangles.size();
+    if (!options_.progress || omp_get_thread_num() != 0) return;
+    const double share = static_cast<double>(done_) / static_cast<double>(original_.triangles.size());
+    options_.progress(k == 0 ? share_of_first_pass * share
+                             : share_of_first_pass + (1 - share_of_first_pass) *
+                                                         (static_cast<double>(k - 1) + std::min(1.0, share)) /
+                                                         static_cast<double>(cuts.size() - 1));
+  }
+
+  const TriangleMesh& original_;
+  const SimplifyOptions& options_;
+  const TileOptions& tiles_;
+  int threads_;
+  StopToken stop_;
+  SimplifyOptions of_tile_ = options_;
+  TiledMesh mesh_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;  ///< originals of the tiles of a pass
+  std::size_t dropped_ = 0;
+  EndedBy ended_by_ = EndedBy::NothingFits;
+  CollapseCounts counts_;
+  bool split_ = false;
+};
+
+}  // namespace
+
+SimplifyResult decimate_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
+                                 const TileOptions& tiles) {
+  check_for_tiles(options);
+  validate(original);
+  if (!options.locked_vertices.empty() && options.locked_vertices.size() != original.vertices.size())
+    throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
+  return TiledRun(original, options, tiles).run();
+}
+
+SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
+                                 const TileOptions& tiles) {
+  SimplifyResult result = decimate_in_tiles(original, options, tiles);
+  const auto measuring = StopToken::Clock::now();
+  SimplifiedLevel& level = result.levels.back();
+  DistanceOptions distance;
+  distance.tolerance = level.tolerance;
+  distance.threads = options.threads;
+  distance.cancel = options.cancel;
+  level.distance = hausdorff_distance_in_tiles(original, level.mesh, distance, tiles);
+  level.verdict = verdict_of(level.distance->bounds, level.tolerance);
+  result.seconds.measure = seconds_since(measuring);
+  return result;
+}
+
+}  // namespace meshbound

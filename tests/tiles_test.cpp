@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Meshes in tiles: the same bounds as in one piece, whatever the tiles, and the same bits for any number of threads.
+#include "meshbound/tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "datasets.h"
+#include "datasets/analytic_meshes.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
+#include "tiles/tile_cut.h"
+
+namespace meshbound {
+namespace {
+
+SimplifyOptions share_of_diagonal(const TriangleMesh& mesh, double share) {
+  SimplifyOptions options;
+  options.tolerance = share * bounding_box_diagonal(mesh);
+  options.threads = 1;
+  return options;
+}
+
+void expect_within(const TriangleMesh& original, const SimplifyResult& result, double tolerance) {
+  EXPECT_EQ(result.last().verdict, Verdict::Within);
+  EXPECT_LE(result.last().distance->bounds.upper, tolerance);
+  EXPECT_EQ(check_tolerance(original, result.last().mesh, tolerance, {}).verdict, Verdict::Within);
+}
+
+/// By position: edges that do not have exactly two triangles.
+std::size_t open_edges(const TriangleMesh& mesh) {
+  using Point = std::array<double, 3>;
+  std::map<std::pair<Point, Point>, int> triangles;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d &p = mesh.vertices[t[k]], &q = mesh.vertices[t[(k + 1) % 3]];
+      const Point a{p.x(), p.y(), p.z()}, b{q.x(), q.y(), q.z()};
+      ++triangles[std::minmax(a, b)];
+    }
+  }
+  return static_cast<std::size_t>(
+      std::count_if(triangles.begin(), triangles.end(), [](const auto& edge) { return edge.second != 2; }));
+}
+
+TriangleMesh unwelded(const TriangleMesh& mesh) {
+  TriangleMesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : t) soup.vertices.push_back(mesh.vertices[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+TEST(TileCut, PutsEachTriangleIntoOneTileThatIsNotTooHeavy) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  std::vector<std::uint32_t> weights(torus.triangles.size());
+  for (std::uint32_t t = 0; t < weights.size(); ++t) weights[t] = 1 + t % 7;
+  const NumberLists tiles =
+      cut_into_tiles(numbers_below(weights.size()), [&](std::uint32_t t) { return sum_of_corners(torus, t); }, weights,
+                     500, {1, 1.0 / 3});
+  std::set<std::uint32_t> seen;
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    EXPECT_TRUE(std::is_sorted(tiles[k].begin(), tiles[k].end()));
+    std::uint64_t weight = 0;
+    for (const std::uint32_t t : tiles[k]) {
+      weight += weights[t];
+      EXPECT_TRUE(seen.insert(t).second);
+    }
+    EXPECT_LE(weight, 500u);
+  }
+  EXPECT_EQ(seen.size(), torus.triangles.size());
+  EXPECT_GT(tiles.size(), 20u);
+}
+
+TEST(TileCut, LeavesATriangleThatIsTooHeavyAlone) {
+  const TriangleMesh cube = datasets::cube(1, 1);
+  std::vector<std::uint32_t> weights(cube.triangles.size(), 1);
+  weights[5] = 100;
+  const NumberLists tiles = cut_into_tiles(
+      numbers_below(weights.size()), [&](std::uint32_t t) { return sum_of_corners(cube, t); }, weights, 4);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    if (std::find(tiles[k].begin(), tiles[k].end(), 5u) != tiles[k].end()) {
+      EXPECT_EQ(tiles[k].size(), 1u);
+    }
+  }
+}
+
+TEST(SimplifyInTiles, HoldsTheToleranceWithHardlyMoreFacesThanInOnePiece) {
+  for (const TriangleMesh& mesh : {datasets::torus(1, 0.3, 120, 48), datasets::terrain(1, 80, 3)}) {
+    const SimplifyOptions options = share_of_diagonal(mesh, 0.002);
+    const SimplifyResult tiled = simplify_in_tiles(mesh, options, {3000});
+    expect_within(mesh, tiled, options.tolerance);
+    const std::size_t whole = simplify_with_bound(mesh, options).last().faces();
+    EXPECT_LT(static_cast<double>(tiled.last().faces()), 1.2 * static_cast<double>(whole));
+    EXPECT_LT(tiled.last().faces(), mesh.triangles.size() / 4);
+  }
+}
+
+TEST(SimplifyInTiles, GivesWhatOnePieceGivesWhereThereIsOneTile) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 40, 16);
+  const SimplifyOptions options = share_of_diagonal(torus, 0.01);
+  const SimplifyResult tiled = simplify_in_tiles(torus, options), whole = simplify_with_bound(torus, options);
+  EXPECT_EQ(tiled.last().mesh.triangles, whole.last().mesh.triangles);
+  EXPECT_EQ(tiled.last().mesh.vertices, whole.last().mesh.vertices);
+  EXPECT_EQ(tiled.last().source_vertex, whole.last().source_vertex);
+}
+
+TEST(SimplifyInTiles, GivesTheSameBitsForAnyNumberOfThreads) {
+  const TriangleMesh terrain = datasets::terrain(1, 60, 7);
+  SimplifyOptions options = share_of_diagonal(terrain, 0.001);
+  const SimplifyResult one = simplify_in_tiles(terrain, options, {700});
+  for (const int threads : {2, 3, 5}) {
+    options.threads = threads;
+    const SimplifyResult more = simplify_in_tiles(terrain, options, {700});
+    EXPECT_EQ(more.last().mesh.triangles, one.last().mesh.triangles);
+    EXPECT_EQ(more.last().mesh.vertices, one.last().mesh.vertices);
+    EXPECT_EQ(more.last().distance->bounds.lower, one.last().distance->bounds.lower);
+    EXPECT_EQ(more.last().distance->bounds.upper, one.last().distance->bounds.upper);
+  }
+}
+
+TEST(SimplifyInTiles, LeavesNoCracksWhereTrianglesShareNoVertices) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  const TriangleMesh soup = unwelded(torus);
+  const SimplifyOptions options = share_of_diagonal(torus, 0.003);
+  const SimplifyResult result = simplify_in_tiles(soup, options, {400});
+  expect_within(soup, result, options.tolerance);
+  EXPECT_LT(result.last().faces(), torus.triangles.size() / 2);
+  EXPECT_EQ(open_edges(result.last().mesh), 0u);
+  EXPECT_TRUE(summarise(result.last().mesh).closed);  // by vertices, too
+}
+
+TEST(SimplifyInTiles, SaysWhereVerticesAndTrianglesComeFrom) {
+  const TriangleMesh terrain = datasets::terrain(1, 40, 5);
+  SimplifyOptions options = share_of_diagonal(terrain, 0.002);
+  options.placements = CollapsePlacements::Subset;
+  const SimplifiedLevel level = simplify_in_tiles(terrain, options, {500}).last();
+  ASSERT_EQ(level.source_vertex.size(), level.mesh.vertices.size());
+  ASSERT_EQ(level.source_triangle.size(), level.faces());
+  for (std::size_t v = 0; v < level.mesh.vertices.size(); ++v)
+    EXPECT_EQ(level.mesh.vertices[v], terrain.vertices[level.source_vertex[v]]);
+  EXPECT_TRUE(std::is_sorted(level.source_triangle.begin(), level.source_triangle.end()));
+}
+
+TEST(SimplifyInTiles, KeepsLockedVerticesAndBorders) {
+  const TriangleMesh terrain = datasets::terrain(1, 40, 5);
+  SimplifyOptions options = share_of_diagonal(terrain, 0.01);
+  options.locked_vertices.assign(terrain.vertices.size(), false);
+  const std::uint32_t locked = terrain.triangles[777][0];
+  options.locked_vertices[locked] = true;
+  options.preserve_boundary = true;
+  const SimplifiedLevel level = simplify_in_tiles(terrain, options, {500}).last();
+  const auto has = [&](const Eigen::Vector3d& p) {
+    return std::find(level.mesh.vertices.begin(), level.mesh.vertices.end(), p) != level.mesh.vertices.end();
+  };
+  EXPECT_TRUE(has(terrain.vertices[locked]));
+  EXPECT_EQ(open_edges(level.mesh), open_edges(terrain));
+}
+
+TEST(SimplifyInTiles, KeepsTrianglesWithoutAreaThatLieAlone) {
+  TriangleMesh mesh = datasets::torus(1, 0.3, 40, 16);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.emplace_back(3, 0, 0);
+  mesh.vertices.emplace_back(3, 1, 0);
+  mesh.triangles.push_back({first, first, first + 1});
+  const SimplifyOptions options = share_of_diagonal(mesh, 0.003);
+  const SimplifyResult result = simplify_in_tiles(mesh, options, {300});
+  expect_within(mesh, result, options.tolerance);
+  EXPECT_EQ(result.kept_triangles, 1u);
+  EXPECT_EQ(result.last().source_triangle.back(), mesh.triangles.size() - 1);
+}
+
+TEST(SimplifyInTiles, HoldsForTheFloatsThatItGives) {
+  TriangleMesh terrain = datasets::terrain(1, 40, 5);
+  for (Eigen::Vector3d& p : terrain.vertices) p += Eigen::Vector3d(1000.1, -77.7, 3.3);
+  SimplifyOptions options = share_of_diagonal(terrain, 0.003);
+  options.precision = Precision::Single;
+  const SimplifyResult result = simplify_in_tiles(terrain, options, {500});
+  expect_within(terrain, result, options.tolerance);
+  for (const Eigen::Vector3d& p : result.last().mesh.vertices) EXPECT_EQ(p, p.cast<float>().cast<double>());
+}
+
+TEST(SimplifyInTiles, EndsWithAMeshThatHoldsWhenItIsCancelled) {
+  const TriangleMesh terrain = datasets::terrain(1, 60, 5);
+  SimplifyOptions options = share_of_diagonal(terrain, 0.003);
+  std::atomic<bool> cancel = false;
+  options.cancel = &cancel;
+  options.progress = [&](double) { cancel = true; };
+  const SimplifiedLevel level = simplify_in_tiles(terrain, options, {500}).last();
+  EXPECT_EQ(level.ended_by, EndedBy::Cancelled);
+  EXPECT_EQ(check_tolerance(terrain, level.mesh, options.tolerance).verdict, Verdict::Within);
+  EXPECT_LT(level.faces(), terrain.triangles.size());
+}
+
+TEST(SimplifyInTiles, RefusesWhatTilesCannotDo) {
+  const TriangleMesh cube = datasets::cube(1, 2);
+  const auto refuses = [&](const auto& change) {
+    SimplifyOptions options = share_of_diagonal(cube, 0.01);
+    change(options);
+    EXPECT_THROW((void)simplify_in_tiles(cube, options), InvalidInput);
+  };
+  refuses([](SimplifyOptions& o) { o.levels = {0.001}; });
+  refuses([](SimplifyOptions& o) { o.target_faces = 4; });
+  refuses([](SimplifyOptions& o) { o.on_exceed = OnExceed::Stop; });
+  refuses([](SimplifyOptions& o) { o.prune = true; });
+  refuses([](SimplifyOptions& o) { o.line_tolerance = 0.1; });
+  refuses([&](SimplifyOptions& o) { o.face_tolerances.assign(cube.triangles.size(), 1); });
+  refuses([&](SimplifyOptions& o) { o.texture_coordinates.resize(cube.triangles.size()); });
+  refuses([](SimplifyOptions& o) { o.certificate = true; });
+  refuses([](SimplifyOptions& o) { o.locked_vertices = {true}; });
+  refuses([](SimplifyOptions& o) { o.tolerance = -1; });
+}
+
+TEST(SimplifyInTiles, HoldsOnRealMeshes) {
+  for (const char* name : {"scan/igl_bunny.off", "cad/thingi_112932.stl", "game/gltf_VC.obj", "organic/igl_cow.off"}) {
+    const auto file = test::dataset(name);
+    if (!file) GTEST_SKIP() << name << " is not on this machine";
+    const TriangleMesh mesh = read_mesh(*file).mesh;
+    const SimplifyOptions options = share_of_diagonal(mesh, 0.002);
+    SCOPED_TRACE(name);
+    expect_within(mesh, simplify_in_tiles(mesh, options, {900}), options.tolerance);
+  }
+}
+
+void expect_same_interval(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {
+  const HausdorffDistance whole = hausdorff_distance(a, b, options);
+  for (const std::size_t max_triangles : {100, 1500, 100000}) {
+    const HausdorffDistance tiled = hausdorff_distance_in_tiles(a, b, options, {max_triangles});
+    EXPECT_LE(tiled.bounds.lower, whole.bounds.upper);
+    EXPECT_GE(tiled.bounds.upper, whole.bounds.lower);
+    EXPECT_LE(tiled.bounds.upper - tiled.bounds.lower, *options.error_bound);
+    const bool is_a = tiled.a_to_b.bounds.lower >= tiled.b_to_a.bounds.lower;
+    const Witness& witness = (is_a ? tiled.a_to_b : tiled.b_to_a).witness;
+    EXPECT_NEAR((witness.from.position - witness.nearest.position).norm(), tiled.bounds.lower, *options.error_bound);
+    const TriangleMesh &from = is_a ? a : b, &to = is_a ? b : a;
+    const Bvh tree(to);
+    EXPECT_GE(closest_point(tree, witness.from.position).distance.upper, tiled.bounds.lower * (1 - 1e-9));
+    ASSERT_LT(witness.from.triangle, from.triangles.size());
+    ASSERT_LT(witness.nearest.triangle, to.triangles.size());
+    const Triangle& corners = to.triangles[witness.nearest.triangle];
+    const Bvh named(
+        TriangleMesh{{to.vertices[corners[0]], to.vertices[corners[1]], to.vertices[corners[2]]}, {{0, 1, 2}}});
+    EXPECT_NEAR(closest_point(named, witness.nearest.position).distance.upper, 0, 1e-9);
+  }
+}
+
+TEST(DistanceInTiles, GivesTheIntervalOfTheWholeMeshes) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24), terrain = datasets::terrain(1, 40, 3);
+  TriangleMesh moved = torus;
+  for (Eigen::Vector3d& p : moved.vertices) p += Eigen::Vector3d(0.01, 0.02, -0.03);
+  TriangleMesh far = terrain;
+  for (Eigen::Vector3d& p : far.vertices) p += Eigen::Vector3d(50, 0, 1);
+  DistanceOptions options;
+  options.threads = 2;
+  options.error_bound = 1e-6;
+  expect_same_interval(torus, moved, options);
+  expect_same_interval(torus, terrain, options);
+  expect_same_interval(terrain, far, options);
+  expect_same_interval(far, datasets::cube(1, 1), options);
+}
+
+TEST(DistanceInTiles, LooksFurtherWhereTheToleranceIsExceeded) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  TriangleMesh moved = torus;
+  for (Eigen::Vector3d& p : moved.vertices) p += Eigen::Vector3d(0, 0, 0.2);
+  DistanceOptions options;
+  options.threads = 1;
+  options.error_bound = 1e-6;
+  for (const double tolerance : {0.0, 1e-12, 0.05, 0.3}) {
+    options.tolerance = tolerance;
+    expect_same_interval(torus, moved, options);
+    const HausdorffDistance tiled = hausdorff_distance_in_tiles(torus, moved, options, {300});
+    EXPECT_EQ(verdict_of(tiled.bounds, tolerance), tolerance > 0.2 ? Verdict::Within : Verdict::Exceeds);
+  }
+}
+
+TEST(DistanceInTiles, MeasuresOneSideOnly) {
+  const TriangleMesh terrain = datasets::terrain(1, 40, 3);
+  TriangleMesh part = terrain;
+  part.triangles.resize(part.triangles.size() / 3);
+  DistanceOptions options;
+  options.error_bound = 1e-6;
+  EXPECT_LE(one_sided_hausdorff_distance_in_tiles(part, terrain, options, {200}).bounds.upper, 1e-6);
+  EXPECT_GT(one_sided_hausdorff_distance_in_tiles(terrain, part, options, {200}).bounds.lower, 0.1);
+}
+
+TEST(DistanceInTiles, RefusesLengthsThatAreNone) {
+  const TriangleMesh cube = datasets::cube(1, 1);
+  DistanceOptions options;
+  options.error_bound = -1;
+  EXPECT_THROW((void)hausdorff_distance_in_tiles(cube, cube, options), InvalidInput);
+  options.error_bound.reset();
+  options.tolerance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)hausdorff_distance_in_tiles(cube, cube, options), InvalidInput);
+}
+
+}  // namespace
+}  // namespace meshbound

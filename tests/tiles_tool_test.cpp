@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// --memory: tile by tile within a limit that holds, with the same result for every limit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "run_tool.h"
+
+namespace {
+
+using meshbound::testing_tools::content_of;
+using meshbound::testing_tools::run_tool;
+using meshbound::testing_tools::TemporaryFolder;
+using meshbound::testing_tools::ToolRun;
+using Json = nlohmann::json;
+
+/// A mesh of several tiles of the usual size, made once.
+class Tiles : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const ToolRun made = run_tool(GENERATE_MESH, {"torus", "--output", *folder_ / "torus.ply", "--size", "400000"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string in_folder(const std::string& name) { return *folder_ / name; }
+  static ToolRun simplify(const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{in_folder("torus.ply"), in_folder(out), "--tolerance", "1%"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(SIMPLIFY_WITH_BOUND, arguments, 500);
+  }
+
+ private:
+  static TemporaryFolder* folder_;
+};
+
+TemporaryFolder* Tiles::folder_ = nullptr;
+
+/// What a summary says under "memory", in MiB.
+double peak_of(const ToolRun& run) {
+  std::smatch found;
+  return std::regex_search(run.out, found, std::regex("memory +(\\d+) MiB at most")) ? std::stod(found[1]) : -1;
+}
+
+TEST_F(Tiles, StayWithinTheMemoryAndGiveTheSameFileForEveryLimit) {
+  const ToolRun small =
+      simplify("small.ply", {"--memory", "420M", "--threads", "2", "--json", in_folder("small.json")});
+  ASSERT_EQ(small.exit_code, 0) << small.err;
+  EXPECT_GT(peak_of(small), 0) << small.out;
+  EXPECT_LT(peak_of(small), 420);
+  const Json report = Json::parse(content_of(in_folder("small.json")));
+  EXPECT_EQ(report["verdict"], "within");
+  EXPECT_EQ(report["threads"], 1);
+  EXPECT_LT(report["simplified"]["faces"], 10000);
+  const ToolRun large = simplify("large.ply", {"--memory", "8G", "--threads", "3"});
+  ASSERT_EQ(large.exit_code, 0) << large.err;
+  EXPECT_EQ(content_of(in_folder("small.ply")), content_of(in_folder("large.ply")));
+
+  const ToolRun whole =
+      run_tool(HAUSDORFF_DISTANCE, {in_folder("torus.ply"), in_folder("small.ply"), "--tolerance", "1%"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.out;
+  const ToolRun tiled =
+      run_tool(HAUSDORFF_DISTANCE, {in_folder("torus.ply"), in_folder("small.ply"), "--memory", "400M", "--json", "-"});
+  ASSERT_EQ(tiled.exit_code, 0) << tiled.err;
+  const Json distance = Json::parse(tiled.out);
+  EXPECT_LE(distance["distance"]["upper"], report["tolerance"]["absolute"]);
+}
+
+TEST_F(Tiles, SayHowMuchMemoryIsNeededAndWriteNothing) {
+  const ToolRun run = simplify("none.ply", {"--memory", "200M"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--memory 200M: 39"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("need at least"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(in_folder("none.ply")));
+  const ToolRun distance =
+      run_tool(HAUSDORFF_DISTANCE, {in_folder("torus.ply"), in_folder("torus.ply"), "--memory", "10M"});
+  EXPECT_EQ(distance.exit_code, 2);
+  EXPECT_EQ(std::count(distance.err.begin(), distance.err.end(), '\n'), 1) << distance.err;
+}
+
+TEST_F(Tiles, DoNotGoWithWhatNeedsTheWholeMesh) {
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--target-faces", "10"}, {"--certificate", in_folder("c.cert")}, {"--prune"}, {"--on-exceed", "stop"}}) {
+    std::vector<std::string> arguments = more;
+    arguments.insert(arguments.end(), {"--memory", "1G"});
+    const ToolRun run = simplify("none.ply", arguments);
+    EXPECT_EQ(run.exit_code, 2) << more[0];
+    EXPECT_FALSE(std::filesystem::exists(in_folder("none.ply")));
+  }
+}
+
+TEST_F(Tiles, EndAtTheTimeLimitWithAMeshThatHolds) {
+  const ToolRun run = simplify("late.ply", {"--memory", "2G", "--time-limit", "1.5"});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  const ToolRun distance =
+      run_tool(HAUSDORFF_DISTANCE, {in_folder("torus.ply"), in_folder("late.ply"), "--tolerance", "1%"});
+  EXPECT_EQ(distance.exit_code, 0) << distance.out;
+}
+
+}  // namespace

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "common/memory.h"
+
+#include <omp.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "common/whole_number.h"
+#include "meshbound/error.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// Of the program, its libraries and their stacks.
+constexpr double bytes_of_program = 64.0 * 1024 * 1024;
+
+}  // namespace
+
+std::uint64_t parse_memory(const std::string& option, const std::string& text) {
+  constexpr std::string_view units = "KMGT";
+  const std::size_t unit = text.empty() ? std::string_view::npos : units.find(text.back());
+  const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
+  const auto value = whole_number(std::string_view(text).substr(0, text.size() - (shift > 0 ? 1 : 0)));
+  if (!value || *value == 0 || *value > (std::uint64_t{1} << (62 - shift)))
+    throw InvalidInput(option + " " + text + ": give a number of bytes, or one with K, M, G or T, such as 4G");
+  return *value << shift;
+}
+
+void limit_memory(std::uint64_t bytes) {
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_DATA, &limit);
+}
+
+std::uint64_t peak_memory() {
+  constexpr std::uint64_t kibibyte = 1024;
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return kibibyte * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
+
+std::string in_mebibytes(double bytes) {
+  constexpr double mebibyte = 1024.0 * 1024;
+  return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mebibyte))) + " MiB";
+}
+
+int threads_within(std::uint64_t limit, const std::string& option, std::size_t triangles, const TileOptions& tiles,
+                   const TileCost& cost, int wanted) {
+  const auto count = static_cast<double>(triangles);
+  const double whole = bytes_of_program + cost.whole * count;
+  const double tile = cost.tile * std::min(count, static_cast<double>(tiles.max_triangles));
+  const double room = (static_cast<double>(limit) - whole) / tile;
+  if (room < 1)
+    throw InvalidInput(option + ": " + std::to_string(triangles) + " triangles need at least " +
+                       in_mebibytes(whole + tile));
+  return static_cast<int>(std::min(room, static_cast<double>(wanted > 0 ? wanted : omp_get_max_threads())));
+}
+
+}  // namespace meshbound::tools
