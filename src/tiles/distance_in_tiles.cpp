@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "distance/search/one_sided.h"
 #include "meshbound/error.h"
@@ -25,26 +27,32 @@ namespace {
 /// Triangles of a cluster: the finer, the less is taken that lies beyond the reach, and the more boxes are looked at.
 constexpr std::uint64_t triangles_of_cluster = 4096;
 
+/// Clusters near a tile that are no reason to halve it, however small tiles are: a single triangle may be near as many.
+constexpr std::size_t clusters_beside = 8;
+
 /// The first reach where no tolerance tells one, and the least one after that, as shares of the diagonal of both.
 constexpr double first_reach = 1e-2, least_reach = 1e-5;
 
 /// Tiles that start from the same lower bound, so that results do not depend on the number of threads.
 constexpr std::size_t tiles_of_batch = 8;
 
-NumberLists tiles_of(const TriangleMesh& mesh, std::uint64_t max_triangles) {
+NumberLists cut(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles, std::uint64_t max_triangles) {
   return cut_into_tiles(
-      numbers_below(mesh.triangles.size()), [&](std::uint32_t t) { return sum_of_corners(mesh, t); }, {},
-      max_triangles);
+      std::move(triangles), [&](std::uint32_t t) { return sum_of_corners(mesh, t); }, {}, max_triangles);
+}
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t t : triangles)
+    for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.vertices[v]);
+  return box;
 }
 
 /// A mesh in clusters, with their boxes.
 struct Clusters {
-  explicit Clusters(const TriangleMesh& whole) : mesh(whole), triangles(tiles_of(whole, triangles_of_cluster)) {
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-      Eigen::AlignedBox3d& box = boxes.emplace_back();
-      for (const std::uint32_t t : triangles[k])
-        for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.vertices[v]);
-    }
+  explicit Clusters(const TriangleMesh& whole)
+      : mesh(whole), triangles(cut(whole, numbers_below(whole.triangles.size()), triangles_of_cluster)) {
+    for (std::size_t k = 0; k < triangles.size(); ++k) boxes.push_back(box_of(mesh, triangles[k]));
   }
   const TriangleMesh& mesh;
   NumberLists triangles;
@@ -75,6 +83,26 @@ Near near_to(const Clusters& b, const Eigen::AlignedBox3d& box, double reach) {
   }
   near.part = part_of(b.mesh, near.triangles);
   return near;
+}
+
+/// Adds tiles of some triangles of A: of at most `max_size`, and halves of them as long as more than `max_near`
+/// triangles of B are near, as a few large triangles may run along all of it.
+void add_tiles(NumberLists& tiles, const TriangleMesh& a, std::vector<std::uint32_t> triangles, std::size_t max_size,
+               const Clusters& b, double reach, std::size_t max_near) {
+  const NumberLists parts = cut(a, std::move(triangles), max_size);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::span<const std::uint32_t> part = parts[k];
+    const Eigen::AlignedBox3d box = box_of(a, part);
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < b.boxes.size(); ++i)
+      if (separation(box, b.boxes[i]) <= reach) near += b.triangles[i].size();
+    if (part.size() > 1 && near > max_near) {
+      add_tiles(tiles, a, {part.begin(), part.end()}, (part.size() + 1) / 2, b, reach, max_near);
+      continue;
+    }
+    tiles.numbers.insert(tiles.numbers.end(), part.begin(), part.end());
+    tiles.end_list();
+  }
 }
 
 void add(DistanceStats& sum, const DistanceStats& stats) {
@@ -108,7 +136,9 @@ class TiledSearch {
  public:
   TiledSearch(const TriangleMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
               const Reach& reach, StopToken::Clock::time_point start)
-      : a_(a), b_(b), options_(options), reach_(reach), start_(start), tiles_(tiles_of(a, max_triangles)) {
+      : a_(a), b_(b), options_(options), reach_(reach), start_(start) {
+    add_tiles(tiles_, a, numbers_below(a.triangles.size()), max_triangles, b, reach.first,
+              2 * max_triangles + clusters_beside * triangles_of_cluster);
     options_.threads = 1;
     options_.progress = {};
   }
