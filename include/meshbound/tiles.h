@@ -11,8 +11,9 @@ namespace meshbound {
 
 /// How a mesh is cut into tiles.
 struct TileOptions {
-  /// Of the original, that a tile has at most. A tile under work takes up to 1.1 kB for each (measured at 0.02% of the
-  /// diagonal), a thread works on one tile at a time. The result depends on this number and not on the threads.
+  /// A tile has about so many triangles of the original. A tile under work takes up to 1.1 kB for each (measured at
+  /// 0.02% of the diagonal), a thread works on one tile at a time. The result depends on this number and not on the
+  /// threads.
   std::size_t max_triangles = std::size_t{1} << 18;
 };
 
@@ -21,7 +22,7 @@ struct TileOptions {
 /// was a seam lies inside a tile. A tile goes on from the proof that the ones before have left: no tolerance is
 /// divided. The verdict is that of `hausdorff_distance_in_tiles`.
 ///
-/// The same bits for any number of threads, but for `time_limit` and `cancel`. Takes one tolerance:
+/// Results are the same to the bit for any number of threads, but for `time_limit` and `cancel`. Takes one tolerance:
 /// throws `InvalidInput` for levels, targets, `OnExceed::Stop`, `prune`, feature lines and angles, tolerances of faces,
 /// texture coordinates and certificates; as `simplify_with_bound` otherwise. `Effort::High` refines inside the first
 /// tiles only. Memory: about 60 bytes for each triangle of the original, the original included, and the tiles under

@@ -30,8 +30,8 @@ class Samples {
   Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
           const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
           const std::vector<std::uint32_t>& vertex_of_vertex, double spacing);
-  /// The same points of an original that the mesh has left already, each with the nearest of the faces that cover its
-  /// triangle. Originals without a cover have none.
+  /// Vertices and points on edges of an original that the mesh has left already, each with the nearest of the faces
+  /// that cover its triangle. Originals without a cover have none.
   Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
           const ArrayMesh& mesh, const CoverAssignment& cover, double spacing);
 
@@ -160,8 +160,8 @@ struct DecimationState {
   std::vector<std::uint32_t> source_vertex,
       source_triangle;               ///< by vertex and face: where it comes from in the original
   std::vector<std::uint8_t> locked;  ///< by vertex
-  std::vector<Quadric> quadrics;  ///< by vertex
-  std::vector<float> share;       ///< by vertex: share of the tolerance that samples may reach
+  std::vector<Quadric> quadrics;     ///< by vertex
+  std::vector<float> share;          ///< by vertex: share of the tolerance that samples may reach
   Samples samples;
 
   double magnitude = 0;  ///< largest coordinate of the original

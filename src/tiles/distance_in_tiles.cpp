@@ -31,7 +31,7 @@ constexpr std::uint64_t triangles_of_cluster = 4096;
 constexpr std::size_t clusters_beside = 8;
 
 /// The first reach where no tolerance tells one, and the least one after that, as shares of the diagonal of both.
-constexpr double first_reach = 1e-2, least_reach = 1e-5;
+constexpr double first_reach = 1e-2, min_reach = 1e-5;
 
 /// Tiles that start from the same lower bound, so that results do not depend on the number of threads.
 constexpr std::size_t tiles_of_batch = 8;
@@ -128,7 +128,7 @@ void add(DistanceStats& sum, const DistanceStats& stats) {
 
 /// How far around a tile B is looked for: at first, and at least from then on. Model units.
 struct Reach {
-  double first, least;
+  double first, min;
 };
 
 /// One direction.
@@ -167,7 +167,7 @@ class TiledSearch {
     const Bvh tree(part.mesh, BvhOptions{1});
     DistanceStats stats;
     for (double reach = reach_.first;;) {
-      const double further = std::max(2 * reach, reach_.least);
+      const double further = std::max(2 * reach, reach_.min);
       const Near near = near_to(b_, box, reach);
       if (near.triangles.empty()) {
         reach = further;
@@ -229,7 +229,7 @@ class TiledMeasurement {
     if (!is_length(options.tolerance.value_or(0))) throw InvalidInput("the tolerance must be a length of 0 or more");
     if (!options.error_bound) options_.error_bound = default_error_bound(a, b, bounding_box_diagonal(a));
     const double diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
-    reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal), least_reach * diagonal};
+    reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal), min_reach * diagonal};
   }
 
   [[nodiscard]] OneSidedDistance search(const TriangleMesh& from, const TriangleMesh& to, double known_lower) const {

@@ -41,7 +41,7 @@ constexpr std::array<TileCut, 6> cuts = {
 /// The passes end with one that removes a smaller share of the triangles.
 constexpr double min_gain_of_pass = 0.01;
 
-/// Of the time, as far as anyone watches: the others go over what is left.
+/// Share of the progress that the first pass stands for.
 constexpr double share_of_first_pass = 0.6;
 
 /// Which end of a tile says most about the run.

@@ -84,7 +84,7 @@ class TiledMesh {
   std::vector<std::uint32_t> kept_;             ///< originals that are part of the result as they are
   std::vector<std::uint8_t> at_seam_;           ///< by vertex: it stayed in the last pass, for the sake of other tiles
 
-  // Of the pass under way.
+  // What the pass under way has found.
   std::vector<std::uint32_t> position_;  ///< by vertex of the original: the first one at its position
   std::vector<std::uint32_t> owner_;     ///< by vertex: its tile, or `no_index`
   NumberLists triangles_;                ///< by tile: those with a vertex that it owns, ascending

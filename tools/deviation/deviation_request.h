@@ -28,8 +28,8 @@ struct DeviationRequest {
 /// Adds --report, --units and --up.
 void add_report_options(CLI::App& app, DeviationRequest& request);
 
-/// Adds these, --heatmap, --heatmap-original and --image. The meshes are called as the help of the tool calls them: "IN"
-/// and "OUT", "A" and "B".
+/// Adds these, --heatmap, --heatmap-original and --image. The meshes are called as the help of the tool calls them:
+/// "IN" and "OUT", "A" and "B".
 void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::string& original,
                            const std::string& result);
 

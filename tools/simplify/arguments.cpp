@@ -65,10 +65,9 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
       "without attributes");
   add_deviation_options(app, arguments.deviation, "IN", "OUT");
   add_decimation_options(app, arguments);
-  for (const char* const name :
-       {"--levels", "--target-faces", "--target-ratio", "--certificate", "--prune", "--batch", "--texture-tolerance",
-        "--normal-tolerance", "--feature-angle", "--line-tolerance", "--heatmap", "--heatmap-original", "--image",
-        "--report"})
+  for (const char* const name : {"--levels", "--target-faces", "--target-ratio", "--certificate", "--prune", "--batch",
+                                 "--texture-tolerance", "--normal-tolerance", "--feature-angle", "--line-tolerance",
+                                 "--heatmap", "--heatmap-original", "--image", "--report"})
     memory->excludes(app.get_option(name));
   add_examples(app,
                {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
