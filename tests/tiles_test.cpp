@@ -263,7 +263,7 @@ void expect_same_interval(const TriangleMesh& a, const TriangleMesh& b, const Di
   }
 }
 
-/// Of several clusters, so that not all of it is near a tile.
+/// A torus of several clusters, so that not all of it is near a tile.
 TriangleMesh large_torus() { return datasets::torus(1, 0.3, 160, 64); }
 
 TEST(DistanceInTiles, GivesTheIntervalOfTheWholeMeshes) {
@@ -325,6 +325,18 @@ TEST(DistanceInTiles, FindsWhatIsNearerThanWhatLiesInBoxesThatAreNearer) {
   EXPECT_LE(tiled.lower, whole.upper);
   EXPECT_GE(tiled.upper, whole.lower);
   EXPECT_NEAR(tiled.upper, 1, 1e-2);
+}
+
+TEST(DistanceInTiles, EndsWhereAShareOfTheSizeIsNoNumber) {
+  TriangleMesh a = datasets::cube(1, 1), b = a;
+  for (Eigen::Vector3d& p : a.vertices) p *= 1e-321;
+  for (Eigen::Vector3d& p : b.vertices) p = (p + Eigen::Vector3d(2, 0, 0)) * 1e-321;
+  DistanceOptions options;
+  options.tolerance = 0;
+  const Bounds tiled = hausdorff_distance_in_tiles(a, b, options, {4}).bounds;
+  const Bounds whole = hausdorff_distance(a, b, options).bounds;
+  EXPECT_LE(tiled.lower, whole.upper);
+  EXPECT_GE(tiled.upper, whole.lower);
 }
 
 TEST(DistanceInTiles, MeasuresOneSideOnly) {

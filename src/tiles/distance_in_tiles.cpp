@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -229,7 +230,8 @@ class TiledMeasurement {
     if (!is_length(options.tolerance.value_or(0))) throw InvalidInput("the tolerance must be a length of 0 or more");
     if (!options.error_bound) options_.error_bound = default_error_bound(a, b, bounding_box_diagonal(a));
     const double diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
-    reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal), min_reach * diagonal};
+    reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal),
+              std::max(min_reach * diagonal, std::numeric_limits<double>::denorm_min())};  // grows by doubling
   }
 
   [[nodiscard]] OneSidedDistance search(const TriangleMesh& from, const TriangleMesh& to, double known_lower) const {

@@ -26,7 +26,7 @@ class Source final : public reference::Choices {
     return value;
   }
 
-  /// Of coordinates of the kind that `set_kind` chose.
+  /// A point with coordinates of the kind that `set_kind` chose.
   Eigen::Vector3d point() override;
   unsigned below(unsigned n) override { return take<std::uint8_t>() % n; }
 

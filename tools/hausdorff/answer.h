@@ -32,7 +32,7 @@ struct Answer {
 [[nodiscard]] Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b,
                                      const DistanceOptions& options);
 
-/// The same tile by tile, without trees of whole meshes.
+/// Answers tile by tile as `answer_by_trees` does, without trees of whole meshes.
 [[nodiscard]] Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
                                      const DistanceOptions& options, const TileOptions& tiles);
 
