@@ -26,10 +26,11 @@ std::filesystem::path temporary_name(const std::filesystem::path& folder) {
   return folder / (".meshbound-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
 }
 
-/// What the replaced file had. Where the file system has no owners or permissions this changes nothing that matters.
+/// Gives the new file the owner and permissions of the replaced one. File systems without them let these calls fail,
+/// which changes nothing that matters.
 void hand_over(int fd, const OutputTarget::Owner& owner) {
   const bool same_owner = ::fchown(fd, owner.user, owner.group) == 0;
-  // Running as the owner must not become running as somebody else.
+  // Set-user-ID and set-group-ID bits are kept only where the owner is: a file must not start to run as somebody else.
   (void)::fchmod(fd, same_owner ? owner.mode : owner.mode & 0777);
 }
 
@@ -49,7 +50,7 @@ void AtomicFile::open() {
   if (target_.is_stream && stream_ == Stream::Direct) return open_stream();
   std::filesystem::path name =
       temporary_name(target_.is_stream ? std::filesystem::temp_directory_path() : target_.path.parent_path());
-  listed_.emplace(name);  // before it is there, so that nothing can come in between
+  listed_.emplace(name);  // listed before it exists, so that no signal can come in between
   const mode_t mode = target_.is_stream ? 0600 : 0666;
   fd_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (fd_ < 0) fail(errno);

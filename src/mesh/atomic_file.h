@@ -19,7 +19,7 @@ namespace meshbound {
 /// full.
 class AtomicFile {
  public:
-  /// How a device or FIFO is written to, which cannot be read back.
+  /// When bytes are sent to a device or FIFO, which cannot be read back.
   enum class Stream {
     Direct,  ///< at once
     Staged   ///< by `commit`; until then the bytes stand in a file in the folder for temporary files
@@ -36,7 +36,8 @@ class AtomicFile {
 
   void write(std::string_view bytes);
 
-  /// At least `size` bytes (up to `max_room`) to be filled; `use` then takes those before `end`.
+  /// Returns room for at least `size` bytes (`size` <= `max_room`). The caller fills it from the start and passes the
+  /// end of what it wrote to `use`, which adds those bytes to the file.
   static constexpr std::size_t max_room = 4096;
   [[nodiscard]] char* room(std::size_t size);
   void use(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.get()); }

@@ -22,7 +22,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3 + 3);
   std::uint32_t bits = 0;
-  int count = 0;  // of bits that wait
+  int count = 0;  // low bits of `bits` that are not in `bytes` yet
   for (const char c : text) {
     const std::size_t digit = alphabet.find(c);
     if (digit == std::string_view::npos) return std::nullopt;

@@ -8,7 +8,7 @@
 
 namespace meshbound {
 
-/// New numbers for the vertices that triangles use, in the order in which these reach them.
+/// Renumbers the vertices that triangles use, in the order in which the triangles first use them.
 class FirstUse {
  public:
   explicit FirstUse(std::size_t vertices) : number_(vertices, no_index) {}
@@ -26,7 +26,7 @@ class FirstUse {
     return {a, b, c};
   }
 
-  /// The vertices, by their new numbers.
+  /// The old numbers of the vertices, by new number.
   [[nodiscard]] const std::vector<std::uint32_t>& used() const { return used_; }
 
  private:

@@ -60,7 +60,7 @@ class AccessorReader {
     return static_cast<std::size_t>(found - names.begin()) + 1;
   }
 
-  /// The elements that `of` finds through its `bufferView` and `byteOffset`: `count` of `size` bytes each.
+  /// The elements that the "bufferView" and "byteOffset" of `of` locate: `count` elements of `size` bytes each.
   [[nodiscard]] Elements elements(const GltfValue& of, std::size_t count, std::size_t size) const {
     const std::size_t number = of.at("bufferView").index(root_.count("bufferViews"), "buffer views");
     const GltfValue view = root_.at("bufferViews").item(number);

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
-/// Colours have an opacity, 1 where the file has none.
+/// Numbers in a colour: red, green, blue and opacity, which is 1 where the file gives none.
 constexpr std::size_t colour_width = 4;
 
-/// A name that stands in one line of a text.
+/// Replaces control characters, so that a name takes one line of a text format.
 std::string one_line(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; }, '_');
@@ -32,7 +32,8 @@ bool is_skinning(std::string_view semantic) {
   return semantic.starts_with("JOINTS_") || semantic.starts_with("WEIGHTS_");
 }
 
-/// Normals are mapped by the transposed inverse, here as cofactors, which every matrix has.
+/// The matrix that maps normals: the transposed inverse up to a positive factor, computed from cofactors, which
+/// singular matrices have as well.
 Eigen::Matrix3d map_of_normals(const Eigen::Matrix3d& m) {
   Eigen::Matrix3d cofactors;
   for (Eigen::Index i = 0; i < 3; ++i) cofactors.row(i) = m.row((i + 1) % 3).cross(m.row((i + 2) % 3));
@@ -161,7 +162,8 @@ void GltfAttributes::add_triangle(const Triangle& corners) {
   all_.part.push_back(part_);
 }
 
-/// In a format that names materials from some triangle on, those without one need a name, too.
+/// Adds a name for triangles without a material. In formats that name materials from some triangle on, such as OBJ,
+/// these would otherwise count to the material before them.
 void GltfAttributes::name_missing_materials() {
   if (all_.materials.names.empty()) {
     all_.materials = {};

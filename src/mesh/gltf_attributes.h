@@ -34,15 +34,15 @@ class GltfAttributes {
  public:
   GltfAttributes(AccessorCache& accessors, const GltfValue& root);
 
-  /// Triangles that follow are of this primitive of this placed mesh, which is number `part`.
+  /// Starts primitive number `part` of the placed mesh: the triangles added from here on belong to it.
   void begin_primitive(const GltfValue& primitive, const NodePlacement& placement, std::uint32_t part,
                        std::uint32_t group, std::size_t vertices);
-  /// A new group; its name is that of the mesh.
+  /// Adds a group named after the mesh and returns its number.
   [[nodiscard]] std::uint32_t add_group(const GltfValue& mesh, std::size_t number);
-  /// Corners as vertices of the primitive.
+  /// Adds a triangle of the current primitive; corners are indices of the primitive's vertices.
   void add_triangle(const Triangle& corners);
 
-  /// All but the document.
+  /// Returns all attributes collected; `document` is left for the caller to set.
   [[nodiscard]] MeshAttributes finish();
 
  private:
@@ -55,10 +55,11 @@ class GltfAttributes {
   AccessorCache& accessors_;
   std::size_t accessor_count_, material_count_;
   MeshAttributes all_;
-  std::map<std::string, std::size_t> number_of_;                                 // of `all_.named`
-  std::map<std::pair<std::string, std::size_t>, std::uint32_t> first_value_of_;  // by name and accessor
+  std::map<std::string, std::size_t> number_of_;  // by name: index in `all_.named`
+  /// By name and accessor: the number of its first value.
+  std::map<std::pair<std::string, std::size_t>, std::uint32_t> first_value_of_;
 
-  // The values of the primitive's first vertex by number, or `none`.
+  // Per attribute, the number of the value of the primitive's first vertex; `none` where the primitive lacks it.
   std::uint32_t texture_coordinates_ = CornerAttribute::none, normals_ = CornerAttribute::none;
   std::vector<std::uint32_t> named_;
   std::uint32_t material_ = CornerAttribute::none, part_ = 0, group_ = 0;

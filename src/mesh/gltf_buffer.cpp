@@ -76,7 +76,7 @@ std::size_t integer_or(const GltfJson& object, const char* key, std::size_t othe
   return found != object.end() && found->is_number_unsigned() ? found->get<std::size_t>() : otherwise;
 }
 
-/// What stands where something was that nothing refers to: valid, and small.
+/// A valid and small accessor that takes the number of a freed one which no new accessor has taken.
 const GltfJson& unused_accessor() {
   static const GltfJson accessor = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
   return accessor;
@@ -84,8 +84,8 @@ const GltfJson& unused_accessor() {
 
 }  // namespace
 
-/// The arrays to which something is added are there from the beginning: a key that is added to an ordered object moves
-/// all others in memory, and callers hold references to parts of the document.
+/// Makes every array that entries are added to before anything else: adding a key to an ordered object moves all other
+/// keys in memory, and callers hold references into the document.
 GltfBuffer::GltfBuffer(GltfJson& json, const std::vector<std::string>& buffers) : json_(json), old_(buffers) {
   for (const char* const key : added_to)
     if (!json_.contains(key)) json_[key] = GltfJson::array();
@@ -153,7 +153,7 @@ std::size_t GltfBuffer::add_accessor(const GltfNumbers& numbers, const std::vect
 }
 
 std::size_t GltfBuffer::add_indices(const std::vector<Triangle>& triangles, std::size_t vertices) {
-  // The largest 16-bit integer would begin a new run of triangles.
+  // glTF reserves the largest value of an index type for primitive restart.
   const bool is_short = vertices < std::numeric_limits<std::uint16_t>::max();
   const GltfNumbers numbers{is_short ? GltfComponent::UInt16 : GltfComponent::UInt32, false, 1};
   std::string bytes;
@@ -184,7 +184,8 @@ void GltfBuffer::move_old_view(GltfJson& view, std::size_t number) {
   bytes_ += std::string_view(old_[buffer]).substr(offset, length);
 }
 
-/// At the end of an array a free place goes; elsewhere something small stands there.
+/// Removes freed entries at the end of the arrays and fills the others with small valid ones, since numbers may not
+/// shift.
 void GltfBuffer::fill_free_places() {
   const auto drop_last = [&](const char* key, std::vector<std::size_t>& free) {
     std::sort(free.begin(), free.end());

@@ -9,27 +9,28 @@
 
 namespace meshbound {
 
-/// The accessors, buffer views and bytes of a glTF file that is written. Nothing that stays is renumbered, so that what
-/// refers to it, known here or not, still does; places that became free are taken first by what is new.
+/// The accessors, buffer views and bytes of a glTF file that is written. Entries that stay keep their numbers, so that
+/// references to them remain valid, also those in extensions that are unknown here. New entries take freed numbers
+/// first.
 class GltfBuffer {
  public:
   /// `json` is changed in place and must outlive this; `buffers` are the bytes it refers to.
   GltfBuffer(GltfJson& json, const std::vector<std::string>& buffers);
 
-  /// Gives up accessors that nothing refers to any more, and the buffer views that only they used. Call at most once,
+  /// Frees accessors that nothing refers to any more, and the buffer views that only they used. Call at most once,
   /// before anything is added.
   void free_accessors(const std::vector<std::size_t>& accessors);
 
   /// Adds an accessor of `values`, `numbers.width` for each element, and returns its number. Integers are rounded and
-  /// clamped. `with_range` adds the least and largest numbers, which positions must have.
+  /// clamped. `with_range` writes "min" and "max", which accessors of positions must have.
   std::size_t add_accessor(const GltfNumbers& numbers, const std::vector<double>& values, bool with_range);
-  /// Adds the accessor of the corners of triangles; 16-bit integers where these suffice.
+  /// Adds the accessor of the corners of triangles and returns its number; 16-bit integers where these suffice.
   std::size_t add_indices(const std::vector<Triangle>& triangles, std::size_t vertices);
   /// Adds bytes as a buffer view, and returns its number.
   std::size_t add_view(std::string_view bytes, std::size_t stride, int target);
 
-  /// Moves all that is left of the old buffers behind what was added and returns the bytes of the one buffer there is
-  /// now. Call last. Throws `InvalidInput` for a view that is compressed or reaches beyond its buffer.
+  /// Copies the old buffer views that are left behind the new ones and returns the bytes of the single buffer. Call
+  /// last. Throws `InvalidInput` for a view that is compressed or reaches beyond its buffer.
   [[nodiscard]] std::string finish();
 
  private:
@@ -40,7 +41,7 @@ class GltfBuffer {
   GltfJson& json_;
   const std::vector<std::string>& old_;
   std::string bytes_;
-  std::vector<std::size_t> free_accessors_, free_views_;  ///< descending: the last one is the next to be taken
+  std::vector<std::size_t> free_accessors_, free_views_;  ///< descending: numbers are taken from the end
   std::vector<std::size_t> new_views_;
 };
 

@@ -7,14 +7,15 @@
 
 namespace meshbound {
 
-/// What is written to a file: its JSON and the bytes of its one buffer, which may have none.
+/// What is written to a glTF file: its JSON and the bytes of its single buffer, empty where it has none.
 struct GltfContent {
   GltfJson json;
   std::string bytes;
 };
 
-/// The document that the mesh was read from, with the triangles of `mesh` in place of its own; a new one where there is
-/// none. Throws `InvalidInput` where a document is malformed in what no reader of triangles looks at.
+/// The document that the mesh was read from with its triangles replaced by those of `mesh`; a new document for a mesh
+/// of another format. Throws `InvalidInput` where the document is malformed in a part that reading triangles does not
+/// touch.
 [[nodiscard]] GltfContent gltf_content(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 }  // namespace meshbound

@@ -17,10 +17,10 @@ namespace {
 constexpr std::uint32_t chunk_json = 0x4E4F534A, chunk_binary = 0x004E4942;
 constexpr std::size_t header_size = 12, chunk_header_size = 8;  // bytes
 
-/// Objects and arrays inside each other: what writes and copies JSON calls itself once for each.
+/// Deepest nesting of objects and arrays that is accepted: writing and copying JSON recurses once for each level.
 constexpr std::size_t max_depth = 256;
 
-/// Required extensions that leave triangles as they are: by the beginning of their names.
+/// Beginnings of the names of extensions that may be required and yet leave triangles as they are.
 constexpr std::array<std::string_view, 9> harmless_extensions = {
     "KHR_materials_", "KHR_texture_", "EXT_texture_",  "MSFT_texture_",        "KHR_lights_",
     "EXT_lights_",    "KHR_xmp",      "MSFT_packing_", "KHR_mesh_quantization"};

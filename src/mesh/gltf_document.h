@@ -12,12 +12,12 @@
 
 namespace meshbound {
 
-/// A glTF file beyond the triangles that were read from it: all of its JSON and of its buffers, and where the parts of
-/// the mesh stand in it. Never changed once it is read.
+/// A glTF file beyond the triangles that were read from it: its whole JSON, its buffers, and where the parts of the
+/// mesh stand in it. Immutable once read.
 struct GltfDocument : SceneLayout {
   GltfJson json;
   std::vector<std::string> buffers;
-  std::filesystem::path folder;  ///< where relative names of image files begin
+  std::filesystem::path folder;  ///< image files are named relative to it
 };
 
 /// The JSON and the buffers of a file, `placed` and `parts` still empty. The version must be 2, the JSON not nested too
@@ -25,7 +25,7 @@ struct GltfDocument : SceneLayout {
 /// change triangles. Throws `InvalidInput`, and `IoError` where a file of a buffer cannot be read.
 [[nodiscard]] GltfDocument read_gltf_document(const MeshSource& source);
 
-/// Textures, cameras, animations and skins.
+/// The number of textures, cameras, animations and skins.
 [[nodiscard]] std::size_t count_scene_objects(const GltfDocument& document);
 
 /// The meshes that the default scene shows, in the order of its nodes: the scene of number `scene`, else the first one,
@@ -44,7 +44,8 @@ struct GltfNumbers {
   std::size_t width = 1;    ///< numbers in an element
 };
 
-/// An accessor and all its numbers, sparse ones put in place. Integers are exact; a normalised one is the quotient.
+/// An accessor with all its numbers, sparse substitutions applied. Integers are exact; a normalised integer is the
+/// quotient in double precision.
 struct GltfAccessor {
   GltfNumbers numbers;
   std::size_t count = 0;       ///< elements

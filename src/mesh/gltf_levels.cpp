@@ -18,7 +18,7 @@ class LevelMerger {
  public:
   explicit LevelMerger(const GltfContent& finest) : result_(finest) {}
 
-  /// The number of the mesh in the result for one of a level.
+  /// Copies a mesh of a level into the result and returns its number there.
   std::size_t mesh(const GltfContent& level, std::size_t number) {
     GltfJson mesh = level.json["meshes"][number];
     for (GltfJson& primitive : mesh["primitives"]) {
@@ -77,10 +77,11 @@ class LevelMerger {
 
   using Key = std::pair<const GltfContent*, std::size_t>;
   GltfContent result_;
-  std::map<Key, std::size_t> accessors_, views_;  ///< by level and number there
+  std::map<Key, std::size_t> accessors_, views_;  ///< by level and number in that level: number in the result
 };
 
-/// Turns the targets of animations of morph weights to where the mesh is now; says whether the node is animated.
+/// Redirects animations of the node's morph weights to node `mesh_is_at`, if given. Returns whether the node is
+/// animated.
 bool retarget(GltfJson& json, std::size_t node, std::optional<std::size_t> mesh_is_at) {
   bool is_animated = false;
   if (!json.contains("animations")) return false;
@@ -95,7 +96,8 @@ bool retarget(GltfJson& json, std::size_t node, std::optional<std::size_t> mesh_
   return is_animated;
 }
 
-/// The node itself, or a new child that shows its mesh where all that moves the node is to move every level.
+/// The node that gets the levels: the node itself or, where it has children or an animation that must apply to every
+/// level, a new child that shows its mesh.
 std::size_t node_of_levels(LevelMerger& merger, std::size_t node) {
   GltfJson& json = merger.json();
   if (!json["nodes"][node].contains("children") && !retarget(json, node, std::nullopt)) return node;
@@ -115,7 +117,8 @@ std::size_t node_of_levels(LevelMerger& merger, std::size_t node) {
 
 GltfContent with_levels(const std::vector<GltfContent>& levels, const std::vector<NodeCoverage>& nodes) {
   LevelMerger merger(levels.front());
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of;  // in the result, by level and mesh there
+  // By level and mesh of that level: mesh of the result.
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of;
   for (const NodeCoverage& covered : nodes) {
     if (!levels.front().json["nodes"][covered.node].contains("mesh")) continue;
     const std::size_t node = node_of_levels(merger, covered.node);

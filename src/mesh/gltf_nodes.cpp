@@ -15,7 +15,7 @@ Eigen::Vector3d vector_or(const GltfValue& node, const char* key, const Eigen::V
   return {found->item(0).number(), found->item(1).number(), found->item(2).number()};
 }
 
-/// The rotation of a quaternion x, y, z, w; one that is not of length 1 is taken as its direction.
+/// The rotation by a quaternion x, y, z, w, which is normalised first.
 Eigen::Matrix3d rotation_of(const GltfValue& quaternion) {
   std::array<double, 4> q;
   for (std::size_t i = 0; i < 4; ++i) q[i] = quaternion.item(i).number();

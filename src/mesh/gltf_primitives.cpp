@@ -75,7 +75,8 @@ class PrimitiveWriter {
     return result;
   }
 
-  /// The reader maps them by the transposed inverse of the placement.
+  /// In the frame of the node. The reader maps normals by the transposed inverse of the placement, so the writer undoes
+  /// that.
   [[nodiscard]] std::vector<double> normals() const {
     std::vector<double> result;
     for (std::size_t v = 0; v < vertices_.corners.size(); ++v) {
@@ -111,7 +112,7 @@ class PrimitiveWriter {
     return result;
   }
 
-  /// glTF demands it of the weights of a vertex, and many files do not keep to it.
+  /// The weights of a vertex must have sum 1; many files do not keep to that.
   static void scale_to_sum_one(std::vector<double>& weights, std::size_t width) {
     for (std::size_t first = 0; first + width <= weights.size(); first += width) {
       double sum = 0;
@@ -120,7 +121,8 @@ class PrimitiveWriter {
     }
   }
 
-  /// A viewer turns the triangles of a mirrored node over, and the reader has done so, too.
+  /// The triangles with their corners in the order of the file: the reader has turned those of a mirrored node over, as
+  /// viewers do.
   [[nodiscard]] std::vector<Triangle> turned() const {
     std::vector<Triangle> triangles = vertices_.triangles;
     if (placement_.is_mirrored())

@@ -23,7 +23,7 @@ void write_primitive(GltfBuffer& buffer, GltfJson& primitive, const TriangleMesh
 /// The position that is written for a vertex: the floats in the frame of the node.
 [[nodiscard]] Eigen::Vector3d written_position(const NodePlacement& placement, const Eigen::Vector3d& p);
 
-/// Index of a morph target and the property of it that a name stands for; -1 for a name of anything else.
+/// The morph target and its property that a name of `MeshAttributes::named` stands for; target -1 for any other name.
 struct TargetProperty {
   std::ptrdiff_t target = -1;
   std::string semantic;

@@ -9,7 +9,7 @@
 
 namespace meshbound {
 
-/// JSON that keeps the order of its keys: what is passed through stays as it was written.
+/// JSON that keeps the order of its keys, so that what is passed through stays as it was written.
 using GltfJson = nlohmann::ordered_json;
 
 /// A value in the JSON of a glTF file, with the path that leads to it for messages ("meshes[2].primitives[0].mode").
@@ -22,14 +22,14 @@ class GltfValue {
   /// The member of an object; nothing where there is none.
   [[nodiscard]] std::optional<GltfValue> find(const char* key) const;
   [[nodiscard]] GltfValue at(const char* key) const;
-  /// Items of an array that is a member of an object; 0 where there is no such member.
+  /// The number of items of an array member; 0 where there is no such member.
   [[nodiscard]] std::size_t count(const char* key) const;
   [[nodiscard]] std::size_t size() const;  ///< of an array
   [[nodiscard]] GltfValue item(std::size_t i) const;
 
   [[nodiscard]] std::size_t integer() const;  ///< not negative, at most 2^53
   [[nodiscard]] std::size_t integer_or(const char* key, std::size_t otherwise) const;
-  /// An integer below `count`; `what` names that of which there are so many.
+  /// An integer below `count`; for messages, `what` says what is counted.
   [[nodiscard]] std::size_t index(std::size_t count, const char* what) const;
   [[nodiscard]] double number() const;  ///< finite
   [[nodiscard]] std::string text() const;

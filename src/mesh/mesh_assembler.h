@@ -21,29 +21,29 @@ class MeshAssembler {
 
   void reserve(std::size_t vertices, std::size_t triangles);
 
-  /// `offset` is the byte in the file where the vertex stands.
+  /// `offset` is the byte of the file where the vertex starts.
   void add_vertex(const Eigen::Vector3d& p, std::size_t offset) {
     if (file_.mesh.vertices.size() % look_interval == 0) source_.end_if_stopped();
     if (!usable(p)) suspects_.push_back({file_.mesh.vertices.size(), offset});
     file_.mesh.vertices.push_back(p);
   }
 
-  /// A fan from the first corner; fewer than three corners are counted as ignored.
+  /// Adds the fan of triangles from the first corner. A polygon of fewer than three corners is counted as ignored.
   void add_polygon(std::span<const std::uint32_t> corners);
 
-  /// A triangle strip of 32-bit indices, -1 starting a new one; every second triangle is turned over, so that all face
-  /// the same way. Triangles that repeat a corner only join two runs of the strip and are dropped.
+  /// Adds a triangle strip of 32-bit indices, in which -1 starts a new strip. Every second triangle is turned over, so
+  /// that all face the same way. Triangles that repeat a corner only join two runs of the strip and are dropped.
   void add_strips(std::span<const std::int64_t> corners);
 
   void ignore_element() { ++file_.ignored_elements; }
 
-  /// Counts of what the reader steps over, which it adds to.
+  /// Counts of the attributes that the reader skips, for the reader to increase.
   [[nodiscard]] DroppedAttributes& dropped() { return file_.dropped; }
 
   [[nodiscard]] std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
 
-  /// The mesh. Throws `InvalidInput` when there are no triangles or one uses a coordinate that is not finite or beyond
-  /// `largest_coordinate`. Leaves the assembler empty.
+  /// Returns the mesh and leaves the assembler empty. Throws `InvalidInput` when there are no triangles or one uses a
+  /// coordinate that is not finite or beyond `largest_coordinate`.
   [[nodiscard]] MeshFile finish();
 
  private:

@@ -27,7 +27,7 @@ struct MeshSource {
   [[noreturn]] void fail(const std::string& defect) const;
 };
 
-/// Whether text starts as UTF-16 does: a byte order mark, or a first character of which one byte is zero.
+/// Whether text is encoded as UTF-16: it starts with a byte order mark, or one byte of its first character is zero.
 [[nodiscard]] bool is_utf16(std::string_view bytes);
 
 /// `text` in quotes, short enough for a message and with unprintable characters replaced.

@@ -75,7 +75,8 @@ EdgeTable group_edges(const MeshView& mesh) {
   for_each_edge(mesh, [&](std::uint32_t a, std::uint32_t) { ++table.first[a + 2]; });
   std::partial_sum(table.first.begin(), table.first.end(), table.first.begin());
   table.larger.resize(3 * mesh.triangle_count());
-  // Filling moves first[a + 1] from the start of the group to its end, which is where it belongs.
+  // Filling advances first[a + 1] from the start of the group of `a` to its end, which is where it has to be
+  // afterwards.
   for_each_edge(mesh, [&](std::uint32_t a, std::uint32_t b) { table.larger[table.first[a + 1]++] = b; });
   return table;
 }

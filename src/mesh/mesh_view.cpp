@@ -46,7 +46,8 @@ TriangleMesh to_triangle_mesh(const MeshView& view) {
 
 void validate(const MeshView& view) {
   if (view.triangle_count() == 0) throw InvalidInput("the mesh has no triangles: nothing to measure");
-  // Each vertex once, not once for each corner: only where one is unusable does it matter whether a triangle uses it.
+  // Checks each vertex once instead of each corner. Only where a vertex is unusable does it matter whether a triangle
+  // uses it.
   const bool check_corners = !all_usable(view);
   for (std::size_t i = 0; i < view.triangle_count(); ++i) {
     for (const std::uint32_t v : view.triangle(i)) {

@@ -16,7 +16,7 @@ struct NumberLists {
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t k) const {
     return std::span(numbers).subspan(begin[k], begin[k + 1] - begin[k]);
   }
-  /// Makes a list of the numbers behind the last one.
+  /// Ends the current list: the numbers appended since the last call form it.
   void end_list() { begin.push_back(static_cast<std::uint32_t>(numbers.size())); }
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
-/// Counted from 0; -1 for none. `count` values stand above.
+/// An index of the file counted from 0; -1 for none. `count` values have been read so far.
 std::int64_t from_zero(std::int64_t index, std::size_t count) {
   return index > 0 ? index - 1 : index < 0 ? static_cast<std::int64_t>(count) + index : -1;
 }
@@ -22,7 +22,7 @@ bool has_values(const std::vector<Triangle>& index) {
   return std::any_of(index.begin(), index.end(), [](const Triangle& t) { return t != Triangle{none, none, none}; });
 }
 
-/// Positive indices may refer to values further down, so they are checked at the end.
+/// A positive index may refer to a value further down in the file, so indices are checked at the end.
 void check_indices(CornerAttribute& attribute) {
   for (Triangle& t : attribute.index)
     for (std::uint32_t& i : t) i = checked(i == none ? -1 : std::int64_t{i}, attribute.values.size());

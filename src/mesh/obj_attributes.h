@@ -13,20 +13,21 @@ namespace meshbound {
 /// Collects the attributes of an OBJ file, polygon by polygon; triangles are those of `MeshAssembler::add_polygon`.
 class ObjAttributes {
  public:
-  /// A value of `vt` or `vn`.
+  /// Adds a value of a `vt` or `vn` statement.
   void add_value(std::string_view keyword, const Eigen::Vector3d& value);
-  /// Gives red, green and blue to a vertex, counted from 0.
+  /// Sets red, green and blue of a vertex, counted from 0.
   void add_colour(std::size_t vertex, const Eigen::Vector3d& colour);
-  /// What polygons from now on belong to: `usemtl`, `g`, `o`, `s`; or a library, `mtllib`. Other statements say
-  /// nothing.
+  /// Takes a statement that says what the polygons after it belong to (`usemtl`, `g`, `o`, `s`) or names a library of
+  /// materials (`mtllib`). Other keywords are ignored.
   void set_label(std::string_view keyword, std::string_view argument);
 
   void begin_polygon() { corners_.clear(); }
-  /// As they stand in the file: counted from 1, or back from here; 0 for none.
+  /// Adds a corner of a polygon with indices as in the file: counted from 1, or negative and back from the last value;
+  /// 0 for none.
   void add_corner(std::int64_t texture_coordinate, std::int64_t normal);
   void end_polygon();
 
-  /// What was collected of the mesh with these triangles. Counts that speak of it are taken off `dropped`.
+  /// Returns what was collected, for a mesh with these triangles. What has been collected is subtracted from `dropped`.
   [[nodiscard]] MeshAttributes finish(const std::vector<Triangle>& triangles, DroppedAttributes& dropped);
 
  private:

@@ -23,7 +23,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-/// The descriptor that `link` stands for: 1 for `/proc/self/fd/1`. -1 for any other path.
+/// The descriptor that a symbolic link stands for: 1 for `/proc/self/fd/1`; -1 for any other path.
 int descriptor_named(const std::filesystem::path& link) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::canonical(folder_of(link), error);

@@ -10,13 +10,14 @@ namespace meshbound {
 /// Where a chain of symbolic links ends, even if nothing is there yet. O(length of the chain).
 [[nodiscard]] std::filesystem::path follow_links(std::filesystem::path path);
 
-/// What writing to a path would write to.
+/// The file, device or descriptor that writing to a path ends at.
 struct OutputTarget {
   std::filesystem::path path;  ///< links followed
   bool is_stream = false;      ///< a device or FIFO, or a descriptor of this process: written to, never replaced
-  int descriptor = -1;         ///< of this process (`/dev/stdout` is 1), so that appending goes on where it stands
+  /// Of this process (`/dev/stdout` is 1), or -1. Used as it is, so that writing continues at its position.
+  int descriptor = -1;
 
-  /// What a file that is replaced leaves to the new one.
+  /// Owner and permissions of a file that is replaced, which the new file takes over.
   struct Owner {
     mode_t mode = 0;
     uid_t user = 0;

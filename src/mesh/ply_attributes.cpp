@@ -36,13 +36,14 @@ bool is_collected(const PlyElement& element, const PlyProperty& property) {
   return element.name == "face" && is_colour(property);
 }
 
-/// 0 for the first of the names that stand for one number of a value, and so on.
+/// The component of a value that a property holds, by the position of its name in `names`, which lists `width` names
+/// for each way of naming.
 template <std::size_t N>
 std::size_t component_of(const std::array<std::string_view, N>& names, const PlyProperty& property, std::size_t width) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), property.name) - names.begin()) % width;
 }
 
-/// The number that stands for the full intensity of a colour.
+/// The number that stands for full intensity of a colour in a property of this type.
 double full_intensity(PlyType type) {
   if (type == PlyType::Float32 || type == PlyType::Float64) return 1;
   return type == PlyType::UInt16 || type == PlyType::Int16 ? 65535 : 255;

@@ -14,20 +14,20 @@ namespace meshbound {
 /// Whether a property is the list of texture coordinates of a face's corners, two numbers each, which MeshLab writes.
 [[nodiscard]] bool lists_texture_coordinates(const PlyProperty& property);
 
-/// Adds what an element has beyond positions and corners: texture coordinates, normals and colours by the usual names
-/// of their properties, every other property as such. What the lists of `lists_texture_coordinates` hold is not known
-/// from the header and left out. With `but_collected` only what `PlyAttributes` does not collect.
+/// Adds to `dropped` what an element has beyond positions and corners: texture coordinates, normals and colours by the
+/// usual names of their properties, every other property as one. Lists of texture coordinates are left out, as the
+/// header does not tell their length. `but_collected`: only what `PlyAttributes` does not collect.
 void count_attributes(const PlyElement& element, bool but_collected, DroppedAttributes& dropped);
 
 /// Collects texture coordinates, normals, colours and other numbers of vertices, and colours and texture coordinates of
 /// faces.
 class PlyAttributes {
  public:
-  /// The properties of the vertices, and of the faces, whose numbers follow.
+  /// Start the vertices, and the faces; `element` declares the properties whose numbers follow.
   void begin_vertices(const PlyElement& element);
   void begin_faces(const PlyElement& element);
 
-  /// Whether the numbers of a property are asked for.
+  /// Whether the numbers of a property are wanted.
   [[nodiscard]] bool wants_of_vertex(std::size_t property) const {
     return vertex_roles_[property].kind != Kind::Nothing;
   }
@@ -36,18 +36,18 @@ class PlyAttributes {
   void add_to_vertex(std::size_t property, double value) { take(vertex_roles_[property], value); }
   void end_vertex();
   void add_to_face(std::size_t property, double value) { take(face_roles_[property], value); }
-  /// A polygon of so many corners is complete; texture coordinates are given two for each corner, or none.
+  /// Ends a face of `corners` corners. `texture_coordinates` has two numbers for each corner, or is empty.
   void end_face(std::size_t corners, const std::vector<double>& texture_coordinates);
 
-  /// What was collected of the mesh with these triangles.
+  /// Returns what was collected, for a mesh with these triangles.
   [[nodiscard]] MeshAttributes finish(const std::vector<Triangle>& triangles);
 
  private:
   enum class Kind : std::uint8_t { Nothing, Texture, Normal, Colour, Scalar };
   struct Role {
     Kind kind = Kind::Nothing;
-    std::size_t component = 0;  ///< of the value; of a scalar: which one
-    double unit = 1;            ///< the number that stands for 1
+    std::size_t component = 0;  ///< of the value; for a scalar, which scalar
+    double unit = 1;            ///< the number that the file writes for 1
   };
 
   [[nodiscard]] static Role role_of(const PlyProperty& property);
@@ -57,9 +57,9 @@ class PlyAttributes {
   std::vector<Role> vertex_roles_, face_roles_;
   bool has_texture_ = false, has_normals_ = false, has_vertex_colours_ = false, has_face_colours_ = false;
   std::size_t colour_width_ = 3;
-  std::array<double, 3> texture_{}, normal_{};  // of the vertex that is read
-  std::array<double, 4> colour_{};              // of the vertex or face that is read
-  std::vector<double> scalars_;                 // of the vertex that is read
+  std::array<double, 3> texture_{}, normal_{};  // of the vertex being read
+  std::array<double, 4> colour_{};              // of the vertex or face being read
+  std::vector<double> scalars_;                 // of the vertex being read
   MeshAttributes all_;
   NamedAttribute colours_;
   std::vector<Triangle> corner_texture_;  // by triangle, where faces list texture coordinates

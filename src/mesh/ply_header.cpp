@@ -61,7 +61,7 @@ class HeaderReader {
     if (keyword == "comment" || keyword == "obj_info") {
       const std::size_t comment = cursor_.offset();
       if (cursor_.find_word_in_line() && cursor_.peek_word() == "TextureFile") ++header_.texture_files;
-      cursor_.seek(comment);  // a backslash in front of the line's end joins no lines here
+      cursor_.seek(comment);  // inside a comment, a backslash at the end of the line does not join lines
       return cursor_.skip_line();
     }
     if (keyword == "format") {

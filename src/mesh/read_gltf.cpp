@@ -21,7 +21,7 @@ namespace {
 
 enum Mode : std::size_t { Triangles = 4, Strip = 5, Fan = 6 };
 
-/// The corners of a primitive, as numbers of its vertices, in threes.
+/// Triangles of a primitive with this drawing mode, from the vertex of each corner.
 std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, std::size_t mode) {
   std::vector<Triangle> triangles;
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -138,14 +138,14 @@ class GltfReader {
     return corners;
   }
 
-  /// The vertex of the mesh that stands for a vertex of the primitive: the same one for equal positions of a node.
+  /// The vertex of the mesh for a vertex of the primitive; vertices of one node at equal positions become one.
   std::uint32_t vertex(const GltfValue& where, std::size_t accessor, const GltfAccessor& positions,
                        const NodePlacement& placement, std::uint32_t number) {
     std::vector<std::uint32_t>& known = vertex_of_[accessor];
     if (known.empty()) known.assign(positions.count, no_index);
     if (known[number] != no_index) return known[number];
     const double* const from = positions.values.data() + std::size_t{3} * number;
-    // Normalised integers are quotients, which a viewer rounds to floats; all others are floats already.
+    // Viewers round the quotient of a normalised integer to a float; all other components are floats already.
     const Eigen::Vector3d local = rounded_to_float(Eigen::Vector3d(from[0], from[1], from[2]));
     if (!local.allFinite()) where.fail("the position of vertex " + std::to_string(number) + " is not finite");
     const Eigen::Vector3d p = placement.to_scene(local);

@@ -19,7 +19,7 @@ namespace {
 /// Geometry that is no polygon: reported as ignored.
 constexpr std::array<std::string_view, 5> other_geometry = {"l", "p", "curv", "curv2", "surf"};
 
-/// The different names that a kind of statement gives. They point into the file's bytes.
+/// Counts the different names that statements of one kind give. The names point into the file's bytes.
 class Names {
  public:
   void add(std::string_view name) {
@@ -31,7 +31,7 @@ class Names {
 
  private:
   std::unordered_set<std::string_view> names_;
-  std::string_view last_;  // runs of the same name are common
+  std::string_view last_;  // skips the look-up in runs of equal names
 };
 
 class ObjReader {
@@ -70,7 +70,7 @@ class ObjReader {
     }
   }
 
-  /// From the next word to the last one. Word by word: the statement may span joined lines.
+  /// The rest of the statement, from the next word to the last one: read word by word, as it may span joined lines.
   std::string_view rest_of_statement() {
     if (!cursor_.find_word_in_line()) return {};
     const std::size_t from = cursor_.offset();
@@ -129,7 +129,8 @@ class ObjReader {
     return cursor_.number("a vertex coordinate");
   }
 
-  /// Two numbers of a texture coordinate or three of a normal; missing ones are 0, further ones are stepped over.
+  /// Reads the two numbers of a texture coordinate or the three of a normal; missing ones are 0, further ones are
+  /// skipped.
   void read_value(std::string_view keyword) {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     for (Eigen::Index i = 0; cursor_.find_word_in_line(); ++i) {

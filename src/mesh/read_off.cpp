@@ -19,7 +19,7 @@ struct Counts {
   std::size_t faces = 0;
 };
 
-/// What a keyword says that stands behind the coordinates of each vertex.
+/// The attributes that the keyword announces behind the coordinates of each vertex.
 struct Announced {
   bool texture_coordinates = false, colours = false, normals = false;
 };
@@ -55,7 +55,7 @@ std::size_t read_count(TextCursor& cursor, const char* what) {
   return static_cast<std::size_t>(count);
 }
 
-/// The numbers of attributes up to the next line.
+/// The numbers from here to the end of the line.
 struct NumbersInLine {
   std::vector<double> values;
   bool has_point = false;  ///< in one of them: colours are then from 0 to 1, else from 0 to 255
@@ -72,7 +72,7 @@ void read_numbers_in_line(TextCursor& cursor, NumbersInLine& numbers) {
 }
 
 /// Collects the colours of vertices, or of faces where vertices have none. Three or four numbers are a colour; a single
-/// one is the index of a table that nobody has, and is counted as dropped.
+/// number is an index into a table that no file provides, and is counted as dropped.
 class OffColours {
  public:
   explicit OffColours(DroppedAttributes& dropped) : dropped_(dropped) {}
@@ -126,14 +126,15 @@ class OffColours {
   std::vector<double> values_;
 };
 
-/// Numbers behind the coordinates that no keyword announces are colours.
+/// Counts numbers behind the coordinates that no keyword announces as colours.
 void count_attributes(const Announced& announced, DroppedAttributes& dropped) {
   if (announced.texture_coordinates) ++dropped.texture_coordinates;
   if (announced.normals) ++dropped.normals;
   if (announced.colours || !(announced.texture_coordinates || announced.normals)) ++dropped.colours;
 }
 
-/// Some writers leave the edge count out: it is there when it follows on the same line or stands alone on the next.
+/// Skips the edge count, which some writers leave out: it is there when a number follows on the same line or stands
+/// alone on the next.
 void skip_edge_count(TextCursor& cursor) {
   if (!cursor.find_word_in_line()) {
     if (!cursor.find_word()) return;
@@ -170,7 +171,7 @@ double read_coordinate(TextCursor& cursor) {
   return cursor.number("a vertex coordinate");
 }
 
-/// What stands behind the corners is the colour of the face.
+/// Numbers behind the corners are the colour of the face.
 void read_face(TextCursor& cursor, std::size_t vertex_count, std::vector<std::uint32_t>& corners,
                NumbersInLine& colour) {
   corners.clear();

@@ -17,7 +17,7 @@
 namespace meshbound {
 namespace {
 
-/// What a property of an element is to us: a coordinate 0, 1 or 2, the corners of a face, or nothing.
+/// What the reader takes from a property: a coordinate 0, 1 or 2, the corners of a face, or nothing.
 enum Role : int { X = 0, Y = 1, Z = 2, Corners, Nothing };
 
 bool lists_corners(const PlyProperty& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; }
@@ -72,8 +72,8 @@ class PlyReader {
     assembler_.reserve(vertex_count_, std::min(faces, values_.remaining() / smallest_triangle));
   }
 
-  /// Before anything is allocated or looped over: a count must fit into what the file still holds. In a text the last
-  /// value may lack its separator.
+  /// Checks a count before anything is allocated or looped over: that many elements must fit into the rest of the file.
+  /// In a text the last value may lack its separator.
   void refuse_count_beyond_file(const PlyElement& element) const {
     std::size_t smallest = 0;
     for (const PlyProperty& p : element.properties) smallest += Values::smallest(p.is_list ? p.count_type : p.type);
@@ -213,9 +213,9 @@ class PlyReader {
   std::vector<Role> vertex_roles_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::int64_t> strip_;
-  std::uint64_t texture_numbers_ = 0;  // in lists of texture coordinates that are stepped over
+  std::uint64_t texture_numbers_ = 0;  // numbers in skipped lists of texture coordinates
   PlyAttributes attributes_;
-  std::vector<double> texture_coordinates_;  // that the face lists which is read
+  std::vector<double> texture_coordinates_;  // of the face being read
 };
 
 }  // namespace

@@ -124,8 +124,8 @@ std::size_t declared_triangles(const MeshSource& source) {
   return load_little_endian<std::uint32_t>(source.bytes.data() + count_offset);
 }
 
-/// Whether the size is what the count asks for. Less than a record may follow: it cannot hide a triangle. In a text
-/// the bytes of the count are characters, which asks for 25 GB at least.
+/// Whether the size is what the count asks for. Fewer bytes than a record may follow, as they cannot hold a triangle.
+/// In a text file the four bytes of the count are characters, which would ask for 25 GB at least.
 bool is_binary(const MeshSource& source) {
   if (source.bytes.size() < records_offset) return false;
   return (source.bytes.size() - records_offset) / record_size == declared_triangles(source);

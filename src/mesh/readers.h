@@ -8,7 +8,7 @@
 
 namespace meshbound {
 
-/// `read_mesh` of a file with this name and these bytes, without the file system.
+/// `read_mesh` for the content of a file, without access to the file system; the name decides the format.
 [[nodiscard]] MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes,
                                   const ReadOptions& options = {});
 

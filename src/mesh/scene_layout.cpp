@@ -12,7 +12,7 @@ bool NodePlacement::is_invertible() const {
   return linear.determinant() != 0 && inverse.allFinite();
 }
 
-/// Written out so that every reader of the file computes the same bits: three products, added from the left.
+/// Written out as three products added from the left, so that every reader of the file computes the same bits.
 Eigen::Vector3d NodePlacement::to_scene(const Eigen::Vector3d& p) const {
   if (is_identity()) return p;
   Eigen::Vector3d q;

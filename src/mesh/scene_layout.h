@@ -17,11 +17,12 @@ struct NodePlacement {
   [[nodiscard]] bool is_identity() const { return linear.isIdentity(0) && translation.isZero(0); }
   /// A viewer turns the triangles of a mirrored mesh over, so that they still face outwards.
   [[nodiscard]] bool is_mirrored() const;
-  /// False where the mesh is flattened, also one that a scale of 0 hides: nothing placed tells where it was.
+  /// False where the placement flattens the mesh, also for a scale of 0, which some files use to hide a mesh: the
+  /// position in the node's frame cannot be recovered.
   [[nodiscard]] bool is_invertible() const;
   [[nodiscard]] Eigen::Vector3d to_scene(const Eigen::Vector3d& p) const;
   [[nodiscard]] Eigen::Vector3d to_node(const Eigen::Vector3d& p) const;  ///< needs `is_invertible`
-  /// A placement inside a placement.
+  /// The placement of a mesh placed by `inner` in a frame that this one places.
   [[nodiscard]] NodePlacement operator*(const NodePlacement& inner) const;
 };
 
@@ -30,10 +31,10 @@ struct PlacedMesh {
   std::uint32_t mesh = 0;
   std::uint32_t node = 0;
   NodePlacement placement;
-  bool has_skin = false;  ///< joints move it; it is read where it is without them
+  bool has_skin = false;  ///< joints move it; it is read in the pose of the node alone
 };
 
-/// A primitive of triangles of a placed mesh: what one number of `MeshAttributes::part` stands for.
+/// A primitive of a placed mesh; `MeshAttributes::part` holds indices of `SceneLayout::parts`.
 struct GltfPart {
   std::uint32_t placed = 0;  ///< of `SceneLayout::placed`
   std::uint32_t primitive = 0;
@@ -47,7 +48,7 @@ struct SceneLayout {
   [[nodiscard]] const PlacedMesh& placed_of(std::uint32_t part) const { return placed[parts[part].placed]; }
 };
 
-/// That of the document which `attributes` belong to; null where there is none.
+/// The layout of the document that `attributes` were read from; null where there is none.
 [[nodiscard]] const SceneLayout* scene_layout(const MeshAttributes& attributes);
 
 }  // namespace meshbound

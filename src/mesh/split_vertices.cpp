@@ -11,8 +11,8 @@ namespace meshbound {
 SplitVertices split_vertices(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
                              const std::vector<const std::vector<Triangle>*>& indices) {
   SplitVertices result;
-  std::vector<std::uint32_t> last_made(mesh.vertices.size(), no_index);  // by vertex of the mesh
-  std::vector<std::uint32_t> made_before;                                // by vertex of the result, of the same source
+  std::vector<std::uint32_t> last_made(mesh.vertices.size(), no_index);  // by source vertex: the last one made from it
+  std::vector<std::uint32_t> made_before;  // by vertex of the result: the one made before it from the same source
   const auto is_alike = [&](std::uint32_t a, std::uint32_t b) {
     return std::all_of(indices.begin(), indices.end(), [&](const std::vector<Triangle>* index) {
       return index->empty() || (*index)[a / 3][a % 3] == (*index)[b / 3][b % 3];

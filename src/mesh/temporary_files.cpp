@@ -12,8 +12,8 @@
 
 namespace meshbound {
 
-/// A signal handler may neither lock nor allocate. So entries are never freed, only used again, and a name counts only
-/// once it is complete.
+/// A signal handler may neither lock nor allocate. So entries are reused but never freed, and a name counts only once
+/// it is complete.
 struct TemporaryEntry {
   enum class State { Free, Filling, Listed };
   std::atomic<State> state = State::Filling;

@@ -6,8 +6,8 @@ namespace meshbound {
 
 struct TemporaryEntry;
 
-/// Keeps a file, or a folder that is empty by then, in the list of what must not outlive the process. Safe to use from
-/// several threads.
+/// Lists a file, or a folder, to be removed when the process ends; a folder is removed only if it is empty then. Safe
+/// to use from several threads.
 class TemporaryName {
  public:
   /// Throws `IoError` when `path` is longer than the system allows.
@@ -20,7 +20,7 @@ class TemporaryName {
   TemporaryEntry* entry_;
 };
 
-/// Removes every file and empty folder in the list, for a process that ends at once. May be called by a signal handler.
+/// Removes every listed file and every listed folder that is empty. May be called by a signal handler.
 void remove_temporary_files() noexcept;
 
 }  // namespace meshbound

@@ -45,7 +45,7 @@ class TextCursor {
     if (at_ != end_ && *at_++ == '\r' && at_ != end_ && *at_ == '\n') ++at_;
   }
 
-  /// The word here, empty at the end of a line.
+  /// The word at the cursor; empty at the end of a line.
   [[nodiscard]] std::string_view peek_word() const {
     const char* to = at_;
     while (!ends_word(to)) ++to;
@@ -58,7 +58,7 @@ class TextCursor {
     return result;
   }
 
-  /// The number here (nan and inf included). `what` is what a message says was expected.
+  /// Reads the number at the cursor (nan and inf included). For messages, `what` says what was expected.
   double number(const char* what) {
     double value;
     const char* const to = parse_number(at_, end_, value);
@@ -74,7 +74,7 @@ class TextCursor {
     return value;
   }
 
-  /// The integer that the word here starts with; what follows it in the word is left unread.
+  /// Reads the integer that the word at the cursor starts with; the rest of the word is left unread.
   std::int64_t leading_integer(const char* what);
 
   [[nodiscard]] bool starts_with(char c) const { return at_ != end_ && *at_ == c; }

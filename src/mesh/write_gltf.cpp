@@ -27,14 +27,14 @@ namespace {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
-/// The number in an object, where it is the number of an item of an array of the document.
+/// The value of a member that refers to an item of an array of the document, if there is one.
 std::optional<std::size_t> number_in(const GltfJson& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end() || !found->is_number_unsigned()) return std::nullopt;
   return found->get<std::size_t>();
 }
 
-/// Visits the numbers of the accessors of a primitive.
+/// Calls visit(accessor) for each accessor that a primitive refers to.
 template <class Visit>
 void visit_accessors(const GltfJson& primitive, const Visit& visit) {
   if (const auto indices = number_in(primitive, "indices")) visit(*indices);
@@ -115,7 +115,8 @@ class DocumentEdit {
     return json_["meshes"][from_.placed_of(part).mesh]["primitives"][from_.parts[part].primitive];
   }
 
-  /// A mesh that several nodes show is taken from the first node that does not flatten it.
+  /// Chooses the parts whose primitives are replaced. A mesh that several nodes show is taken from the first node that
+  /// does not flatten it.
   void choose_parts() {
     std::map<std::uint32_t, std::uint32_t> placed_of_mesh;
     for (std::uint32_t i = 0; i < from_.placed.size(); ++i)
@@ -126,7 +127,7 @@ class DocumentEdit {
     }
   }
 
-  /// Those that only the primitives that are replaced refer to.
+  /// Accessors to which only the replaced primitives refer.
   [[nodiscard]] std::vector<std::size_t> accessors_to_free() {
     std::set<std::size_t> freed;
     std::set<const GltfJson*> replaced;
@@ -147,7 +148,7 @@ class DocumentEdit {
     return {freed.begin(), freed.end()};
   }
 
-  /// A primitive needs a triangle, and a mesh a primitive.
+  /// A primitive without triangles and a mesh without primitives are not valid: both are removed.
   void remove_empty_primitives() {
     std::vector<std::pair<std::size_t, std::size_t>> empty;  // mesh and primitive
     for (const std::uint32_t part : replaced_)
@@ -174,7 +175,7 @@ class DocumentEdit {
     }
   }
 
-  /// The file is to be complete wherever it is: images in files of their own come into it as they are.
+  /// Embeds images from files of their own, unchanged, so that the written file is complete wherever it is moved.
   void embed_images() {
     const auto images = json_.find("images");
     if (images == json_.end() || !images->is_array()) return;
@@ -195,7 +196,7 @@ class DocumentEdit {
       image["mimeType"] = type;
       image.erase("uri");
     } catch (const IoError&) {
-      // An image that is not there was not there for the original either: its name stays.
+      // A missing image was missing for the original as well: its name stays.
     }
   }
 
@@ -264,7 +265,7 @@ GltfContent new_document(const TriangleMesh& mesh, const MeshAttributes& given) 
   return {std::move(json), std::move(bytes)};
 }
 
-/// As UTF-8, bytes of names that are none replaced.
+/// The JSON as UTF-8; invalid bytes in names are replaced.
 std::string text_of(const GltfJson& json) { return json.dump(-1, ' ', false, GltfJson::error_handler_t::replace); }
 
 void write_glb(AtomicFile& file, std::string text, std::string_view bytes) {

@@ -38,7 +38,7 @@ void refuse_unwritable(const std::filesystem::path& path, FileFormat format, con
     throw InvalidInput(path.string() + ": a binary STL holds at most 2^32-1 triangles; write PLY");
 }
 
-/// The vertices that triangles use, welded in the order the triangles reach them: what the reader of STL does.
+/// Vertices at equal positions become one, in the order the triangles reach them, as the reader of STL does.
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.triangles.reserve(mesh.triangles.size());

@@ -21,7 +21,7 @@ void put_values(AtomicFile& file, const MeshAttributes& attributes) {
   }
 }
 
-/// Says what triangle t belongs to where that is not what the one before belongs to.
+/// Writes the label of triangle t where it differs from that of the triangle before.
 void put_label(AtomicFile& file, const TriangleLabels& labels, std::size_t t, const char* keyword) {
   if (labels.empty() || labels.index[t] == none || (t > 0 && labels.index[t - 1] == labels.index[t])) return;
   file.write(keyword);
@@ -29,7 +29,7 @@ void put_label(AtomicFile& file, const TriangleLabels& labels, std::size_t t, co
   file.write("\n");
 }
 
-/// v, v/vt, v//vn or v/vt/vn, and then `after`.
+/// Writes v, v/vt, v//vn or v/vt/vn, and then `after`.
 void put_corner(AtomicFile& file, std::uint32_t vertex, std::uint32_t texture, std::uint32_t normal, char after) {
   const bool has_texture = texture != none, has_normal = normal != none;
   put(file, std::uint64_t{vertex} + 1, has_texture || has_normal ? '/' : after);
@@ -39,7 +39,8 @@ void put_corner(AtomicFile& file, std::uint32_t vertex, std::uint32_t texture, s
   put(file, std::uint64_t{normal} + 1, after);
 }
 
-/// The triangles, by the vertices that were written: those of the mesh, but one for each colour that a vertex has.
+/// Writes the vertices, one for each colour that a vertex of the mesh has, and returns the triangles by the vertices
+/// written.
 std::vector<Triangle> put_vertices(AtomicFile& file, const TriangleMesh& mesh, const NamedAttribute* colours) {
   if (colours == nullptr) {
     for (const Eigen::Vector3d& p : mesh.vertices) {

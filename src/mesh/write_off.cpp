@@ -11,7 +11,7 @@ namespace {
 void put_colour(AtomicFile& file, const NamedAttribute& colours, std::uint32_t value) {
   for (std::size_t k = 0; k < 4; ++k) {
     const bool has_number = value != CornerAttribute::none && k < colours.width;
-    // Only the point says that a whole number is none of 0 to 255.
+    // Whole numbers get a decimal point, by which readers tell the range 0 to 1 from 0 to 255.
     const double number = has_number ? colours.values[value * colours.width + k] : 1;
     if (number == 0 || number == 1)
       file.write(number == 0 ? (k == 3 ? "0.0\n" : "0.0 ") : (k == 3 ? "1.0\n" : "1.0 "));

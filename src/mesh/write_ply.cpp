@@ -17,7 +17,7 @@ constexpr std::uint32_t none = CornerAttribute::none;
 
 enum class Kind { Double, Float, Byte };
 
-/// A property of the vertices: its numbers by value, of which each vertex has one.
+/// A property of the vertices: `numbers` by value, and the value of each vertex.
 struct Column {
   std::string name;
   Kind kind = Kind::Double;

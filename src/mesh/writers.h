@@ -25,8 +25,8 @@ void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& o
 void write_gltf(AtomicFile& file, FileFormat format, const TriangleMesh& mesh, const MeshAttributes& attributes);
 void write_gltf(AtomicFile& file, FileFormat format, GltfContent content);
 
-/// Writes a number and then `after`: an integer, or the shortest decimal that reads back as the same double (at most 17
-/// digits).
+/// Writes a number and then the character `after`: an integer, or the shortest decimal that reads back as the same
+/// double (at most 17 digits).
 template <class Number>
 void put(AtomicFile& file, Number value, char after) {
   constexpr std::size_t longest = 32;  // characters: sign, 17 digits, point, exponent
@@ -50,8 +50,9 @@ void put_little_endian(AtomicFile& file, T value) {
   file.use(to + sizeof(T));
 }
 
-/// The float nearest to `x`. Through a volatile: the SLP vectoriser of GCC 12 (on at -O2) turns double -> float ->
-/// double of two neighbours into a plain copy, and the bound would be of another mesh than the one written.
+/// The float nearest to `x`. The volatile stops the SLP vectoriser of GCC 12 (on at -O2), which would turn double ->
+/// float -> double of two neighbours into a plain copy; the bound would then be that of another mesh than the one
+/// written.
 [[nodiscard]] inline double rounded_to_float(double x) {
   const volatile float rounded = static_cast<float>(x);
   return static_cast<double>(rounded);

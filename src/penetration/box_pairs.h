@@ -37,8 +37,8 @@ inline FloatBox mapped_box(const Mapping& map, const Box& box, double margin) {
   return image;
 }
 
-/// A bit for each child of the node whose box meets the box. Most children are apart on the first axis, so one lane
-/// after the other takes fewer instructions than all eight at once without AVX.
+/// The children of the node whose boxes meet the box, a bit for each. Most children are apart on the first axis, so
+/// without AVX one lane after the other takes fewer instructions than all eight at once.
 inline unsigned overlapping_children(const BvhNode& node, const FloatBox& box) {
   unsigned lanes = 0;
   for (unsigned lane = 0; lane < node_width; ++lane) {
@@ -60,9 +60,9 @@ inline Box box_below_root(const Bvh::Data& data, std::uint32_t level, std::uint3
   return child_box(data.nodes[data.level_begin[level + 1] + index / node_width], index % node_width);
 }
 
-/// Calls `on_leaves(block_a, block_b)` for all pairs of leaves whose boxes overlap, perhaps for more, until it returns
-/// false; returns whether it never did. `map` leads from the working frame of b to that of a. In a tree compared with
-/// itself (`is_same`) each pair comes once, with block_a <= block_b. `stack` is scratch memory.
+/// Calls `on_leaves(block_a, block_b)` for all pairs of leaves whose boxes overlap, and possibly for some others, until
+/// it returns false. Returns whether it never did. `map` leads from the working frame of b to that of a. In a tree
+/// compared with itself (`is_same`) each pair comes once, with block_a <= block_b. `stack` is scratch memory.
 template <class OnLeaves>
 bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map, bool is_same,
                      std::vector<NodePair>& stack, std::uint64_t& compared, OnLeaves&& on_leaves) {
@@ -76,7 +76,7 @@ bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map,
       if (!on_leaves(pair.a, pair.b)) return false;
       continue;
     }
-    // The nodes that are opened; for a leaf its parent, of which only the leaf is looked at.
+    // Opens nodes; a leaf is reached through its parent, of which only that child is visited.
     const bool opens_a = pair.level_a > 0, opens_b = pair.level_b > 0;
     const std::uint32_t first_a = opens_a ? pair.a * node_width : pair.a / node_width * node_width;
     const std::uint32_t child_level_a = opens_a ? pair.level_a - 1 : 0, child_level_b = opens_b ? pair.level_b - 1 : 0;

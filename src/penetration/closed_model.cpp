@@ -17,7 +17,8 @@
 namespace meshbound {
 namespace {
 
-/// What `ClosedModel::Data` is made from: vertices at different positions, triangles that repeat none.
+/// The mesh that `ClosedModel::Data` is made from: vertices at equal positions merged, triangles that repeat a vertex
+/// dropped.
 struct WeldedMesh {
   TriangleMesh mesh;
   std::vector<std::uint32_t> source_triangle;

@@ -87,7 +87,7 @@ void require_area(const ClosedModel::Data& model, PlacedPair& pair) {
   }
 }
 
-/// Signs of the contents within the components.
+/// Signs of the volumes that the components enclose.
 std::vector<int> signs_of_contents(const ClosedModel::Data& model, PlacedPair& pair) {
   const std::size_t count = model.components.size();
   std::vector<double> sum(count, 0), magnitude(count, 0);
@@ -122,7 +122,7 @@ std::vector<int> signs_of_contents(const ClosedModel::Data& model, PlacedPair& p
   return signs;
 }
 
-/// Whether a component is inside the solid that the others make.
+/// Whether a component lies inside the solid bounded by the other components.
 bool is_cavity(PlacedPair& pair, const ClosedModel::Data& model, std::uint32_t component) {
   if (model.components.size() == 1) return false;
   std::vector<bool> around = components_around(pair, {0, model.triangles[model.components[component].triangle][0]});
@@ -130,7 +130,7 @@ bool is_cavity(PlacedPair& pair, const ClosedModel::Data& model, std::uint32_t c
   return std::count(around.begin(), around.end(), true) % 2 != 0;
 }
 
-/// The model on both sides of a pair, unmoved.
+/// Places the unmoved model on both sides of a pair.
 void place_twice(PlacedPair& pair, const ClosedModel::Data& model, const StopToken& stop) {
   pair.place(model, Eigen::Isometry3d::Identity(), model, Eigen::Isometry3d::Identity());
   pair.stop_by(stop);

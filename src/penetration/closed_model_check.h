@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What makes a mesh the boundary of a solid. Each check throws `InvalidInput` with a line that names triangles of the
-/// mesh as it was given, and a place.
+/// Checks that a mesh bounds a solid. Each check throws `InvalidInput` with a message that names triangles of the mesh
+/// as given, and a place.
 #pragma once
 #include "meshbound/stop_token.h"
 #include "penetration/closed_model_data.h"
@@ -13,7 +13,7 @@ void require_closed(ClosedModel::Data& model);
 /// No triangle is without area, and no two meet but in common vertices and edges. Throws `Stopped` as the token says.
 void require_no_crossing(const ClosedModel::Data& model, const StopToken& stop);
 
-/// Each component bounds a content of the right sign: positive where an even number of other components is around it.
+/// Each component encloses a volume of the right sign: positive if an even number of other components is around it.
 /// Throws `Stopped` as the token says.
 void require_outward(const ClosedModel::Data& model, const StopToken& stop);
 

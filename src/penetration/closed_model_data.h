@@ -10,7 +10,7 @@
 
 namespace meshbound {
 
-/// Two triangles meet at an edge: the first runs from `from` to `to`, the second back.
+/// An edge with its two triangles: the first runs from `from` to `to`, the second back.
 struct ModelEdge {
   std::uint32_t from = 0, to = 0;
   std::array<std::uint32_t, 2> triangle{};

@@ -12,8 +12,8 @@ namespace {
 double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
 const mpz_class& coordinate(const ExactPoint& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
 
-/// Sign of the turn p, q, r seen along an axis, where doubles can tell it; else 0. A computed difference is off by
-/// h = 2 `error` and a relative u, so each product of the two by at most h (|.| + |.| + h) and 3 u.
+/// Sign of the turn p, q, r seen along an axis; 0 where doubles cannot tell. A computed difference is off by at most h
+/// = 2 `error` and a relative u, so each of the two products by at most h (|.| + |.| + h) and 3 u.
 int certain_turn(const Vec3& p, const Vec3& q, const Vec3& r, int axis, double error) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const double ax = coordinate(q, i) - coordinate(p, i), ay = coordinate(q, j) - coordinate(p, j);
@@ -26,15 +26,15 @@ int certain_turn(const Vec3& p, const Vec3& q, const Vec3& r, int axis, double e
   return turn < -bound ? -1 : 0;
 }
 
-/// The axis along which a triangle looks largest.
+/// The axis along which the projection of a triangle is largest.
 int dominant_axis(const Vec3& p, const Vec3& q, const Vec3& r) {
   const Vec3 n = cross(q - p, r - p);
   const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
   return x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
 }
 
-/// The line through an edge of s leaves s on one side and t on the other, seen along an axis, without touching t but
-/// in vertices that both triangles have. Only what doubles can tell.
+/// Whether the line through an edge of s, seen along an axis, separates s from t and touches t at most in vertices that
+/// both have. False also where doubles cannot tell.
 bool an_edge_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t, int axis, double error) {
   for (std::size_t k = 0; k < 3; ++k) {
     const PairVertex from = s[k], to = s[next_corner(k)], apex = s[next_corner(next_corner(k))];
@@ -62,9 +62,9 @@ int exact_turn(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r, in
   return sgn(turn);
 }
 
-/// For a segment and a triangle in one plane, seen along an axis that the plane does not hold.
+/// Whether a segment and a triangle of one plane meet, seen along an axis that is not parallel to the plane.
 bool flat_segment_meets(const ExactPoint& p, const ExactPoint& q, const std::array<const ExactPoint*, 3>& t, int axis) {
-  // One of the four lines (through the segment, through an edge of the triangle) separates the two, or they meet.
+  // The two are disjoint if one of four lines separates them: that of the segment or that of an edge of the triangle.
   const int own = exact_turn(*t[0], *t[1], *t[2], axis);
   for (std::size_t k = 0; k < 3; ++k) {
     const ExactPoint &from = *t[k], &to = *t[next_corner(k)];
@@ -92,22 +92,22 @@ bool segment_meets(PlacedPair& pair, PairVertex p, PairVertex q, const PairTrian
   return least >= 0 || largest <= 0;
 }
 
-/// All corners of s are strictly on one side of the plane of t.
+/// Whether all corners of s lie strictly on one side of the plane of t.
 bool plane_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
   const int first = pair.orientation(t[0], t[1], t[2], s[0]);
   return first != 0 && pair.orientation(t[0], t[1], t[2], s[1]) == first &&
          pair.orientation(t[0], t[1], t[2], s[2]) == first;
 }
 
-/// The corners that s shares with t come first, in the order of s.
+/// Rotates the corners that s shares with t to the front and returns their number.
 std::size_t shared_first(Triangle& s, const Triangle& t) {
   const auto middle = std::stable_partition(
       s.begin(), s.end(), [&](std::uint32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); });
   return static_cast<std::size_t>(middle - s.begin());
 }
 
-/// For triangles with a common edge (a, b): they also meet elsewhere where both lie in one plane, on the same side of
-/// the edge.
+/// Whether triangles with a common edge (a, b) also meet elsewhere: they do if both lie in one plane, on the same side
+/// of the edge.
 bool folded(PlacedPair& pair, PairVertex a, PairVertex b, PairVertex c, PairVertex d) {
   if (pair.orientation(a, b, c, d) != 0) return false;
   const ExactPoint &p = pair.exact(a), &q = pair.exact(b), &r = pair.exact(c), &s = pair.exact(d);
@@ -135,7 +135,8 @@ bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t) {
   const PairTriangle p = vertices(first), q = vertices(second);
   if (are_separate(pair, p, q)) return false;
   if (shared == 2) return folded(pair, p[0], p[1], p[2], q[2]);
-  // From a common corner, whatever both have goes on to where one of them ends: at the edge across from the corner.
+  // Whatever two triangles with a common corner have in common besides continues to the edge opposite to that corner in
+  // one of them.
   if (shared == 1) return segment_meets(pair, p[1], p[2], q) || segment_meets(pair, q[1], q[2], p);
   return triangles_meet(pair, p, q);
 }

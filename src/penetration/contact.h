@@ -24,15 +24,15 @@ inline bool boxes_meet(const Box& a, const Box& b) {
          b.lo.z <= a.hi.z;
 }
 
-/// What `visit_triangle_pairs` has looked at.
+/// Counts of what `visit_triangle_pairs` has tested.
 struct PairCounters {
   std::uint64_t node_pairs = 0;
   std::uint64_t triangle_pairs = 0;
 };
 
-/// Calls `on_triangles(s, t)` for a triangle of each side, for all pairs whose boxes overlap, until it returns false;
-/// returns whether it never did. `is_same`: the sides are one model at one place, and each pair of its triangles is to
-/// come once. `stack` is scratch memory.
+/// Calls `on_triangles(s, t)` for all pairs of a triangle of each side whose boxes overlap, until it returns false.
+/// Returns whether it never did. `is_same`: both sides are one model at one place, and each pair of its triangles comes
+/// once. `stack` is scratch memory.
 template <class OnTriangles>
 bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>& stack, PairCounters& counters,
                           OnTriangles&& on_triangles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the nodes of the curves are: in doubles with an error bound, and exactly.
+// Positions of the nodes of the curves: in doubles with an error bound, and exactly.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,13 +10,13 @@
 namespace meshbound {
 namespace {
 
-/// A share of the way along an edge.
+/// A position on an edge, as a share of the way from its first vertex.
 struct Parameter {
   double value = 0;
   double error = std::numeric_limits<double>::infinity();
 };
 
-/// The edge of a node and the triangle that it goes through.
+/// A node as the edge and the triangle that it goes through.
 struct NodeParts {
   PairVertex from, to;
   std::array<PairVertex, 3> triangle;
@@ -48,7 +48,7 @@ Parameter parameter_of(PlacedPair& pair, const NodeParts& parts) {
 }
 
 struct ExactHeights {
-  mpz_class at_from, drop;  ///< the height of the first end, and how much lower the other is
+  mpz_class at_from, drop;  ///< height of the first end over the plane, and by how much the other end is lower
 };
 
 ExactHeights exact_heights(PlacedPair& pair, const NodeParts& parts) {
@@ -102,8 +102,8 @@ bool comes_before(PlacedPair& pair, const CurveNode& a, const CurveNode& b) {
   const int turned = sgn(of_a.drop) * sgn(of_b.drop);
   const mpz_class difference = of_a.at_from * of_b.drop - of_b.at_from * of_a.drop;
   if (sgn(difference) != 0) return turned * sgn(difference) < 0;
-  // Both heights change by the product of the normal with the motion of side 0, or the opposite where side 0 has the
-  // triangles.
+  // How much both heights change: the product of the normal with the motion of side 0, with the opposite sign if side 0
+  // has the triangle.
   const ExactPoint normal_a = normal_of(pair, parts_a), normal_b = normal_of(pair, parts_b);
   const int moved = a.side == 0 ? turned : -turned;
   for (const auto coordinate : {&ExactPoint::x, &ExactPoint::y, &ExactPoint::z}) {

@@ -30,7 +30,7 @@ void CrossingCurves::find(PlacedPair& pair, double node_error) {
   group_nodes(pair);
 }
 
-/// In general position two triangles have nothing in common, or a segment between two nodes.
+/// Adds what two triangles have in common: nothing or, in general position, a segment between two nodes.
 void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
   const std::array<Triangle, 2> corners{pair.model(0).triangles[s], pair.model(1).triangles[t]};
   std::array<std::array<int, 3>, 2> signs;  // by side: of its corners against the plane of the other
@@ -49,10 +49,11 @@ void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
       const std::size_t next = next_corner(k);
       if (signs[side][k] == signs[side][next]) continue;
       if (!pair.goes_through(1 - side, corners[1 - side], corners[side][k], corners[side][next])) continue;
-      const bool goes_out = signs[side][k] < 0;  // the corner where it begins is against the normal, inside
+      const bool goes_out = signs[side][k] < 0;  // the corner where it begins lies against the normal: inside
       const std::uint32_t edge = model.edges_of[segment.triangles[side]][k];
       const bool runs_along = model.edges[edge].triangle[0] == segment.triangles[side];
-      // Where an edge of side 0 goes out, the inside is behind, on the left of the way into the triangle.
+      // Where an edge of side 0 leaves the other model, the inside is behind it: on the left of the direction into the
+      // triangle.
       segment.ends[(side == 0) == goes_out ? 0 : 1] =
           node(side, edge, segment.triangles[1 - side], goes_out == runs_along);
     }
@@ -63,7 +64,7 @@ void CrossingCurves::cross(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
   segments.push_back(segment);
 }
 
-/// For triangles in one plane.
+/// Notes two triangles of one plane whose normals point to the same side.
 void CrossingCurves::note_if_flush(PlacedPair& pair, std::uint32_t s, std::uint32_t t) {
   const auto normal = [&pair](std::uint32_t side, const Triangle& corners) {
     const ExactPoint& p = pair.exact({side, corners[0]});

@@ -15,25 +15,25 @@
 
 namespace meshbound {
 
-/// Where an edge of one side goes through a triangle of the other. Three triangles meet there: the two of the edge
-/// (slots 0 and 1, as in `ModelEdge`) and the one that is gone through (slot 2).
+/// Where an edge of one side passes through a triangle of the other. Three triangles meet there: the two at the edge
+/// (slots 0 and 1, as in `ModelEdge`) and the one passed through (slot 2).
 struct CurveNode {
   std::uint32_t side = 0;      ///< of the edge
   std::uint32_t edge = 0;      ///< index in the model of `side`
   std::uint32_t triangle = 0;  ///< index in the other model
-  bool leaves = false;         ///< from its first vertex on, the edge goes out of the other model here
+  bool leaves = false;         ///< seen from its first vertex, the edge leaves the other model here
   std::uint32_t rank = 0;      ///< position in `EdgeNodes` of the edge
-  /// By slot: the segment that begins here in that triangle; `no_index` where one ends.
+  /// By slot: the segment that begins here in that triangle; `no_index` if one ends here.
   std::array<std::uint32_t, 3> next{no_index, no_index, no_index};
-  /// By slot: the cycle around a piece of that triangle that comes through here (pieces.h).
+  /// By slot: the cycle around a piece of that triangle that passes here (pieces.h).
   std::array<std::uint32_t, 3> cycle{no_index, no_index, no_index};
   Vec3 position;     ///< local
   double error = 0;  ///< `position` is at most this far from the node, local
 };
 
-/// What a triangle of side 0 and one of side 1 have in common. In the triangle of side 0, seen against its normal, the
-/// inside of side 1 is on the left on the way from `ends[0]` to `ends[1]`; in that of side 1 the inside of side 0 is on
-/// the left on the way back.
+/// The segment in which a triangle of side 0 and one of side 1 meet. In the triangle of side 0, seen against its
+/// normal, the inside of side 1 is on the left on the way from `ends[0]` to `ends[1]`; in the triangle of side 1 the
+/// inside of side 0 is on the left on the way back.
 struct CurveSegment {
   std::array<std::uint32_t, 2> triangles{};  ///< by side
   std::array<std::uint32_t, 2> ends{};       ///< nodes
@@ -48,11 +48,11 @@ struct ExactNode {
   mpz_class denominator;
 };
 
-/// `PlacedPair::to_local` of an exact position is at most this far from it, local: 3 in the last place of coordinates
-/// of magnitude 1 at most.
+/// The largest distance of `PlacedPair::to_local` of an exact position from that position, local: 3 units in the last
+/// place of coordinates of magnitude 1 at most.
 inline constexpr double rounded_error = 8 * unit_roundoff;
 
-/// A corner of what two triangles in one plane have in common.
+/// A corner of the intersection of two triangles of one plane.
 struct FlushCorner {
   ExactNode exact;
   Vec3 position;  ///< local, off by at most `rounded_error`
@@ -60,19 +60,19 @@ struct FlushCorner {
 
 class CrossingCurves {
  public:
-  /// Finds all of them. `pair` must have been placed. `node_error`: how far the position of a node may be from the node
-  /// before it is computed from integers, local.
+  /// Finds all nodes and segments. `pair` must have been placed. A node whose position in doubles may be off by more
+  /// than `node_error`, local, is computed from integers.
   void find(PlacedPair& pair, double node_error);
 
   std::vector<CurveNode> nodes;
   std::vector<CurveSegment> segments;
   std::array<std::vector<std::uint32_t>, 2> crossed;  ///< by side: triangles with segments, ascending
-  /// Triangles of side 0 and 1 that lie in one plane with their normals on the same side, and have boxes that overlap.
+  /// Triangles of side 0 and 1 that lie in one plane, have normals to the same side and boxes that overlap.
   std::vector<std::array<std::uint32_t, 2>> flush_pairs;
   std::vector<FlushCorner> flush_corners;  ///< filled by `FlushFaces`
   PairCounters counters;
 
-  /// Segments in a triangle; empty for one that is not crossed.
+  /// Segments in a triangle; empty if no curve crosses it.
   [[nodiscard]] std::span<const std::uint32_t> segments_in(std::uint32_t side, std::uint32_t triangle) const;
   /// Nodes on an edge, from its first vertex to its second.
   [[nodiscard]] std::span<const std::uint32_t> nodes_on(std::uint32_t side, std::uint32_t edge) const;
@@ -108,7 +108,7 @@ class CrossingCurves {
 
 [[nodiscard]] ExactNode exact_position(PlacedPair& pair, const CurveNode& node);
 
-/// Sets `position` and `error`; from integers where doubles miss by more than `max_error`, local.
+/// Sets `position` and `error`; computes them from integers if doubles are off by more than `max_error`, local.
 void set_position(PlacedPair& pair, double max_error, CurveNode& node);
 
 /// Whether node `a` comes before node `b` on the edge that both lie on, from its first vertex on.

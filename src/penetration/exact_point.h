@@ -28,11 +28,11 @@ inline constexpr int no_bit = 2000;
 /// x in units of 2^unit, of which it must be a multiple.
 [[nodiscard]] mpz_class in_units(double x, int unit);
 
-/// x -> R x + t in integers.
+/// The map x -> R x + t in integers.
 class ExactMap {
  public:
-  /// The largest power of two, as its exponent, that all images of points with coordinates that are multiples of
-  /// 2^`input_bit` are multiples of.
+  /// The largest power of two, as an exponent, of which all images of points are multiples, provided that the points'
+  /// coordinates are multiples of 2^`input_bit`.
   [[nodiscard]] static int image_bit(const Eigen::Isometry3d& pose, int input_bit);
   /// `output_unit` must be at most `image_bit`.
   ExactMap(const Eigen::Isometry3d& pose, int input_bit, int output_unit);

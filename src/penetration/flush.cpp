@@ -16,7 +16,7 @@ mpq_class turn(const ExactVector& p, const ExactVector& q, const ExactVector& r,
   return (q[i] - p[i]) * (r[j] - p[j]) - (q[j] - p[j]) * (r[i] - p[i]);
 }
 
-/// Cuts off what lies to the right of the line from `from` to `to`. Sutherland, Hodgman, "Reentrant Polygon Clipping",
+/// Cuts off what lies to the right of the line from `from` to `to`: Sutherland, Hodgman, "Reentrant Polygon Clipping",
 /// Comm. ACM 17(1), 1974.
 std::vector<ExactVector> clipped(const std::vector<ExactVector>& polygon, const ExactVector& from,
                                  const ExactVector& to, const std::array<int, 2>& axes) {
@@ -50,7 +50,7 @@ PieceCorner add_corner(PlacedPair& pair, CrossingCurves& curves, const ExactVect
   return {PieceCorner::Kind::Flush, static_cast<std::uint32_t>(curves.flush_corners.size() - 1)};
 }
 
-/// The mean of the corners, which lies within a convex polygon that has area.
+/// The mean of the corners, which is inside a convex polygon that has an area.
 ExactVector middle_of(const std::vector<ExactVector>& polygon) {
   ExactVector sum{0, 0, 0};
   for (const ExactVector& p : polygon)
@@ -80,7 +80,7 @@ class FlushSearch {
       polygon = clipped(polygon, to_vector(pair_.exact({1, t[k]})), to_vector(pair_.exact({1, t[next_corner(k)]})),
                         plane.axes());
     if (!has_area(polygon, plane.axes())) return;
-    // Where side 0 moves along the normal, its triangle is outside of side 1, whose triangle is inside of side 0.
+    // If side 0 moves along the normal, its triangle is outside of side 1, and the triangle of side 1 inside of side 0.
     const ExactPoint& p = pair_.exact({0, s[0]});
     const ExactPoint normal = cross(pair_.exact({0, s[1]}) - p, pair_.exact({0, s[2]}) - p);
     const std::uint32_t holder = PlacedPair::motion_along(normal) > 0 ? 1 : 0;
@@ -94,7 +94,7 @@ class FlushSearch {
   }
 
  private:
-  /// The piece of a triangle that a polygon within one of its pieces lies in.
+  /// The piece of a triangle that contains a polygon, which lies in one of its pieces.
   std::uint32_t piece_around(std::uint32_t side, std::uint32_t triangle, const std::vector<ExactVector>& polygon) {
     const std::vector<std::uint32_t>& candidates = pieces_in_[side][triangle];
     if (candidates.size() == 1) return candidates[0];

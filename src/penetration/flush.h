@@ -8,16 +8,16 @@
 
 namespace meshbound {
 
-/// What a triangle of each side have in common, where both lie in one plane with their normals on the same side. Both
-/// surfaces bound the intersection there, but the perturbation gives it to one of them; this is for the other.
+/// The intersection of a triangle of each side, both in one plane with normals to the same side. Both surfaces bound
+/// the volume there, but the perturbation gives this face to one side only; the record adds it to the other one.
 struct FlushFace {
-  std::uint32_t side = 0;            ///< that lacks it
+  std::uint32_t side = 0;            ///< the side that lacks the face
   std::uint32_t triangle = 0;        ///< of that side
-  std::uint32_t piece = 0;           ///< of the other side, which holds it
+  std::uint32_t piece = 0;           ///< of the other side, which has the face
   std::vector<PieceCorner> corners;  ///< of a convex polygon
 };
 
-/// All of them; adds their corners to `flush_corners` of the curves. Exact.
+/// Finds all such faces and adds their corners to `flush_corners` of the curves. Exact.
 [[nodiscard]] std::vector<FlushFace> find_flush_faces(PlacedPair& pair, CrossingCurves& curves, const Pieces& pieces);
 
 }  // namespace meshbound

@@ -9,9 +9,9 @@
 namespace meshbound {
 namespace {
 
-/// The turn from edge (from, to) of the other side to v, seen from above; 0 only for an edge that is seen as a point.
-/// It is (to - from) x (v - from) by the first two coordinates. Where that is 0 it becomes +-(d_x e_2 - d_y e_1) with
-/// d = to - from, as side 0 moves by e: + where v is on side 0.
+/// Sign of the turn from edge (from, to) of the other side to v, seen from above; 0 only for an edge that is seen as a
+/// point. It is (to - from) x (v - from) by the first two coordinates. If that is 0, the motion e of side 0 decides: it
+/// adds +-(d_x e_2 - d_y e_1) with d = to - from, the sign being + where v is on side 0.
 int turn_from_above(PlacedPair& pair, PairVertex from, PairVertex to, PairVertex v) {
   const Vec3 d = pair.local(to) - pair.local(from), w = pair.local(v) - pair.local(from);
   const double h = 2 * std::max(pair.error(0), pair.error(1));
@@ -33,7 +33,8 @@ bool is_above(PlacedPair& pair, std::uint32_t side, const Triangle& triangle, Pa
   const PairVertex p{side, triangle[0]}, q{side, triangle[1]}, r{side, triangle[2]};
   const int turn = turn_from_above(pair, p, q, v);
   if (turn == 0 || turn_from_above(pair, q, r, v) != turn || turn_from_above(pair, r, p, v) != turn) return false;
-  // Seen from above the corners turn like the normal points up, and v is below where it is not on the normal's side.
+  // Seen from above, the corners turn the way that the normal points up, and v is below unless it is on the normal's
+  // side.
   return pair.side_of_plane(side, triangle, v.vertex) == -turn;
 }
 

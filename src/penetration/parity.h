@@ -7,9 +7,9 @@
 
 namespace meshbound {
 
-/// For each component of the other side's model whether a vertex of one side lies inside it: by the parity of its
-/// triangles above the vertex in the world. Side 0 is moved by the infinitesimal vector of `PlacedPair`, so no vertex
-/// lies on the surface, nor above or below an edge. O(n).
+/// For each component of the other side's model, whether a vertex of one side lies inside it, by the parity of the
+/// component's triangles above the vertex in world coordinates. Side 0 is moved by the infinitesimal vector of
+/// `PlacedPair`, so no vertex lies on the surface, nor above or below an edge. O(n).
 [[nodiscard]] std::vector<bool> components_around(PlacedPair& pair, PairVertex v);
 
 /// Whether a vertex of one side lies inside the solid of the other. O(n).

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double default_error_share = 1e-6;
 
-/// What a thread keeps from call to call.
+/// Memory that a thread keeps from call to call.
 struct Scratch {
   PlacedPair pair;
   CrossingCurves curves;
@@ -63,7 +63,7 @@ TriangleMesh local_mesh(PlacedPair& pair, const CrossingCurves& curves, std::uin
   return mesh;
 }
 
-/// Measures the volumes that were found, one after another.
+/// Measures the volumes found, one after another.
 class Measurement {
  public:
   Measurement(Scratch& memory, const PenetrationOptions& options, double error_bound)
@@ -169,11 +169,11 @@ class Measurement {
   Frame frame_;
 };
 
-/// The volumes of the pair in `memory`; absent where the token ends the search.
+/// The volumes of the pair in `memory`; absent if the token ended the search.
 std::optional<std::vector<IntersectionVolume>> find_volumes(Scratch& memory, double error_bound,
                                                             const StopToken& stop) try {
   memory.pair.stop_by(stop);
-  // Nodes are off by at most a small part of what is asked for.
+  // Share of the error bound by which a node may be off.
   constexpr double node_share = 1.0 / 64;
   memory.curves.find(memory.pair, std::max(node_share * std::ldexp(error_bound, -memory.pair.exponent()), 0x1p-46));
   stop.check();

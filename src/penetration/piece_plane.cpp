@@ -40,7 +40,8 @@ PiecePlane::PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint
   const Vec3 n = meshbound::cross(pair.local(q) - pair.local(p), pair.local(r) - pair.local(p));
   int axis = std::fabs(n.x) >= std::fabs(n.y) ? 0 : 1;
   if (std::fabs(n.z) > std::fabs(coordinate(n, axis))) axis = 2;
-  // 32 u of what is at most 2 covers the roundings of a component, 32 errors those of the vertices.
+  // A component of at most 2 has roundings of at most 32 u, and the errors of the vertices change it by at most 32
+  // errors.
   int sign = coordinate(n, axis) > 0 ? 1 : -1;
   if (std::fabs(coordinate(n, axis)) <= 64 * unit_roundoff + 32 * pair.error(side)) {
     const ExactPoint exact_normal = cross(pair.exact(q) - pair.exact(p), pair.exact(r) - pair.exact(p));
@@ -63,7 +64,7 @@ PiecePlane::Flat PiecePlane::exact(PieceCorner corner) const {
 
 int PiecePlane::turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
   const double ax = x(q) - x(p), ay = y(q) - y(p), bx = x(r) - x(p), by = y(r) - y(p);
-  // As for `orientation`: h is the error of a difference.
+  // As in `orientation`: h is the error of a difference.
   const double h = error(p) + std::max(error(q), error(r));
   const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
   const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
@@ -111,8 +112,8 @@ bool PiecePlane::is_around(std::span<const PieceCorner> outer, std::span<const P
     bool inside = false, on_line = false;
     for (std::size_t i = 0; i < outer.size() && !on_line; ++i) {
       const PieceCorner &a = outer[i], &b = outer[i + 1 < outer.size() ? i + 1 : 0];
-      // An edge counts where it has its ends on different sides of the horizontal line through p; ends on the line are
-      // taken for above it. What is this close to p is left to another corner of `inner`.
+      // An edge counts if its ends are on different sides of the horizontal line through p; ends on the line count as
+      // above it. If p is this close to an edge, another corner of `inner` decides.
       const double margin = error(a) + error(b) + error(p);
       const bool a_above = y(a) >= y(p), b_above = y(b) >= y(p);
       on_line = std::fabs(y(a) - y(p)) <= margin && std::fabs(x(a) - x(p)) <= margin;

@@ -10,8 +10,8 @@
 
 namespace meshbound {
 
-/// A corner of a triangle (index of a vertex), a node of the curves, or a corner of what two triangles in one plane
-/// have in common (flush.h).
+/// A corner of a piece: a vertex of the model by its index, a node of the curves, or a corner of the intersection of
+/// two triangles of one plane (flush.h).
 struct PieceCorner {
   enum class Kind : std::uint32_t { Vertex, Node, Flush };
   Kind kind = Kind::Vertex;
@@ -20,7 +20,8 @@ struct PieceCorner {
   friend bool operator==(const PieceCorner&, const PieceCorner&) = default;
 };
 
-/// Local position of a corner on a triangle of `side`, how far that may be from the corner, and the exact position.
+/// Local position of a corner on a triangle of `side`; the largest distance of that from the corner; the exact
+/// position.
 [[nodiscard]] const Vec3& position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
                                       PieceCorner corner);
 [[nodiscard]] double error_of(const PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
@@ -28,8 +29,8 @@ struct PieceCorner {
 [[nodiscard]] ExactNode exact_position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
                                           PieceCorner corner);
 
-/// The plane of a triangle, for the corners of its pieces: seen along an axis that the plane does not hold, so that the
-/// triangle turns counter-clockwise.
+/// The plane of a triangle, for the corners of its pieces: projected along an axis that is not parallel to the plane,
+/// so that the triangle turns counter-clockwise.
 class PiecePlane {
  public:
   PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, std::uint32_t triangle);
@@ -39,15 +40,15 @@ class PiecePlane {
 
   /// Sign of the turn at q on the way from p to r, for the exact positions, without perturbation.
   [[nodiscard]] int turn(PieceCorner p, PieceCorner q, PieceCorner r) const;
-  /// Twice the area on the left of a cycle as it is seen, rounded; and the exact sign of that area.
+  /// Twice the area enclosed by a cycle in the projection, rounded; and the exact sign of that area.
   [[nodiscard]] double area(std::span<const PieceCorner> cycle) const;
   [[nodiscard]] int area_sign(std::span<const PieceCorner> cycle) const;
-  /// Whether a cycle is around another one, neither of which crosses the other.
+  /// Whether the cycle `outer` is around `inner`; the two must not cross.
   [[nodiscard]] bool is_around(std::span<const PieceCorner> outer, std::span<const PieceCorner> inner) const;
-  /// The coordinates that are seen as x and y, 0 to 2.
+  /// The coordinates that the projection shows as x and y, 0 to 2.
   [[nodiscard]] std::array<int, 2> axes() const { return {first_, second_}; }
 
-  /// Coordinates as they are seen.
+  /// Coordinates in the projection.
   [[nodiscard]] double x(PieceCorner corner) const;
   [[nodiscard]] double y(PieceCorner corner) const;
 
@@ -60,7 +61,7 @@ class PiecePlane {
   PlacedPair* pair_;
   const CrossingCurves* curves_;
   std::uint32_t side_;
-  int first_ = 0, second_ = 1;  ///< axes that are seen as x and y
+  int first_ = 0, second_ = 1;  ///< axes shown as x and y
 };
 
 }  // namespace meshbound

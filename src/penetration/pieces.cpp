@@ -28,7 +28,7 @@ void Pieces::find(PlacedPair& pair, CrossingCurves& curves) {
   join_along_curves();
 }
 
-/// All cycles of a crossed triangle, and the pieces of those that reach its border.
+/// Finds all cycles of a crossed triangle, and the pieces of those that reach its border.
 void Pieces::trace(std::uint32_t side, std::uint32_t triangle) {
   at_edges_[side].set(triangle, {no_index, no_index, no_index});
   for (const std::uint32_t segment : curves_->segments_in(side, triangle))
@@ -62,7 +62,8 @@ void Pieces::trace_cycle(std::uint32_t side, std::uint32_t triangle, std::uint32
   cycles[cycle].on_border = piece != no_index;
 }
 
-/// From a node on the border, counter-clockwise, to the next one, which is returned; adds the corners between them.
+/// Walks counter-clockwise along the border from a node to the next one, which it returns; adds the corners between
+/// them.
 std::uint32_t Pieces::walk_border(std::uint32_t side, std::uint32_t triangle, std::uint32_t node, std::uint32_t cycle) {
   const ClosedModel::Data& model = pair_->model(side);
   const auto runs_along = [&](std::uint32_t edge) { return model.edges[edge].triangle[0] == triangle; };
@@ -90,7 +91,7 @@ std::uint32_t Pieces::add_piece(std::uint32_t side, std::uint32_t triangle, std:
   return piece;
 }
 
-/// A triangle that is inside with all of its border.
+/// The piece of a triangle whose whole border is inside the other model.
 std::uint32_t Pieces::whole_piece(std::uint32_t side, std::uint32_t triangle) {
   const std::uint32_t piece = add_piece(side, triangle, no_index);
   whole_[side].set(triangle, piece);
@@ -98,7 +99,7 @@ std::uint32_t Pieces::whole_piece(std::uint32_t side, std::uint32_t triangle) {
   return piece;
 }
 
-/// From all open pieces, across edges without nodes, which are inside over their whole length.
+/// Floods from all open pieces across edges without nodes, which are inside over their whole length.
 void Pieces::flood(std::uint32_t side) {
   while (!open_.empty()) {
     const std::uint32_t piece = open_.back();
@@ -118,12 +119,12 @@ void Pieces::flood_across(std::uint32_t side, std::uint32_t piece, std::size_t k
     for (std::size_t j = 0; j < 3; ++j)
       if (model.edges_of[next][j] == edge) found = at_edges_[side][next][j];
   }
-  // A triangle that is crossed, but not at its border, or not at all.
+  // A triangle that no curve crosses, or one crossed by loops that stay off its border.
   if (found == no_index) found = whole_piece(side, next);
   shells.unite(piece, found);
 }
 
-/// Components without a node on any edge are inside as a whole, but for loops within triangles, or not at all.
+/// Components without a node on any edge: but for loops within triangles, each is inside as a whole or not at all.
 void Pieces::flood_uncut_components(std::uint32_t side) {
   const ClosedModel::Data& model = pair_->model(side);
   std::vector<bool> is_cut(model.components.size(), false);
@@ -138,7 +139,7 @@ void Pieces::flood_uncut_components(std::uint32_t side) {
   }
 }
 
-/// The cycles of a triangle that are off its border: around pieces, or around holes.
+/// Turns the cycles of a triangle that stay off its border into pieces or into holes of pieces.
 void Pieces::settle_loops(std::uint32_t side, std::uint32_t triangle) {
   loops_.clear();
   bool has_piece = whole_[side].has(triangle);
@@ -157,7 +158,7 @@ void Pieces::settle_loops(std::uint32_t side, std::uint32_t triangle) {
   std::vector<std::uint32_t> holes;
   for (const std::uint32_t loop : loops_) {
     const int turn = plane.area_sign(corners_of(cycles[loop]));
-    // A loop without area encloses what is on neither side: a hole where there is something around it.
+    // A loop without area encloses points of neither side: it is a hole if there is a piece around it.
     if (turn > 0 || (turn == 0 && !has_piece)) {
       cycles[loop].piece = add_piece(side, triangle, loop);
     } else {
@@ -173,7 +174,8 @@ void Pieces::settle_loops(std::uint32_t side, std::uint32_t triangle) {
   }
 }
 
-/// The piece of a triangle that a hole is in: of those whose outer cycle is around it the one with the least area.
+/// The piece of a triangle that a hole is in: among the pieces whose outer cycle is around the hole, the one with the
+/// least area.
 std::uint32_t Pieces::piece_around(std::uint32_t hole, std::uint32_t side, std::uint32_t triangle) {
   std::vector<std::uint32_t> candidates;
   for (std::uint32_t piece = static_cast<std::uint32_t>(pieces.size()); piece-- > 0;)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The parts of the surface of each of two models that are inside the other: whole triangles, found by flooding from
-/// the curves, and the pieces that the curves cut out of the triangles they go through.
+/// The surface of each of two models inside the other: whole triangles, found by flooding from the curves, and the
+/// pieces that the curves cut out of the triangles they cross.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace meshbound {
 
-/// A closed line in a triangle that has a piece on its left, seen against the normal.
+/// A closed line in a triangle with a piece on its left, seen against the normal.
 struct PieceCycle {
   std::uint32_t begin = 0, end = 0;  ///< in `Pieces::corners`
   std::uint32_t piece = no_index;
   std::uint32_t next_hole = no_index;  ///< the next hole of the piece
-  bool on_border = false;              ///< runs along an edge of the triangle somewhere
+  bool on_border = false;              ///< part of it runs along an edge of the triangle
 };
 
 /// A connected piece of a triangle.
@@ -49,8 +49,8 @@ class PieceSets {
 
 class Pieces {
  public:
-  /// Finds all pieces of both sides, and which of them make one closed surface: a shell of the intersection. Fills
-  /// `cycle` of the nodes.
+  /// Finds all pieces of both sides and the shells that they form: the closed surfaces that bound the intersection.
+  /// Fills `cycle` of the nodes.
   void find(PlacedPair& pair, CrossingCurves& curves);
 
   std::vector<Piece> pieces;
@@ -82,9 +82,9 @@ class Pieces {
   CrossingCurves* curves_ = nullptr;
   std::array<std::vector<std::uint8_t>, 2> traced_;  ///< by side and segment
   std::array<SparseArray<EdgePieces>, 2> at_edges_;  ///< of crossed triangles: the piece along each edge without nodes
-  std::array<SparseArray<std::uint32_t>, 2> whole_;  ///< by triangle: the piece without a curve as its outer cycle
+  std::array<SparseArray<std::uint32_t>, 2> whole_;  ///< by triangle: the piece with the whole triangle as its outside
   std::vector<std::uint32_t> open_;                  ///< pieces to flood from
-  std::vector<std::uint32_t> loops_;                 ///< cycles off the border of the triangle that is traced
+  std::vector<std::uint32_t> loops_;                 ///< cycles off the border, of the triangle being traced
 };
 
 }  // namespace meshbound

@@ -23,15 +23,16 @@ void require_motion(const Eigen::Isometry3d& pose) {
     throw InvalidInput("a pose moves a model out of the range of coordinates (2^1000)");
 }
 
-/// How much rounding changes a computed dot(a, cross(b, c)) at most, for differences a, b, c of points whose
-/// coordinates are off by at most h / 2 each; infinite where underflow or overflow could matter. `d`: the largest
-/// magnitudes of the differences by axis, enlarged by h.
+/// A bound of the rounding error of a computed dot(a, cross(b, c)) for differences a, b, c of points whose coordinates
+/// are off by at most h / 2 each; infinite where underflow or overflow could matter. `d`: the largest magnitudes of the
+/// differences by axis, enlarged by h.
+///
 ///
 /// Let D be the product of the components of d. A computed difference has a relative error of u besides h; the
-/// determinant is a sum of 6 products of three differences. Its roundings are three differences, two products and five
-/// additions for each: at most 10 u (1 + 10 u) times the sum of the magnitudes, which is at most 6 D: less than 64 u D,
-/// in whatever order. The error h of the differences changes each product by at most h (d_x d_y + d_y d_z + d_z d_x): 6
-/// of them. Underflow cannot matter where D is above 1e-200 and no d above 1e60.
+/// determinant is a sum of 6 products of three differences. Each product takes part in three differences, two products
+/// and five additions: the roundings are at most 10 u (1 + 10 u) times the sum of the magnitudes, which is at most 6 D:
+/// less than 64 u D, in whatever order. The error h of the differences changes each of the 6 products by at most h (d_x
+/// d_y + d_y d_z + d_z d_x). Underflow cannot matter where D is above 1e-200 and no d above 1e60.
 double error_of_volume(const Vec3& d, double h) {
   const double product = d.x * d.y * d.z;
   if (!(product > 1e-200) || !(d.x < 1e60) || !(d.y < 1e60) || !(d.z < 1e60))
@@ -76,7 +77,7 @@ void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose
   set_frame();
 }
 
-/// The origin is the centre of side 0 in the world, so that coordinates are small where the models meet.
+/// The origin is the centre of side 0 in the world, so coordinates are small where the models meet.
 void PlacedPair::set_frame() {
   const Vec3 center = sides_[0].model->tree.data().frame.center;
   origin_ = to_vec3(sides_[0].pose * Eigen::Vector3d(center.x, center.y, center.z));
@@ -91,8 +92,8 @@ void PlacedPair::set_frame() {
     const bool is_plain = side.pose.linear() == Eigen::Matrix3d::Identity() && largest_magnitude_of(side.offset) == 0 &&
                           largest_magnitude_of(side.center) == 0;
     const double magnitude = 3 * side.model->reach + largest_magnitude_of(side.offset);
-    // One rounding each for the difference with the centre, the products, three additions and the offset itself, which
-    // is of at most `magnitude`; and the rounding of the scaled rotation where that underflows.
+    // One rounding each for the difference with the centre, the products, three additions and the offset, whose
+    // magnitude is at most `magnitude`; and the rounding of the scaled rotation if that underflows.
     side.error = is_plain ? 0 : std::ldexp(magnitude, -exponent_) * 10 * unit_roundoff;
     side.error += 0x1p-1070;
     const auto row = [&](int i) -> Vec3 {
@@ -197,12 +198,11 @@ int PlacedPair::side_of_plane(std::uint32_t side, const Triangle& triangle, std:
   const int sign = orientation(p, q, r, {1 - side, vertex});
   if (sign != 0) return sign;
   ++perturbed_decisions_;
-  // With side 0 moved by t, the volume grows by the product of t with the normal, or shrinks where side 0 has the
-  // triangle.
+  // Moving side 0 by t adds the product of t with the normal to the volume, or subtracts it if side 0 has the triangle.
   return sign_of_first(cross(exact(q) - exact(p), exact(r) - exact(p)), side == 0 ? -1 : 1);
 }
 
-/// As `certain_sign`, with what belongs to the plane computed once.
+/// As `certain_sign` for three vertices, with the terms of the plane computed once.
 std::array<int, 3> PlacedPair::sides_of_plane(std::uint32_t side, const Triangle& triangle, const Triangle& vertices) {
   const Vec3 p = local({side, triangle[0]}), a = local({side, triangle[1]}) - p, b = local({side, triangle[2]}) - p;
   const Vec3 normal = cross(a, b), of_plane = larger(magnitudes(a), magnitudes(b));
@@ -236,7 +236,7 @@ bool PlacedPair::is_beyond(std::uint32_t side, const Vec3& p, const Eigen::Align
   const Side &own = sides_[side], &other = sides_[1 - side];
   const Eigen::Vector3d world = own.pose * Eigen::Vector3d(p.x, p.y, p.z);
   const Eigen::Vector3d moved = other.pose.linear().transpose() * (world - other.pose.translation());
-  // Some ten roundings of numbers of this magnitude, and poses that miss being rigid by at most 1e-9.
+  // About ten roundings of numbers of this magnitude, and poses that deviate from rigid motions by at most 1e-9.
   const double magnitude = 4 * (own.model->reach + other.model->reach + own.pose.translation().cwiseAbs().maxCoeff() +
                                 other.pose.translation().cwiseAbs().maxCoeff());
   const double margin = magnitude * 1e-8;

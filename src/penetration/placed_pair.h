@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The vertices of two placed models in one frame, and exact answers to how they lie to one another.
+/// The vertices of two placed models in one frame, and exact predicates of their positions.
+///
 ///
 /// Degenerate positions are resolved by simulation of simplicity (Edelsbrunner, Muecke, "Simulation of Simplicity", ACM
 /// Trans. Graph. 9(1), 1990): side 0 is moved by (e1, e2, e3), each infinitely smaller than the one before it. As both
@@ -19,7 +20,8 @@
 
 namespace meshbound {
 
-/// An array by index, most of which is never looked at: what was not set since `clear` counts as absent.
+/// An array of which few entries are ever used: an entry that was not set since `clear` counts as absent, and `clear`
+/// is O(1).
 template <class T>
 class SparseArray {
  public:
@@ -53,16 +55,16 @@ class PlacedPair {
   void place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose_a, const ClosedModel::Data& b,
              const Eigen::Isometry3d& pose_b);
 
-  /// What runs on the pair from now on throws `Stopped` soon after this token says so.
+  /// Makes what runs on the pair from here on throw `Stopped` soon after this token says so.
   void stop_by(const StopToken& stop) { stop_ = stop; }
-  /// A step of some 100 ns was done: looks at the token once in a while.
+  /// Counts a step of about 100 ns and checks the token once in a while.
   void count_step() {
     constexpr std::uint32_t steps_between_looks = 1024;
     if (++steps_ % steps_between_looks == 0) stop_.check();
   }
 
   [[nodiscard]] const ClosedModel::Data& model(std::uint32_t side) const { return *sides_[side].model; }
-  /// The side with the larger model, and the mapping from the working frame of the other's tree to that of its own.
+  /// The side with the larger model, and the mapping to its working frame from that of the other side's tree.
   [[nodiscard]] std::uint32_t tree_side() const { return tree_side_; }
   [[nodiscard]] const Mapping& tree_mapping() const { return tree_mapping_; }
 
@@ -79,33 +81,33 @@ class PlacedPair {
   [[nodiscard]] double error(std::uint32_t side) const { return sides_[side].error; }
   [[nodiscard]] const ExactPoint& exact(PairVertex v);
 
-  /// Local lengths and points in model units and world coordinates.
+  /// Conversion of local lengths and points to model units and world coordinates.
   [[nodiscard]] int exponent() const { return exponent_; }  ///< a local unit is 2^exponent model units
   [[nodiscard]] Eigen::Vector3d to_world(const Vec3& local) const;
   /// Local coordinates of numerator / denominator, which is in the unit of `exact`: rounded to nearest or a neighbour.
   [[nodiscard]] Vec3 to_local(const ExactPoint& numerator, const mpz_class& denominator);
-  /// The sixth of a local unit cubed, in the cubed unit of `exact`, is 2^this.
+  /// One sixth of a cubed local unit is 2^this cubed units of `exact`.
   [[nodiscard]] int exact_unit();
 
   /// Sign of `volume_of` without any perturbation.
   [[nodiscard]] int orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s);
-  /// 1 where vertex v of the other side lies on the side of the normal of triangle (p, q, r) of `side`, -1 where it
-  /// lies on the other; never 0 for a triangle with area.
+  /// 1 if vertex v of the other side lies on the side of triangle (p, q, r) of `side` that its normal points to, else
+  /// -1; never 0 for a triangle with area.
   [[nodiscard]] int side_of_plane(std::uint32_t side, const Triangle& triangle, std::uint32_t vertex);
   /// `side_of_plane` for three vertices.
   [[nodiscard]] std::array<int, 3> sides_of_plane(std::uint32_t side, const Triangle& triangle,
                                                   const Triangle& vertices);
-  /// Sign of `volume_of` for an edge of side 0 and one of side 1; 0 only for parallel ones.
+  /// Sign of `volume_of` for an edge of each side; 0 only if they are parallel.
   [[nodiscard]] int edge_turn(std::uint32_t p0, std::uint32_t q0, std::uint32_t p1, std::uint32_t q1);
   /// Whether edge (p, q) of the side other than `side` goes through its triangle, given that p and q lie on different
   /// sides of its plane.
   [[nodiscard]] bool goes_through(std::uint32_t side, const Triangle& triangle, std::uint32_t p, std::uint32_t q);
 
-  /// Whether a point of a model, in its own coordinates, lies outside a box in those of the other; false where doubles
+  /// Whether a point of a model, in its own coordinates, is outside a box of the other model; false where doubles
   /// cannot tell.
   [[nodiscard]] bool is_beyond(std::uint32_t side, const Vec3& p, const Eigen::AlignedBox3d& box) const;
 
-  /// Decisions of `side_of_plane` that only the perturbation made: the vertex lies in the plane.
+  /// How many answers of `side_of_plane` the perturbation decided, as the vertex lies in the plane.
   [[nodiscard]] std::uint64_t perturbed_decisions() const { return perturbed_decisions_; }
   /// 1 where side 0 moves along an exact vector, -1 where it moves against it.
   [[nodiscard]] static int motion_along(const ExactPoint& vector) { return sign_of_first(vector, 1); }
@@ -117,7 +119,7 @@ class PlacedPair {
     const ClosedModel::Data* model = nullptr;
     Eigen::Isometry3d pose;
     std::array<Vec3, 3> rows;  ///< rotation, scaled to the local unit
-    Vec3 center;               ///< taken off model coordinates before the rotation
+    Vec3 center;               ///< subtracted from model coordinates before the rotation
     Vec3 offset;               ///< local
     double error = 0;
     SparseArray<Vec3> points;

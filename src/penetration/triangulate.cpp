@@ -14,7 +14,7 @@ double squared_distance(const PiecePlane& plane, PieceCorner p, PieceCorner q) {
   return squared_length(plane.position(p) - plane.position(q));
 }
 
-/// Whether the inner points of segments (p, q) and (r, s) cross.
+/// Whether the interiors of segments (p, q) and (r, s) cross.
 bool segments_cross(const PiecePlane& plane, PieceCorner p, PieceCorner q, PieceCorner r, PieceCorner s) {
   if (p == r || p == s || q == r || q == s) return false;
   return plane.turn(p, q, r) * plane.turn(p, q, s) < 0 && plane.turn(r, s, p) * plane.turn(r, s, q) < 0;
@@ -32,7 +32,7 @@ std::size_t rightmost(const PiecePlane& plane, std::span<const PieceCorner> cycl
   return static_cast<std::size_t>(found - cycle.begin());
 }
 
-/// Joins a hole to the ring by a bridge from its rightmost corner to the nearest corner of the ring that it sees.
+/// Joins a hole to the ring by a bridge from its rightmost corner to the nearest corner of the ring visible from there.
 void join_hole(const PiecePlane& plane, Ring& ring, std::span<const PieceCorner> hole) {
   const std::size_t from = rightmost(plane, hole);
   std::vector<std::size_t> order(ring.size());
@@ -52,7 +52,7 @@ void join_hole(const PiecePlane& plane, Ring& ring, std::span<const PieceCorner>
   ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(to) + 1, bridge.begin(), bridge.end());
 }
 
-/// How good an ear has to be; what comes later is taken where nothing better is left.
+/// Quality of an ear, best first: an ear is cut only if there is none of a better kind.
 enum class EarQuality {
   Clear,    ///< turns left and no other corner is in it or on its border
   Flat,     ///< its corners lie in one line
@@ -104,7 +104,7 @@ class EarCutter {
     const int beyond = quality == EarQuality::Clear ? 0 : 1;
     for (std::size_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
       const PieceCorner c = ring_[j];
-      // A corner that turns left is not the first that enters.
+      // A corner that turns left cannot be the first one to enter the ear.
       if (turns_[j] > 0 || c == p || c == q || c == r) continue;
       if (plane_.turn(r, p, c) >= beyond && plane_.turn(p, q, c) >= beyond && plane_.turn(q, r, c) >= beyond)
         return false;

@@ -27,7 +27,7 @@ CornerTriple whole_triangle(const Triangle& t) {
   return {{{PieceCorner::Kind::Vertex, t[0]}, {PieceCorner::Kind::Vertex, t[1]}, {PieceCorner::Kind::Vertex, t[2]}}};
 }
 
-/// Directions in which a shell is looked for around a cavity, one after the other until one passes no edge.
+/// Directions of the rays from a cavity to the shell around it, tried in turn until one ray passes no edge.
 constexpr std::array<Vec3, 6> directions{{{0.31, 0.17, 0.93},
                                           {-0.71, 0.43, 0.56},
                                           {0.29, -0.87, 0.41},
@@ -75,7 +75,7 @@ std::vector<IntersectionVolume> VolumeFinder::find(PlacedPair& pair, CrossingCur
     if (shell.sign == 0) continue;
     for (std::uint32_t side = 0; side < 2; ++side) {
       Patch& patch = volumes[shell.volume].patches[side];
-      // What has no area bounds no content: it is left of a touch that the perturbation made an overlap of.
+      // Triangles without area enclose nothing: they come from a touch that the perturbation made an overlap.
       std::copy_if(shell.triangles[side].begin(), shell.triangles[side].end(), std::back_inserter(patch.triangles),
                    [](const PatchTriangle& t) { return !t.is_flat; });
       patch.displacement = std::max(patch.displacement, shell.excess[side]);
@@ -137,8 +137,9 @@ void VolumeFinder::add_triangles(std::uint32_t index, Shell& shell) {
     out.push_back({piece.triangle, corners, plane.turn(corners[0], corners[1], corners[2]) == 0});
 }
 
-/// Six times the content is the sum of the determinants of the triangles. Where the corners of a triangle move by at
-/// most d to where they are exactly, the content changes by at most d times the largest area it has on the way there.
+/// Bounds the volume of a shell. Six times the volume is the sum of the determinants of the triangles. If the corners
+/// of a triangle are off by at most d, the volume changes by at most d times the largest area that the triangle has
+/// between its computed and its exact position.
 void VolumeFinder::measure_content(Shell& shell) {
   const std::uint32_t first = shell.triangles[0].empty() ? 1 : 0;
   const Vec3 o = position(first, shell.triangles[first][0].corners[0]);
@@ -154,7 +155,8 @@ void VolumeFinder::measure_content(Shell& shell) {
       moved += d * (length(cross(b - a, c - a)) / 2 + d * (edges + 4 * d));
       count += 1;
     }
-  // 32 u for a term whatever the cancellation, n u for the sum; areas and lengths to a few u; all twice for safety.
+  // At most 32 u for a term including cancellation, n u for the sum; areas and lengths are off by a few u; doubled for
+  // safety.
   const double error = 2 * (magnitude * unit_roundoff * (32 + count) + 6 * moved) + 0x1p-900;
   shell.content = {next_down((sum - error) / 6), next_up((sum + error) / 6)};
 }
@@ -173,9 +175,9 @@ int VolumeFinder::exact_content_sign(const Shell& shell) {
   return sgn(sum);
 }
 
-/// Whether a ray crosses a shell an odd number of times, 1 or 0; -1 where rounding could change that.
+/// Whether a ray crosses a shell an odd number of times: 1 or 0, or -1 if rounding could change the answer.
 int VolumeFinder::parity_of(const Shell& shell, const Vec3& from, const Vec3& direction) const {
-  // Corners are off by far less than this, and coordinates of magnitude 1 make products of at most a few.
+  // Much larger than the error of corners; coordinates of magnitude 1 make products of a few at most.
   constexpr double margin = 0x1p-30;
   int parity = 0;
   for (std::uint32_t side = 0; side < 2; ++side)
@@ -195,7 +197,7 @@ int VolumeFinder::parity_of(const Shell& shell, const Vec3& from, const Vec3& di
   return parity;
 }
 
-/// The smallest shell around a cavity. Where rounding hides which that is, the largest shell takes the cavity: it is
+/// The smallest shell around a cavity. If rounding hides which that is, the largest shell gets the cavity, which is
 /// then as thin as rounding errors.
 std::size_t VolumeFinder::shell_around(const Shell& cavity, const std::vector<Shell>& shells) {
   const std::uint32_t side = cavity.triangles[0].empty() ? 1 : 0;
@@ -213,8 +215,8 @@ std::size_t VolumeFinder::shell_around(const Shell& cavity, const std::vector<Sh
   return best != nullptr ? best->volume : largest->volume;
 }
 
-/// A volume without any part of one of the models lies in that model's solid; the component that is next around it
-/// stands for the part.
+/// Adds the component that a volume lies in, for a volume whose boundary has no part of one of the models: it is then
+/// inside that model's solid, and the nearest component around it stands for the missing part.
 void VolumeFinder::surround(IntersectionVolume& volume, const Shell& outer) {
   for (std::uint32_t side = 0; side < 2; ++side) {
     if (!volume.patches[side].triangles.empty()) continue;
@@ -229,12 +231,12 @@ std::uint32_t VolumeFinder::component_around(std::uint32_t side, const Shell& sh
   for (const PatchTriangle& t : shell.triangles[1 - side])
     for (const PieceCorner& corner : t.corners) {
       if (corner.kind == PieceCorner::Kind::Node) {
-        // Where no vertex is inside: it touches this component.
+        // No vertex is inside: it touches this component.
         const CurveNode& node = curves_->nodes[corner.index];
         next = model.component_of[node.side == side ? model.edges[node.edge].triangle[0] : node.triangle];
         continue;
       }
-      // Among nested components, the innermost one has the smallest extent in every direction.
+      // The innermost of nested components has the smallest extent in every direction.
       const std::vector<bool> around = components_around(*pair_, {1 - side, corner.index});
       const auto reach = [&](std::size_t i) { return model.positions[model.components[i].extremes[3]].x; };
       std::size_t innermost = around.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The connected volumes of the intersection: closed surfaces made of pieces (shells), each with the cavities in it.
+/// The connected volumes of the intersection: shells, which are closed surfaces made of pieces, each with its cavities.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -24,7 +24,7 @@ struct PatchTriangle {
 struct Patch {
   std::vector<PatchTriangle> triangles;
   std::size_t faces = 0;    ///< triangles of the model that it lies on
-  double displacement = 0;  ///< no point of it is further from its rounded image, nor that from it; local
+  double displacement = 0;  ///< distance between the part and its rounded image, either way, at most; local
 };
 
 /// A volume of the intersection, in local units.

@@ -21,7 +21,7 @@ struct Approximate {
   static constexpr double grown = 1 + 0x1p-48;
 
   [[nodiscard]] bool is_zero() const { return value == 0 && error == 0; }
-  /// A number of which nothing is known.
+  /// A number about which nothing is known.
   [[nodiscard]] static Approximate unknown() { return {0, std::numeric_limits<double>::infinity()}; }
 };
 
@@ -50,7 +50,7 @@ inline Approximate operator/(const Approximate& a, const Approximate& b) {
   return {value, (error + std::fabs(value) * unit_roundoff) * Approximate::grown + Approximate::tiny};
 }
 
-/// The sign, where it is known: then `sign` is set and the answer true.
+/// Whether the sign is certain: then `sign` is -1, 0 or 1.
 [[nodiscard]] inline bool sign_is_known(const Approximate& x, int& sign) {
   if (std::fabs(x.value) > x.error) {
     sign = x.value > 0 ? 1 : -1;

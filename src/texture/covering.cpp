@@ -43,7 +43,7 @@ bool is_segment_beyond(const ChartTriangle& t, const Eigen::Vector2d& p, const E
   return false;
 }
 
-/// Points inside A, by their weights: one that lies on an edge of a candidate says nothing.
+/// Inner points of A, by their weights, to be tried in turn: a point on an edge of a candidate decides nothing.
 constexpr std::array<std::array<double, 3>, 3> inner_points = {{{1, 1, 1}, {3, 2, 1}, {1, 3, 5}}};
 
 bool has_inner_point(Overlay& overlay, std::uint32_t candidate) {
@@ -56,7 +56,7 @@ bool has_inner_point(Overlay& overlay, std::uint32_t candidate) {
 
 }  // namespace
 
-/// The edges of a candidate that may run through the inside of A.
+/// Adds the edges of a candidate that may run through the inside of A.
 void Covering::add_edges(Overlay& overlay, std::uint32_t candidate) {
   const ChartTriangle& b = overlay.candidate(candidate);
   const auto lines = overlay.lines_of(candidate);

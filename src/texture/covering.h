@@ -18,8 +18,8 @@ namespace meshbound {
 /// of their ends are, so nothing is rounded. Not thread-safe: each thread has its own.
 class Covering {
  public:
-  /// True only where it is so; false where it is not known. `candidates` must have an area in the texture, and so must
-  /// the triangle. Expected O(candidates log candidates).
+  /// True only if the candidates cover all of A; false also where that cannot be decided. The triangle and all
+  /// candidates must have an area in the texture. Expected O(candidates log candidates).
   [[nodiscard]] bool is_complete(Overlay& overlay, std::span<const std::uint32_t> candidates);
 
  private:

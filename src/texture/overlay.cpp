@@ -50,7 +50,7 @@ Number dot(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
   return Number(p.x * q.x) + Number(p.y * q.y);
 }
 
-/// Line `number` of a candidate with these texture coordinates, at a texture coordinate.
+/// Value of line `number` of candidate `t` at the texture coordinate `at`; `b` holds the texture coordinates of `t`.
 template <class Number>
 Number line_at(const ChartTriangle& t, const std::array<TexturePoint<Number>, 3>& b, std::uint32_t number,
                const TexturePoint<Number>& at) {
@@ -93,7 +93,7 @@ void negate(std::array<Number, 3>& x) {
   for (Number& k : x) k = -k;
 }
 
-/// In proportion, the largest one below 1.
+/// Approximations of three integers up to a common factor that brings the largest below 1.
 std::array<Approximate, 3> near(const std::array<mpz_class, 3>& exact) {
   std::array<double, 3> leading{};
   std::array<long, 3> exponent{};
@@ -101,7 +101,7 @@ std::array<Approximate, 3> near(const std::array<mpz_class, 3>& exact) {
   bool is_first = true;
   for (std::size_t i = 0; i < 3; ++i) {
     if (sgn(exact[i]) == 0) continue;
-    leading[i] = mpz_get_d_2exp(&exponent[i], exact[i].get_mpz_t());  // cut off: less than 2^-52 of it
+    leading[i] = mpz_get_d_2exp(&exponent[i], exact[i].get_mpz_t());  // truncated: error below 2^-52 of it
     largest = is_first ? exponent[i] : std::max(largest, exponent[i]);
     is_first = false;
   }
@@ -402,8 +402,8 @@ Bounds Overlay::near_distance(const Candidate& candidate, const Node& node) cons
   return length_bounds(offset);
 }
 
-/// A point of A, and the points of a candidate with its texture coordinate: a point, a segment or a triangle. All over
-/// one denominator.
+/// A point of A, and all points of a candidate with its texture coordinate: a point, a segment or a triangle. All
+/// coordinates have one denominator.
 struct Overlay::Fibre {
   ExactPoint point;
   std::array<ExactPoint, 3> corners;
@@ -427,7 +427,8 @@ Overlay::Fibre Overlay::fibre(const Candidate& candidate, const Node& node) {
     const mpz_class to_total = sum(to);
     return {scaled(point, to_total), {scaled(weighted_corners(b, to, units_), total)}, 1, total * to_total};
   }
-  // From the edge between the ends to one of the two others, at the same share of the way along the segment.
+  // The candidate is a segment in the texture. The points with one coordinate run from the edge between the ends of the
+  // segment to one of the two other edges, at the same share of the way along the segment.
   const auto uv = texture_points<mpz_class>(b, units_);
   const auto &low = uv[b.along[0]], &middle = uv[b.along[1]], &high = uv[b.along[2]];
   const auto corner = [&](std::size_t k) { return exact_point(b.source->corners[b.along[k]], units_); };

@@ -23,7 +23,7 @@ struct ChartTriangle {
   const TexturedTriangle* source = nullptr;
   Chart chart = Chart::Area;
   bool turned = false;                            ///< the coordinates go round clockwise
-  std::array<std::uint8_t, 3> along = {0, 1, 2};  ///< a segment: its first, middle and last corner in the texture
+  std::array<std::uint8_t, 3> along = {0, 1, 2};  ///< of a segment: its first, middle and last corner in the texture
 };
 
 /// Units, as exponents of 2, that all texture coordinates and all positions are multiples of.
@@ -54,7 +54,7 @@ class Overlay {
     Line second = is_corner;              ///< another one
     Weights weights;                      ///< times one positive number
     std::array<double, 3> given{};        ///< `weights` of a point that is given by them
-    const Eigen::Vector2d* at = nullptr;  ///< its texture coordinate, where a corner of a triangle has it; else null
+    const Eigen::Vector2d* at = nullptr;  ///< its texture coordinate if it is a corner of a triangle, else null
   };
   struct PolygonCorner {
     Node node;
@@ -65,10 +65,10 @@ class Overlay {
 
   explicit Overlay(const ExactUnits& units) : units_(units) {}
 
-  /// Begins anew with this triangle.
+  /// Starts an overlay of this triangle, without candidates.
   void begin(const ChartTriangle& a);
-  /// Adds a candidate, unless all of A is known to lie beyond one of its lines. Its number is that of the candidates
-  /// before it. All triangles must outlive their use.
+  /// Adds a candidate with the next number, counted from 0, unless all of A is known to lie beyond one of its lines.
+  /// Triangles must outlive their use here.
   void add(const ChartTriangle& b);
   [[nodiscard]] const ChartTriangle& triangle() const { return *a_; }
   [[nodiscard]] std::uint32_t candidates() const { return static_cast<std::uint32_t>(candidates_.size()); }
@@ -77,25 +77,26 @@ class Overlay {
   /// The whole triangle A.
   [[nodiscard]] Polygon whole() const;
   [[nodiscard]] std::span<const Line> lines_of(std::uint32_t candidate) const;
-  /// The line where the weight of `corner` is `numerator` / 2^40.
+  /// The line on which the weight of `corner` is `numerator` / 2^40.
   [[nodiscard]] Line add_level(std::size_t corner, std::int64_t numerator);
-  /// The point with weights in this proportion: none negative, one positive.
+  /// The point with weights in the given proportion: none negative, at least one positive.
   [[nodiscard]] static Node given(const std::array<double, 3>& weights);
 
-  /// The side of the line that the point lies on: 1 inside, 0 on it, -1.
+  /// The side of the line that the point lies on: 1 inside, 0 on the line, -1 outside.
   [[nodiscard]] int side(Line line, const Node& node);
-  /// What is inside the line, or on it; with `flip` outside of it or on it.
+  /// Sets `result` to what of the polygon lies inside the line or on it; with `flip`, outside or on it.
   void clip(const Polygon& polygon, Line line, bool flip, Polygon& result);
-  /// What the candidate covers of the polygon.
+  /// Clips the polygon to what the candidate covers of it.
   void clip(Polygon& polygon, std::uint32_t candidate);
   [[nodiscard]] bool covers(std::uint32_t candidate, const Node& node);
 
-  /// From the point to the nearest point of the candidate, which must cover it, with the same texture coordinate. The
-  /// interval is made as narrow as doubles allow where it would be wider than `precision`.
+  /// Bounds of the distance from the point to the nearest point of the candidate with the same texture coordinate; the
+  /// candidate must cover the point. An interval wider than `precision` is computed again exactly, to neighbouring
+  /// doubles.
   [[nodiscard]] Bounds distance(std::uint32_t candidate, const Node& node, double precision);
-  /// The point and that nearest point, rounded.
+  /// The point and that nearest point, rounded to doubles.
   [[nodiscard]] TextureWitness witness(std::uint32_t candidate, const Node& node);
-  /// The share of the triangle that is the polygon.
+  /// The area of the polygon as a share of that of A.
   [[nodiscard]] Approximate share(const Polygon& polygon);
   /// Rounded weights of sum 1.
   [[nodiscard]] static std::array<double, 3> rounded(const Node& node);
@@ -103,12 +104,12 @@ class Overlay {
  private:
   using ExactWeights = std::array<mpz_class, 3>;
   struct LineData {
-    std::array<Approximate, 3> at;  ///< the corners of A
-    std::uint32_t candidate = 0;    ///< that it belongs to
-    std::uint32_t number = 0;       ///< among the lines of the candidate
-    /// Texture coordinates that it joins where it is the edge of a triangle with an area in the texture; else null.
+    std::array<Approximate, 3> at;  ///< its values at the corners of A
+    std::uint32_t candidate = 0;    ///< the candidate it belongs to
+    std::uint32_t number = 0;       ///< its number among the lines of the candidate
+    /// The texture coordinates at its ends if it is an edge of a triangle with an area in the texture; else null.
     std::array<const Eigen::Vector2d*, 2> ends{};
-    std::unique_ptr<ExactWeights> exact;  ///< `at`, once it was asked for
+    std::unique_ptr<ExactWeights> exact;  ///< `at` in integers, once asked for
   };
   struct Candidate {
     const ChartTriangle* triangle;
@@ -116,8 +117,8 @@ class Overlay {
     std::uint8_t line_count;
   };
 
-  /// Whether the point is made of the line itself, of the same edge of another triangle, or of one of its ends: the
-  /// commonest cases of points on lines, where doubles cannot tell.
+  /// Whether the point lies on the line by construction: it was made of the line, of an equal edge of another triangle,
+  /// or of an end of the line. These are the commonest cases of points on lines, which doubles cannot decide.
   [[nodiscard]] bool lies_on(const Node& node, const LineData& line) const;
   [[nodiscard]] const ExactWeights& exact(Line line);
   [[nodiscard]] ExactWeights exact(const Node& node);
@@ -135,7 +136,7 @@ class Overlay {
   std::vector<int> sides_;
 };
 
-/// What is known of the texture coordinates of a triangle, exactly.
+/// The chart of a triangle and the order of its corners in the texture, decided exactly.
 [[nodiscard]] ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units);
 
 }  // namespace meshbound

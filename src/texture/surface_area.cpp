@@ -25,13 +25,13 @@ int exponent_of(const TexturedMesh& mesh) {
   return exponent;
 }
 
-/// In those units; what underflows has an error.
+/// x in units of 2^exponent; a value that underflows has an error.
 Approximate scaled(double x, int exponent) {
   const double value = std::ldexp(x, -exponent);
   return {value, std::fabs(value) < Approximate::small && x != 0 ? Approximate::tiny : 0};
 }
 
-/// Twice the area.
+/// Twice the area of a triangle in units of 2^(2 exponent).
 Approximate area(const Corners& corners, int exponent) {
   std::array<Approximate, 3> ab, ac;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -8,7 +8,8 @@
 
 namespace meshbound {
 
-/// The share of the area of a mesh that `shares` of its textured triangles are, and all of its bare ones.
+/// Which share of the area of a mesh is uncovered: of each textured triangle the part given by `shares`, and all
+/// triangles without texture coordinates.
 [[nodiscard]] Bounds uncovered_share_of(const TexturedMesh& mesh, std::span<const Approximate> shares);
 
 }  // namespace meshbound

@@ -19,11 +19,11 @@
 namespace meshbound {
 namespace {
 
-constexpr double default_share = 1e-6;        ///< of the diagonal, for the error bound
-constexpr double precision_share = 1.0 / 16;  ///< of the error bound, for a single distance
+constexpr double default_share = 1e-6;        ///< of the diagonal: the error bound where none is given
+constexpr double precision_share = 1.0 / 16;  ///< of the error bound: the precision of a single distance
 constexpr std::size_t grain = 32;             ///< triangles that a thread takes at once
 
-/// A mesh, ready to be met by the triangles of another one in the texture.
+/// The triangles of a mesh with a search tree over their texture coordinates.
 class Charts {
  public:
   Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) {
@@ -35,7 +35,7 @@ class Charts {
   [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
 
-  /// Makes the triangles that may meet `a` in the texture its candidates.
+  /// Adds the triangles that may overlap `a` in the texture as candidates of the overlay.
   void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
     found.clear();
     tree_->find(box_of(*a.source), found);
@@ -55,7 +55,7 @@ class Charts {
   std::optional<BoxTree> tree_;
 };
 
-/// T(A, B).
+/// Computes the one-sided texture deviation from A to B.
 class Direction {
  public:
   Direction(const Charts& a, const Charts& b, const ExactUnits& units, double error_bound,
@@ -102,7 +102,7 @@ class Direction {
     b_.add_candidates(t, work.overlay, work.found);
   }
 
-  /// Whether more has to be known of a triangle.
+  /// Whether the upper bound of a triangle still has to be lowered.
   [[nodiscard]] bool is_open(std::size_t triangle) const {
     const double enough = goal_.lower + goal_.error_bound;
     return bounds_[triangle].upper > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
@@ -136,8 +136,8 @@ class Direction {
     }
   }
 
-  /// Takes the triangles with the largest upper bounds first, a few at a time: each batch begins with the lower bound
-  /// that is known before it, so that nothing depends on the number of threads.
+  /// Refines the triangles with the largest upper bounds first, in batches. Every triangle of a batch starts from the
+  /// lower bound before the batch, so that results do not depend on the number of threads.
   void refine() {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < bounds_.size(); ++i)
@@ -179,7 +179,7 @@ class Direction {
     }
   }
 
-  /// The one that gave the lower bound; that of a corner is made only now.
+  /// The witness of the lower bound. Where that was found at a corner of a triangle, the witness is made only here.
   std::optional<TextureWitness> witness() const {
     if (witness_ || !first_) return witness_;
     Workspace work(units_);
@@ -194,9 +194,9 @@ class Direction {
   DeviationGoal goal_;
   std::vector<DeviationByCandidates> known_;  ///< by triangle of A
   std::vector<Bounds> bounds_;                ///< by triangle of A
-  std::vector<Approximate> shares_;           ///< of each triangle of A that B does not cover
+  std::vector<Approximate> shares_;           ///< by triangle of A: the share of it that B does not cover
   std::vector<std::uint32_t> pairs_;
-  std::optional<std::size_t> first_;  ///< the triangle with the lower bound at one of its corners
+  std::optional<std::size_t> first_;  ///< the triangle at a corner of which the lower bound was found
   std::optional<TextureWitness> witness_;
   std::vector<TextureWitness> exceeding_;
   bool gave_up_ = false;

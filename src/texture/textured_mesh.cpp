@@ -18,7 +18,7 @@ void check(const TriangleMesh& mesh, const MeshAttributes& attributes, const cha
       throw InvalidInput(std::string(name) + ": the attributes are not those of as many triangles");
 }
 
-/// Numbers for the names of materials: the same for the same name in both meshes.
+/// Numbers for names of materials: equal names get equal numbers in both meshes.
 class MaterialNumbers {
  public:
   explicit MaterialNumbers(bool are_told_apart) : are_told_apart_(are_told_apart) {}

@@ -14,7 +14,7 @@ using Line = Overlay::Line;
 using Node = Overlay::Node;
 using Polygon = Overlay::Polygon;
 
-/// How a candidate lies to a piece.
+/// How much of a piece a candidate covers.
 enum class Cover { None, Part, All };
 
 /// A convex piece of A; every point of it is covered by the candidates of `full`, and perhaps some by those of `part`.
@@ -23,8 +23,8 @@ struct Piece {
   std::vector<std::uint32_t> full, part;
 };
 
-/// None: at most a border of the piece is covered. `cut` is set for Part: a line with corners of the piece on both
-/// sides.
+/// How much of the polygon the candidate covers. None: at most points of its border. For Part, `cut` is set to a line
+/// of the candidate with corners of the polygon on both sides.
 Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate, Line& cut) {
   Cover cover = Cover::All;
   for (const Line line : overlay.lines_of(candidate)) {
@@ -40,8 +40,8 @@ Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate
   return cover;
 }
 
-/// Sorts the candidates of `part` into those that cover all of the piece and those that cover some of it. Returns a
-/// line to cut it by; none where each candidate is known to cover all or nothing.
+/// Moves the candidates of `part` that cover all of the piece to `full` and drops those that cover nothing. Returns a
+/// line to cut the piece by, absent if no candidate covers it in part.
 std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece) {
   std::optional<Line> chosen;
   std::vector<std::uint32_t> part;
@@ -53,11 +53,11 @@ std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece) {
     if (cover == Cover::Part) part.push_back(c), cuts.push_back(cut);
   }
   piece.part = std::move(part);
-  if (!cuts.empty()) chosen = cuts[cuts.size() / 2];  // one of the middle: pieces halve, as their order is spatial
+  if (!cuts.empty()) chosen = cuts[cuts.size() / 2];  // a middle one halves pieces: candidates are in spatial order
   return chosen;
 }
 
-/// Those that can cover a part of A that is more than a line or a point of it.
+/// The candidates that can cover more of A than a line or a point.
 std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay) {
   std::vector<std::uint32_t> found;
   const Chart chart = overlay.triangle().chart;
@@ -66,8 +66,8 @@ std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay) {
   return found;
 }
 
-/// Raises the lower bound to the distance of a point from the nearest candidate that covers it, if that is larger or
-/// the first that is known.
+/// Sets the lower bound to the distance from the point to the nearest candidate that covers it, if that is larger or no
+/// distance is known yet.
 void include(Overlay& overlay, const Node& node, double precision, TriangleDeviation& result) {
   double nearest = HUGE_VAL;
   std::uint32_t candidate = 0;
@@ -87,9 +87,9 @@ class PieceSearch {
   PieceSearch(Overlay& overlay, const DeviationByCandidates& known, const DeviationGoal& goal)
       : overlay_(overlay), uppers_(known.uppers), goal_(goal), result_(known.all) {}
 
-  /// Takes the whole triangle first: what no candidate covers falls away, and every point of a candidate that covers
-  /// more than a line or a point of A lies in a piece or on its border. The others count only where something falls
-  /// away; then each candidate is looked at by itself, with what it covers as the first piece.
+  /// Starts with the whole triangle. What no candidate covers drops out, and every point of a candidate that covers
+  /// more of A than a line or a point lies in a piece or on its border. The other candidates matter only if something
+  /// dropped out: then each candidate is searched by itself, starting from what it covers.
   TriangleDeviation run() {
     result_.bounds.upper = 0;
     std::vector<std::uint32_t> spanning = spanning_candidates(overlay_);
@@ -120,7 +120,8 @@ class PieceSearch {
 
   void accept(double upper) { result_.bounds.upper = std::max(result_.bounds.upper, upper); }
 
-  /// Over the piece, and the corner where it is reached.
+  /// The candidate's largest upper bound at a corner of the piece, and that corner in `where`: an upper bound for the
+  /// whole piece, as the distance to one candidate is convex.
   double upper_of(const Piece& piece, std::uint32_t candidate, const Node*& where) {
     double upper = 0;
     for (const auto& corner : piece.polygon) {
@@ -171,8 +172,8 @@ class PieceSearch {
     }
   }
 
-  /// Raises the lower bound by a point inside the piece next to its worst corner, where only the candidates of the
-  /// piece count, and by one in its middle.
+  /// Raises the lower bound at the worst corner of the piece, at a point inside next to it, where only candidates of
+  /// the piece count, and at the middle of the piece.
   void probe(const Piece& piece, const Node& worst) {
     constexpr double next_to = 0x1p-26;
     std::array<double, 3> middle{};
@@ -190,7 +191,7 @@ class PieceSearch {
 
   void raise(const Node& node) { include(overlay_, node, goal_.precision, result_); }
 
-  /// Across the piece where it is longest; none where it is too short for that.
+  /// A line that halves the piece across its longest extent; absent if the piece is too small for that.
   std::optional<Line> middle_line(const Polygon& polygon) {
     double longest = 0, at = 0;
     std::size_t corner = 0;
@@ -214,8 +215,8 @@ class PieceSearch {
   bool has_uncovered_ = false;
 };
 
-/// The largest of the candidates' upper bounds that are at most `limit`, where these candidates together cover all of
-/// A: then it is one for A. None where that is not known.
+/// An upper bound for all of A: the largest of the candidates' upper bounds that are at most `limit`, provided that
+/// these candidates together cover A. Absent if that cannot be decided.
 std::optional<double> upper_of_near_candidates(Overlay& overlay, const std::vector<double>& uppers, double limit) {
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
   double upper = 0;
@@ -226,7 +227,8 @@ std::optional<double> upper_of_near_candidates(Overlay& overlay, const std::vect
   return upper;
 }
 
-/// Cuts by lines of candidates, one of the middle first, so that on average a cut halves what is left to look at.
+/// The share of A that no candidate covers. Pieces are cut by lines of candidates, a middle one first, so that a cut
+/// halves the remaining candidates on average.
 class Uncovered {
  public:
   explicit Uncovered(Overlay& overlay) : overlay_(overlay) {}

@@ -8,42 +8,42 @@
 
 namespace meshbound {
 
-/// A point of a triangle, and the candidate that is nearest to it.
+/// A point of a triangle, and the candidate nearest to it.
 struct FarPoint {
   Overlay::Node node;
   std::uint32_t candidate = 0;
 };
 
-/// How far a triangle A is from the candidates of its overlay, at equal texture coordinates.
+/// How far a triangle A is from the candidates of its overlay at equal texture coordinates, model units.
 struct TriangleDeviation {
-  Bounds bounds{0, 0};          ///< of the sup over the points of A that a candidate covers; 0 where there are none
-  std::optional<FarPoint> far;  ///< where `bounds.lower` was found; none where nothing is covered
-  bool gave_up = false;         ///< pieces ran out
-  std::uint64_t pieces = 0;     ///< that were looked at
+  Bounds bounds{0, 0};          ///< of the supremum over the points of A that a candidate covers; 0 if there are none
+  std::optional<FarPoint> far;  ///< where `bounds.lower` was found; absent if nothing is covered
+  bool gave_up = false;         ///< `max_pieces` was reached
+  std::uint64_t pieces = 0;     ///< pieces that were bounded
 };
 
-/// What each candidate alone says.
+/// What `deviation_by_candidates` finds.
 struct DeviationByCandidates {
   TriangleDeviation all;
-  std::vector<double> uppers;  ///< by candidate, over what it covers; -1 where that is nothing
+  std::vector<double> uppers;  ///< by candidate: upper bound over what it covers, -1 if it covers nothing
 };
 
-/// What a search may spend, and how near it has to look, model units.
+/// The limits of a search, and how precise its result has to be; lengths in model units.
 struct DeviationGoal {
-  double lower = 0;        ///< of the whole mesh, known before: nothing below it counts
-  double error_bound = 0;  ///< upper bounds up to this above the lower bound are good enough
-  double precision = 0;    ///< of single distances
+  double lower = 0;        ///< a lower bound for the whole mesh that is known already: smaller deviations do not matter
+  double error_bound = 0;  ///< an upper bound that exceeds the lower bound by no more than this suffices
+  double precision = 0;    ///< of a single distance
   std::uint64_t max_pieces = 0;
 };
 
-/// Looks at each candidate alone, and at the corners of A, or a point that is covered where no corner is: the distance
-/// to one candidate is convex over what it covers, so it is largest at a corner of that. The upper bound holds, but is
-/// that of the worst candidate instead of the nearest one where several cover the same points. O(candidates).
+/// Bounds the deviation by each candidate alone. The distance to one candidate is convex over what it covers, so its
+/// maximum is at a corner of that. Where several candidates cover the same points the upper bound is that of the
+/// farthest, not the nearest one: valid, but not tight. The lower bound comes from the corners of A, or from one
+/// covered point if no corner is covered. O(candidates).
 [[nodiscard]] DeviationByCandidates deviation_by_candidates(Overlay& overlay, double precision);
 
-/// Then takes the candidates that are near enough, where these together cover all of A; else cuts what a candidate
-/// covers where others cover it as well, and takes the nearest of them: branch and bound, until the upper bound is
-/// within the error bound of the lower one. `known` is what was found for the same overlay.
+/// Tightens what `known` says of the same overlay to the goal: by the near candidates alone if these cover all of A,
+/// else by branch and bound over pieces of A, with the nearest candidate of each piece.
 [[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, const DeviationByCandidates& known,
                                                     const DeviationGoal& goal);
 

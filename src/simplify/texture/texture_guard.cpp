@@ -12,24 +12,26 @@
 namespace meshbound {
 namespace {
 
-/// A coordinate whose worst sample is below this share of the limit needs no better one.
+/// Share of the limit: a coordinate whose worst sample is below it needs no improvement.
 constexpr double good_share = 0.5;
-/// Where a sample is farther away than so many limits, no other coordinate of the vertex helps.
+/// In multiples of the limit: where a sample is farther away than this, no coordinate of the vertex helps.
 constexpr double hopeful_share = 4;
-/// Newton steps at most; a step that gains nothing ends them.
+/// Most Newton steps for one coordinate; a step without gain ends them earlier.
 constexpr int max_steps = 4;
-/// Points from the line of the original to the one that a collapse makes of it, in the texture, at these shares of the
-/// way.
+/// The strip between a line of the original and the line that a collapse makes of it, in the texture, is sampled at
+/// these shares of the way across.
 constexpr std::array<double, 3> shares_of_strip = {0.02, 0.5, 0.98};
 
-/// Points of a face that are compared with the original, the vertex that moves having the first weight.
+/// Points of a face that are compared with the original, by their weights; the first weight is that of the moving
+/// vertex.
 constexpr std::array<std::array<double, 3>, 4> tested_points = {
     {{1, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}};
 
-/// An edge that becomes a line is compared at the ends of so many parts.
+/// An edge that becomes a line is compared at the ends of this many parts.
 constexpr int parts_of_line = 8;
 
-/// A sample is inside a face whose barycentric coordinates are not below this: it may lie on the edge.
+/// Smallest barycentric coordinate with which a sample counts as inside a face: slightly negative, as it may lie on the
+/// edge.
 constexpr double min_weight = -1e-9;
 
 double doubled_area(const CornerCoordinates& t) {
@@ -41,14 +43,14 @@ Vec3 point_of(const std::array<Vec3, 3>& corners, const std::array<double, 3>& w
   return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
 }
 
-/// The closest point of a segment, as a share of the way.
+/// Position of the point of segment ab closest to p, as a share of the way from a to b.
 double closest_share(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
   const Eigen::Vector2d way = b - a;
   const double squared = way.squaredNorm();
   return squared > 0 ? std::clamp((p - a).dot(way) / squared, 0.0, 1.0) : 0;
 }
 
-/// The point of the outline of a triangle in the texture that is closest to a coordinate.
+/// Weights of the point on the outline of a triangle in the texture that is closest to `p`, and its squared distance.
 std::array<double, 3> closest_on_outline(const CornerCoordinates& t, const Eigen::Vector2d& p, double& squared) {
   std::array<double, 3> best{};
   squared = HUGE_VAL;
@@ -94,8 +96,8 @@ void TextureGuard::begin(const TexturedStar& star) {
   for (const std::uint32_t f : star.removed) add_samples(f);
 }
 
-/// Gives a coordinate to the corners of the vertex that goes, on one side of its line: those around it that are joined
-/// to the removed face with this corner.
+/// Gives a coordinate to the corners of the removed vertex on one side of its line: those that are connected with
+/// corner `of_leaving` without crossing a line.
 void TextureGuard::set_sector(Corner of_leaving, const Eigen::Vector2d& coordinate) {
   const auto set = [&](Corner c) {
     for (std::size_t i = 0; i < faces_.size(); ++i)
@@ -126,7 +128,7 @@ void TextureGuard::set_at_end(std::uint32_t stays, std::uint32_t leaves) {
   }
 }
 
-/// The coordinate of the closest point of the faces around, as they are.
+/// The coordinate of the closest point of the faces around, in their state before the collapse.
 std::optional<Eigen::Vector2d> TextureGuard::coordinate_at(Vec3 point) const {
   double least = HUGE_VAL;
   std::optional<Eigen::Vector2d> result;
@@ -176,7 +178,7 @@ bool TextureGuard::set_faces(Vec3 point) {
   return true;
 }
 
-/// Whether a face covers its place in the texture from the other side, or none of it any more.
+/// Whether a face would cover its part of the texture with the opposite orientation, or none of it.
 bool TextureGuard::is_turned_over() const {
   for (std::size_t i = 0; i < faces_.size(); ++i) {
     if (faces_[i].chart == TextureMap::none || area_before_[i] == 0) continue;
@@ -205,7 +207,7 @@ TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::u
   return best.is_inside ? best : match_outside(sample, chart);
 }
 
-/// The point of the faces that is nearest in the texture, where none has the coordinate of the sample.
+/// The point of the faces that is nearest in the texture to a sample whose coordinate no face has.
 TextureGuard::Match TextureGuard::match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const {
   Match best;
   double least = HUGE_VAL;
@@ -229,7 +231,7 @@ void TextureGuard::prepare_weights() {
   }
 }
 
-/// Finds a face for each sample. False where there is none, or none as near as that.
+/// Finds a face for each sample. False if a sample has none, or none within `max_squared`.
 bool TextureGuard::match(double max_squared) {
   prepare_weights();
   matches_.resize(samples_.size());
@@ -240,8 +242,8 @@ bool TextureGuard::match(double max_squared) {
   return true;
 }
 
-/// How the distance of a sample follows the coordinate of the vertex: where the vertex goes by d in the texture, the
-/// point of the face with the sample's coordinate goes by -weight J d, J being the derivative of the position in the
+/// Derivative of a sample's distance by the coordinate of the vertex: where the vertex moves by d in the texture, the
+/// point of the face with the sample's coordinate moves by -weight J d, with J the derivative of the position in the
 /// face by the coordinate.
 void TextureGuard::add_slope(const Face& face, const Match& match, Deviations& deviations) const {
   if (!face.has_area || !match.is_inside) return;
@@ -251,7 +253,8 @@ void TextureGuard::add_slope(const Face& face, const Match& match, Deviations& d
   const Eigen::Matrix<double, 3, 2> derivative = sides * face.to_weights * (-match.weights[0] / map_.limit);
   const Eigen::Vector3d offset = to_eigen((1 / map_.limit) * match.offset);
   const double squared = offset.squaredNorm();
-  // The sum of squared^3: its slope is 6 squared^2 D^T e; of its curvature the part that is never negative.
+  // The objective is the sum of squared^3: its gradient is 6 squared^2 D^T e; of its Hessian only the positive
+  // semidefinite part is kept.
   const Eigen::Vector2d slope = derivative.transpose() * offset;
   deviations.sum += squared * squared * squared;
   deviations.gradient += 6 * squared * squared * slope;
@@ -268,8 +271,8 @@ TextureGuard::Deviations TextureGuard::deviations() {
   return result;
 }
 
-/// Moves the coordinate of the vertex until the samples are within the limit, or no step helps. The faces are those of
-/// the best coordinate afterwards.
+/// Moves the coordinate of the vertex until all samples are within the limit or no step helps. Leaves the faces with
+/// the best coordinate.
 bool TextureGuard::improve() {
   const auto is_within = [&](const Deviations& d) { return d.worst_squared <= map_.limit * map_.limit; };
   Deviations here = deviations();
@@ -295,8 +298,8 @@ bool TextureGuard::improve() {
   return is_within(here);
 }
 
-/// Whether edge k of a face that stays, the edge opposite to the vertex being 1, is a line or becomes one: where it
-/// merges with the line of a face that goes.
+/// Whether edge k of a face that stays (edge 1 is opposite to the vertex) is a line, or becomes one by merging with the
+/// line of a removed face.
 bool TextureGuard::becomes_line(std::size_t face, std::size_t k) const {
   const Corner c = star_.moved[face];
   const Corner edge = k == 0 ? c : k == 1 ? next_corner(c) : previous_corner(c);
@@ -309,8 +312,8 @@ bool TextureGuard::becomes_line(std::size_t face, std::size_t k) const {
   return is_other_line(next_corner(across)) || is_other_line(previous_corner(across));
 }
 
-/// Whether the strip between the line of the original and that of the faces, in the texture, is no place where the
-/// original has something else: the strip shows that, or is shown there.
+/// Whether no point of the original whose coordinate lies in the strip between its line and that of the faces, in the
+/// texture, is farther away than the limit: the result would show that texture at the line, or lack it there.
 bool TextureGuard::is_border_free(std::size_t i) {
   const TextureMap::Sample& sample = map_.sample(samples_[i]);
   double least = HUGE_VAL;
@@ -347,8 +350,8 @@ bool TextureGuard::are_borders_free() {
   return are_lines_near();
 }
 
-/// Whether the samples whose coordinates no face has any more are those of nothing else that is far away: the texture
-/// would move there.
+/// Whether the original has no far point with the coordinate of a sample that no face covers any more: the texture
+/// would seem to have moved there.
 bool TextureGuard::are_uncovered_free() {
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Match& m = matches_[i];
@@ -371,7 +374,7 @@ bool TextureGuard::is_near_original(const Face& face, const std::array<double, 3
   return squared <= map_.limit * map_.limit || squared == HUGE_VAL;
 }
 
-/// Whether points of the faces are near the points of the original with their coordinates, if there are any.
+/// Whether points of the faces are near the points of the original with the same coordinates, where such points exist.
 bool TextureGuard::are_faces_near() {
   return std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {
     if (face.chart == TextureMap::none) return true;
@@ -380,7 +383,8 @@ bool TextureGuard::are_faces_near() {
   });
 }
 
-/// As that, along the edges at the vertex that are lines once an edge of a line has collapsed.
+/// Compares the edges at the vertex that are lines after the collapse of an edge of a line, as `are_faces_near`
+/// compares faces.
 bool TextureGuard::are_lines_near() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].chart == TextureMap::none) continue;
@@ -423,7 +427,7 @@ void TextureGuard::give_samples(TextureMap& map) const {
 }
 
 void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const std::uint32_t> faces) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> samples;  // with their charts
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> samples;  // each with its chart
   for (const std::uint32_t f : faces) {
     for (std::uint32_t s = map.first(f); s != TextureMap::none; s = map.sample(s).following)
       samples.emplace_back(s, map.chart(f));

@@ -19,11 +19,12 @@ struct TexturedStar {
 
 /// Chooses the texture coordinates of the vertex that a collapse leaves, and compares the samples around with the faces
 /// as they would be: the distance between points of equal texture coordinates, after Cohen, Olano, Manocha,
-/// "Appearance-Preserving Simplification", SIGGRAPH 1998. One for each thread.
+/// "Appearance-Preserving Simplification", SIGGRAPH 1998. Each thread needs its own.
 ///
-/// A vertex that goes to where an end of the edge is takes the coordinates of that end, on each side of a line its own.
-/// Elsewhere it begins with the coordinate that the mesh has there, and Newton's method on the sum of the sixth powers
-/// of the distances moves that where it has to.
+///
+/// A vertex placed at an end of the edge takes the coordinates of that end, on each side of a line its own. At any
+/// other place it starts with the coordinate that the mesh has there; where the samples exceed the limit, Newton's
+/// method on the sum of the sixth powers of their distances moves it.
 class TextureGuard {
  public:
   TextureGuard(const TextureMap& map, const ArrayMesh& mesh, const FeatureLines& lines)
@@ -33,9 +34,10 @@ class TextureGuard {
   void begin(const TexturedStar& star);
   /// Whether the samples stay within the limit of the map with the vertex at `point`. O(samples * faces).
   [[nodiscard]] bool holds(Vec3 point);
-  /// Writes the coordinates that `holds` has accepted last to the faces that stay.
+  /// Writes the coordinates that `holds` accepted last to the faces that stay.
   void apply(TextureMap& map) const;
-  /// Gives the samples of the star to the faces that stay, as `holds` has found them. The mesh has collapsed.
+  /// Assigns the samples of the star to the faces that stay, as `holds` has matched them. Call once the mesh has
+  /// collapsed.
   void give_samples(TextureMap& map) const;
 
  private:
@@ -44,8 +46,8 @@ class TextureGuard {
     std::array<Vec3, 3> at;
     CornerCoordinates coordinates;
     std::uint32_t chart = TextureMap::none, number = 0;
-    /// From a coordinate relative to that of the vertex to the weights of the two other corners; no numbers where the
-    /// face has no area in the texture.
+    /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners; NaN where the face
+    /// has no area in the texture.
     Eigen::Matrix2d to_weights;
     bool has_area = false;
   };
@@ -54,9 +56,9 @@ class TextureGuard {
     std::uint32_t face = TextureMap::none;  ///< index in `faces_`
     bool is_inside = false;
     std::array<double, 3> weights{};
-    Vec3 offset;  ///< from the sample
+    Vec3 offset;  ///< from the sample to that point
   };
-  /// What the samples say of a choice of coordinates.
+  /// How far the samples are from the faces for one choice of coordinates.
   struct Deviations {
     double worst_squared = 0, sum = 0;
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
@@ -90,16 +92,16 @@ class TextureGuard {
   const ArrayMesh& mesh_;
   const FeatureLines& lines_;
   TexturedStar star_;
-  std::vector<std::uint32_t> samples_, charts_;  ///< of the star: samples, and the chart of each
-  std::vector<Face> faces_;                      ///< by moved corner; the vertex comes first
-  std::vector<double> area_before_;              ///< twice those in the texture, by moved corner
-  std::vector<Match> matches_;                   ///< by sample
-  bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be chosen
+  std::vector<std::uint32_t> samples_, charts_;  ///< of the star: its samples, and the chart of each
+  std::vector<Face> faces_;                      ///< by moved corner; the moving vertex comes first
+  std::vector<double> area_before_;  ///< by moved corner: twice the area of the face in the texture before the collapse
+  std::vector<Match> matches_;       ///< by sample
+  bool is_free_ = false;             ///< the vertex has a single coordinate, which may be changed
   bool accepted_ = false;
   std::vector<std::uint32_t> found_;
 };
 
-/// Gives the samples of these faces, which have just been restored, to those of them that are left.
+/// Assigns the samples of faces that an undone collapse has just restored to those of them that have their coordinates.
 void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const std::uint32_t> faces);
 
 }  // namespace meshbound

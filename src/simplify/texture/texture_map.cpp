@@ -8,10 +8,11 @@
 namespace meshbound {
 namespace {
 
-/// Points between the ends of one edge.
+/// Most samples between the ends of one edge.
 constexpr double max_between = 7;
 
-/// Barycentric coordinates that are negative by no more than this count as 0: a point on an edge belongs to a triangle.
+/// Barycentric coordinates that are negative by no more than this count as 0, so that a point on an edge belongs to a
+/// triangle.
 constexpr double rounding = 1e-12;
 
 bool has_coordinates(const CornerCoordinates& corners) {
@@ -126,7 +127,7 @@ void TextureMap::add_sample(std::uint32_t face, Vec3 at, const Eigen::Vector2d& 
   give_to(static_cast<std::uint32_t>(samples_.size() - 1), face);
 }
 
-/// One sample for the corners around a vertex that are joined across edges that are no lines.
+/// Takes one sample for each set of corners at a vertex that are connected without crossing a line.
 void TextureMap::take_vertices(const ArrayMesh& start, const FeatureLines& lines) {
   std::vector<std::uint8_t> is_taken(3 * start.face_count(), 0);
   for (Corner first = 0; first < is_taken.size(); ++first) {

@@ -14,7 +14,7 @@
 
 namespace meshbound {
 
-/// Texture coordinates of the corners of a triangle; not numbers where it has none.
+/// Texture coordinates of the corners of a triangle; NaN where it has none.
 using CornerCoordinates = std::array<Eigen::Vector2d, 3>;
 
 /// The triangles of the original, found by a texture coordinate. Immutable, safe to share.
@@ -49,9 +49,9 @@ class Atlas {
   std::optional<BoxTree> tree_;
 };
 
-/// The texture of a mesh under decimation: coordinates at its corners, and samples of the original, each with the face
-/// that has its coordinate. A guide, not a bound. What belongs to faces of different regions may be changed by
-/// different threads.
+/// The texture of a mesh under decimation: coordinates at its corners, and samples of the original, each assigned to
+/// the face that has its coordinate. It guides decimation and proves nothing. Threads may change what belongs to faces
+/// of different regions at once.
 class TextureMap {
  public:
   static constexpr std::uint32_t none = ArrayMesh::none;
@@ -60,7 +60,7 @@ class TextureMap {
   struct Sample {
     Vec3 at;
     Eigen::Vector2d coordinate;
-    std::uint32_t following = none;  ///< of the same face
+    std::uint32_t following = none;  ///< next sample of the same face
     bool is_on_line = false;
   };
 
@@ -80,20 +80,21 @@ class TextureMap {
   void restore(std::uint32_t face, const CornerCoordinates& before) {
     for (std::size_t k = 0; k < 3; ++k) coordinates_[3 * face + k] = before[k];
   }
-  /// Faces of one chart hang together across edges that are no lines; `none`: the face has no coordinates.
+  /// The chart of a face: faces connected without crossing a line have one chart. `none` for a face without
+  /// coordinates.
   [[nodiscard]] std::uint32_t chart(std::uint32_t face) const { return chart_[face]; }
   [[nodiscard]] std::uint32_t material(std::uint32_t face) const { return material_[face]; }
 
   [[nodiscard]] const Sample& sample(std::uint32_t s) const { return samples_[s]; }
   [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
-  /// Empties the list of the face; its samples must be given to other faces of the chart then.
+  /// Empties the list of samples of the face; the caller must assign these samples to other faces of the chart.
   void clear(std::uint32_t face) { first_[face] = none; }
   void give_to(std::uint32_t s, std::uint32_t face) {
     samples_[s].following = first_[face];
     first_[face] = s;
   }
 
-  double limit = 0;  ///< how far the texture may move, by the samples
+  double limit = 0;  ///< largest distance that the texture may move at a sample, model units
 
  private:
   void number_charts(const ArrayMesh& start, const FeatureLines& lines);
@@ -105,7 +106,7 @@ class TextureMap {
   std::vector<Eigen::Vector2d> coordinates_;     ///< by corner
   std::vector<std::uint32_t> chart_, material_;  ///< by face
   std::vector<Sample> samples_;
-  std::vector<std::uint32_t> first_;  ///< by face
+  std::vector<std::uint32_t> first_;  ///< by face: its first sample
 };
 
 /// Barycentric coordinates of a point in a triangle of the texture; nothing where that has no area.
