@@ -9,8 +9,8 @@
 namespace meshbound {
 namespace {
 
-/// Barycentric coordinates of a point of a triangle's plane; the first corner where the triangle has no area. Products
-/// are of shares of the longest side, so that they neither overflow nor underflow.
+/// Barycentric coordinates of a point in the plane of a triangle; the first corner if the triangle has no area.
+/// Products are of lengths divided by the longest side, so that they neither overflow nor underflow.
 Eigen::Vector3d barycentric(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
   Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], w = p - corners[0];
   const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());

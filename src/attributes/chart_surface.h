@@ -18,11 +18,11 @@ struct WeightedPoint {
   std::uint32_t triangle = 0;
   Eigen::Vector3d weights = {1, 0, 0};
 
-  /// The corner with the largest weight, the first of several.
+  /// The corner with the largest weight; the first one among equals.
   [[nodiscard]] std::size_t nearest_corner() const;
 };
 
-/// A mesh with its charts, and closest points on one chart at a time. Not thread-safe: trees are made when asked for.
+/// A mesh with its charts, for closest points on one chart at a time. Not thread-safe: trees are built when first used.
 class ChartSurface {
  public:
   /// `mesh` must outlive this. Throws as `charts`.
@@ -44,7 +44,7 @@ class ChartSurface {
   std::optional<PositionTable> at_position_;
   std::vector<std::vector<std::uint32_t>> corners_at_;    ///< by first vertex at a position
   std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< by chart
-  std::vector<std::unique_ptr<Bvh>> trees_;               ///< by chart, made when asked for
+  std::vector<std::unique_ptr<Bvh>> trees_;               ///< by chart, built when first used
 };
 
 }  // namespace meshbound

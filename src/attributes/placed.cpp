@@ -13,8 +13,8 @@
 namespace meshbound {
 namespace {
 
-/// Twice the relative rounding of a float: room for the rounding of doubles, and for vertices that a decimation puts
-/// further from the origin than those of the mesh.
+/// Twice the relative rounding of a float: leaves room for the rounding of doubles, and for vertices that a decimation
+/// moves further from the origin than the mesh reaches.
 constexpr double float_rounding = 0x1p-23;
 
 bool moves_nothing(const MeshAttributes& attributes) {
@@ -35,7 +35,8 @@ SimplifiedLevel placed_as_written(SimplifiedLevel level, const MeshAttributes& a
   const GltfDocument& document = *attributes.document;
   std::set<Edge> lines;
   for (const Edge& edge : level.lines) lines.insert(sorted(edge));
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> number_of;  // by placed mesh and vertex
+  // By placed mesh and vertex: number of the vertex there.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> number_of;
   const TriangleMesh from = std::exchange(level.mesh, {});
   const std::vector<std::uint32_t> source_vertex = std::exchange(level.source_vertex, {});
   level.lines.clear();

@@ -36,7 +36,7 @@ bool is_equal(const Attribute& attribute, std::uint32_t a, std::uint32_t b) {
   return equal_values(attribute, a, b);
 }
 
-/// The corner of a triangle at a position, given by its first vertex.
+/// The corner of a triangle at a position, which is given by the first vertex there.
 std::size_t corner_at(const Triangle& triangle, const std::vector<std::uint32_t>& first, std::uint32_t position) {
   for (std::size_t k = 0; k < 3; ++k)
     if (first[triangle[k]] == position) return k;
@@ -49,7 +49,7 @@ struct Neighbours {
   std::array<std::array<std::size_t, 2>, 2> corners;  ///< by end: that of the first triangle, that of the second
 };
 
-/// Across the edge of `t` from corner k to the next.
+/// The triangles at the edge of `t` from corner k to the next.
 Neighbours neighbours_across(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first, std::uint32_t t,
                              std::size_t k, std::uint32_t other) {
   Neighbours result{{t, other}, {}};
@@ -80,7 +80,7 @@ bool is_seam(const MeshAttributes& attributes, const Neighbours& at) {
                      [&](const NamedAttribute& named) { return named.has_seams && differs(named, at); });
 }
 
-/// Colours and other numbers alone have no need that borders stay where they are.
+/// Whether borders of charts must stay where they are: colours and other numbers alone do not need that.
 bool has_chart_borders(const MeshAttributes& attributes) {
   return !attributes.texture_coordinates.empty() || !attributes.materials.empty() || !attributes.part.empty();
 }
@@ -95,7 +95,7 @@ void check_sizes(const MeshAttributes& attributes, std::size_t triangles) {
   for (const NamedAttribute& named : attributes.named) check_size(named.index.size(), triangles, named.name.c_str());
 }
 
-/// Numbers the components of the triangles that hang together across edges that are no seams.
+/// Numbers the charts: triangles connected across edges that are no seams.
 void number_charts(Charts& charts) {
   const std::size_t triangles = charts.neighbours.size();
   charts.chart_of.assign(triangles, no_index);

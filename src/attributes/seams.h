@@ -8,7 +8,7 @@
 
 namespace meshbound {
 
-/// Which triangles of a mesh hang together without crossing a seam.
+/// The charts of a mesh: sets of triangles connected without crossing a seam.
 struct Charts {
   std::vector<std::uint32_t> chart_of;  ///< by triangle
   std::uint32_t count = 0;
@@ -17,7 +17,7 @@ struct Charts {
   std::vector<std::uint32_t> first;                      ///< by vertex: the first one at its position
 };
 
-/// Throws `InvalidInput` where the attributes are not those of as many triangles. O(n log n).
+/// Throws `InvalidInput` if the attributes are for another number of triangles. O(n log n).
 [[nodiscard]] Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
 }  // namespace meshbound

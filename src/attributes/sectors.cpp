@@ -55,7 +55,7 @@ std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level, co
   }
 
   std::vector<std::vector<std::uint32_t>> result;
-  std::vector<std::uint32_t> sector_of(count, no_index);  // by root
+  std::vector<std::uint32_t> sector_of(count, no_index);  // by root of its set
   for (std::uint32_t c = 0; c < count; ++c) {
     std::uint32_t& sector = sector_of[sets.root(c)];
     if (sector == no_index) {

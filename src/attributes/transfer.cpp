@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
-/// How far from its corner towards the middle of its triangle the normal of a corner is looked up, as a share.
+/// The normal of a corner is looked up at a point this share of the way from the corner to the middle of its triangle.
 constexpr double share_inside = 0.1;
 
-/// Cosine of the largest angle between normals of neighbouring corners that become one: 15 degrees, which shading hides
-/// on a coarse mesh. Every sharper edge has a normal on each side.
+/// Cosine of the largest angle between normals of neighbouring corners that get one common normal: 15 degrees, which
+/// shading hides on a coarse mesh. Sharper edges have a normal on each side.
 constexpr double smooth_cosine = 0.9659;
 
-/// The numbers of a value; nothing where a corner of the triangle has none.
+/// The interpolated value at a point; absent if a corner of its triangle has none.
 std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const WeightedPoint& at) {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -30,7 +30,7 @@ std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const 
   return value;
 }
 
-/// Appends the value of an attribute at a point to `values`. False where a corner of the triangle has none.
+/// Appends the value of an attribute at a point to `values`; false if a corner of its triangle has none.
 bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std::vector<double>& values) {
   const Triangle& index = attribute.index[at.triangle];
   if (index[0] == none || index[1] == none || index[2] == none) return false;
@@ -103,7 +103,7 @@ class Transfer {
     return std::vector<Triangle>(level_.mesh.triangles.size(), {none, none, none});
   }
 
-  /// Texture coordinates and named attributes: one value for each sector, that of its corners together.
+  /// Texture coordinates and named attributes: one value for all corners of a sector.
   void take_values_of_sectors(MeshAttributes& result) {
     if (!from_.texture_coordinates.empty()) result.texture_coordinates.index = no_values();
     for (const NamedAttribute& from : from_.named)
@@ -124,7 +124,7 @@ class Transfer {
     }
   }
 
-  /// The one that the level has at a corner, or that of the original at the corresponding point.
+  /// The coordinate that the level has at a corner, else that of the original at the corresponding point.
   [[nodiscard]] std::optional<Eigen::Vector3d> texture_coordinate(std::uint32_t corner, const WeightedPoint& at) const {
     if (level_.texture_coordinates.empty()) return value_at(from_.texture_coordinates, at);
     const Eigen::Vector2d& value = level_.texture_coordinates[corner / 3][corner % 3];
@@ -145,7 +145,7 @@ class Transfer {
   }
 
   /// Among the corners of the original at the position, in the same chart, the one whose triangle is nearest to the
-  /// sector: all have the same values unless the chart meets itself at the line.
+  /// sector. All of them have equal values unless the chart touches itself along the line.
   std::optional<WeightedPoint> point_on_line(const std::vector<std::uint32_t>& corners) const {
     const Eigen::Vector3d p = position(corners.front());
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
@@ -164,7 +164,7 @@ class Transfer {
   }
 
   CornerAttribute normals() {
-    std::vector<Eigen::Vector3d> by_corner;  // zero where there is none
+    std::vector<Eigen::Vector3d> by_corner;  // zero if a corner has none
     for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) {
       const auto value = value_at(from_.normals, original_.closest(chart(c), point_inside(c, share_inside)));
       by_corner.push_back(value ? value->stableNormalized() : Eigen::Vector3d::Zero());

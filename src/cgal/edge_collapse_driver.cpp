@@ -27,13 +27,13 @@ using OptionalCost = decltype(std::declval<const SMS::LindstromTurk_cost<Surface
 Vec3 to_vec3(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Point to_point(Vec3 p) { return {p.x, p.y, p.z}; }
 
-/// Thrown out of `edge_collapse` where the collapses are to end while it asks for costs.
+/// Thrown out of `edge_collapse` to end the collapses while it asks for costs.
 struct Ended {};
 
 /// Costs between two looks at whether to end.
 constexpr std::uint32_t costs_between_looks = 64;
 
-/// One `edge_collapse`, of which its policies below are copyable handles.
+/// One run of `edge_collapse`; the policies below are copyable handles on it.
 struct Run {
   RegionCollapses& collapses;
   RegionMesh& region;
@@ -86,9 +86,9 @@ struct Stop {
   }
 };
 
-/// The last that CGAL asks before it collapses an edge: the array mesh does so here. CGAL comes back to all edges of
-/// all vertices around a collapse; those that were refused are tried again where a face at one of their ends has
-/// changed.
+/// CGAL's last question before it collapses an edge: here the array mesh makes and proves the collapse. CGAL asks again
+/// for all edges around the vertices of a collapse; an edge that was refused is tried again only if a face at one of
+/// its ends has changed.
 struct Filter {
   Run* run;
 
@@ -103,7 +103,7 @@ struct Filter {
   }
 };
 
-/// Where the array mesh left the vertex of a collapse, it is put in the other mesh too.
+/// Moves the vertex of a collapse in CGAL's mesh to where the array mesh has put it.
 struct Visitor : SMS::Edge_collapse_visitor_base<SurfaceMesh> {
   Run* run;
 
@@ -119,7 +119,7 @@ struct Visitor : SMS::Edge_collapse_visitor_base<SurfaceMesh> {
   }
 };
 
-/// Edges that were refused before, and near which nothing has changed, are left alone until something does.
+/// Skips edges that were refused before, as long as nothing near them changes.
 struct Constraint {
   using key_type = Edge;
   using value_type = bool;

@@ -13,7 +13,7 @@ namespace meshbound::cgal {
 /// edge of no length, which CGAL collapses without asking.
 class EdgeCollapseDriver : public CollapseDriver {
  public:
-  /// A region with a vertex of more edges is not for CGAL's loop.
+  /// A region with a vertex of more edges than this is left to the core's own queue.
   static constexpr std::size_t max_edges_of_vertex = 96;
 
   explicit EdgeCollapseDriver(CollapseCost cost) : cost_(cost) {}

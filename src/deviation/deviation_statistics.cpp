@@ -11,8 +11,8 @@
 namespace meshbound {
 namespace {
 
-/// Areas of the triangles as a share of the squared diagonal, which neither overflows nor underflows for a triangle
-/// that counts.
+/// Areas of the triangles in units of the squared diagonal, so that they neither overflow nor underflow for triangles
+/// that count.
 std::vector<double> relative_areas(const MeshView& mesh) {
   const double diagonal = bounding_box_diagonal(mesh);
   std::vector<double> areas(mesh.triangle_count(), 0.0);
@@ -41,7 +41,7 @@ Eigen::Vector3d point_inside(const MeshView& mesh, const Triangle& t, std::size_
   return (1 - u - v) * mesh.vertex(t[0]) + u * mesh.vertex(t[1]) + v * mesh.vertex(t[2]);
 }
 
-/// At equal steps of area along the triangles; empty where the mesh has no area.
+/// `count` points at equal steps of area along the list of triangles; empty if the mesh has no area.
 std::vector<Eigen::Vector3d> points_on(const MeshView& mesh, std::size_t count) {
   const std::vector<double> areas = relative_areas(mesh);
   double total = 0;
@@ -59,7 +59,7 @@ std::vector<Eigen::Vector3d> points_on(const MeshView& mesh, std::size_t count) 
   return points;
 }
 
-/// Sums are of shares of the largest distance, whose squares neither overflow nor underflow.
+/// Sums are taken of distances divided by the largest one, whose squares neither overflow nor underflow.
 void fill_averages(std::vector<double> distances, DeviationStatistics& statistics) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   statistics.samples = distances.size();

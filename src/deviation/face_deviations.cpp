@@ -18,14 +18,14 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// The search for the bound of one triangle among the multiples of the error bound: `failed` times it is not known to
-/// be enough, `proven` times it is.
+/// The search for the bound of one triangle as a multiple of the error bound: `failed` times it could not be proven,
+/// `proven` times it is proven.
 struct FaceSearch {
-  double lower = 0;  ///< some point of the triangle is at least so far away, model units
-  double upper = 0;  ///< no point of it is further, model units
+  double lower = 0;  ///< some point of the triangle is at least this far from the other mesh, model units
+  double upper = 0;  ///< no point of the triangle is further from it, model units
   double failed = 0;
   double proven = 0;
-  double step = 1;         ///< to the next multiple that is tried; doubles with each failure
+  double step = 1;         ///< to the next multiple tried; doubles with each failure
   std::uint32_t hint = 0;  ///< a triangle of the other mesh near the centroid
 
   [[nodiscard]] double next() const { return std::min(failed + step, std::floor((failed + proven) / 2)); }
@@ -38,8 +38,8 @@ Corners corners_of(const MeshView& mesh, std::size_t face) {
   return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
 }
 
-/// No point of a triangle is further from a corner than the longest edge is long, and the distance to a mesh is
-/// 1-Lipschitz.
+/// An upper bound by the corners: no point of a triangle is further from a corner than the longest edge is long, and
+/// the distance to a mesh is 1-Lipschitz.
 double lipschitz_upper(const Corners& p, double upper_of_corners) {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (p[(k + 1) % 3] - p[k]).stableNorm());
@@ -54,7 +54,7 @@ double centroid_rounding(const Corners& p) {
   return next_up(16 * unit_roundoff * largest);
 }
 
-/// What the corners and the centroid tell of each triangle.
+/// Bounds of each triangle by its corners and its centroid.
 std::vector<FaceSearch> first_bounds(const MeshView& mesh, const Bvh& other, const std::vector<Bounds>& vertices,
                                      double error_bound, const DeviationOptions& options) {
   std::vector<FaceSearch> faces(mesh.triangle_count());
@@ -78,8 +78,8 @@ std::vector<FaceSearch> first_bounds(const MeshView& mesh, const Bvh& other, con
   return faces;
 }
 
-/// Tries the next multiple for every open triangle, those of one multiple after another, as `Proximity` wants it.
-/// False when there is no open triangle.
+/// Tries the next multiple for every open triangle, grouped by multiple, since a `Proximity` is for one tolerance.
+/// False if no triangle is open.
 bool advance(std::vector<FaceSearch>& faces, const MeshView& mesh, std::vector<Proximity>& proximity,
              double error_bound, const StopToken& stop) {
   std::vector<std::size_t> open;

@@ -14,8 +14,8 @@ struct Mapping {
   bool is_identity = true;
   /// Largest coordinate of the mapped model, at least 1: the M of numeric/rounding.h.
   double magnitude = 1;
-  /// What mapping adds to distances: rounding of the map and of its coefficients, and the amount by which the poses
-  /// miss being rigid. Length in units of the target frame.
+  /// How much mapping may change a distance: rounding of the map and of its coefficients, and the deviation of the
+  /// poses from rigid motions. Length in units of the target frame.
   double error = 0;
 
   [[nodiscard]] Vec3 operator()(const Vec3& p) const {

@@ -50,7 +50,8 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
   if (!stopped_) {
     until_stopped([&] {
       level.ended_by = decimation_->run(tolerance, target_faces, stop());
-      // Below the rounding of coordinates nothing is proven, not even that faces cover the triangles that were dropped.
+      // With a tolerance below the rounding of coordinates nothing can be proven, not even that faces cover the dropped
+      // triangles.
       if (level.ended_by == EndedBy::Rounding)
         take_original(level);
       else

@@ -7,8 +7,8 @@
 
 namespace meshbound {
 
-/// The levels of one original, one after the other: a decimation, and what replaces it where the time ended
-/// before there was one. Not thread-safe.
+/// Makes the levels of one original, one after the other: by a decimation, or as copies of the original if the time ran
+/// out before one could start. Not thread-safe.
 class LevelRun {
  public:
   using Clock = StopToken::Clock;
@@ -17,11 +17,12 @@ class LevelRun {
   /// being checked already.
   LevelRun(const TriangleMesh& original, const SimplifyOptions& options);
 
-  /// Goes on to this tolerance, not smaller than the one before, and to at least `target_faces`. Not measured.
+  /// Continues to this tolerance, which must not be smaller than that of the call before, or until `target_faces` are
+  /// left. The level is not measured.
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
-  /// Edges of the original that are lines.
+  /// Edges of the original that are feature lines.
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
-  /// Everything of the result but for its levels and times of measurements.
+  /// Fills everything in the result but its levels and the times of measurements.
   void describe(SimplifyResult& result) const;
 
  private:
@@ -35,11 +36,12 @@ class LevelRun {
   double prepare_seconds_ = 0, simplify_seconds_ = 0;
   std::optional<Decimation> decimation_;
   std::vector<Edge> lines_;
-  std::optional<EndedBy> stopped_;  ///< before anything was decimated: the original itself stands for every level
+  /// Set if the time ran out before the decimation began: the original then stands for every level.
+  std::optional<EndedBy> stopped_;
 };
 
-/// The levels of a run, ascending, not measured. Where `attributes` say that parts are copies of each other, they stay
-/// so. Throws as `simplify_with_bound`.
+/// All levels of a run by ascending tolerance, not measured. Parts that `attributes` mark as copies of each other stay
+/// copies. Throws as `simplify_with_bound`.
 [[nodiscard]] SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptions& options,
                                              const MeshAttributes& attributes = {});
 

@@ -61,7 +61,7 @@ SceneGroup group_of_copies(const TriangleMesh& original, const SceneLayout& layo
   return group;
 }
 
-/// Ascending, each once, ending with the tolerance.
+/// The tolerances of all levels, ascending, without repetitions; the last one is that of the result.
 std::vector<double> tolerances(const SimplifyOptions& options) {
   std::vector<double> all = options.levels;
   all.push_back(options.tolerance);
@@ -70,7 +70,7 @@ std::vector<double> tolerances(const SimplifyOptions& options) {
   return all;
 }
 
-/// Faces to end at in the last level; 0 when no target is given.
+/// Number of faces at which the last level ends; 0 if no target is given.
 std::size_t target(const TriangleMesh& original, const SimplifyOptions& options) {
   std::size_t faces = options.target_faces.value_or(0);
   if (options.target_ratio) {
@@ -80,7 +80,7 @@ std::size_t target(const TriangleMesh& original, const SimplifyOptions& options)
   return faces;
 }
 
-/// Why the groups together ended: the reason that says most comes first.
+/// Why all groups together ended: of two reasons, the one that comes first in this list.
 EndedBy ended_by(EndedBy a, EndedBy b) {
   for (const EndedBy reason :
        {EndedBy::Cancelled, EndedBy::TimeLimit, EndedBy::Tolerance, EndedBy::Target, EndedBy::NothingFits})
@@ -95,7 +95,8 @@ std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAtt
   if (attributes.document == nullptr) return groups;
   const SceneLayout& layout = *scene_layout(attributes);
   const auto triangles = triangles_by_placed(layout, attributes.part);
-  // Copies of each mesh; the first is one that can be undone. Meshes that nobody can see are left where they are.
+  // Copies of each mesh; the first one has an invertible placement. Meshes without one are invisible and stay as they
+  // are.
   std::map<std::uint32_t, std::vector<std::uint32_t>> placed_of;
   for (std::uint32_t p = 0; p < layout.placed.size(); ++p)
     if (!triangles[p].empty()) placed_of[layout.placed[p].mesh].push_back(p);
@@ -133,7 +134,7 @@ SceneRun::SceneRun(const TriangleMesh& original, const MeshAttributes& attribute
   }
 }
 
-/// The time limit is that of all groups together; each run subtracts what it took itself.
+/// Runs `work` within the time limit of the whole run, of which each group's run subtracts only its own time.
 template <class Work>
 void SceneRun::timed(Group& of, const Work& work) {
   const auto start = LevelRun::Clock::now();
@@ -144,7 +145,8 @@ void SceneRun::timed(Group& of, const Work& work) {
   seconds_ += seconds;
 }
 
-/// Options speak of the original's vertices and triangles; those of a group of its own.
+/// Starts the run of a group. Options refer to vertices and triangles of the original, so they are translated to those
+/// of the group.
 void SceneRun::start(Group& of) {
   const SceneGroup& group = of.group;
   std::vector<std::uint32_t> number(original_.vertices.size(), no_index);
@@ -167,7 +169,7 @@ void SceneRun::start(Group& of) {
   of.run.emplace(group.mesh, of.options);
 }
 
-/// Vertices of the original for those of a group's mesh, of one of its copies.
+/// For each vertex of a group's mesh, the vertex of the original in one of its copies.
 std::vector<std::uint32_t> SceneRun::vertices_of(const Group& of, const SceneCopy& copy) const {
   std::vector<std::uint32_t> result(of.group.vertices.size(), 0);
   for (std::size_t i = 0; i < of.group.mesh.triangles.size(); ++i) {

@@ -9,11 +9,11 @@
 
 namespace meshbound {
 
-/// Where a copy of a mesh stands: from the frame in which the mesh is decimated to the scene.
+/// One copy of a mesh, and the map from the frame in which the mesh is decimated to the scene.
 struct SceneCopy {
   std::uint32_t placed = 0;          ///< of `SceneLayout::placed`
   std::uint32_t first_triangle = 0;  ///< of the original; the copy's triangles follow each other
-  bool is_turned = false;            ///< its triangles have their corners 1 and 2 exchanged, as it is mirrored
+  bool is_turned = false;            ///< the placement mirrors it: corners 1 and 2 of its triangles are exchanged
 };
 
 /// Triangles that are decimated together. A mesh that nodes show more than once is decimated once, in the frame of its
@@ -21,22 +21,24 @@ struct SceneCopy {
 /// every copy. All other triangles together are decimated where they stand.
 struct SceneGroup {
   TriangleMesh mesh;
-  double scale = 1;                      ///< of the frame, where there are copies
-  std::vector<SceneCopy> copies;         ///< empty: the triangles as they stand in the scene
-  std::vector<std::uint32_t> vertices;   ///< of the original, by vertex of `mesh`; those of the first copy
-  std::vector<std::uint32_t> triangles;  ///< of the original, by triangle of `mesh`; those of the first copy
+  double scale = 1;                      ///< of the frame, if there are copies
+  std::vector<SceneCopy> copies;         ///< empty: the triangles are decimated where they stand in the scene
+  std::vector<std::uint32_t> vertices;   ///< by vertex of `mesh`: vertex of the original, in the first copy
+  std::vector<std::uint32_t> triangles;  ///< by triangle of `mesh`: triangle of the original, in the first copy
 };
 
-/// One group of everything where no mesh is shown twice; it then has an empty `mesh`, which stands for the original.
+/// The groups of a scene. If no mesh is shown twice, one group of everything with an empty `mesh`, which stands for the
+/// original.
 [[nodiscard]] std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAttributes& attributes);
 
-/// The levels of an original, one after the other, as `LevelRun`, but copies of a mesh stay copies. Not thread-safe.
+/// Makes the levels of an original as `LevelRun` does, and keeps copies of a mesh copies of each other. Not
+/// thread-safe.
 class SceneRun {
  public:
-  /// All must outlive this. Throws as `LevelRun`.
+  /// The arguments must outlive this. Throws as `LevelRun`.
   SceneRun(const TriangleMesh& original, const MeshAttributes& attributes, const SimplifyOptions& options);
 
-  /// As `LevelRun::next`. The faces of a target are those that are shown, each group taking its share of them.
+  /// As `LevelRun::next`. A target counts the faces shown, and each group gets its share of it.
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
   void describe(SimplifyResult& result) const;
@@ -46,7 +48,7 @@ class SceneRun {
     SceneGroup group;
     SimplifyOptions options;
     std::optional<LevelRun> run;
-    double seconds = 0;  ///< that the run took
+    double seconds = 0;  ///< that its run took
   };
 
   template <class Work>

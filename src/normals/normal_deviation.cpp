@@ -15,8 +15,8 @@
 namespace meshbound {
 namespace {
 
-constexpr double tie_share = 1e-9;          ///< of the diagonal of A
-constexpr double rounding_share = 0x1p-40;  ///< of the largest coordinate
+constexpr double tie_share = 1e-9;          ///< of the diagonal of A: distances that differ by less are equal
+constexpr double rounding_share = 0x1p-40;  ///< of the largest coordinate: likewise
 constexpr std::size_t grain = 256;          ///< faces that a thread takes at once
 
 using Corners = std::array<Eigen::Vector3d, 3>;
@@ -26,7 +26,7 @@ Corners corners_of(const MeshView& mesh, std::size_t triangle) {
   return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
 }
 
-/// Unit length; none without an area.
+/// The unit normal; absent for a triangle without area.
 std::optional<Eigen::Vector3d> normal_of(const Corners& c) {
   const double longest = std::max({(c[1] - c[0]).stableNorm(), (c[2] - c[1]).stableNorm(), (c[0] - c[2]).stableNorm()});
   if (!(longest > 0)) return std::nullopt;
@@ -77,8 +77,8 @@ class Faces {
   std::vector<std::uint32_t> source_;
 };
 
-/// The vector from the point of the triangle that is nearest to p, to p. Squares are of shares of the largest
-/// coordinate around p, so that they neither overflow nor underflow.
+/// The vector to p from the point of the triangle nearest to it. Coordinates around p are divided by the largest one,
+/// so that squares neither overflow nor underflow.
 Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
   double size = 0;
   for (const Eigen::Vector3d& corner : corners) size = std::max(size, (corner - p).cwiseAbs().maxCoeff());
@@ -96,7 +96,7 @@ Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
   return size * Eigen::Vector3d(offset.x, offset.y, offset.z);
 }
 
-/// Faces nearer to each other than this, as seen from a point, are equally near.
+/// Distances from a point to faces that differ by less than this count as equal.
 double tie_of(const MeshView& mesh) {
   Eigen::AlignedBox3d box;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)

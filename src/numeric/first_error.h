@@ -23,7 +23,7 @@ class FirstError {
     }
   }
 
-  /// Whether something has thrown already, for loops whose further work would be of no use.
+  /// Whether something has been thrown already, so that loops can end early.
   [[nodiscard]] bool has_error() const { return has_error_; }
 
   void rethrow() const {

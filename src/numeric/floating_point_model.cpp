@@ -12,7 +12,7 @@ namespace meshbound {
 
 void check_floating_point_model() {
   static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
-  // volatile: the process decides, not the compiler's constant folding
+  // volatile: computed by the process, not by the compiler.
   volatile double one = 1, tiny = std::numeric_limits<double>::min(), half = 0.5, ulp = 0x1p-52, large = 0x1p53,
                   three = 3;
   if (tiny * half == 0)

@@ -30,8 +30,8 @@ void with_team(int threads, Work&& work) {
   error.rethrow();
 }
 
-/// Throws `std::bad_alloc` where there is no memory for so many tasks of OpenMP, whose runtime would end the process.
-/// What is freed here is what it takes next, unless another thread comes first.
+/// Throws `std::bad_alloc` if there is no memory for this many OpenMP tasks, where the OpenMP runtime would end the
+/// process. The memory is freed at once for the runtime to allocate, which another thread may prevent.
 inline void require_memory_for_tasks(std::size_t tasks) {
   constexpr std::size_t bytes_of_task = 512;  // 231 in libgomp 12
   ::operator delete(::operator new(bytes_of_task* tasks + bytes_of_task));

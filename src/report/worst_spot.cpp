@@ -6,7 +6,8 @@
 namespace meshbound {
 
 bool was_searched(const OneSidedDistance& distance) {
-  // A search that ran has looked at a triangle; a result that nobody touched has the interval [0, inf].
+  // Whether the direction was searched: a search visits at least one triangle, and the interval of a result that nobody
+  // filled is [0, inf].
   return std::isfinite(distance.bounds.upper) || distance.bounds.lower > 0 || distance.stats.closest_point_queries > 0;
 }
 

@@ -18,7 +18,7 @@ struct MovingPair::Impl {
     forget();
   }
 
-  /// What is known, of the trees as they are now.
+  /// What is known about the trees in their current state.
   HausdorffMemory memory() {
     if (a->data().serial != serial_a || b->data().serial != serial_b) forget();
     return {&a_to_b, &b_to_a};

@@ -11,16 +11,16 @@
 
 namespace meshbound {
 
-/// One candidate in one alignment, on its way through bounds that become dearer and better.
+/// A candidate in one alignment, and its lower bound, which stages of growing cost raise.
 struct ShapeTrial {
-  /// What the lower bound comes from: extents, then points of the candidate too, which need no tree of it, then points
-  /// of the query too.
+  /// How the lower bound was found: from extents; from points of the candidate, which needs no tree of it; from points
+  /// of the query as well.
   enum class Stage { Extents, SamplesOfCandidate, SamplesOfBoth };
 
-  double lower;  ///< of the distance, by the stages so far
+  double lower;  ///< of the distance, by the stages passed
   Stage stage;
-  std::uint32_t index;  ///< of the candidate
-  std::uint32_t way;    ///< of its alignments
+  std::uint32_t index;  ///< index of the candidate
+  std::uint32_t way;    ///< which of its alignments
 
   bool operator<(const ShapeTrial& other) const {
     if (lower != other.lower) return lower > other.lower;
@@ -54,7 +54,7 @@ class ShapeSearch {
   }
 
  private:
-  /// Takes the trial with the smallest lower bound a stage further.
+  /// Takes the trial with the smallest lower bound one stage further.
   void follow_best() {
     stop_.check();
     const ShapeTrial trial = trials_.top();
@@ -65,11 +65,11 @@ class ShapeSearch {
       trials_.push(sampled(trial));
   }
 
-  /// Rounding of normalised coordinates, of a rotation and of three products: they are below 2^8 for a shape whose mean
-  /// radius is 1 unless it is a needle, and then `size` grows with it.
+  /// A bound of the rounding of normalised coordinates, of a rotation and of three products. Coordinates are below 2^8
+  /// for a shape whose mean radius is 1, unless it is a needle, whose `size` is larger accordingly.
   [[nodiscard]] static double rounding(double size) { return 0x1p-40 * std::max(1.0, size); }
 
-  /// Signs of the axes in each of the 4 proper ways.
+  /// Signs of the axes in each of the 4 proper rotations that keep them.
   [[nodiscard]] static std::array<double, 3> signs(std::uint32_t way) {
     const double first = (way & 1) != 0 ? -1 : 1, second = (way & 2) != 0 ? -1 : 1;
     return {first, second, first * second};
@@ -83,7 +83,8 @@ class ShapeSearch {
     return pose;
   }
 
-  /// A point that is furthest along an axis has no point of the other shape nearer than the difference.
+  /// Lower bound by extents: no point of the other shape is nearer to a point that is furthest along an axis than their
+  /// extents differ.
   [[nodiscard]] double by_extents(std::uint32_t index, std::uint32_t way) const {
     const Shape::Impl &mine = *query_.impl_, &theirs = *candidates_[index].impl_;
     const Extents& a = options_.align ? mine.along_axes : mine.along_world;
@@ -98,7 +99,7 @@ class ShapeSearch {
     return std::max(0.0, largest - rounding(size));
   }
 
-  /// The largest distance of some points, moved by `pose`, to a shape; ends once it is too large.
+  /// Largest distance of the points, moved by `pose`, to a shape; stops once it is too large to matter.
   double sample(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& pose, const Shape& to,
                 double lower) {
     for (std::size_t i = 0; i < points.size() && !(lower > limit_); ++i) {
@@ -172,8 +173,8 @@ class ShapeSearch {
   const SimilarityOptions& options_;
   StopToken stop_;
   std::priority_queue<ShapeTrial> trials_;  ///< the smallest lower bound first
-  /// Once there are as many shapes as are wanted: what is further than this cannot be nearer than the last of them by
-  /// more than the error bound.
+  /// Once as many shapes are found as are wanted: a candidate with a larger lower bound than this cannot be nearer than
+  /// the last of them by more than the error bound.
   double limit_ = std::numeric_limits<double>::infinity();
   SimilarShapes result_;
 };

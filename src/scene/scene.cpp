@@ -25,8 +25,8 @@ using MovePair = std::pair<std::uint64_t, std::uint64_t>;
 
 struct Body {
   PlacedModel model;
-  const ClosedModel* solid = nullptr;  ///< null: none
-  std::uint64_t serial = 0;            ///< of the tree that `box` is of
+  const ClosedModel* solid = nullptr;  ///< null: the body has none
+  std::uint64_t serial = 0;            ///< version of the tree for which `box` was made
   WorldBox box = {};
   std::uint64_t moves = 0;  ///< counts poses and refits
 
@@ -39,7 +39,7 @@ struct Body {
   }
 };
 
-/// What is kept of a pair that could not be skipped.
+/// What is kept about a pair that could not be skipped.
 struct PairMemory {
   MovingPair moving;
   MovePair moves;  ///< of both bodies when `check` was made
@@ -53,11 +53,11 @@ bool is_complete(const PenetrationDepth& penetration) {
                       [](const PenetrationVolume& volume) { return volume.outcome == Outcome::BudgetExhausted; });
 }
 
-/// What is kept of a pair of solids whose boxes meet.
+/// What is kept about a pair of solids whose boxes meet.
 struct ContactMemory {
   MovePair moves;                     ///< of both bodies when `penetration` was found
-  std::optional<double> error_bound;  ///< that it was found for
-  std::optional<double> decide;       ///< likewise
+  std::optional<double> error_bound;  ///< for which `penetration` was found
+  std::optional<double> decide;       ///< `stop_when_deeper` for which it was found
   std::optional<PenetrationDepth> penetration = {};
 
   [[nodiscard]] bool answers(const PenetrationOptions& options, const MovePair& now) const {
@@ -66,8 +66,8 @@ struct ContactMemory {
   }
 };
 
-/// Pairs i < j that `is_near` accepts, by i, then by j: a sweep along the x axis, where the lower sides of the boxes of
-/// a pair are at most `reach(i)` apart for the one with the lower side.
+/// Pairs i < j that `is_near` accepts, ordered by i, then by j. Sweeps along the x axis: `reach(box)` is how far above
+/// the lower side of a box the lower side of another box may be, for the two to be tested.
 template <class Reach, class IsNear>
 std::vector<BodyPair> sweep_and_prune(const std::vector<Body>& bodies, Reach&& reach, IsNear&& is_near) {
   std::vector<std::uint32_t> order(bodies.size());
@@ -85,7 +85,7 @@ std::vector<BodyPair> sweep_and_prune(const std::vector<Body>& bodies, Reach&& r
   return pairs;
 }
 
-/// What rounding may hide along the sweep: the error of any two boxes, and of the sums.
+/// What rounding may hide along the sweep: the errors of any two boxes, and of the sums.
 double rounding_of(const std::vector<Body>& bodies) {
   double largest = 0;
   for (const Body& body : bodies) {
@@ -98,13 +98,13 @@ double rounding_of(const std::vector<Body>& bodies) {
 }  // namespace
 
 struct Scene::Impl {
-  /// Boxes of trees that were refitted since.
+  /// Makes the boxes of trees that were refitted since.
   void update() {
     for (Body& body : bodies)
       if (body.serial != body.model.bvh->data().serial) body.place(body.model.pose);
   }
 
-  /// The memories of these pairs, kept from the last question where it had them, made anew elsewhere.
+  /// The memories of these pairs: kept from the last question for pairs that it had, made anew for the others.
   template <class Memory, class Make>
   static std::vector<Memory*> memories_of(const std::vector<BodyPair>& pairs, std::map<BodyPair, Memory>& memories,
                                           Make&& make) {
@@ -122,7 +122,7 @@ struct Scene::Impl {
     return found;
   }
 
-  /// Whether the answer of a pair stands.
+  /// Whether the kept answer of a pair is still valid.
   [[nodiscard]] bool stands(const BodyPair& pair, const PairMemory& memory, double tolerance) const {
     return memory.check && memory.check->tolerance == tolerance && memory.check->verdict != Verdict::Undecided &&
            memory.moves == moves_of(pair);

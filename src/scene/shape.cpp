@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Integrals over a surface.
+/// Integrals over a surface: its area, and the first and second moments of position.
 struct Moments {
   double area = 0;
   Vector3d first = Vector3d::Zero();   ///< of x
@@ -37,7 +37,7 @@ Moments moments_of(const TriangleMesh& mesh) {
   return moments;
 }
 
-/// Moves the mesh and scales it. Returns the map.
+/// Moves the mesh so that `origin` becomes 0 and scales it. Returns that map.
 Eigen::Affine3d normalise(TriangleMesh& mesh, const Vector3d& origin, double scale) {
   for (Vector3d& p : mesh.vertices) p = scale * (p - origin);
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
@@ -46,7 +46,8 @@ Eigen::Affine3d normalise(TriangleMesh& mesh, const Vector3d& origin, double sca
   return map;
 }
 
-/// By the bounding box first, so that the integrals are those of coordinates of about 1 wherever the mesh lies.
+/// Maps the bounding box of the mesh to unit size, so that the integrals are over coordinates of about 1 wherever the
+/// mesh lies. Returns the map.
 Eigen::Affine3d into_unit_box(TriangleMesh& mesh) {
   const Eigen::AlignedBox3d box = used_bounding_box(mesh);
   const double size = box.sizes().maxCoeff();
@@ -77,7 +78,7 @@ Extents extents_along(const TriangleMesh& mesh, const Matrix3d& axes) {
   return extents;
 }
 
-/// Vertices of triangles that are spread over the list of triangles, as far as there are any.
+/// Vertices of triangles at equal steps along the list of triangles, up to the number of samples.
 std::vector<Vector3d> some_vertices(const TriangleMesh& mesh) {
   constexpr std::size_t max_samples = 16;
   const std::size_t n = mesh.triangles.size(), count = std::min(max_samples, n);

@@ -14,7 +14,7 @@ struct Extents {
 };
 
 struct Shape::Impl {
-  TriangleMesh mesh;  ///< normalised; empty once the tree is there
+  TriangleMesh mesh;  ///< normalised; empty once the tree is built
   Eigen::Affine3d normalisation;
   Eigen::Matrix3d axes;
   Extents along_world;                   ///< along x, y and z

@@ -12,7 +12,8 @@
 namespace meshbound {
 namespace {
 
-/// The largest of `direction` . w over the vertices of a tree: depth first, nodes that cannot hold it left out.
+/// Finds the largest dot product of `direction` with a vertex of a tree, depth first; nodes that cannot hold it are
+/// skipped.
 class FarthestVertex {
  public:
   FarthestVertex(const Bvh::Data& tree, const Vec3& direction) : tree_(tree), direction_(direction) {}
@@ -23,7 +24,7 @@ class FarthestVertex {
   }
 
  private:
-  /// The corner of a box in the direction.
+  /// The largest dot product over a box.
   [[nodiscard]] double bound(const Box& box) const {
     const Vec3 corner{direction_.x > 0 ? box.hi.x : box.lo.x, direction_.y > 0 ? box.hi.y : box.lo.y,
                       direction_.z > 0 ? box.hi.z : box.lo.z};
@@ -52,7 +53,7 @@ class FarthestVertex {
 
 constexpr std::array axes = {&Vec3::x, &Vec3::y, &Vec3::z};
 
-/// A difference of coordinates that is not above what both boxes allow.
+/// A difference of coordinates, rounded down by the errors of both boxes.
 double certain(double difference, const WorldBox& a, const WorldBox& b) {
   return next_down(next_down(difference) - next_up(a.error + b.error));
 }
@@ -68,7 +69,8 @@ WorldBox world_box(const PlacedModel& model) {
     box.lo.*axes[k] = offset[k] - FarthestVertex(tree, -1.0 * map.rows[k]).find();
     box.hi.*axes[k] = offset[k] + FarthestVertex(tree, map.rows[k]).find();
   }
-  // A dot product and a sum, each of terms of at most the magnitude, and a node that rounding has left out.
+  // Rounding of a dot product and a sum with terms of at most this magnitude, and of the bounds by which nodes were
+  // skipped.
   const double scale = length(map.rows[0]);
   box.error = next_up(map.error + tree.frame.error * scale * 2 + 32 * unit_roundoff * map.magnitude);
   return box;

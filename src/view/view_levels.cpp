@@ -13,7 +13,7 @@
 namespace meshbound {
 namespace {
 
-/// The scale of a pose that is a rigid motion and a scale; absent for other maps.
+/// The scale of a pose that is a rigid motion and a scale; absent for other affine maps.
 std::optional<double> similarity_scale(const Eigen::Affine3d& pose) {
   if (!pose.matrix().allFinite()) return std::nullopt;
   const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
@@ -31,7 +31,7 @@ double scale_of(const ViewInstance& instance, std::size_t number, std::size_t mo
   return *scale * (1 + 1e-9);
 }
 
-/// The tolerances that a model's chain can have, model units, growing.
+/// Tolerances that the chain of a model may have, model units, ascending.
 std::vector<double> ladder_of(double diagonal, const ViewOptions& options) {
   std::vector<double> ladder;
   for (double share = options.finest_share; share <= options.coarsest_share; share *= options.ratio)
@@ -46,7 +46,7 @@ void check(const ViewOptions& options) {
   if (!(options.ratio >= 1.01)) throw InvalidInput("the ratio of tolerances of levels must be 1.01 or more");
 }
 
-/// The tolerances of each instance for each camera, in units of its model.
+/// The tolerance that each instance needs for each camera, model units.
 class Needs {
  public:
   Needs(std::span<const TriangleMesh> models, std::span<const ViewInstance> instances,
@@ -67,11 +67,11 @@ class Needs {
 
  private:
   std::size_t instances_;
-  std::vector<double> scales_;      ///< world units for one of the model
+  std::vector<double> scales_;      ///< by instance: world units per model unit
   std::vector<double> tolerances_;  ///< by camera, then by instance
 };
 
-/// Steps of the ladder that some camera needs for some instance of a model.
+/// Steps of the ladder that some camera needs for some instance of the model.
 std::set<std::size_t> needed_steps(const std::vector<double>& ladder, std::size_t model,
                                    std::span<const ViewInstance> instances, std::size_t cameras, const Needs& needs) {
   std::set<std::size_t> steps;
@@ -95,7 +95,8 @@ std::vector<ViewLevel> make_levels(const TriangleMesh& model, std::size_t number
   LodChain chain(model, options);
   for (const std::size_t step : steps) {
     const LodLevel level = chain.next(ladder[step]);
-    // The measurement may prove less for a coarser level than for a finer one; an engine may not.
+    // A coarser level may happen to have a smaller bound than a finer one. Levels are found by errors that ascend, so
+    // the larger one is kept.
     const double error = std::max(level.distance->bounds.upper, levels.back().error);
     levels.push_back({ladder[step], error, level.faces()});
     if (sink) sink(number, levels.size() - 1, level);
@@ -103,7 +104,7 @@ std::vector<ViewLevel> make_levels(const TriangleMesh& model, std::size_t number
   return levels;
 }
 
-/// The coarsest level within the tolerance: errors grow.
+/// The coarsest level within the tolerance; errors ascend along the chain.
 std::uint32_t coarsest(const std::vector<ViewLevel>& levels, double tolerance) {
   const auto above = std::upper_bound(levels.begin(), levels.end(), tolerance,
                                       [](double limit, const ViewLevel& level) { return limit < level.error; });

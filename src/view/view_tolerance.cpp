@@ -9,11 +9,11 @@
 namespace meshbound {
 namespace {
 
-/// Relative room for the rounding of depths, angles and tolerances, which are computed in a few operations of doubles.
+/// Relative margin for the rounding of depths, angles and tolerances, each computed in a few operations of doubles.
 constexpr double rounding = 0x1p-40;
 
-/// Cosine of the angle from the view axis to the corners of the screen. At depth z and angle a a displacement d covers
-/// up to f d / (z cos a) pixels, f d / z being what it covers parallel to the screen on the axis.
+/// Cosine of the angle from the view axis to the corners of the screen. At depth z and angle a, a displacement d covers
+/// up to f d / (z cos a) pixels; f d / z is what it covers on the axis, parallel to the screen.
 double cosine_to_corner(const ViewCamera& camera) {
   const double up = std::tan(camera.screen.vertical_field_of_view / 2), right = up * camera.aspect_ratio;
   return 1 / std::hypot(1.0, up, right);
@@ -37,7 +37,7 @@ double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::Alig
     size = std::max(size, p.cwiseAbs().sum() + pose.translation().cwiseAbs().sum() + camera.position.cwiseAbs().sum());
   }
   if (furthest < -rounding * size) return std::numeric_limits<double>::infinity();
-  // A point that a deviation t brings nearer has a depth of at least nearest - t: t <= (nearest - t) at_one.
+  // A deviation t may bring a point nearer, to a depth of at least nearest - t, so that t <= (nearest - t) at_one.
   return std::max(0.0, (nearest - rounding * size) * (at_one / (1 + at_one)) * (1 - rounding));
 }
 

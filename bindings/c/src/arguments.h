@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What C callers pass in, checked and turned into what the library takes.
+/// Checks what C callers pass in and converts it to the types of the library.
 #pragma once
 #include <meshbound.h>
 
@@ -12,14 +12,14 @@
 
 namespace meshbound::c_interface {
 
-/// A view of the caller's buffers. Throws `InvalidInput`, naming `argument`, where they cannot be a mesh.
+/// A view of the caller's buffers. Throws `InvalidInput`, naming `argument`, if they cannot be a mesh.
 [[nodiscard]] MeshView view_of(const mb_mesh* mesh, const char* argument);
 
 /// A view whose indices and used coordinates are checked as well.
 [[nodiscard]] MeshView valid_view_of(const mb_mesh* mesh, const char* argument);
 
-/// The options that a caller of any version has given, over the defaults. `init` is their ..._init function. Throws
-/// `InvalidInput` for a size that it cannot have set.
+/// The options as given by a caller compiled against any version, over the defaults. `init` is the options' ..._init
+/// function. Throws `InvalidInput` for a size that `init` cannot have set.
 template <class Options>
 [[nodiscard]] Options complete(const Options* given, mb_status (*init)(Options*, size_t)) {
   Options options;
@@ -35,7 +35,7 @@ template <class Options>
   return options;
 }
 
-/// Writes the part of `defaults` that a caller who knows `size` bytes of the options has.
+/// Writes those leading bytes of `defaults` that the caller's version of the options has: `size` bytes.
 template <class Options>
 void initialise(Options* options, size_t size, Options defaults) {
   if (size < sizeof(size_t) || size > sizeof defaults)

@@ -17,7 +17,7 @@
 namespace meshbound::c_interface {
 namespace {
 
-/// An array, not a string: noting that memory has run out must not need any.
+/// An array instead of a string: reporting that memory ran out must not allocate.
 thread_local std::array<char, 512> last_message{};
 
 mb_status failed(mb_status status, const char* message) {
@@ -25,8 +25,8 @@ mb_status failed(mb_status status, const char* message) {
   return status;
 }
 
-/// Rounds to nearest and keeps denormal numbers. The scope that restores this costs a region of all threads of OpenMP,
-/// so it is made only for programs that have changed the mode.
+/// Whether the process rounds to nearest and keeps denormal numbers. The scope that restores this mode costs a parallel
+/// region, so it is made only for programs that have changed it.
 bool is_default_mode() {
   volatile double tiny = std::numeric_limits<double>::min(), half = 0.5;
   return std::fegetround() == FE_TONEAREST && tiny * half != 0;

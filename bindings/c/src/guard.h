@@ -6,8 +6,8 @@
 
 namespace meshbound::c_interface {
 
-/// Calls `work` in the floating-point mode that the library needs. What it throws becomes a status and the message of
-/// this thread; nothing is thrown from here.
+/// Calls `work` in the floating-point mode that the library needs. An exception becomes a status and the message of the
+/// calling thread; none leaves this function.
 mb_status guarded(const std::function<void()>& work) noexcept;
 
 /// Throws `InvalidInput`, naming the argument, where `pointer` is null.

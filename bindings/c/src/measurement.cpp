@@ -23,7 +23,7 @@ mb_distance_options default_distance_options() {
   return options;
 }
 
-/// A distance of which one direction is known.
+/// A distance with the result of one direction only.
 HausdorffDistance only_a_to_b(OneSidedDistance direction) {
   HausdorffDistance distance;
   distance.bounds = direction.bounds;
@@ -33,7 +33,8 @@ HausdorffDistance only_a_to_b(OneSidedDistance direction) {
 
 BvhOptions tree_options(const DistanceOptions& options) { return {options.threads, {.cancel = options.cancel}}; }
 
-/// The distance where it needs no tree, as it is for two copies of a mesh; to the error bound and to `tolerance`.
+/// The distance of two meshes if it can be found without trees, as for two copies of one mesh; absent otherwise. Within
+/// the error bound, or decided for `tolerance`.
 std::optional<HausdorffDistance> looked_up(const MeshView& a, const MeshView& b, const DistanceOptions& options,
                                            double tolerance) {
   if (a.triangle_count() != b.triangle_count()) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the library returns, as C callers see it.
+/// Conversion of the library's results to the structures of C callers.
 #pragma once
 #include <meshbound.h>
 
@@ -12,6 +12,6 @@ namespace meshbound::c_interface {
 [[nodiscard]] mb_verdict to_c(Verdict verdict);
 [[nodiscard]] mb_distance to_c(const HausdorffDistance& distance);
 [[nodiscard]] mb_distance to_c(const ToleranceCheck& check);
-[[nodiscard]] mb_ended_by to_c(EndedBy reason);  ///< not of a cancelled run, which has no result
+[[nodiscard]] mb_ended_by to_c(EndedBy reason);  ///< a cancelled run has no result, so no reason
 
 }  // namespace meshbound::c_interface

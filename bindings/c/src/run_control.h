@@ -7,18 +7,18 @@
 
 #include "meshbound/error.h"
 
-/// The flag that C callers see as an opaque structure.
+/// The flag behind the opaque structure of C callers.
 struct mb_cancel {
   std::atomic<bool> requested = false;
 };
 
 namespace meshbound::c_interface {
 
-/// The flag and the progress function of one call. A progress function that ends the call sets the caller's flag, or
-/// one of its own where the caller has none.
+/// The flag and the progress function of one call. A progress function that asks to end the call sets the caller's
+/// flag, or one of its own if the caller gave none.
 class RunControl {
  public:
-  /// For options of any kind that have `cancel`, `progress` and `user`.
+  /// Takes them from options of any kind that have `cancel`, `progress` and `user`.
   template <class Options>
   explicit RunControl(const Options& options)
       : flag_(options.cancel != nullptr ? &options.cancel->requested : &own_),
@@ -29,7 +29,7 @@ class RunControl {
 
   [[nodiscard]] const std::atomic<bool>* flag() const { return flag_; }
 
-  /// What the library calls; empty without a progress function. Must not outlive this.
+  /// The progress function for the library; empty if the caller gave none. Must not outlive this.
   [[nodiscard]] std::function<void(double)> progress() {
     if (progress_ == nullptr) return {};
     return [this](double fraction) {
@@ -37,7 +37,7 @@ class RunControl {
     };
   }
 
-  /// Throws `Interrupted` where the flag is set: results of a cancelled call are not handed out.
+  /// Throws `Interrupted` if the flag is set, so that no result of a cancelled call is handed out.
   void end_if_cancelled() const {
     if (*flag_) throw Interrupted("cancelled");
   }

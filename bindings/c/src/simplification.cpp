@@ -30,10 +30,11 @@ mb_simplify_options default_simplify_options() {
   return options;
 }
 
-/// A value that C callers leave out by a negative number. What is not a number is passed on, to be refused.
+/// The value, or absent if it is negative, which is how C callers leave it out. NaN is passed on and refused by the
+/// library.
 std::optional<double> unless_negative(double value) { return value < 0 ? std::nullopt : std::optional(value); }
 
-/// What the caller asks for; enumerators that this library does not know are refused.
+/// Converts the enumerators given by the caller; throws for values that this version does not know.
 void take_choices(const mb_simplify_options& given, SimplifyOptions& options) {
   if (given.on_exceed != MB_SKIP && given.on_exceed != MB_STOP) throw InvalidInput("on_exceed is no mb_on_exceed");
   if (given.effort != MB_EFFORT_NORMAL && given.effort != MB_EFFORT_HIGH) throw InvalidInput("effort is no mb_effort");
