@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The target docs_api: an HTML reference of the public headers, in the build folder under api/html. Part of no other
-# target; only where Doxygen is found. It fails when a public name has no documentation or one that Doxygen objects to.
+# target; only where Doxygen is found. It fails when a public name has no documentation or one that Doxygen objects to, and so does
+# the test that builds it.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()
@@ -19,3 +20,6 @@ set(DOXYGEN_WARN_NO_PARAMDOC NO)
 set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
 doxygen_add_docs(docs_api ${PROJECT_SOURCE_DIR}/include COMMENT "API reference in ${PROJECT_BINARY_DIR}/api/html")
+if(MESHBOUND_TESTS)
+  add_test(NAME api_reference_test COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target docs_api)
+endif()

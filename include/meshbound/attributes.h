@@ -19,15 +19,16 @@ struct SimplifiedLevel;
 
 /// A value at each corner of each triangle; one value may be that of many corners.
 struct CornerAttribute {
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();  ///< index of a missing value
 
   std::vector<Eigen::Vector3d> values;  ///< texture coordinates u, v (and 0), or unit normals
   std::vector<Triangle> index;          ///< by triangle: the values of its corners, or `none`; empty: no such attribute
 
+  /// Whether the mesh lacks the attribute.
   [[nodiscard]] bool empty() const { return index.empty(); }
 };
 
-/// What stands for an attribute at a point inside a triangle.
+/// How the value of an attribute at a point inside a triangle follows from those at the corners.
 enum class Interpolation : std::uint8_t {
   Linear,     ///< the values of the three corners, weighted by the barycentric coordinates of the point
   Direction,  ///< the same for the first three numbers, scaled to length 1; a fourth one is that of the nearest corner
@@ -39,17 +40,18 @@ struct NamedAttribute {
   std::string name = {};  ///< a semantic of glTF, such as "COLOR_0" (colours of every format) or "TEXCOORD_1"; a
                           ///< property of PLY; "targets/2/POSITION" for the third morph target of glTF
   std::size_t width = 1;  ///< numbers in a value; colours: 3 or 4, from 0 to 1
-  Interpolation interpolation = Interpolation::Linear;
-  bool has_seams = true;             ///< edges where the values of both sides differ are seams
-  std::vector<double> values = {};   ///< `width` numbers for each value
+  Interpolation interpolation = Interpolation::Linear;  ///< between the corners of a triangle
+  bool has_seams = true;                                ///< edges where the values of both sides differ are seams
+  std::vector<double> values = {};                      ///< `width` numbers for each value
   std::vector<Triangle> index = {};  ///< by triangle: the values of its corners, or `CornerAttribute::none`
 };
 
 /// A name for each triangle.
 struct TriangleLabels {
-  std::vector<std::string> names;
+  std::vector<std::string> names;    ///< each once
   std::vector<std::uint32_t> index;  ///< by triangle: its name, or `CornerAttribute::none`; empty: there are no names
 
+  /// Whether the mesh has no such names.
   [[nodiscard]] bool empty() const { return index.empty(); }
 };
 

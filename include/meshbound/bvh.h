@@ -28,8 +28,8 @@ class Bvh {
  public:
   /// Throws `InvalidInput` as `validate` does, `Stopped` as the options say.
   explicit Bvh(const MeshView& mesh, const BvhOptions& options = {});
-  Bvh(Bvh&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  Bvh& operator=(Bvh&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  Bvh(Bvh&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  Bvh& operator=(Bvh&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~Bvh();
 
   /// Takes over the vertices of the same mesh after they have moved, at any distance and scale: O(n), without sorting

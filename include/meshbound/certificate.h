@@ -15,9 +15,9 @@ namespace meshbound {
 /// How a certificate is made.
 struct CertificateOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The bytes are the same for every value.
-  /// Steps of the search for the cuts of one triangle, after which it is given up.
+  /// Steps of the search for the cuts of one triangle, after which that search ends without a proof.
   std::uint64_t steps_per_triangle = 1'000'000;
-  double seconds = std::numeric_limits<double>::infinity();  ///< after which it is given up
+  double seconds = std::numeric_limits<double>::infinity();  ///< time after which the search ends without a certificate
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread
 };
@@ -29,7 +29,7 @@ struct Certificate {
   /// What one direction of the proof consists of.
   struct Direction {
     std::uint64_t pieces = 0;     ///< that the triangles were cut into
-    std::uint64_t by_parity = 0;  ///< those of them with a parity proof: nothing but a seed triangle is written down
+    std::uint64_t by_parity = 0;  ///< pieces with a parity proof, of which only a seed triangle is stored
     std::uint64_t cuts = 0;       ///< that made the pieces
     std::uint64_t bytes = 0;      ///< of this direction
   };

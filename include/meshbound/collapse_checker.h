@@ -32,8 +32,8 @@ class CollapseChecker {
   /// `InvalidInput` where it is not, for what `validate` refuses, and for a tolerance that is no length. Model units.
   /// O(n log n).
   CollapseChecker(const TriangleMesh& original, double tolerance);
-  CollapseChecker(CollapseChecker&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  CollapseChecker& operator=(CollapseChecker&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  CollapseChecker(CollapseChecker&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  CollapseChecker& operator=(CollapseChecker&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~CollapseChecker();
 
   /// Whether the bound holds after the collapse of the edge between the vertices u and v into `point`. After `commit`

@@ -39,7 +39,7 @@ struct DeviationOptions {
 
 /// Which statistics are wanted.
 struct DeviationSampling {
-  std::size_t samples = std::size_t{1} << 17;  ///< points on the mesh, each of which stands for the same area
+  std::size_t samples = std::size_t{1} << 17;  ///< points on the mesh, each representing an equal share of the area
   std::size_t bins = 100;                      ///< of the histogram, of equal width, from 0 to `scale`
   double scale = 1;                            ///< model units, more than 0 and finite
 };

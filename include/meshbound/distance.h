@@ -47,8 +47,8 @@ struct DistanceOptions {
 /// The width of an interval that is asked for where no other is given, model units: 1e-6 of the bounding-box diagonal
 /// of A, the original; of both models together where A is a single point. O(1), or O(n) where A is a point.
 [[nodiscard]] double default_error_bound(const PlacedModel& a, const PlacedModel& b);
-/// That width for meshes without trees; `diagonal` is that of A (`bounding_box_diagonal`). Indices must be
-/// in range, as `validate` checks.
+/// The default width for meshes without trees; `diagonal` is that of A (`bounding_box_diagonal`). Indices must be in
+/// range, as `validate` checks.
 [[nodiscard]] double default_error_bound(const MeshView& a, const MeshView& b, double diagonal);
 
 /// How a computation ended.
@@ -87,7 +87,7 @@ struct DistanceStats {
   double culled_on_a_percent = 0;  ///< triangles of A never subdivided
   double culled_on_b_percent = 0;  ///< mean share of B's triangles that a query did not touch
   double seconds = 0;              ///< from the call on
-  PhaseSeconds phases;             ///< of them
+  PhaseSeconds phases;             ///< parts of `seconds`
 };
 
 /// h(A, B): how far A is from B.
@@ -98,9 +98,9 @@ struct OneSidedDistance {
   DistanceStats stats;                   ///< what it did
 };
 
-/// H(A, B), and both directions. The direction that is searched second, from B unless a few points show that it is
-/// clearly further, is refined only as far as the lower bound of the first leaves the maximum open (paper, section 6):
-/// converged means of it that its upper bound is within the error bound of the larger of both lower bounds.
+/// H(A, B), and both directions. The direction searched second (from B, unless a few points show that B is clearly
+/// further from A) is refined only as far as the lower bound of the first one leaves the maximum open (paper, section
+/// 6): for it, `Converged` means that its upper bound is within the error bound of the larger of both lower bounds.
 struct HausdorffDistance {
   Bounds bounds;            ///< the maximum of both directions, model units
   OneSidedDistance a_to_b;  ///< h(A, B)

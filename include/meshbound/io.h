@@ -30,7 +30,7 @@ struct DroppedAttributes {
   std::size_t other_properties = 0;     ///< PLY and glTF: properties of any other name, once each
   std::size_t scene_objects = 0;        ///< glTF: textures, cameras, animations, skins
 
-  [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;  ///< the same counts of all
+  [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;  ///< equality of all counts
 };
 
 /// A mesh as read, and what the reader had to do to make triangles of it.

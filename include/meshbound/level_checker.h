@@ -26,8 +26,8 @@ class LevelChecker {
   /// Uses a tree that must outlive this. After a refit of the tree, or when another tree is moved into it, everything
   /// is checked anew.
   explicit LevelChecker(const Bvh& original);
-  LevelChecker(LevelChecker&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  LevelChecker& operator=(LevelChecker&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  LevelChecker(LevelChecker&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  LevelChecker& operator=(LevelChecker&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~LevelChecker();
 
   /// Decides H(original, level) <= tolerance; `a` of the result is the original. Throws as `Bvh` and `check_tolerance`;

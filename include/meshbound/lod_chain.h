@@ -11,29 +11,28 @@
 
 namespace meshbound {
 
-/// `mesh`, `tolerance`, `faces()`, and `distance` from the original, which is a measurement of `mesh` of its own and
-/// not what decimation believes.
+/// A level of a chain. `distance` is a measurement of `mesh` against the original, independent of the decimation.
 using LodLevel = SimplifiedLevel;
 
-/// Options of a chain: those of `simplify_with_bound` without `tolerance`, `levels` and targets, which stay unset.
-/// `time_limit` is that of all decimation together.
+/// Options of a chain: those of `simplify_with_bound` without `tolerance`, `levels` and targets, which must stay unset.
+/// `time_limit` is for all decimation of the chain together.
 using LodOptions = SimplifyOptions;
 
 /// Takes level `index`, 0 for the smallest tolerance; returning false ends the chain.
 using LodSink = std::function<bool(std::size_t index, LodLevel&& level)>;
 
-/// A chain whose levels are made when somebody asks for them, for a viewer that comes nearer to some models only. Not
+/// A chain that makes a level only when it is asked for, as for a viewer that approaches some models only. Not
 /// thread-safe. Memory: O(original).
 class LodChain {
  public:
   /// Nothing is decimated yet. `original` is copied. Throws `InvalidInput` as `simplify_with_bound` does, and for
   /// options that are to stay unset.
   explicit LodChain(TriangleMesh original, const LodOptions& options = {});
-  /// A chain for a mesh in somebody else's memory, which is copied.
+  /// Makes a chain for a mesh in buffers of the caller, which are copied.
   explicit LodChain(const MeshView& original, const LodOptions& options = {})
       : LodChain(meshbound::to_triangle_mesh(original), options) {}
-  LodChain(LodChain&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  LodChain& operator=(LodChain&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  LodChain(LodChain&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  LodChain& operator=(LodChain&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~LodChain();
 
   /// The level of `tolerance`, model units: decimation goes on from the level before, and the result is measured
@@ -42,7 +41,7 @@ class LodChain {
   [[nodiscard]] LodLevel next(double tolerance);
 
   [[nodiscard]] const TriangleMesh& original() const;  ///< as it was given
-  /// Facts about the run so far: all of `SimplifyResult` but for the levels.
+  /// Facts about the run so far: a `SimplifyResult` without levels.
   [[nodiscard]] SimplifyResult describe() const;
 
  private:

@@ -20,7 +20,7 @@ concept CoordinateType = std::same_as<T, float> || std::same_as<T, double>;
 template <class T>
 concept IndexType = std::same_as<T, std::uint16_t> || std::same_as<T, std::uint32_t> || std::same_as<T, std::int32_t>;
 
-/// A triangle soup in somebody else's memory: positions as float or double at any stride, indices of 16 or 32 bits, or
+/// A triangle soup in buffers of the caller: positions as float or double at any stride, indices of 16 or 32 bits, or
 /// `int`. Copies nothing and owns nothing; the buffers must outlive the view. Cheap to copy, safe to read from many
 /// threads. Indices are checked by `validate`, which every function of the library calls on what it is given.
 class MeshView {

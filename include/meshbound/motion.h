@@ -28,8 +28,8 @@ class MovingPair {
   /// Both trees must outlive this. After a refit of one of them, or when another is moved into it, everything is
   /// measured anew.
   MovingPair(const Bvh& a, const Bvh& b);
-  MovingPair(MovingPair&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  MovingPair& operator=(MovingPair&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  MovingPair(MovingPair&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  MovingPair& operator=(MovingPair&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~MovingPair();
 
   /// Measures H(A, B) at these poses, model to world. Throws as the function of the same name.

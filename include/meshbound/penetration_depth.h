@@ -85,18 +85,21 @@ enum class Overlap {
 
 /// V_A and V_B as triangles; clipped triangles are cut into several.
 struct PenetrationParts {
-  TriangleMesh on_a, on_b;                                  ///< world coordinates, rounded
-  std::vector<std::uint32_t> triangle_of_a, triangle_of_b;  ///< by triangle of a part: its triangle in the model
+  TriangleMesh on_a;                         ///< V_A in world coordinates, rounded
+  TriangleMesh on_b;                         ///< V_B in world coordinates, rounded
+  std::vector<std::uint32_t> triangle_of_a;  ///< by triangle of `on_a`: the triangle of A that it lies on
+  std::vector<std::uint32_t> triangle_of_b;  ///< by triangle of `on_b`: the triangle of B that it lies on
 };
 
 /// One connected volume of the intersection.
 struct PenetrationVolume {
-  Bounds depth;                         ///< model units
-  SurfacePoint on_a, on_b;              ///< two points as far apart as `depth.lower`, up to rounding; world coordinates
-  Overlap overlap = Overlap::Crossing;  ///< how V_A and V_B were chosen
-  std::size_t faces_on_a = 0;           ///< triangles of A that V_A lies on, clipped ones included
-  std::size_t faces_on_b = 0;           ///< triangles of B that V_B lies on, clipped ones included
-  Bounds volume;                        ///< its content, cubic model units
+  Bounds depth;       ///< model units
+  SurfacePoint on_a;  ///< on V_A, as far from `on_b` as `depth.lower` up to rounding; world coordinates
+  SurfacePoint on_b;  ///< on V_B; world coordinates
+  Overlap overlap = Overlap::Crossing;    ///< how V_A and V_B were chosen
+  std::size_t faces_on_a = 0;             ///< triangles of A that V_A lies on, clipped ones included
+  std::size_t faces_on_b = 0;             ///< triangles of B that V_B lies on, clipped ones included
+  Bounds volume;                          ///< its content, cubic model units
   Verdict verdict = Verdict::Undecided;   ///< with `decide`: `Exceeds` where it is deeper, `Within` where it is not
   Outcome outcome = Outcome::Converged;   ///< how the measurement of the depth ended
   std::optional<PenetrationParts> parts;  ///< where `keep_parts` asked for them
@@ -140,7 +143,7 @@ struct PenetrationDepth {
 [[nodiscard]] PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClosedModel& b,
                                                  const PenetrationOptions& options = {});
 
-/// `penetration_depth` of two meshes, both of which are checked first. Throws as `ClosedModel` too.
+/// `penetration_depth` of two meshes, which are checked first. Throws as above and as `ClosedModel`.
 [[nodiscard]] PenetrationDepth penetration_depth(const MeshView& a, const MeshView& b,
                                                  const PenetrationOptions& options = {});
 

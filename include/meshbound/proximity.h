@@ -16,8 +16,8 @@ namespace meshbound {
 class Proximity {
  public:
   explicit Proximity(const Bvh& bvh);          ///< O(n)
-  Proximity(Proximity&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  Proximity& operator=(Proximity&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  Proximity(Proximity&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  Proximity& operator=(Proximity&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~Proximity();
 
   /// `Within` proves that every point of the triangle is at most `tolerance` from the mesh, `Exceeds` that one is

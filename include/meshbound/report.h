@@ -20,7 +20,7 @@
 
 namespace meshbound {
 
-/// Which program made a document, when, and for which command.
+/// The program, date and command line that made a document.
 struct Provenance {
   std::string tool;                  ///< such as "lod_chain"
   std::string version;               ///< as `--version` says it
@@ -28,7 +28,7 @@ struct Provenance {
   std::vector<std::string> command;  ///< the words of the command line, the program's own name first
 };
 
-/// A mesh file that a report speaks of.
+/// A mesh file named in a report.
 struct MeshReport {
   std::string path;                               ///< as it was given
   MeshSummary summary;                            ///< facts about its triangles
@@ -40,7 +40,7 @@ struct MeshReport {
   std::size_t rest_pose_parts = 0;                ///< see `MeshFile`
 };
 
-/// False for a direction that nobody has looked at, such as the second one of a decision that the first one ended: its
+/// False for a direction that was never searched, such as the second one of a decision that the first one ended: its
 /// bounds say nothing, and it has no witness.
 [[nodiscard]] bool was_searched(const OneSidedDistance& distance);
 
@@ -83,7 +83,7 @@ struct NormalReport {
 
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
 struct DistanceReport {
-  std::optional<Provenance> provenance;
+  std::optional<Provenance> provenance;  ///< absent: the document does not say who made it
   std::string verdict;  ///< "done" (the interval is as narrow as wanted), "within", "exceeds" or "undecided"
   Outcome outcome = Outcome::Converged;    ///< of the whole question
   std::string reason;                      ///< why the outcome is "budget" or "precision"; else empty
@@ -106,7 +106,7 @@ struct DistanceReport {
     double build = 0;  ///< both trees
     double query = 0;  ///< the search
     double total = 0;  ///< from the start of the tool
-  } seconds;           ///< that it took
+  } seconds;           ///< of the run
   int threads = 1;     ///< that were used
 };
 
@@ -115,8 +115,8 @@ enum class DecidedBy {
   Measurement,       ///< by the first measurement
   SecondMethod,      ///< by another method of measuring the same mesh
   SmallerTolerance,  ///< by measuring a mesh that was made for a slightly smaller tolerance
-  SmallerLevel,      ///< by the level of the next smaller tolerance, which stands for it: nothing else was decided
-  Original           ///< of the original, which is written as the result: nothing else was decided
+  SmallerLevel,      ///< by the next finer level, which is written in its place: no other result could be decided
+  Original           ///< by the original, which is written in its place: no other result could be decided
 };
 
 /// The feature lines of an original and of a result, see `SimplifyOptions::line_tolerance`.
@@ -161,13 +161,13 @@ struct SimplifyReport {
   /// What `SimplifyOptions::prune` dropped.
   struct Pruned {
     std::size_t components = 0;                 ///< whole ones
-    std::size_t faces = 0;                      ///< of these when they were dropped
+    std::size_t faces = 0;                      ///< faces of these components when they were dropped
   } pruned;                                     ///< by this run
   std::string effort;                           ///< "normal" or "high"
   std::string driver;                           ///< "cgal" or "core"
   std::vector<LevelReport> levels;              ///< of smaller tolerances, ascending
   std::vector<CertificateReport> certificates;  ///< when they were asked for: of the levels, then of the result
-  /// What became of the collapses that were tried.
+  /// Collapses by their outcome.
   struct Collapses {
     std::uint64_t performed = 0;        ///< in the result
     std::uint64_t refused = 0;          ///< by samples or by a proof
@@ -183,14 +183,14 @@ struct SimplifyReport {
     double certificate = 0;         ///< making certificates
     double write = 0;               ///< meshes and certificates
     double total = 0;               ///< from the start of the tool
-  } seconds;                        ///< that it took
+  } seconds;                        ///< of the run
   std::size_t locked_vertices = 0;  ///< that options kept from moving
   int threads = 1;                  ///< that were used
 };
 
 /// What `lod_chain` says: schema "meshbound/lod/1".
 struct LodReport {
-  /// From which the tolerances came, if they were not given.
+  /// The view from which tolerances were computed, if they were not given.
   struct View {
     double pixels = 1;  ///< that a deviation may cover, for the finest level
     Screen screen;      ///< that it is seen on
@@ -210,7 +210,7 @@ struct LodReport {
   std::optional<View> view;                  ///< absent where tolerances were given
   std::vector<Level> levels;                 ///< those that were proven, ascending by tolerance
   std::optional<DeviationReport> deviation;  ///< of the coarsest level, where a report was asked for
-  SimplifyReport::Seconds seconds;           ///< that it took
+  SimplifyReport::Seconds seconds;           ///< of the run
   std::size_t locked_vertices = 0;           ///< that options kept from moving
   int threads = 1;                           ///< that were used
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Many models that move: which pairs of them are near each other, asked for again at every step.
+/// Many moving models: which pairs of them are near each other, answered anew at every step.
 #pragma once
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -14,50 +14,49 @@
 
 namespace meshbound {
 
-/// What became of the pairs of one question.
+/// How the pairs of one call of `Scene::check_tolerance` were answered.
 struct SceneStats {
-  std::uint64_t pairs = 0;                  ///< of all bodies
-  std::uint64_t skipped_by_boxes = 0;       ///< their bounding boxes differ by more than the tolerance
-  std::uint64_t unmoved = 0;                ///< neither body has moved since the question was answered before
-  std::uint64_t searched = 0;               ///< the rest: `check_tolerance`, from what the step before has left
-  std::uint64_t closest_point_queries = 0;  ///< of them
+  std::uint64_t pairs = 0;             ///< of all bodies
+  std::uint64_t skipped_by_boxes = 0;  ///< their bounding boxes differ by more than the tolerance
+  std::uint64_t unmoved = 0;           ///< neither body has moved since the question was answered before
+  std::uint64_t searched = 0;  ///< the others: by `check_tolerance`, starting from the result of the step before
+  std::uint64_t closest_point_queries = 0;  ///< of the searched pairs
 };
 
-/// A pair that was not skipped. `a` < `b` are numbers of bodies; `check.a_to_b` is from body a.
+/// A pair of bodies that was not skipped.
 struct ScenePair {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  ToleranceCheck check;
+  std::uint32_t a = 0;   ///< number of a body
+  std::uint32_t b = 0;   ///< number of a body, above `a`
+  ToleranceCheck check;  ///< `a_to_b` is from body a to body b
 };
 
 /// The answer for all pairs. A pair that is not listed exceeds the tolerance.
 struct SceneCheck {
   std::vector<ScenePair> pairs;  ///< by a, then by b
-  SceneStats stats;
+  SceneStats stats;              ///< of this call
 };
 
-/// What became of the pairs of bodies when their contacts were asked for.
+/// How the pairs of one call of `Scene::contacts` were answered.
 struct ContactStats {
   std::uint64_t pairs = 0;             ///< of all bodies
-  std::uint64_t without_solid = 0;     ///< one of both is no `ClosedModel`
+  std::uint64_t without_solid = 0;     ///< at least one body of the pair is no `ClosedModel`
   std::uint64_t skipped_by_boxes = 0;  ///< their bounding boxes have no point in common
   std::uint64_t unmoved = 0;           ///< neither body has moved since the question was answered before
-  std::uint64_t measured = 0;          ///< the rest, by `penetration_depth`
+  std::uint64_t measured = 0;          ///< the others: by `penetration_depth`
   std::uint64_t without_volume = 0;    ///< of the measured and the unmoved ones: they share no content
 };
 
-/// Two bodies that share content, or that a budget of time left open. `a` < `b` are numbers of bodies; `penetration` is
-/// of body a and body b.
+/// Two bodies that share content, or that a budget of time left open.
 struct SceneContact {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  PenetrationDepth penetration;
+  std::uint32_t a = 0;           ///< number of a body
+  std::uint32_t b = 0;           ///< number of a body, above `a`
+  PenetrationDepth penetration;  ///< of body a and body b
 };
 
-/// All of them.
+/// All contacts of a scene.
 struct SceneContacts {
   std::vector<SceneContact> pairs;  ///< by a, then by b
-  ContactStats stats;
+  ContactStats stats;               ///< of this call
 };
 
 /// Placed models, called bodies and numbered from 0 in the order in which they were added. What is known of a pair is
@@ -66,16 +65,16 @@ struct SceneContacts {
 class Scene {
  public:
   Scene();
-  Scene(Scene&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  Scene& operator=(Scene&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  Scene(Scene&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  Scene& operator=(Scene&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~Scene();
 
   /// Adds a body and returns its number. `model` must outlive this; it may be refitted between questions. Throws
   /// `InvalidInput` for a pose that is no rigid motion.
   std::uint32_t add(const Bvh& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 
-  /// Adds a solid, of which `contacts` tells how deep it is in others; `model` must outlive this. Throws as above, and
-  /// for a reflection.
+  /// Adds a solid, for which `contacts` measures how deep it is in other solids; `model` must outlive this. Throws as
+  /// above, and for a pose that reflects.
   std::uint32_t add(const ClosedModel& model, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 
   /// Gives a body another pose, model to world. Throws as `add`, and for a number that no body has; the pose is then as

@@ -22,8 +22,8 @@ class Shape {
  public:
   /// Throws `InvalidInput` as `validate` does, and for a mesh that is a single point. O(n).
   explicit Shape(const MeshView& mesh, const BvhOptions& options = {});
-  Shape(Shape&&) noexcept;             ///< what is moved from may only be destroyed or assigned to
-  Shape& operator=(Shape&&) noexcept;  ///< what is moved from may only be destroyed or assigned to
+  Shape(Shape&&) noexcept;             ///< a moved-from object may only be destroyed or assigned to
+  Shape& operator=(Shape&&) noexcept;  ///< a moved-from object may only be destroyed or assigned to
   ~Shape();
 
   [[nodiscard]] const Eigen::Affine3d& normalisation() const;  ///< from the mesh to normalised coordinates, rounded
@@ -46,7 +46,7 @@ struct SimilarityOptions {
   /// (reflections do not).
   bool align = false;
   double error_bound = 1e-3;  ///< wanted width of each interval, in units of normalised shapes
-  DistanceOptions distance;   ///< method, threads, budget of the whole search and cancel; the rest is not looked at
+  DistanceOptions distance;   ///< method, threads, budget of the whole search and cancel; other members are ignored
 };
 
 /// A shape that was found.
@@ -58,14 +58,14 @@ struct SimilarShape {
   bool converged = true;  ///< the interval is as narrow as wanted
 };
 
-/// What became of the candidates, each in each of its alignments.
+/// How the candidates, each in each of its alignments, were decided.
 struct SimilarityStats {
-  std::uint64_t alignments = 0;         ///< of all candidates together
-  std::uint64_t ended_by_extents = 0;   ///< too long or too short along an axis, without a tree
-  std::uint64_t ended_by_samples = 0;   ///< a few points are too far away
-  std::uint64_t ended_by_decision = 0;  ///< `check_tolerance` has found a point that is too far away
-  std::uint64_t measured = 0;           ///< to the error bound
-  std::uint64_t closest_point_queries = 0;
+  std::uint64_t alignments = 0;             ///< of all candidates together
+  std::uint64_t ended_by_extents = 0;       ///< too long or too short along an axis, without a tree
+  std::uint64_t ended_by_samples = 0;       ///< a few points are too far away
+  std::uint64_t ended_by_decision = 0;      ///< `check_tolerance` has found a point that is too far away
+  std::uint64_t measured = 0;               ///< to the error bound
+  std::uint64_t closest_point_queries = 0;  ///< of all candidates together
 };
 
 /// The shapes that are nearest to a query.
@@ -75,7 +75,7 @@ struct SimilarShapes {
   std::vector<SimilarShape> nearest;
   /// False: the budget of the search, or the token of a tree that it had to build, ended it before that was proven.
   bool complete = true;
-  SimilarityStats stats;
+  SimilarityStats stats;  ///< of this search
 };
 
 /// Ranks candidates by H(query, candidate). Best first: the candidate with the smallest lower bound so far is looked at

@@ -22,7 +22,7 @@ namespace meshbound {
 
 class RegionCollapses;
 
-/// Who chooses the order of the collapses that are proven one by one, and makes them.
+/// Chooses the order of the collapses that are proven one by one, and makes them.
 class CollapseDriver {
  public:
   virtual ~CollapseDriver() = default;
@@ -36,7 +36,7 @@ enum class OnExceed {
   Stop   ///< decimation ends there, once the global engine has confirmed that the distance would exceed
 };
 
-/// How long to look for a mesh with fewer faces. Both hold the same bound.
+/// How much time to spend on a mesh with fewer faces. Both values keep the same bound.
 enum class Effort {
   Normal,  ///< collapses until nothing fits
   High     ///< then vertices are moved and edges flipped to make room for further collapses, again and again
@@ -48,7 +48,7 @@ enum class CollapsePlacements {
   Subset    ///< at one of the two ends: every vertex of every level is one of the original
 };
 
-/// Numbers in which the caller keeps what comes out.
+/// Precision of the coordinates of a result.
 enum class Precision {
   Double,
   Single  ///< every coordinate of a result is a float, and the bound is that of the rounded mesh
@@ -115,13 +115,13 @@ struct SimplifyOptions {
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
   int threads = 0;                                ///< 0: as many as OpenMP has. The result is the same for every value.
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
-  std::function<void(double fraction)> progress;  ///< called from the calling thread; a guess
-  std::shared_ptr<const CollapseDriver> driver;   ///< none: our own
+  std::function<void(double fraction)> progress;  ///< called from the calling thread with an estimate of the share done
+  std::shared_ptr<const CollapseDriver> driver;   ///< null: the queue of the core
 };
 
 /// A simplified mesh and its distance from the original.
 struct SimplifiedLevel {
-  double tolerance = 0;  ///< that it was made for, model units
+  double tolerance = 0;  ///< for which it was made, model units
   TriangleMesh mesh;     ///< model units
   /// By vertex of `mesh`: the vertex of the original that it comes from, for data that the caller wants to carry along.
   /// It may have moved from there; with `CollapsePlacements::Subset` it stands exactly there.
@@ -135,7 +135,7 @@ struct SimplifiedLevel {
   /// Distance between the original (a) and `mesh` (b), with the verdict on `tolerance`.
   std::optional<HausdorffDistance> distance;
   std::optional<HausdorffDistance> line_distance;  ///< between the lines of the original (a) and `lines` (b)
-  Verdict verdict = Verdict::Undecided;            ///< of these distances
+  Verdict verdict = Verdict::Undecided;            ///< on `distance` and, if there are lines, `line_distance`
   std::optional<Certificate> certificate;          ///< of the original and `mesh`, when it was asked for
   std::uint64_t collapses_performed = 0;           ///< since the beginning of the run
   std::uint64_t collapses_refused = 0;             ///< since the beginning of the run
@@ -146,14 +146,14 @@ struct SimplifiedLevel {
 
 /// How the collapses of a run came about, for those who tune it.
 struct CollapseCounts {
-  std::uint64_t tried = 0;             ///< edges, against samples of the original
-  std::uint64_t refused = 0;           ///< of these
-  std::uint64_t proven_together = 0;   ///< collapses that samples admitted, and one proof of all of them held
-  std::uint64_t taken_back = 0;        ///< of those that samples admitted, since that proof failed there
+  std::uint64_t tried = 0;             ///< edges compared with samples of the original
+  std::uint64_t refused = 0;           ///< edges tried that samples refused
+  std::uint64_t proven_together = 0;   ///< collapses that samples admitted and one common proof confirmed
+  std::uint64_t taken_back = 0;        ///< collapses that samples admitted and that were undone where that proof failed
   std::uint64_t proven_alone = 0;      ///< collapses, and other changes, that were proven one by one
-  std::uint64_t unproven = 0;          ///< of those tried in this way: taken back
-  std::uint64_t originals_tested = 0;  ///< triangles of the original, by proofs
-  std::uint64_t faces_tested = 0;      ///< faces of the result, by proofs
+  std::uint64_t unproven = 0;          ///< changes tried one by one and undone, as their proof failed
+  std::uint64_t originals_tested = 0;  ///< triangles of the original that proofs tested
+  std::uint64_t faces_tested = 0;      ///< faces of the result that proofs tested
 
   /// Adds what another run counted.
   CollapseCounts& operator+=(const CollapseCounts& other);
@@ -165,8 +165,8 @@ struct SimplifyResult {
   std::vector<Edge> lines;                ///< edges of the original that are lines, if it has feature lines
   std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
   std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: in every level as they are
-  std::size_t pruned_components = 0;      ///< dropped as wholes, `SimplifyOptions::prune`
-  std::size_t pruned_faces = 0;           ///< that these had when they were dropped
+  std::size_t pruned_components = 0;      ///< whole components dropped, `SimplifyOptions::prune`
+  std::size_t pruned_faces = 0;           ///< faces of these components when they were dropped
   std::size_t locked_vertices = 0;        ///< that no collapse may move: by the options that lock some
   bool split = false;                     ///< the input was not an oriented 2-manifold and was cut into one
   bool tolerance_below_rounding = false;  ///< too small for doubles at these coordinates: nothing was collapsed
@@ -176,7 +176,7 @@ struct SimplifyResult {
     double prepare = 0;   ///< the manifold, the original's tree and samples
     double simplify = 0;  ///< collapses and their proofs
     double measure = 0;   ///< the distance of each level, and certificates
-  } seconds;              ///< that it took
+  } seconds;              ///< of the run
 
   /// The level of `SimplifyOptions::tolerance`.
   [[nodiscard]] const SimplifiedLevel& last() const { return levels.back(); }

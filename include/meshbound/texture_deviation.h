@@ -46,10 +46,10 @@ struct TexturedMesh {
 struct TextureDeviationOptions {
   /// Wanted width of the interval, model units. Absent: 1e-6 of the diagonal of A's bounding box.
   std::optional<double> error_bound;
-  /// When given, model units: each triangle is looked at until it is known whether it is within, if the error bound
-  /// and `max_pieces` allow that, and those that are not shown to be are listed.
+  /// When given, model units: each triangle is refined until it is decided whether it is within the tolerance, as far
+  /// as the error bound and `max_pieces` allow; triangles not shown to be within are listed.
   std::optional<double> tolerance;
-  std::uint64_t max_pieces = 100'000;  ///< into which a triangle is cut at most
+  std::uint64_t max_pieces = 100'000;  ///< most pieces into which a triangle is cut
   int threads = 0;                     ///< 0: as many as OpenMP has. Results are the same for every value.
   StopToken stop = {};                 ///< the measurement ends with `Stopped` soon after this says so
 };
@@ -62,7 +62,7 @@ struct TextureWitness {
   double distance = 0;                                   ///< the length between the two, rounded to nearest
 };
 
-/// T(A, B).
+/// The deviation T(A, B) of one direction.
 struct OneSidedTextureDeviation {
   /// Model units. 0 where no point of A has a texture coordinate that B covers: `uncovered` is 1 then.
   Bounds bounds;
@@ -73,10 +73,10 @@ struct OneSidedTextureDeviation {
   std::vector<TextureWitness> exceeding;
   Outcome outcome = Outcome::Converged;  ///< `BudgetExhausted` where `max_pieces` came first
   std::uint64_t pairs = 0;               ///< of triangles whose texture coordinates were intersected
-  std::uint64_t pieces = 0;              ///< into which such intersections were cut
+  std::uint64_t pieces = 0;              ///< pieces into which these intersections were cut
 };
 
-/// Both directions.
+/// The deviation of both directions.
 struct TextureDeviation {
   Bounds bounds;                    ///< the maximum of both directions, model units
   OneSidedTextureDeviation a_to_b;  ///< T(A, B)

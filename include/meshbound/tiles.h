@@ -38,7 +38,7 @@ struct TileOptions {
                                                             const DistanceOptions& options = {},
                                                             const TileOptions& tiles = {});
 
-/// h(A, B) in the same way.
+/// As `one_sided_hausdorff_distance`, tile by tile: measures h(A, B). Errors, memory and threads as above.
 [[nodiscard]] OneSidedDistance one_sided_hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
                                                                      const DistanceOptions& options = {},
                                                                      const TileOptions& tiles = {});

@@ -21,8 +21,8 @@ namespace meshbound {
 struct ViewCamera {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< world coordinates
   Eigen::Vector3d direction = -Eigen::Vector3d::UnitZ();  ///< the view axis; any length but 0
-  Screen screen;
-  double aspect_ratio = 16.0 / 9;  ///< width of the screen by its height
+  Screen screen;                                          ///< height and vertical field of view
+  double aspect_ratio = 16.0 / 9;                         ///< width of the screen by its height
 };
 
 /// A model at a place in the scene.
@@ -46,18 +46,18 @@ struct ViewOptions {
   /// Tolerances of the levels of each model, as shares of its bounding-box diagonal: `finest_share` times powers of
   /// `ratio`, up to `coarsest_share`.
   double finest_share = 0x1p-14;
-  double coarsest_share = 0x1p-3;
-  double ratio = 2;
-  LodOptions lod;  ///< of all chains; `time_limit` is that of all chains together
+  double coarsest_share = 0x1p-3;  ///< of the diagonal
+  double ratio = 2;                ///< of a tolerance to the next finer one, 1.01 or more
+  LodOptions lod;                  ///< of all chains; `time_limit` is that of all chains together
 };
 
 /// A level of a model. Level 0 is the model itself.
 struct ViewLevel {
-  double tolerance = 0;  ///< that it was made for, model units
+  double tolerance = 0;  ///< for which it was made, model units
   /// Proven bound of its distance from the model, model units, and never smaller than that of a finer level, so that an
   /// engine may search the levels by it.
   double error = 0;
-  std::size_t faces = 0;
+  std::size_t faces = 0;  ///< triangles
 };
 
 /// What one camera sees of the instances.
@@ -71,7 +71,7 @@ struct ViewChoice {
 /// The levels of a scene and who uses them.
 struct ViewLevels {
   std::vector<std::vector<ViewLevel>> models;  ///< of each model, finest first: those that were computed
-  std::vector<ViewChoice> cameras;
+  std::vector<ViewChoice> cameras;             ///< in the order of the cameras
   /// For each camera, of each group the largest error of its instances' levels in world units: never smaller than that
   /// of a part.
   std::vector<std::vector<double>> group_errors;
@@ -79,7 +79,7 @@ struct ViewLevels {
   std::size_t levels_skipped = 0;   ///< of the tolerances that were to be had: needed by no instance
 };
 
-/// Takes a level of a model as soon as it is there; `level` counts from 1.
+/// Receives a level of a model as soon as it is made; `level` counts from 1.
 using ViewSink = std::function<void(std::size_t model, std::size_t level, const LodLevel& mesh)>;
 
 /// Chooses levels for all cameras. Which tolerances are needed follows from the boxes alone, so each model's chain
