@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The target docs_api: an HTML reference of the public headers, in the build folder under api/html. Part of no other
-# target; only where Doxygen is found. It fails when a public name has no documentation or one that Doxygen objects to, and so does
-# the test that builds it.
+# target; only where Doxygen is found. It fails, and so does the test that builds it, when a public name has no
+# documentation or one that Doxygen objects to.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()

@@ -42,7 +42,7 @@ namespace {
 using namespace meshbound;
 using namespace meshbound::tools;
 
-/// Reads a mesh, and maps it if there is a map. Returns how far rounding has moved its image at most.
+/// Reads a mesh and, if there is a map, maps it. Returns a bound of how far rounding has moved its vertices.
 double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
             const StopToken& stop, TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes) {
   mesh = read_input(path, with_checksum, report, stop, attributes);
@@ -64,8 +64,8 @@ DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watc
   return options;
 }
 
-/// Answers by searching trees, unless the time limit is over before these are built. Shortly after it the answer that a
-/// search gives at once is worth more than the time.
+/// Answers by searching trees. Building these may take until `patience` after the time limit, since the bounds that a
+/// search gives at once are worth more than that time; later, nothing is searched.
 Answer searched_answer(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
                        const Arguments& arguments, Stopwatch& watch, double& build_seconds) {
   try {
@@ -90,7 +90,7 @@ Answer answer_within_memory(const Question& question, const TriangleMesh& a, con
   return answer_in_tiles(question, a, b, options, tiles);
 }
 
-/// Before any work: nothing that is written may replace what is read, and everything can be written.
+/// Checks, before any work, that no output replaces an input and that every output can be written.
 void check_paths(const Arguments& arguments) {
   std::vector<NamedPath> outputs = arguments.deviation.outputs();
   outputs.push_back({"--json", arguments.common.json});
@@ -100,7 +100,7 @@ void check_paths(const Arguments& arguments) {
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
 }
 
-/// The proof of a tolerance that was found to hold. False when there was no time for it.
+/// Writes the proof of a tolerance that was found to hold. False if there was no time for it.
 bool write_certificate(AtomicFile& file, const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
                        double tolerance, const Stopwatch& watch) {
   ProgressBar bar("proving", arguments.common.quiet);
@@ -116,7 +116,7 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Trian
   return true;
 }
 
-/// False when there was no time for it.
+/// Measures what heatmaps, pictures and reports show. False if there was no time for it.
 bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Question& question, const TriangleMesh& a,
                        const TriangleMesh& b, const Arguments& arguments, const Stopwatch& watch) {
   const ProgressBar bar("measuring deviations", arguments.common.quiet);
@@ -152,7 +152,7 @@ void fill(DistanceReport& report, const Answer& answer, const Question& question
   report.worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
 }
 
-/// Writes the JSON document and the text. A quiet run still names on stderr what is no success.
+/// Writes the JSON document and the text. With --quiet, an answer that is no success is still reported on stderr.
 void tell(const DistanceReport& report, const Arguments& arguments) {
   if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
   if (arguments.common.quiet) {
@@ -163,7 +163,7 @@ void tell(const DistanceReport& report, const Arguments& arguments) {
   }
 }
 
-/// What was proven until then may have taken an hour, so it is said.
+/// Reports the bounds proven before an interruption: they may have taken an hour.
 [[noreturn]] void throw_interrupted(const Bounds& bounds) {
   throw Error("interrupted; proven until then: " + exact_number(bounds.lower) +
               " <= distance <= " + exact_number(bounds.upper));
@@ -180,7 +180,7 @@ void require_texture(const std::string& path, const MeshAttributes& attributes) 
     throw InvalidInput(path + ": no texture coordinates were found, which --texture needs");
 }
 
-/// The worse of two exit codes: what exceeds a tolerance does so whatever else is undecided.
+/// Makes the exit code the worse of the two answers: exceeding one tolerance counts whatever else is undecided.
 void join(Answer& answer, Verdict texture) {
   if (texture == Verdict::Within || answer.exit_code == ExitExceeds) return;
   answer.exit_code = exit_code(texture);

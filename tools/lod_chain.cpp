@@ -78,7 +78,7 @@ void declare(CLI::App& app, Options& options) {
 constexpr double default_screen_height = 1080;  // pixels
 constexpr double default_fov = 60;              // degrees
 
-/// Fields of view below this, in degrees, are those of telescopes; an angle in radians is never above it.
+/// In degrees: smaller fields of view are those of telescopes, and every angle in radians is below this.
 constexpr double smallest_usual_fov = 5;
 
 /// `lod_chain --scene FILE DIR`.
@@ -127,7 +127,7 @@ class Run : DecimationRun {
   std::vector<double> pixels_;  ///< of the tolerances, where they come from a view
   LodReport report_;
   std::optional<ProgressBar> bar_;
-  bool ended_by_time_ = false;  ///< for some level
+  bool ended_by_time_ = false;  ///< true if it ended any level
 };
 
 int Run::operator()() {
@@ -257,13 +257,14 @@ void Run::make_levels() {
   report_.seconds.total = watch_.seconds();
 }
 
-/// Writes the level under a temporary name, reads it back and measures that. The chain ends where this fails.
+/// Writes the level under a temporary name, reads it back and measures that. Returns false, which ends the chain, if
+/// the time ended it.
 bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   if (interrupted_) throw Error("interrupted before every level was proven; nothing was written");
   report_.seconds.simplify += watch_.lap();
   GatedOutput& output = outputs_[index];
   if (original_lines_) output.require_lines(&*original_lines_);
-  (void)writes(output, level);  // where it does not, `prove` falls back
+  (void)writes(output, level);  // if this fails, `prove` falls back to a finer level
   report_.seconds.write += watch_.lap();
   const auto redo = [&](double tolerance) {
     SimplifyOptions again = decimation(output, *bar_);
@@ -299,7 +300,8 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   return true;
 }
 
-/// Measures deviations of the levels as their files read back. Leaves `deviation_` empty when there was no time for it.
+/// Measures deviations of the levels as they read from their files. Leaves `deviation_` empty if there was no time for
+/// it.
 void Run::measure_deviation() {
   const GatedOutput& coarsest = outputs_.back();
   const TriangleMesh result = coarsest.written_mesh();
@@ -333,7 +335,7 @@ void Run::publish() {
   if (one_file_) one_file_->commit();
   if (options_.tileset) write_tileset();
   write_text(chain_path(), to_json(report_));
-  std::error_code ignored;  // the new chain.json does not name them, whether they go or not
+  std::error_code ignored;  // the new chain.json does not name these files, so a failure to remove one does no harm
   for (const std::filesystem::path& path : stale) std::filesystem::remove(path, ignored);
 }
 

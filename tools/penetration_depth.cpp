@@ -34,7 +34,7 @@ namespace {
 using namespace meshbound;
 using namespace meshbound::tools;
 
-/// One of the two meshes on its way to a placed model.
+/// One of the two meshes, from reading to a placed model.
 struct Input {
   TriangleMesh mesh;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -42,16 +42,16 @@ struct Input {
   std::unique_ptr<ClosedModel> model;
 };
 
-/// What `penetration_depth` takes as a pose: columns that are orthonormal up to the rounding of a program that made
-/// them, and no reflection.
+/// Whether `penetration_depth` takes the map as a pose: its columns are orthonormal up to the rounding of the program
+/// that wrote them, and it is no reflection.
 bool is_rigid(const Eigen::Affine3d& map) {
   constexpr double max_drift = 1e-10;
   const Eigen::Matrix3d linear = map.linear();
   return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).norm() <= max_drift && linear.determinant() > 0;
 }
 
-/// A rigid motion becomes the pose. Any other map is applied here, each coordinate rounded once; where it reflects, the
-/// triangles are reversed.
+/// Makes a rigid map the pose of the model. Any other map is applied here, each coordinate rounded once; if it
+/// reflects, triangles are reversed.
 void place(Input& input, const Eigen::Affine3d& map) {
   if (is_rigid(map)) {
     input.pose.matrix() = map.matrix();
@@ -93,7 +93,7 @@ PenetrationOptions engine_options(const PenetrationArguments& arguments, const P
   return options;
 }
 
-/// What is asked, with lengths in model units.
+/// Fills in what is asked, with lengths in model units.
 void fill_question(const PenetrationLengths& lengths, PenetrationReport& report) {
   constexpr double default_share = 1e-6;
   const double diagonal = report.a.summary.bbox_diagonal;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// simplify_with_bound IN OUT --tolerance T: as few triangles as possible, never further than T from the original. What
-// appears under OUT has been written, read back and measured against IN before.
+// simplify_with_bound IN OUT --tolerance T: as few triangles as possible, never further than T from the original. A
+// file appears under the name OUT only after it was written, read back and measured against IN.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -75,9 +75,9 @@ class Run : DecimationRun {
   SimplifyResult result_;
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
-  /// The time ended the run: OUT is the best mesh that was proven by then.
+  /// Whether the time limit ended the run: OUT is then the best mesh proven by that time.
   [[nodiscard]] bool ended_by_time() const;
-  /// Whether some output holds the JSON document, which has the checksums of the files.
+  /// Whether some output contains the JSON document, which needs the checksums of the files.
   [[nodiscard]] bool has_document() const {
     return !options_.common.json.empty() || !options_.deviation.report.empty();
   }
@@ -128,7 +128,8 @@ void Run::read() {
   report_.seconds.read = watch_.lap();
 }
 
-/// The limit has held since the beginning.
+/// Sets the number of triangles in a tile and the threads by --memory. The limit itself holds since the start of the
+/// process.
 void Run::plan_memory() {
   const TileOptions tiles;
   work_in_tiles(tiles, threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
@@ -140,7 +141,7 @@ SimplifyResult Run::decimated(const SimplifyOptions& options) const {
                                  : decimate_in_tiles(original_, options, {});
 }
 
-/// The last is that of OUT.
+/// Fills `tolerances_`, the last being that of OUT.
 void Run::choose_tolerances() {
   add_tolerances("--levels", options_.levels);
   sort_tolerances();
@@ -187,7 +188,7 @@ std::filesystem::path Run::certificate_path(std::size_t index) const {
          (certificate.stem().string() + "_level_" + std::to_string(index) + certificate.extension().string());
 }
 
-/// Before any work: nothing that is written may replace what is read, or what is written besides.
+/// Checks, before any work, that no output replaces an input or another output.
 void Run::check_paths() const {
   std::vector<NamedPath> outputs = options_.deviation.outputs();
   outputs.insert(outputs.end(),
@@ -201,7 +202,8 @@ void Run::check_paths() const {
   if (!options_.common.json.empty()) check_writable(options_.common.json);
 }
 
-/// What runs at 0.1% took on the shared meshes of the benchmark (docs/benchmarks.md).
+/// Prints the estimate of --dry-run, by the times that runs at 0.1% took on the meshes of the benchmark
+/// (docs/benchmarks.md).
 void Run::print_estimate() const {
   constexpr double bytes_a_triangle = 500, seconds_a_triangle = 20e-6;  // of one thread, from 10e-6 to 40e-6
   constexpr double mebibyte = 1024 * 1024;
@@ -213,7 +215,7 @@ void Run::print_estimate() const {
   print_line("dry run", "nothing was written");
 }
 
-/// One output for each tolerance but the last, when levels are asked for; then OUT.
+/// Opens an output for each level, if levels are asked for, and then OUT.
 void Run::open_outputs() {
   if (!options_.levels.empty()) {
     if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
@@ -251,7 +253,7 @@ void Run::simplify() {
   report_.seconds.simplify = watch_.lap();
 }
 
-/// All but the tolerances.
+/// All options of the decimation except its tolerances.
 SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
   SimplifyOptions simplify = decimation(outputs_.back(), bar);
   if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
@@ -263,7 +265,7 @@ SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
   return simplify;
 }
 
-/// Collapses that move the texture too far are refused.
+/// Makes the decimation refuse collapses that move the texture too far.
 void Run::guard_texture(SimplifyOptions& simplify) const {
   const CornerAttribute& from = attributes_.texture_coordinates;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -286,7 +288,8 @@ void Run::certify() {
     if (original_lines_) outputs_[i].require_lines(&*original_lines_);
     if (original_texture_) outputs_[i].require_texture(&*original_texture_);
     outputs_[i].require_normals(options_.normal_tolerance);
-    (void)writes(outputs_[i], result_.levels[level]);  // where it does not, `prove` falls back
+    (void)writes(outputs_[i],
+                 result_.levels[level]);  // if this fails, `prove` falls back to a finer level or the original
     report_.seconds.write += watch_.lap();
     ProgressBar bar("measuring", options_.common.quiet);
     bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
@@ -312,9 +315,9 @@ bool Run::keeps_appearance() const {
   });
 }
 
-/// Where the texture of a result has moved too far or faces have turned too much: keeps more vertices of the original
-/// there, for another run. The original stands for a result that does not come within these tolerances in this way, or
-/// not in time.
+/// Prepares another run with more vertices of the original locked where the texture of a result has moved too far or
+/// faces have turned too much. A result that does not get within these tolerances in this way, or not in time, is
+/// replaced by the original.
 bool Run::tightens_appearance() {
   if (!kept_vertices_ || keeps_appearance()) return false;
   end_if_interrupted();
@@ -339,7 +342,7 @@ void Run::end_if_interrupted() const {
   if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
 }
 
-/// Proves the files as they read. A result whose certificate is not complete in time gives way to the original, which
+/// Proves the files as they read. A result whose certificate is not complete in time is replaced by the original, which
 /// is certified in one pass.
 void Run::write_certificates() {
   if (certificates_.empty()) return;
@@ -369,7 +372,8 @@ void Run::write_certificates() {
   report_.seconds.certificate = watch_.lap();
 }
 
-/// Measures deviations of the meshes as their files read back. Leaves `deviation_` empty when there was no time for it.
+/// Measures deviations of the meshes as they read from their files. Leaves `deviation_` empty if there was no time for
+/// it.
 void Run::measure_deviation() {
   const ProgressBar bar("measuring deviations", options_.common.quiet);
   const GatedOutput& out = outputs_.back();
@@ -395,7 +399,7 @@ void Run::measure_deviation() {
   }
 }
 
-/// The certificates last: one that is there speaks of a mesh that is there.
+/// Publishes certificates last, so that the mesh of each published certificate is there.
 void Run::publish() {
   if (has_document())
     for (const GatedOutput& output : outputs_) checksums_.push_back(output.checksum());

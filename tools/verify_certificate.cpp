@@ -47,7 +47,7 @@ struct Inputs {
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The magic first: of a file that is no certificate nothing more is read, however long it is.
+/// Reads the magic first: if the file is no certificate, nothing more is read, however long it is.
 std::vector<std::uint8_t> certificate_of(const std::string& path, const StopToken& stop) {
   const FileBytes head(path, stop, verify::magic.size());
   const bool is_certificate = head.bytes() == verify::magic;
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> certificate_of(const std::string& path, const StopToke
   return {file.bytes().begin(), file.bytes().end()};
 }
 
-/// The bounding-box diagonal of the vertices in use, for tolerances in percent.
+/// The bounding-box diagonal of the used vertices, for tolerances in percent.
 double diagonal_of(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Triangle& t : mesh.triangles)
@@ -65,7 +65,7 @@ double diagonal_of(const TriangleMesh& mesh) {
   return std::hypot(size.x(), size.y(), size.z());
 }
 
-/// A certificate for a larger tolerance than the wanted one is no proof of what was asked.
+/// Rejects a certificate for a larger tolerance than the one asked for.
 void require_tolerance(const verify::Proof& proof, const Options& options, const TriangleMesh& original) {
   if (options.tolerance.empty()) return;
   const double wanted = parse_length("--tolerance", options.tolerance).in_model_units(diagonal_of(original));

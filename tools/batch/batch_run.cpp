@@ -96,7 +96,7 @@ class BatchRun {
     }
   }
 
-  /// Starts the process of an asset, or takes what an earlier run has left.
+  /// Starts the process of an asset, or takes the result of an earlier run.
   void begin(std::size_t index, RecordFile& report, std::vector<Job>& jobs) {
     const Asset& asset = open_[index];
     AssetRecord record;
@@ -129,7 +129,7 @@ class BatchRun {
         continue;
       }
       has_ended = true;
-      if (!interrupted()) {  // else the signal may have been what ended it
+      if (!interrupted()) {  // otherwise the signal may have ended the process
         fill(*end, jobs[i].asset, jobs[i].record);
         report.add(jobs[i].record);
         records_.emplace(jobs[i].record.input, jobs[i].record);
@@ -139,14 +139,14 @@ class BatchRun {
     return has_ended;
   }
 
-  /// Equal for equal content, options, place and version.
+  /// A key that is equal for equal content, options, place and version.
   [[nodiscard]] std::string key_of(const Asset& asset) const {
     std::string text = provenance().version + '\n' + checksum_of(asset.input) + '\n' + asset.name + '\n';
     for (const std::string& word : words_) text += word + '\n';
     return sha256(text);
   }
 
-  /// What an earlier run has recorded of the asset, if that still holds. Failures are tried again.
+  /// The record of the asset by an earlier run, if it is still valid; null for failures, which are tried again.
   [[nodiscard]] const AssetRecord* earlier(const Asset& asset, const std::string& key) const {
     const auto known = earlier_.find(asset.name);
     if (known == earlier_.end() || known->second.key != key || known->second.output_checksum.empty()) return nullptr;
@@ -157,7 +157,7 @@ class BatchRun {
   }
 
   [[nodiscard]] std::vector<std::string> command_of(const Asset& asset) const {
-    // The program itself, wherever it was started from.
+    // The path of this program, wherever it was started from.
     std::vector<std::string> command{fs::read_symlink("/proc/self/exe").string()};
     command.insert(command.end(), words_.begin(), words_.end());
     const int threads = std::max(1, common_.threads / jobs_);
@@ -166,7 +166,7 @@ class BatchRun {
     return command;
   }
 
-  /// A process answers its own time limit; one that does not is ended.
+  /// Time after which a process is killed: it should end by itself at its own time limit.
   [[nodiscard]] std::chrono::duration<double> patience() const {
     constexpr double least = 30;  // seconds
     return std::chrono::duration<double>(common_.has_time_limit ? 2 * common_.time_limit + least
@@ -230,7 +230,7 @@ class BatchRun {
   std::vector<std::string> words_;  ///< options of each process that its result depends on
   std::uint64_t memory_limit_ = 0;
   int jobs_ = common_.threads;
-  std::vector<Asset> open_;  ///< of this shard
+  std::vector<Asset> open_;  ///< assets of this shard that are not done
   std::map<std::string, AssetRecord> earlier_, records_;
   std::size_t reused_ = 0;
 };

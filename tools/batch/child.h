@@ -24,7 +24,8 @@ struct ChildEnd {
 /// that ends.
 class Child {
  public:
-  /// `memory_limit` in bytes, 0: none; `seconds` after which it is killed. Throws `IoError` when it cannot be started.
+  /// Starts `command`. `memory_limit` in bytes, 0: none; it is killed after `seconds`. Throws `IoError` when it cannot
+  /// be started.
   Child(const std::vector<std::string>& command, std::uint64_t memory_limit, std::chrono::duration<double> seconds);
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A column of the table: a name with its unit, and what stands in it for an asset.
+/// A column of the table: its name with the unit, and the text for an asset.
 struct Column {
   const char* name;
   bool is_number;

@@ -9,7 +9,7 @@
 
 namespace meshbound::tools {
 
-/// How many assets have ended in each way.
+/// Number of assets by how they ended.
 struct BatchCounts {
   std::size_t within = 0, exceeds = 0, undecided = 0, failed = 0;
 

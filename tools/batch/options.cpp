@@ -13,7 +13,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// What the process of a mesh does not get; each has a value, but for --quiet.
+/// Options that the process of a mesh does not get; each has a value, except --quiet.
 constexpr std::array<std::string_view, 8> own_options{"--batch",        "--batch-merge", "--jobs",    "--shard",
                                                       "--memory-limit", "--output-dir",  "--threads", "--quiet"};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// `simplify_with_bound --batch`: what is asked of a run over many files.
+/// `simplify_with_bound --batch`: the options of a run over many files.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -23,11 +23,11 @@ struct BatchOptions {
 /// Adds --batch, --batch-merge, --jobs, --shard and --memory-limit.
 void add_batch_options(CLI::App& app, BatchOptions& options);
 
-/// Throws `InvalidInput` where an option was given that goes with a batch only, or, in a batch, one that names a file
-/// of a single mesh.
+/// Throws `InvalidInput` if an option for batches only was given without a batch or, in a batch, an option that names a
+/// file of a single mesh.
 void check_batch_usage(const CLI::App& app, const BatchOptions& options);
 
-/// Which assets a run takes: those whose number leaves `index` when divided by `count`.
+/// The share of the assets that a run takes: those whose number leaves `index` when divided by `count`.
 struct Shard {
   std::uint64_t index = 0, count = 1;
 };
@@ -37,8 +37,8 @@ struct Shard {
 /// array, SLURM_ARRAY_TASK_COUNT. Empty: one shard. Throws `InvalidInput`.
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
-/// What the result of a mesh depends on: `command` without the program, the options of the batch, --output-dir,
-/// --threads and --quiet.
+/// The part of the command line on which the result of a mesh depends: without the program, the options of the batch,
+/// --output-dir, --threads and --quiet.
 [[nodiscard]] std::vector<std::string> asset_options(const std::vector<std::string>& command);
 
 }  // namespace meshbound::tools

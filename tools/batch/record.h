@@ -8,7 +8,7 @@
 
 namespace meshbound::tools {
 
-/// What is known of an asset after its run: one line of a report, one row of the table.
+/// The record of an asset after its run: one line of a report, one row of the table.
 struct AssetRecord {
   std::string input;            ///< its name below the folder of the batch
   std::string key;              ///< SHA-256 of its content, the options and the version: equal keys have equal results
@@ -21,19 +21,19 @@ struct AssetRecord {
   nlohmann::ordered_json result = nullptr;  ///< the document of the tool; null where there is none
 
   [[nodiscard]] std::string to_line() const;  ///< JSON with the line's end
-  /// Throws `nlohmann::json::exception` where the text is no such line.
+  /// Throws `nlohmann::json::exception` for text that is no such line.
   [[nodiscard]] static AssetRecord of_line(const std::string& line);
 };
 
-/// The last record of each asset in all reports (batch*.jsonl) of a folder, by name. A line that is torn, as the last
-/// one of a process that was killed may be, counts as none. Throws `IoError` for a file that cannot be read.
+/// The last record of each asset in all reports (batch*.jsonl) of a folder, by name. An incomplete line, such as the
+/// last one of a process that was killed, is skipped. Throws `IoError` for a file that cannot be read.
 [[nodiscard]] std::map<std::string, AssetRecord> read_records(const std::filesystem::path& folder);
 
-/// A report that grows by a line for each asset, whole and on disk as soon as it is written.
+/// A report that gets a line for each asset; each line is on disk, complete, when `add` returns.
 class RecordFile {
  public:
-  /// Opens the file or makes it, and puts an end to a torn last line. Throws `IoError`, also where another run holds
-  /// it.
+  /// Opens or makes the file, and ends an incomplete last line. Throws `IoError`, also if another run has the file
+  /// open.
   explicit RecordFile(std::filesystem::path path);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;

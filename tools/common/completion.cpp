@@ -19,7 +19,7 @@ struct Word {
   std::vector<std::string> choices;  ///< of the value; empty: any, a file perhaps
 };
 
-/// "TEXT:{skip,stop}" names what may be given.
+/// The values that a type such as "TEXT:{skip,stop}" allows.
 std::vector<std::string> choices_of(const std::string& type) {
   std::vector<std::string> choices;
   const std::size_t begin = type.find('{'), end = type.find('}');
@@ -45,7 +45,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-/// For text between single quotes, in which zsh gives a meaning to the other characters.
+/// Removes characters with a special meaning for zsh, for text between single quotes.
 std::string without(std::string text, const std::string& unwanted) {
   std::erase_if(text, [&](char c) { return unwanted.find(c) != std::string::npos; });
   return text;

@@ -17,11 +17,11 @@ void print_line(const std::string& label, const std::string& text);
 /// "[0.0013, 0.0014]", or "at least 0.0013" where there is no upper bound.
 [[nodiscard]] std::string interval(const Bounds& bounds);
 
-/// What was read: file, size, diagonal, and what the reader did. `name` is "A" or "B".
+/// Prints what was read: file, size, diagonal, and what the reader did. `name` is "A" or "B".
 void print_mesh(const char* name, const MeshReport& mesh);
 
-/// What two meshes are asked: their lines, the tolerance, and the error bound with the reason why it was not reached
-/// (empty: it was).
+/// Prints the question about two meshes: their lines, the tolerance, and the error bound with the reason why it was not
+/// reached (empty: it was).
 void print_question(const MeshReport& a, const MeshReport& b, const std::optional<double>& tolerance,
                     const std::optional<double>& error_bound, const std::string& reason);
 
@@ -31,21 +31,22 @@ void print_question(const MeshReport& a, const MeshReport& b, const std::optiona
 /// "(-0.988 19.617 2.367)"
 [[nodiscard]] std::string short_point(const Eigen::Vector3d& p);
 
-/// Two numbers with as few digits, six or more, as show which of them is larger.
+/// Two numbers with the fewest digits, but at least six, that show which of them is larger.
 [[nodiscard]] std::pair<std::string, std::string> told_apart(double larger, double smaller);
 
 /// "0.012", and "; 2 threads": for lines that tell the time.
 [[nodiscard]] std::string rounded_seconds(double seconds);
 [[nodiscard]] std::string thread_count(int threads);
 
-/// What the two directions are called: "A to B", "original to simplified".
+/// Names of the two directions: "A to B", "original to simplified".
 struct DirectionNames {
   const char* a_to_b;
   const char* b_to_a;
 };
 
-/// The interval of the distance in model units and in percent of the diagonal, then each direction with its interval
-/// and its witness: a point of one mesh and the closest point of the other. `b_to_a` may be null: not asked for.
+/// Prints the interval of the distance in model units and in percent of the diagonal, then each direction with its
+/// interval and its witness: a point of one mesh and the closest point of the other. `b_to_a` may be null: not asked
+/// for.
 void print_distance(const Bounds& bounds, const OneSidedDistance& a_to_b, const OneSidedDistance* b_to_a,
                     const DirectionNames& names, double diagonal);
 

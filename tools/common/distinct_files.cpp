@@ -11,7 +11,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// What two paths to the same file have in common.
+/// What identifies the file behind a path.
 struct Identity {
   dev_t device = 0;
   ino_t inode = 0;             ///< 0 where nothing is there yet
@@ -20,7 +20,7 @@ struct Identity {
   bool operator==(const Identity&) const = default;
 };
 
-/// Nothing for what writing does not replace.
+/// Absent for devices and other paths that writing does not replace.
 std::optional<Identity> identity_of(const std::filesystem::path& path) {
   if (path.empty() || path == "-") return std::nullopt;
   const std::filesystem::path target = follow_links(path);

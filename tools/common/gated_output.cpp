@@ -15,7 +15,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// Without any tree where the meshes are the same, or the same but for the rounding of coordinates.
+/// Measured without any tree if the meshes are equal but for the rounding of coordinates.
 HausdorffDistance distance_between(MeshWithTree& original, const TriangleMesh& mesh, DistanceOptions options,
                                    const StopToken& stop) {
   if (options.method == Method::CellWalking) {

@@ -18,27 +18,27 @@
 
 namespace meshbound::tools {
 
-/// The feature lines of an original, and how far those of a result may be from them, model units.
+/// The feature lines of an original, and the largest distance of a result's lines from them, model units.
 struct OriginalLines {
   Bvh tree;  ///< of their `line_mesh`
   double tolerance = 0;
-  double rounding = 0;  ///< what writing may move a vertex by
+  double rounding = 0;  ///< largest distance that writing may move a vertex
 };
 
-/// An original whose texture a result must not move further than this.
+/// An original with a texture, and how far a result may move that texture.
 struct OriginalTexture {
   const TriangleMesh* mesh = nullptr;          ///< not owned
   const MeshAttributes* attributes = nullptr;  ///< not owned
   double tolerance = 0;                        ///< of the texture deviation, model units
 };
 
-/// A mesh file that appears under its name only after what stands in it has been measured: `write` puts it under a
-/// temporary name, `measure` reads that back, `publish` renames it if it was found to be within the tolerance (or sends
-/// it to the device or FIFO that the name stands for). The destructor removes what was not published.
+/// A mesh file that appears under its name only after its content was measured: `write` puts it under a temporary name,
+/// `measure` reads that back, `publish` renames it if it was found to be within the tolerance (or sends it to the
+/// device or FIFO of that name). The destructor removes what was not published.
 class GatedOutput {
  public:
-  /// Throws `InvalidInput` when the extension of `path` is none of ours, `IoError` when it cannot be written to.
-  /// `write` and `measure` throw `Interrupted` or `Stopped` as `stop` says, all others only as its flag says.
+  /// Throws `InvalidInput` if the extension of `path` is unknown, `IoError` if it cannot be written to. `write` and
+  /// `measure` throw `Interrupted` or `Stopped` as `stop` says, all others only as its flag says.
   GatedOutput(std::filesystem::path path, const StopToken& stop, const WriteOptions& options = {});
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -46,33 +46,33 @@ class GatedOutput {
   /// Precision of the coordinates in the file. A mesh that has this precision already is written without any rounding.
   [[nodiscard]] Precision precision() const;
 
-  /// From now on a result must keep these lines, too; null: there are none. They must outlive this.
+  /// Makes the verdict include the distance from these lines; null: no lines. They must outlive this.
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
-  /// From now on the texture deviation is measured as well; null: it is not. Must outlive this.
+  /// Makes `measure` measure the texture deviation as well; null: it does not. Must outlive this.
   void require_texture(const OriginalTexture* texture) { original_texture_ = texture; }
 
-  /// From now on it is measured as well how far faces of the original turn; none: it is not. Degrees.
+  /// Makes `measure` measure how far faces of the original turn, with this tolerance in degrees; absent: it does not.
   void require_normals(std::optional<double> tolerance) { normal_tolerance_ = tolerance; }
 
-  /// `lines` are edges of the mesh, `attributes` those of its triangles where the format carries them. Throws
-  /// `IoError`; `InvalidInput` when a coordinate leaves the range of the format. After `Stopped` only `write` and
-  /// `fall_back` may be called.
+  /// Writes a mesh under the temporary name. `lines` are edges of the mesh, `attributes` those of its triangles as far
+  /// as the format carries them. Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
+  /// After `Stopped` only `write` and `fall_back` may be called.
   void write(const TriangleMesh& mesh, std::span<const Edge> lines = {}, const MeshAttributes& attributes = {});
 
-  /// What was written, as it reads. Throws as `read_mesh`.
+  /// Reads the mesh that was written. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
 
-  /// Distance of the original (a) and the file as it reads (b), and of their lines where these are required; the
-  /// verdict is on both. `options.tolerance` must be set. The tree of the original is not asked for where the file
-  /// holds the original.
+  /// Measures the distance between the original (a) and the file as it reads (b), and between their lines if these are
+  /// required; the verdict is on both. `options.tolerance` must be set. The tree of the original is not built if the
+  /// file holds the original.
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
-  /// Measured where it is required and the verdict is Within; `is_texture_within` is false where it is required and
-  /// not measured.
+  /// The texture deviation: measured if it is required and the verdict is Within. `is_texture_within` is false if it is
+  /// required but was not measured.
   [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }
   [[nodiscard]] bool is_texture_within() const;
-  /// As these two, of normals.
+  /// The deviation of normals, measured and judged like that of the texture.
   [[nodiscard]] const std::optional<NormalDeviation>& normal_deviation() const { return normals_; }
   [[nodiscard]] bool are_normals_within() const;
   [[nodiscard]] bool keeps_appearance() const { return is_texture_within() && are_normals_within(); }
@@ -84,16 +84,16 @@ class GatedOutput {
   [[nodiscard]] const std::filesystem::path& staged() const { return file_->staged(); }
   [[nodiscard]] std::string checksum() const;  ///< SHA-256 of the file; before `publish`
 
-  /// For when the time ended before what was written here was proven: the best mesh that is proven, which is the one of
-  /// `smaller`, whose tolerance is smaller (may be null), else the original itself. `options` as for `measure`; the
-  /// time limit no longer counts, as an original that is matched with itself costs one pass.
+  /// Replaces what was written, if the time ended before it was proven, by the best mesh that is proven: that of
+  /// `smaller`, an output with a smaller tolerance (may be null), or else the original. `options` as for `measure`, but
+  /// without the time limit, as matching the original with itself takes one pass.
   void fall_back(const GatedOutput* smaller, MeshWithTree& original, std::span<const Edge> lines,
                  const MeshAttributes& attributes, DistanceOptions options);
 
   /// Throws `Error` unless the verdict is Within and `keeps_appearance`, `IoError` when the file cannot be renamed.
   void publish();
 
-  /// A copy of what was written and found too far, for whoever looks for the reason.
+  /// Writes a copy of a mesh that was found too far, for those who look for the reason.
   void copy_rejected_to(const std::filesystem::path& path) const;
 
  private:

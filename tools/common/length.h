@@ -18,7 +18,7 @@ struct Length {
 /// A share from 0 to 1 as typed: "0.5" or "50%". Throws `InvalidInput`, naming `option`, for anything else.
 [[nodiscard]] double parse_share(const std::string& option, const std::string& text);
 
-/// Both ways to read a length: "0.0123 (0.1% of the diagonal)".
+/// A length in both units: "0.0123 (0.1% of the diagonal)".
 [[nodiscard]] std::string both_units(double absolute, double diagonal);
 
 /// Six significant digits, for people.

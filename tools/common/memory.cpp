@@ -14,7 +14,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// What the program, its libraries and their stacks take.
+/// Bytes for the program, its libraries and their stacks.
 constexpr double bytes_of_program = 64.0 * 1024 * 1024;
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace meshbound::tools {
 /// Bytes: a number, or one with K, M, G or T, powers of 1024. Throws `InvalidInput` that names the option.
 [[nodiscard]] std::uint64_t parse_memory(const std::string& option, const std::string& text);
 
-/// From now on this process cannot hold more than so many bytes of data: where it would, memory runs out.
+/// Limits the memory for data of this process from here on: allocations beyond the limit fail.
 void limit_memory(std::uint64_t bytes);
 
 /// The largest number of bytes that this process has held at once.
@@ -20,17 +20,17 @@ void limit_memory(std::uint64_t bytes);
 /// "1234 MiB", rounded up.
 [[nodiscard]] std::string in_mebibytes(double bytes);
 
-/// What work in tiles takes for each triangle, in bytes: of what stays in memory, and of a tile under work.
+/// Bytes for each triangle in work tile by tile: `whole` of all meshes, `tile` of a tile in work.
 struct TileCost {
   double whole, tile;
 };
-/// The original, its tiles and the covers of the proof; a tile at 0.02% of the diagonal (docs/scale.md).
+/// Simplifying: the original, its tiles and the covers of the proof; a tile at 0.02% of the diagonal (docs/scale.md).
 inline constexpr TileCost cost_of_simplifying{100, 1100};
-/// Two meshes and their tiles; the trees of a tile and of what is near it.
+/// Measuring: two meshes and their tiles; the trees of a tile and of what is near it.
 inline constexpr TileCost cost_of_measuring{50, 400};
 
-/// How many threads, of those wanted (0: as many as OpenMP has), may work on tiles of so many triangles within a limit
-/// in bytes. Throws `InvalidInput` that names `option` where not even one may.
+/// How many of the wanted threads (0: as many as OpenMP has) may work on tiles of this many triangles within a limit in
+/// bytes. Throws `InvalidInput` that names `option` if not even one may.
 [[nodiscard]] int threads_within(std::uint64_t limit, const std::string& option, std::size_t triangles,
                                  const TileOptions& tiles, const TileCost& cost, int wanted);
 

@@ -8,8 +8,8 @@
 
 namespace meshbound::tools {
 
-/// A mesh and its tree, which is built when it is first asked for: what is compared with a copy of itself needs none.
-/// Not thread-safe.
+/// A mesh and its tree, which is built when first used: comparing a mesh with a copy of itself needs none. Not
+/// thread-safe.
 class MeshWithTree {
  public:
   /// `mesh` must outlive this. `threads` as in `BvhOptions`.
@@ -17,11 +17,11 @@ class MeshWithTree {
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 
-  /// From now on it is to be measured tile by tile, as its tree may not fit into memory.
+  /// Makes measurements run tile by tile from here on, as the whole tree may not fit into memory.
   void measure_in_tiles(const TileOptions& tiles) { tiles_ = tiles; }
   [[nodiscard]] const std::optional<TileOptions>& tiles() const { return tiles_; }
 
-  /// Throws `Stopped` as `stop` says; the next call begins anew.
+  /// Throws `Stopped` as `stop` says; the next call starts again.
   [[nodiscard]] const Bvh& tree(const StopToken& stop) {
     if (!tree_) tree_.emplace(mesh_, BvhOptions{threads_, stop});
     return *tree_;

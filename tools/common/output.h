@@ -4,7 +4,7 @@
 
 namespace meshbound::tools {
 
-/// Throws `IoError` when `write_text` could not write to `path`: known now, not after an hour of work.
+/// Throws `IoError` if `write_text` could not write to `path`, so that this is known before any work.
 void check_writable(const std::string& path);
 
 /// Writes `text` to stdout when `path` is "-", else as `AtomicFile` does: a failure leaves what was there before.

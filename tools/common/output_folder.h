@@ -7,7 +7,7 @@
 
 namespace meshbound::tools {
 
-/// A folder for outputs. One that was made for them goes again when nothing came to stand in it.
+/// A folder for outputs. If it was made for them, it is removed again when it is still empty at the end.
 class OutputFolder {
  public:
   /// Makes the folder, and those it is in, unless it is there. Throws `IoError`.

@@ -11,17 +11,17 @@ enum class ProgressStyle {
   Off
 };
 
-/// For all bars that are made from now on. Not thread-safe.
+/// Sets the style of all bars made from here on. Not thread-safe.
 void set_progress_style(ProgressStyle style);
 
-/// "42%, 12 s so far, 17 s left"; what is left is told after two seconds, and never below 1%.
+/// "42%, 12 s so far, 17 s left"; the time left is given after two seconds and from 1% on.
 [[nodiscard]] std::string progress_text(int percent, double seconds);
 
-/// How far a long step is, on stderr; nothing when `quiet`. A bar is wiped when it goes, and it never goes back:
-/// smaller fractions than the largest one so far change nothing.
+/// Shows the progress of a long step on stderr; nothing when `quiet`. A bar is erased by the destructor. It never goes
+/// back: fractions smaller than the largest one so far change nothing.
 class ProgressBar {
  public:
-  /// `clock` gives the seconds since the beginning; empty: by the clock of the system.
+  /// `clock` gives the seconds since the start; empty: the system's clock.
   ProgressBar(std::string label, bool quiet, std::function<double()> clock = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;

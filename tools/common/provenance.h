@@ -6,7 +6,7 @@
 
 namespace meshbound::tools {
 
-/// To be called once, by `tool_main`: what `provenance` will say of this process.
+/// Stores the command line for `provenance`. Called once, by `tool_main`.
 void remember_command_line(const std::string& tool, int argc, const char* const* argv);
 
 /// This process, its command line and the time at the call.

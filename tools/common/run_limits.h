@@ -8,8 +8,8 @@
 
 namespace meshbound::tools {
 
-/// Gives a computation the threads, the signals, what is left of the time limit and the progress bar of a run; `bar`
-/// must outlive it. `Options` are `DistanceOptions` or `PenetrationOptions`.
+/// Sets the threads, the signals, the remaining time and the progress bar of a computation in a run; `bar` must outlive
+/// it. `Options` are `DistanceOptions` or `PenetrationOptions`.
 template <class Options>
 void set_run_limits(Options& options, const CommonOptions& common, const Stopwatch& watch, ProgressBar& bar) {
   options.threads = common.threads;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// "-" on a command line: a mesh that is read from standard input or written to standard output.
+/// "-" on a command line: a mesh read from standard input or written to standard output.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -17,15 +17,15 @@ enum class StandardStream { Input, Output };
 /// Adds --format.
 void add_stream_format(CLI::App& app, std::string& format);
 
-/// What stands for `argument` inside the tool: itself, or for "-" a path below the device of the stream, where no file
-/// can be, with the extension of `format`. Throws `InvalidInput`, naming `role`, for "-" without a format.
+/// The path that stands for `argument` inside the tool: itself, or for "-" a path below the device of the stream, where
+/// no file can be, with the extension of `format`. Throws `InvalidInput`, naming `role`, for "-" without a format.
 [[nodiscard]] std::string stream_path(const std::string& role, const std::string& argument, StandardStream stream,
                                       const std::string& format);
 
 /// Whether `path` is one that `stream_path` made of "-".
 [[nodiscard]] bool is_stream_path(const std::filesystem::path& path);
 
-/// What was typed: "-" for a path that `stream_path` made of it.
+/// The argument as typed: "-" for a path that `stream_path` made of it.
 [[nodiscard]] std::string as_typed(const std::string& path);
 
 /// The file or device that is written to for `path`.

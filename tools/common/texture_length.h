@@ -18,7 +18,8 @@ struct TextureLength {
   }
 };
 
-/// Throws `InvalidInput`, naming `option`, for what is neither, and for texels where no texture size was given.
+/// Throws `InvalidInput`, naming `option`, for text that is neither a length nor a number of texels, and for texels
+/// without a texture size.
 [[nodiscard]] TextureLength parse_texture_length(const std::string& option, const std::string& text,
                                                  bool has_texture_size);
 

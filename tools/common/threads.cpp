@@ -48,7 +48,7 @@ void run_both(int threads, const std::function<void()>& first, const std::functi
   }
   const std::array<const std::function<void()>*, 2> works{&first, &second};
   std::array<std::exception_ptr, 2> errors;
-  // All threads, though two have work: OpenMP ends those that a team leaves out.
+  // Starts all threads, though only two have work: OpenMP ends threads that a team leaves out.
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (std::size_t i = 0; i < works.size(); ++i) {
     try {

@@ -9,7 +9,8 @@ namespace meshbound::tools {
 /// itself would end the process at the first thread that it cannot start. Returns the number.
 int start_threads(int wanted);
 
-/// Calls both, by a thread each where `threads` is 2 or more. Rethrows what `first` throws before what `second` does.
+/// Calls both functions, each on a thread of its own if `threads` is 2 or more. Rethrows an exception of `first` before
+/// one of `second`.
 void run_both(int threads, const std::function<void()>& first, const std::function<void()>& second);
 
 }  // namespace meshbound::tools

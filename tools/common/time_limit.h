@@ -26,7 +26,7 @@ inline constexpr double patience = 0.2;
                                 : std::numeric_limits<double>::infinity();
 }
 
-/// For what is read from now on.
+/// The token for reading files from here on.
 [[nodiscard]] inline StopToken stop_of_reading(const CommonOptions& options, const Stopwatch& watch) {
   return stop_of_run(options, watch, patience + std::max(0.0, watch.seconds() - options.time_limit));
 }

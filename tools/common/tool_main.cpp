@@ -30,14 +30,14 @@ int complain(const CLI::App& app, std::string message, ExitCode code = ExitBadIn
   return code;
 }
 
-/// What is wrong with a text as a number of seconds; empty: nothing.
+/// What is wrong with a text as a number of seconds; empty if it is one.
 std::string seconds(const std::string& text) {
   double value = -1;
   const bool is_number = CLI::detail::lexical_cast(text, value);
   return is_number && value >= 0 ? "" : "'" + text + "' is not a number of seconds, 0 or more";
 }
 
-/// Fewest letters to insert, delete or replace to make `b` of `a`.
+/// Number of letters to insert, delete or replace to turn `a` into `b`, at least.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -51,7 +51,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// "; did you mean --tolerance?" for the first unknown option that some option begins with, or nearly is; else empty.
+/// "; did you mean --tolerance?" for the first unknown option that is the beginning of an option or nearly equals one;
+/// else empty.
 std::string suggestion(const CLI::App& app) {
   constexpr std::size_t typing_errors = 2;
   for (const std::string& unknown : app.remaining()) {

@@ -7,7 +7,7 @@
 
 namespace meshbound::tools {
 
-/// The number that a text is in decimal digits; none where it is anything else.
+/// The number that a text gives in decimal digits; absent for any other text.
 [[nodiscard]] inline std::optional<std::uint64_t> whole_number(std::string_view text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

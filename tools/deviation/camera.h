@@ -4,14 +4,14 @@
 
 namespace meshbound::tools {
 
-/// Which way is up in a model.
+/// The axis of a model that points up.
 enum class UpAxis { X, Y, Z };
 
 /// A parallel projection that shows the whole of a box, from the front right and above.
 class Camera {
  public:
-  /// The box fills a picture of `width` x `height` pixels but for a margin. A box that is a point or empty is looked at
-  /// as one of size 1 around it.
+  /// Makes the box fill a picture of `width` x `height` pixels but for a margin. For a box that is a point or empty, a
+  /// box of size 1 around it is shown.
   Camera(const Eigen::AlignedBox3d& box, UpAxis up, int width, int height);
 
   /// Height over width of what a picture of this box shows.

@@ -13,7 +13,7 @@ using Colour = std::array<std::uint8_t, 3>;
 /// CC0), whose lightness grows evenly and which people with a colour vision deficiency can read.
 [[nodiscard]] std::span<const Colour> colour_stops();
 
-/// What is beyond the scale; no mixture of the stops is like it.
+/// The colour of deviations beyond the scale; no mixture of the stops is close to it.
 inline constexpr Colour colour_beyond = {255, 0, 144};
 
 /// The colour of a deviation as a share of the scale; `colour_beyond` above 1, and for what is not a number.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Colour white = {255, 255, 255}, ink = {40, 44, 52}, stone = {196, 200, 208};
 
-// In pixels of the picture before it is halved.
+// Sizes in pixels of the picture before it is halved.
 constexpr int panel = 800;  // width; the height is at most the same
 constexpr int header = 56;
 constexpr int footer = 72;
@@ -41,7 +41,7 @@ void for_each_pixel(const SurfaceImage& image, Draw&& draw) {
       if (const std::uint32_t triangle = image.triangle(x, y); triangle != no_index) draw(x, y, triangle);
 }
 
-/// Edges are drawn where triangles are large enough to be told apart.
+/// Draws a surface; edges only if triangles are large enough to be told apart.
 void draw_surface(Picture& picture, int left, const TriangleMesh& mesh, const SurfaceImage& image,
                   const Camera& camera) {
   std::size_t edge_pixels = 0;
@@ -73,7 +73,7 @@ void write_centred(Picture& picture, int left, int y, const std::string& text) {
   picture.write(left + (panel - Picture::text_width(text, text_size)) / 2, y, text, ink, text_size);
 }
 
-/// Below the third panel: the colours, what their ends mean, and the colour beyond.
+/// Draws the legend below the third panel: the colours, the values at both ends, and the colour for deviations beyond.
 void draw_legend(Picture& picture, int left, int top, const DeviationScene& scene) {
   constexpr int bar_height = 20, beyond_width = 60, gap = 12;
   const int y = top + 8, width = panel - beyond_width - gap - 2 * gap;

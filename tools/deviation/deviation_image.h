@@ -11,7 +11,7 @@
 
 namespace meshbound::tools {
 
-/// What a picture of two meshes shows.
+/// The meshes and the scale that a picture shows.
 struct DeviationScene {
   const TriangleMesh* original = nullptr;  ///< in the first panel
   const TriangleMesh* result = nullptr;    ///< in the second one

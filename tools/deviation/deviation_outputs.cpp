@@ -16,7 +16,7 @@ namespace {
 /// 7 MB for triangles that share no vertices.
 constexpr std::size_t max_display_triangles = 60'000;
 
-/// Beyond so many levels the view shows the result alone.
+/// With more levels than this the view shows the result alone.
 constexpr std::size_t max_display_levels = 24;
 
 DeviationStatistics statistics_of(const TriangleMesh& mesh, const Bvh& other, const DeviationScale& scale,

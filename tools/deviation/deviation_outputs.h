@@ -15,7 +15,7 @@
 
 namespace meshbound::tools {
 
-/// The meshes whose deviation is shown; all must outlive the call that they are given to.
+/// The meshes whose deviation is shown; all must outlive the call that gets them.
 struct DeviationSubject {
   const TriangleMesh* original = nullptr;
   const TriangleMesh* result = nullptr;
@@ -25,7 +25,7 @@ struct DeviationSubject {
   bool worst_is_on_original = true;  ///< the mesh that the picture shows in colours: where the worst spot is
 };
 
-/// Everything that a `DeviationRequest` asks for. `measure` does the work; `write` then names the files.
+/// Makes everything that a `DeviationRequest` asks for: `measure` does the work, `write` makes the files visible.
 class DeviationOutputs {
  public:
   /// `request` must outlive this.

@@ -21,15 +21,15 @@ struct DeviationRequest {
   [[nodiscard]] bool has_any() const { return !outputs().empty(); }
   /// The files that are asked for, with the names of their options.
   [[nodiscard]] std::vector<NamedPath> outputs() const;
-  /// Before any work. Throws `InvalidInput` and `IoError` for what cannot be written.
+  /// Checks, before any work, that the files can be written. Throws `InvalidInput` and `IoError`.
   void check() const;
 };
 
 /// Adds --report, --units and --up.
 void add_report_options(CLI::App& app, DeviationRequest& request);
 
-/// Adds these, --heatmap, --heatmap-original and --image. The meshes are called as the help of the tool calls them:
-/// "IN" and "OUT", "A" and "B".
+/// Adds --report, --units, --up, --heatmap, --heatmap-original and --image. `original` and the name after it are those
+/// of the meshes in the help of the tool: "IN" and "OUT", "A" and "B".
 void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::string& original,
                            const std::string& result);
 

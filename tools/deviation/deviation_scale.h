@@ -9,20 +9,20 @@
 
 namespace meshbound::tools {
 
-/// Which deviation has which colour: from 0 to `end`, model units; more than 0.
+/// The scale of colours: from 0 to `end`, model units, more than 0.
 struct DeviationScale {
   double end = 1;
   std::string meaning;  ///< of the end: "tolerance", "proven maximum" or "1e-9 of the diagonal"
 
-  /// A deviation has the colour for what is beyond only where it is proven to be.
+  /// The colour of a deviation. Only a deviation that is proven to be beyond the scale gets the colour for that.
   [[nodiscard]] Colour colour(const Bounds& deviation) const {
     return colour_of(deviation.lower > end ? std::numeric_limits<double>::infinity()
                                            : std::min(1.0, deviation.upper / end));
   }
 };
 
-/// To the tolerance where there is one that is more than 0, else to the largest distance that is proven. Where that is
-/// hardly more than a rounding, to a billionth of the original's diagonal.
+/// A scale up to the tolerance, if there is one above 0, else up to the largest distance proven. If that is hardly more
+/// than a rounding, the scale ends at a billionth of the original's diagonal.
 [[nodiscard]] inline DeviationScale scale_for(double tolerance, const Bounds& distance, double diagonal) {
   if (tolerance > 0) return {tolerance, "tolerance"};
   const double largest = distance.upper < std::numeric_limits<double>::infinity() ? distance.upper : distance.lower;

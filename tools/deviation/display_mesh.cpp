@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The representative of each vertex in a grid of `cells` cells along the longest side of the box.
+/// For each vertex the vertex that represents its cell, in a grid of `cells` cells along the longest side of the box.
 std::vector<std::uint32_t> clusters(const TriangleMesh& mesh, const std::vector<Bounds>& vertices,
                                     const Eigen::AlignedBox3d& box, double cells) {
   const double cell = box.sizes().maxCoeff() / cells;
@@ -64,7 +64,7 @@ std::vector<Triangle> clustered_triangles(const TriangleMesh& mesh, const std::v
   return triangles;
 }
 
-/// Only the vertices that triangles use, with their deviations.
+/// Keeps only the vertices that triangles use, with their deviations.
 void take_used(const TriangleMesh& mesh, const std::vector<Bounds>& vertices, DisplayMesh& display) {
   FirstUse number(mesh.vertices.size());
   for (Triangle& t : display.mesh.triangles) t = number(t);
@@ -131,7 +131,8 @@ std::size_t triangles_after(const std::vector<std::uint32_t>& cuts) {
   return count;
 }
 
-/// Adds a triangle cut into n * n equal ones. Corners are shared with its neighbours, points between are not.
+/// Adds a triangle cut into n * n equal ones. Its corners are shared with neighbouring triangles, points between
+/// corners are not.
 void add_cut(TriangleMesh& mesh, const Triangle& t, std::uint32_t n) {
   const Vector3d a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
   std::vector<std::uint32_t> number;  // row by row, from `a` to the edge b c

@@ -15,9 +15,9 @@ namespace meshbound::tools {
 struct DisplayMesh {
   TriangleMesh mesh;               ///< model units
   std::vector<Bounds> deviations;  ///< of its vertices, model units
-  std::vector<Edge> edges;         ///< of the mesh that it shows, or of itself where it is reduced
+  std::vector<Edge> edges;         ///< edges of the mesh that it shows; its own edges if it is reduced
   std::size_t faces = 0;           ///< of the mesh that it shows
-  bool is_reduced = false;         ///< it stands for more triangles than it has
+  bool is_reduced = false;         ///< it has fewer triangles than the mesh that it shows
 };
 
 /// A mesh of at most `max_triangles` that shows `mesh` and how far it is from `other`; `vertices` are the deviations of

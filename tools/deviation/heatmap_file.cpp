@@ -9,7 +9,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// A comment of a PLY header is one line.
+/// Replaces line ends: a comment of a PLY header is one line.
 std::string comment(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');

@@ -19,15 +19,15 @@ class Picture {
   [[nodiscard]] const Colour& at(int x, int y) const { return pixels_[index(x, y)]; }
   void set(int x, int y, const Colour& colour) { pixels_[index(x, y)] = colour; }
 
-  /// Text in capitals 7 pixels high times `size`, 6 wide for each character; its upper left corner is at (x, y). What
-  /// the font does not have is left blank. Parts outside the picture are left out.
+  /// Writes text in capitals 7 pixels high times `size`, 6 wide for each character; its upper left corner is at (x, y).
+  /// Characters that the font lacks are left blank, and parts outside the picture are not drawn.
   void write(int x, int y, std::string_view text, const Colour& colour, int size = 1);
   [[nodiscard]] static int text_width(std::string_view text, int size = 1) {
     return 6 * size * static_cast<int>(text.size());
   }
-  /// Fills the pixels from (x, y) on, those outside the picture left out.
+  /// Fills a rectangle with its upper left corner at (x, y); pixels outside the picture are left out.
   void fill(int x, int y, int width, int height, const Colour& colour);
-  /// Half as wide and high, each pixel the mean of four.
+  /// The picture at half its width and height, each pixel the mean of four.
   [[nodiscard]] Picture halved() const;
   /// The bytes of a PNG file. Throws `Error` where libpng does not make one.
   [[nodiscard]] std::string png() const;

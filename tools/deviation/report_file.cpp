@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Little-endian bytes of numbers, which is what a browser has in its arrays.
+/// The bytes of numbers in little-endian order, as typed arrays of a browser have them.
 template <class T>
 void append(std::string& bytes, T value) {
   char raw[sizeof(T)];
@@ -26,7 +26,8 @@ void append(std::string& bytes, T value) {
   bytes.append(raw, sizeof(T));
 }
 
-/// Coordinates of the view: the box of the original around 0, its diagonal 1, so that floats hold any model.
+/// Coordinates of the view: the box of the original is centred at 0 and its diagonal is 1, so that floats can hold any
+/// model.
 struct ViewFrame {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double size = 1;
@@ -50,7 +51,7 @@ std::string positions(const TriangleMesh& mesh, const ViewFrame& frame) {
   return base64(bytes);
 }
 
-/// The page draws 65535 in the colour for what is beyond the scale, 0 to 65534 on it.
+/// Deviations as 16-bit numbers: 0 to 65534 on the scale, 65535 beyond it.
 std::string coded(const std::vector<Bounds>& deviations, const DeviationScale& scale) {
   constexpr std::uint16_t beyond = 65535;
   std::string bytes;
@@ -100,7 +101,7 @@ std::string scene_json(const ReportScene& scene) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// JSON that no HTML parser takes for the end of its element: "<" stands only in strings.
+/// JSON that an HTML parser cannot take for the end of its element: "<", which occurs in strings only, is escaped.
 std::string in_html(std::string json) {
   std::string text;
   text.reserve(json.size());

@@ -12,13 +12,13 @@
 
 namespace meshbound::tools {
 
-/// A result as a report shows it: the result itself, or one of its levels.
+/// A result in a report: the final one or one of the levels.
 struct ReportLevel {
   DisplayMesh display;
   std::vector<Bounds> first;  ///< deviations of the vertices of `ReportScene::original` from this level
 };
 
-/// What the view of a report draws.
+/// The meshes and the scale that the view of a report shows.
 struct ReportScene {
   std::string original_name;  ///< such as "the original"
   std::string result_name;    ///< such as "the result"

@@ -5,8 +5,8 @@
 
 namespace meshbound::tools {
 
-/// The HTML page of a report, without its data: `@@DOCUMENT@@` and `@@SCENE@@` stand where they go. Absent in a build
-/// that was configured without npm, from which three.js comes.
+/// The HTML page of a report without its data, for which `@@DOCUMENT@@` and `@@SCENE@@` stand. Absent in a build that
+/// was configured without npm, from which three.js comes.
 [[nodiscard]] std::optional<std::string_view> report_page();
 
 }  // namespace meshbound::tools

@@ -32,7 +32,7 @@ struct Projected {
   }
 };
 
-/// The pixels from the first to the last one whose middle lies between two positions.
+/// The first and last pixel whose middle lies between two positions.
 struct PixelRange {
   int first, last;
   PixelRange(double low, double high, int size)

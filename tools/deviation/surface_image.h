@@ -17,13 +17,14 @@ class SurfaceImage {
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  /// `no_index` where there is no surface. 0 <= x < `width()`, 0 <= y < `height()`, here and below.
+  /// The triangle at a pixel, or `no_index` where there is no surface. 0 <= x < `width()`, 0 <= y < `height()`, here
+  /// and below.
   [[nodiscard]] std::uint32_t triangle(int x, int y) const { return triangles_[index(x, y)]; }
   /// The point of the surface at the middle of a pixel that has a triangle, model units.
   [[nodiscard]] Eigen::Vector3d point(int x, int y) const;
-  /// A pixel at the border between two triangles, or of the surface.
+  /// Whether a pixel is at the border between two triangles, or at that of the surface.
   [[nodiscard]] bool is_edge(int x, int y) const;
-  /// Pixels that have a triangle.
+  /// Number of pixels that have a triangle.
   [[nodiscard]] std::size_t covered() const;
 
  private:

@@ -17,15 +17,15 @@ struct Answer {
   // What `conclude` makes of it:
   std::string verdict;
   Outcome outcome = Outcome::Converged;
-  std::string reason;  ///< why not everything that was asked is known; else empty
+  std::string reason;  ///< why a part of the question is still open; else empty
   ExitCode exit_code = ExitUndecided;
 };
 
-/// What needs no trees: the same surface, or a copy of it that has hardly moved.
+/// The answer without trees, for meshes with the same surface or a copy that has hardly moved; absent for others.
 [[nodiscard]] std::optional<Answer> answer_without_trees(const Question& question, const TriangleMesh& a,
                                                          const TriangleMesh& b, Method method);
 
-/// The answer where the time is over before anything was searched.
+/// The answer if the time is over before anything was searched.
 [[nodiscard]] Answer unsearched_answer(const Question& question);
 
 /// Decides, measures, or both. `options` give the method, the threads, the budget of all of it and what watches it.
@@ -36,8 +36,8 @@ struct Answer {
 [[nodiscard]] Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
                                      const DistanceOptions& options, const TileOptions& tiles);
 
-/// Allows for the rounding of B's image, and says what came of the question: verdict, outcome, reason and exit code.
-/// A measurement is "done" only when its interval is as narrow as was asked.
+/// Allows for the rounding of B's image and derives verdict, outcome, reason and exit code. A measurement is "done"
+/// only when its interval is as narrow as was asked.
 void conclude(Answer& answer, const Question& question);
 
 }  // namespace meshbound::tools
