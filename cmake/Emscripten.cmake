@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# WebAssembly: one thread, and no files. Stands in for what a native build finds.
+# WebAssembly: one thread, and files in memory alone. Stands in for what a native build finds.
 add_library(meshbound_one_thread INTERFACE)
 add_library(OpenMP::OpenMP_CXX ALIAS meshbound_one_thread)
 target_include_directories(meshbound_one_thread INTERFACE ${PROJECT_SOURCE_DIR}/bindings/js/compat)
@@ -12,21 +12,22 @@ set(compat ${PROJECT_SOURCE_DIR}/bindings/js/compat/standard_library.h)
 add_compile_options(-include ${compat} -fwasm-exceptions -msimd128)
 add_link_options(-fwasm-exceptions)
 
-# meshbound_without_files(target): leaves out what reads and writes files or knows their attributes, and what needs
-# GMP.
-function(meshbound_without_files target)
-  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/headers)
+# Headers alone, which may not bring the rest of /usr/include with them.
+set(meshbound_headers ${PROJECT_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${meshbound_headers})
+foreach(header IN ITEMS nlohmann/json.hpp fast_float/fast_float.h)
+  cmake_path(GET header PARENT_PATH folder)
+  find_path(${folder}_dir ${header} PATHS /usr/include NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+  file(CREATE_LINK ${${folder}_dir}/${folder} ${meshbound_headers}/${folder} SYMBOLIC)
+endforeach()
+
+# meshbound_core_of_npm(target): leaves out what the npm package does not offer, and so what needs GMP.
+function(meshbound_core_of_npm target)
   get_target_property(sources ${target} SOURCES)
-  set(folders numeric geometry bvh proof distance simplify certificate levels)
+  set(folders numeric geometry mesh bvh proof distance simplify certificate levels attributes)
   list(JOIN folders "|" folders)
-  set(files mesh/line_mesh mesh/mesh_summary mesh/mesh_view mesh/weld mesh/transform
-    mesh/gltf_nodes)
-  list(JOIN files "|" files)
-  list(FILTER sources INCLUDE REGEX "^(${folders})/|^(${files})[.]cpp$")
-  # Headers alone, which may not bring the rest of /usr/include with them.
-  find_path(nlohmann_dir nlohmann/json.hpp PATHS /usr/include NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH REQUIRED)
-  file(CREATE_LINK ${nlohmann_dir}/nlohmann ${PROJECT_BINARY_DIR}/headers/nlohmann SYMBOLIC)
-  set_source_files_properties(levels/scene_run.cpp mesh/gltf_nodes.cpp PROPERTIES
-     INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/headers)
-  set_target_properties(${target} PROPERTIES SOURCES "${sources};report/worst_spot.cpp")
+  list(FILTER sources INCLUDE REGEX "^(${folders})/")
+  set_target_properties(${target} PROPERTIES SOURCES
+    "${sources};report/worst_spot.cpp;${PROJECT_SOURCE_DIR}/bindings/js/compat/to_chars.cpp")
+  target_include_directories(${target} SYSTEM PRIVATE ${meshbound_headers})
 endfunction()

@@ -90,6 +90,19 @@ TEST_F(CInterface, MeasuresAsTheLibraryDoes) {
   EXPECT_LE(distance.bounds.upper - distance.bounds.lower, 0.01);
 }
 
+TEST_F(CInterface, MeasuresUntilATolerance) {
+  auto options = defaults(mb_distance_options_init);
+  options.error_bound = 0.3;
+  mb_distance rough{}, decided{};
+  ASSERT_EQ(mb_measure(&a_, &b_, &options, &rough), MB_OK);
+  options.tolerance = 1.000001 * meshbound::hausdorff_distance(torus_, sphere_).bounds.upper;
+  ASSERT_GT(rough.bounds.upper, options.tolerance);
+  ASSERT_EQ(mb_measure(&a_, &b_, &options, &decided), MB_OK);
+  EXPECT_LE(decided.bounds.upper, options.tolerance);
+  options.tolerance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(mb_measure(&a_, &b_, &options, &decided), MB_INVALID_INPUT);
+}
+
 TEST_F(CInterface, DecidesBothWays) {
   const double upper = meshbound::hausdorff_distance(torus_, sphere_).bounds.upper;
   mb_verdict verdict = MB_UNDECIDED;

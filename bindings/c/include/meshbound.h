@@ -104,10 +104,10 @@ typedef int (*mb_progress)(double fraction, void* user);
 /* The mesh of a file. */
 typedef struct mb_mesh_file mb_mesh_file;
 
-/* Reads OFF, OBJ, PLY, STL or glTF 2, as the end of `path` says: .off, .obj, .ply, .stl, .glb, .gltf. Polygons are split
- * into triangles; of glTF all triangles of the default scene are read, placed by their nodes. What a file holds beyond
- * geometry is left out. MB_INVALID_INPUT for a malformed file or another name, with the line or byte in the message;
- * MB_FAILED for a file that cannot be read. `cancel` may be NULL. O(size of the file). */
+/* Reads OFF, OBJ, PLY, STL or glTF 2, as the end of `path` says: .off, .obj, .ply, .stl, .glb, .gltf. Polygons are
+ * split into triangles; of glTF all triangles of the default scene are read, placed by their nodes. What a file holds
+ * beyond geometry is left out. MB_INVALID_INPUT for a malformed file or another name, with the line or byte in the
+ * message; MB_FAILED for a file that cannot be read. `cancel` may be NULL. O(size of the file). */
 mb_status mb_mesh_file_read(const char* path, const mb_cancel* cancel, mb_mesh_file** file);
 /* The mesh: doubles and 32-bit indices, packed. Its pointers hold until the file is freed. */
 mb_status mb_mesh_file_mesh(const mb_mesh_file* file, mb_mesh* mesh);
@@ -167,6 +167,8 @@ typedef struct mb_distance_options {
   mb_cancel* cancel;    /* may be NULL */
   mb_progress progress; /* may be NULL */
   void* user;           /* for `progress` */
+  double tolerance;     /* for measurements: the upper bound is also refined until it is at most this, wherever the
+                           truth allows it; negative: none. Decisions have a tolerance of their own */
 } mb_distance_options;
 
 /* Sets the defaults: the values named above first, no limit, both directions. `size` is sizeof(mb_distance_options). */

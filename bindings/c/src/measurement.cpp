@@ -20,6 +20,7 @@ mb_distance_options default_distance_options() {
   mb_distance_options options{};
   options.error_bound = -1;
   options.time_limit = std::numeric_limits<double>::infinity();
+  options.tolerance = -1;
   return options;
 }
 
@@ -34,18 +35,17 @@ HausdorffDistance only_a_to_b(OneSidedDistance direction) {
 BvhOptions tree_options(const DistanceOptions& options) { return {options.threads, {.cancel = options.cancel}}; }
 
 /// The distance of two meshes if it can be found without trees, as for two copies of one mesh; absent otherwise. Within
-/// the error bound, or decided for `tolerance`.
-std::optional<HausdorffDistance> looked_up(const MeshView& a, const MeshView& b, const DistanceOptions& options,
-                                           double tolerance) {
+/// the error bound, and decided for the tolerance, if any.
+std::optional<HausdorffDistance> looked_up(const MeshView& a, const MeshView& b, const DistanceOptions& options) {
   if (a.triangle_count() != b.triangle_count()) return std::nullopt;
+  const double tolerance = options.tolerance.value_or(std::numeric_limits<double>::infinity());
   const double error_bound =
       options.error_bound ? *options.error_bound : default_error_bound(a, b, bounding_box_diagonal(a));
   return distance_without_trees(a, b, std::min(error_bound, tolerance));
 }
 
 HausdorffDistance measure(const MeshView& a, const MeshView& b, const DistanceOptions& options, bool one_sided) {
-  if (const auto known = looked_up(a, b, options, std::numeric_limits<double>::infinity()))
-    return one_sided ? only_a_to_b(known->a_to_b) : *known;
+  if (const auto known = looked_up(a, b, options)) return one_sided ? only_a_to_b(known->a_to_b) : *known;
   const auto [tree_a, tree_b] = build_trees(a, b, tree_options(options));
   if (one_sided) return only_a_to_b(one_sided_hausdorff_distance(tree_a, tree_b, options));
   return hausdorff_distance(tree_a, tree_b, options);
@@ -67,6 +67,8 @@ DistanceOptions library_options(const mb_distance_options& options, RunControl& 
   DistanceOptions result;
   if (std::isnan(options.error_bound)) throw InvalidInput("error_bound is not a number");
   if (options.error_bound >= 0) result.error_bound = options.error_bound;
+  if (std::isnan(options.tolerance)) throw InvalidInput("tolerance is not a number");
+  if (options.tolerance >= 0) result.tolerance = options.tolerance;
   if (!(options.time_limit >= 0)) throw InvalidInput("time_limit must be 0 seconds or more");
   result.budget.seconds = options.time_limit;
   result.threads = options.threads;

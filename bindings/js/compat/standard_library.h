@@ -2,6 +2,8 @@
 /// Included before everything else: what the core uses of C++20 and the standard library of Emscripten 3.1.6 lacks.
 #pragma once
 #include <bit>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
@@ -24,5 +26,8 @@ unique_ptr<Array> make_unique_for_overwrite(size_t size) {
   return unique_ptr<Array>(new remove_extent_t<Array>[size]);
 }
 #endif
+
+// As other standard libraries have it, for finite numbers and at least 32 characters of room.
+to_chars_result to_chars(char* first, char* last, double value);
 
 }  // namespace std

@@ -9,6 +9,8 @@
 
 namespace {
 
+double address(const void* p) { return static_cast<double>(reinterpret_cast<std::uintptr_t>(p)); }
+
 /// Doubles of a direction: its bounds, both points with their triangles, the outcome.
 constexpr std::size_t direction_size = 11;
 
@@ -30,10 +32,11 @@ void write_distance(const mb_distance& distance, double* out) {
   write_direction(distance.b_to_a, out + 2 + direction_size);
 }
 
-mb_distance_options options_of(double error_bound, double time_limit, int one_sided) {
+mb_distance_options options_of(double error_bound, double tolerance, double time_limit, int one_sided) {
   mb_distance_options options;
   mb_distance_options_init(&options, sizeof options);
   options.error_bound = error_bound;
+  options.tolerance = tolerance;
   options.time_limit = time_limit;
   options.one_sided = one_sided;
   return options;
@@ -68,8 +71,10 @@ int js_describe(const mb_mesh* mesh, double* out) {
   return MB_OK;
 }
 
-int js_measure(const mb_mesh* a, const mb_mesh* b, double error_bound, double time_limit, int one_sided, double* out) {
-  const mb_distance_options options = options_of(error_bound, time_limit, one_sided);
+/// A negative error bound is the default one, a negative tolerance none.
+int js_measure(const mb_mesh* a, const mb_mesh* b, double error_bound, double tolerance, double time_limit,
+               int one_sided, double* out) {
+  const mb_distance_options options = options_of(error_bound, tolerance, time_limit, one_sided);
   mb_distance distance;
   const mb_status status = mb_measure(a, b, &options, &distance);
   if (status == MB_OK) write_distance(distance, out);
@@ -78,7 +83,7 @@ int js_measure(const mb_mesh* a, const mb_mesh* b, double error_bound, double ti
 
 /// `out`: the verdict, then the distance.
 int js_check(const mb_mesh* a, const mb_mesh* b, double tolerance, double time_limit, int one_sided, double* out) {
-  const mb_distance_options options = options_of(-1, time_limit, one_sided);
+  const mb_distance_options options = options_of(-1, -1, time_limit, one_sided);
   mb_verdict verdict;
   mb_distance distance;
   const mb_status status = mb_check(a, b, tolerance, &options, &verdict, &distance);
@@ -86,6 +91,34 @@ int js_check(const mb_mesh* a, const mb_mesh* b, double tolerance, double time_l
   out[0] = verdict;
   write_distance(distance, out + 1);
   return MB_OK;
+}
+
+/// `out`: address and size of the certificate; then `*certificate` is to be freed by `mb_certificate_free`.
+int js_certify(const mb_mesh* original, const mb_mesh* simplified, double tolerance, double time_limit,
+               mb_certificate** certificate, double* out) {
+  const mb_distance_options options = options_of(-1, -1, time_limit, 0);
+  const mb_status status = mb_certificate_new(original, simplified, tolerance, &options, certificate);
+  if (status != MB_OK) return status;
+  out[0] = address(mb_certificate_data(*certificate));
+  out[1] = static_cast<double>(mb_certificate_size(*certificate));
+  return MB_OK;
+}
+
+/// `out`: numbers of vertices and triangles, addresses of positions and indices; then `*file` is to be freed by
+/// `mb_mesh_file_free`.
+int js_read(const char* path, mb_mesh_file** file, double* out) {
+  const mb_status status = mb_mesh_file_read(path, nullptr, file);
+  if (status != MB_OK) return status;
+  mb_mesh mesh;
+  (void)mb_mesh_file_mesh(*file, &mesh);
+  const std::array values = {static_cast<double>(mesh.vertex_count), static_cast<double>(mesh.triangle_count),
+                             address(mesh.positions), address(mesh.indices)};
+  for (const double value : values) *out++ = value;
+  return MB_OK;
+}
+
+int js_write(const char* path, const mb_mesh* mesh, int single_precision) {
+  return mb_mesh_file_write(path, mesh, single_precision, nullptr);
 }
 
 mb_simplify_options* js_simplify_options_new() {
@@ -143,7 +176,6 @@ int js_level(const mb_simplification* simplification, std::size_t index, double*
   mb_level level;
   const mb_status status = mb_simplification_level(simplification, index, &level);
   if (status != MB_OK) return status;
-  const auto address = [](const void* p) { return static_cast<double>(reinterpret_cast<std::uintptr_t>(p)); };
   const double none = __builtin_nan("");
   const std::array values = {level.tolerance,
                              static_cast<double>(level.verdict),

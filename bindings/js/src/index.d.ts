@@ -61,6 +61,8 @@ export interface Distance extends Bounds {
 export interface DistanceOptions {
   /** Wanted width of the interval; default 1e-6 of the diagonal of the first mesh. */
   errorBound?: number;
+  /** The upper bound is also refined until it is at most this, wherever the truth allows it. */
+  tolerance?: number;
   /** Only from the first mesh to the second. */
   oneSided?: boolean;
   /** Seconds of the search. */
@@ -133,14 +135,30 @@ export interface Simplification {
   level: Level;
 }
 
+/** "gltf" is one file whose buffers are data URIs. */
+export type Format = 'off' | 'obj' | 'ply' | 'stl' | 'glb' | 'gltf';
+
 /** Facts about a mesh. */
 export function describe(mesh: Mesh): MeshFacts;
 /** Measures the symmetric Hausdorff distance of two meshes. */
 export function hausdorffDistance(a: Mesh, b: Mesh, options?: DistanceOptions): Distance;
 /** Decides whether the distance is at most `tolerance`: faster than measuring it. */
-export function check(a: Mesh, b: Mesh, tolerance: number, options?: Omit<DistanceOptions, 'errorBound'>): Check;
+export function check(a: Mesh, b: Mesh, tolerance: number, options?: Omit<DistanceOptions, 'errorBound' | 'tolerance'>): Check;
 /** Simplifies a mesh while its symmetric Hausdorff distance to the original stays within the tolerance. */
 export function simplify(mesh: Mesh, options: SimplifyOptions): Simplification;
+/**
+ * Proves that two meshes are within a tolerance: the bytes of a file that the tool verify_certificate checks, for the
+ * meshes in files with these coordinates. Throws where the tolerance does not hold, or no proof was found in time.
+ */
+export function buildCertificate(
+  original: Mesh, simplified: Mesh, tolerance: number, options?: { timeLimit?: number }): Uint8Array;
+/** The triangles of a mesh file. Polygons are split; of glTF the default scene is read, placed by its nodes. */
+export function readMesh(bytes: Uint8Array | ArrayBuffer, format: Format): { positions: Float64Array; indices: Uint32Array };
+/**
+ * The bytes of a mesh file, which are those that the tools write. STL and glTF hold floats, and other formats do with
+ * "single" precision: a bound that is to hold for the file must be one of the mesh as it reads.
+ */
+export function writeMesh(mesh: Mesh, format: Format, options?: { precision?: 'double' | 'single' }): Uint8Array;
 
 /**
  * Stands in for MeshoptSimplifier, for instance in simplify() of gltf-transform. The error is a proven bound of the

@@ -6,6 +6,7 @@ import createEngine from './engine.js';
 const OUTCOMES = ['converged', 'exceeds', 'budget', 'precision', 'not_searched'];
 const VERDICTS = ['within', 'exceeds', 'undecided'];
 const ENDS = ['nothing_fits', 'target', 'tolerance', 'time_limit', 'rounding'];
+const FORMATS = ['off', 'obj', 'ply', 'stl', 'glb', 'gltf'];
 const DIRECTION_SIZE = 11;
 const DISTANCE_SIZE = 2 + 2 * DIRECTION_SIZE;
 const LEVEL_SIZE = 13 + DISTANCE_SIZE;
@@ -75,11 +76,12 @@ class Scratch {
     return options;
   }
 
-  freeAtEnd(free) {
-    this.#addresses.push(free);
+  freeAtEnd(free, address) {
+    this.#addresses.push(() => free(address));
   }
 }
 
+const words = (address, count) => engine.HEAPU32.slice(address / 4, address / 4 + count);
 const doubles = (address, count) => engine.HEAPF64.slice(address / 8, address / 8 + count);
 
 function requireSuccess(status) {
@@ -118,11 +120,12 @@ export function describe(mesh) {
   });
 }
 
-export function hausdorffDistance(a, b, { errorBound = -1, oneSided = false, timeLimit = Infinity } = {}) {
+export function hausdorffDistance(
+  a, b, { errorBound = -1, tolerance = -1, oneSided = false, timeLimit = Infinity } = {}) {
   return Scratch.with((scratch) => {
     const out = scratch.room(DISTANCE_SIZE * 8);
-    requireSuccess(
-      engine._js_measure(scratch.mesh(a), scratch.mesh(b), errorBound, timeLimit, oneSided ? 1 : 0, out));
+    requireSuccess(engine._js_measure(
+      scratch.mesh(a), scratch.mesh(b), errorBound, tolerance, timeLimit, oneSided ? 1 : 0, out));
     return distanceFrom(doubles(out, DISTANCE_SIZE));
   });
 }
@@ -137,12 +140,56 @@ export function check(a, b, tolerance, { oneSided = false, timeLimit = Infinity 
   });
 }
 
+export function buildCertificate(original, simplified, tolerance, { timeLimit = Infinity } = {}) {
+  return Scratch.with((scratch) => {
+    const certificate = scratch.room(4);
+    const out = scratch.room(2 * 8);
+    requireSuccess(engine._js_certify(
+      scratch.mesh(original), scratch.mesh(simplified), tolerance, timeLimit, certificate, out));
+    scratch.freeAtEnd(engine._mb_certificate_free, engine.HEAPU32[certificate / 4]);
+    const [address, size] = doubles(out, 2);
+    return engine.HEAPU8.slice(address, address + size);
+  });
+}
+
+/** A name in the memory of the engine for a file of this format, which is gone when `use` has returned. */
+function withFile(format, use) {
+  if (!FORMATS.includes(format)) throw new InvalidInput(`the format must be one of: ${FORMATS.join(', ')}`);
+  return Scratch.with((scratch) => {
+    const name = `mesh.${format}`;
+    try {
+      return use(scratch, name, scratch.copy(new TextEncoder().encode(`${name}\0`)));
+    } finally {
+      if (engine.FS.analyzePath(name).exists) engine.FS.unlink(name);
+    }
+  });
+}
+
+export function readMesh(bytes, format) {
+  return withFile(format, (scratch, name, address) => {
+    engine.FS.writeFile(name, bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes);
+    const file = scratch.room(4);
+    const out = scratch.room(4 * 8);
+    requireSuccess(engine._js_read(address, file, out));
+    scratch.freeAtEnd(engine._mb_mesh_file_free, engine.HEAPU32[file / 4]);
+    const [vertices, triangles, positions, indices] = doubles(out, 4);
+    return { positions: doubles(positions, 3 * vertices), indices: words(indices, 3 * triangles) };
+  });
+}
+
+export function writeMesh(mesh, format, options = {}) {
+  return withFile(format, (scratch, name, address) => {
+    const single = chosen(options, 'precision', ['double', 'single']);
+    requireSuccess(engine._js_write(address, scratch.mesh(mesh), single));
+    return engine.FS.readFile(name);
+  });
+}
+
 function levelFrom(scratch, simplification, index) {
   const out = scratch.room(LEVEL_SIZE * 8);
   requireSuccess(engine._js_level(simplification, index, out));
   const values = doubles(out, LEVEL_SIZE);
   const [tolerance, verdict, endedBy, vertices, triangles, positions, indices, sourceVertices, sourceTriangles] = values;
-  const words = (address, count) => engine.HEAPU32.slice(address / 4, address / 4 + count);
   const [certificate, certificateSize, lineLower, lineUpper] = values.subarray(9);
   return {
     tolerance,
@@ -190,7 +237,7 @@ export function simplify(mesh, options) {
     const result = scratch.room(4);
     requireSuccess(engine._js_simplify(original, target, result));
     const simplification = engine.HEAPU32[result / 4];
-    scratch.freeAtEnd(() => engine._mb_simplification_free(simplification));
+    scratch.freeAtEnd(engine._mb_simplification_free, simplification);
     const count = engine._mb_simplification_level_count(simplification);
     const levels = Array.from({ length: count }, (_, index) => levelFrom(scratch, simplification, index));
     return { levels, level: levels[count - 1] };
