@@ -338,9 +338,21 @@ TEST(TextureDeviation, LooksAtFewPiecesOfMirroredCharts) {
   const auto mirrored = [](int n) {
     return joined(grid(n, flat), grid(n, [](double s, double t) { return Corner{{11 - s, t, 0.01 * s}, {s, t}}; }));
   };
-  const std::uint64_t few = measured(mirrored(8), mirrored(7)).a_to_b.pieces;
-  const std::uint64_t many = measured(mirrored(16), mirrored(14)).a_to_b.pieces;
+  const std::uint64_t few = measured(mirrored(16), mirrored(14)).a_to_b.pieces;
+  const std::uint64_t many = measured(mirrored(32), mirrored(28)).a_to_b.pieces;
   EXPECT_LT(many, 6 * few);
+}
+
+/// Twice as many copies that all show the same texture, each near its own counterpart: twice as many pairs.
+TEST(TextureDeviation, LooksAtNearCopiesOfAChartFirst) {
+  const auto copies = [](int count, int n) {
+    TexturedMesh mesh;
+    for (int k = 0; k < count; ++k)
+      mesh = joined(mesh, grid(n, [&](double s, double t) { return Corner{{s + 3 * k, t, 0.01 * s * t}, {s, t}}; }));
+    return mesh;
+  };
+  const auto pairs = [&](int count) { return measured(copies(count, 4), copies(count, 3)).a_to_b.pairs; };
+  EXPECT_LT(pairs(40), 3 * pairs(20));
 }
 
 TEST(TextureDeviation, RefusesWhatIsNoNumber) {

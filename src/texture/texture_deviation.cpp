@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,9 +20,40 @@
 namespace meshbound {
 namespace {
 
-constexpr double default_share = 1e-6;        ///< of the diagonal: the error bound where none is given
+constexpr double default_share = 1e-6;    ///< of the diagonal: the error bound where none is given
+constexpr double reach_share = 1.0 / 64;  ///< of the diagonal: the reach of the first look where no tolerance is given
 constexpr double precision_share = 1.0 / 16;  ///< of the error bound: the precision of a single distance
 constexpr std::size_t grain = 32;             ///< triangles that a thread takes at once
+
+/// Whether no edge of `a` seems to have all of `b` beyond it in the texture. Rounding may decide.
+bool seems_to_overlap(const ChartTriangle& a, const ChartTriangle& b) {
+  const auto& uv = a.source->coordinates;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector2d &from = uv[k], way = uv[(k + 1) % 3] - from;
+    const auto is_beyond = [&](const Eigen::Vector2d& p) {
+      const double area = way.x() * (p.y() - from.y()) - way.y() * (p.x() - from.x());
+      return a.turned ? area >= 0 : area <= 0;
+    };
+    if (std::all_of(b.source->coordinates.begin(), b.source->coordinates.end(), is_beyond)) return false;
+  }
+  return true;
+}
+
+bool seem_to_share_area(const ChartTriangle& a, const ChartTriangle& b) {
+  return b.chart == Chart::Area && seems_to_overlap(a, b) && seems_to_overlap(b, a);
+}
+
+/// The largest squared distance between corners with the same texture coordinates; infinite where these differ.
+double squared_distance_at_corners(const TexturedTriangle& a, const TexturedTriangle& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto same = std::find(b.coordinates.begin(), b.coordinates.end(), a.coordinates[i]);
+    if (same == b.coordinates.end()) return HUGE_VAL;
+    const auto k = static_cast<std::size_t>(same - b.coordinates.begin());
+    worst = std::max(worst, (a.corners[i] - b.corners[k]).squaredNorm());
+  }
+  return worst;
+}
 
 /// The triangles of a mesh with a search tree over their texture coordinates.
 class Charts {
@@ -29,7 +61,7 @@ class Charts {
   Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) {
     for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units));
     std::vector<Eigen::AlignedBox3d> boxes;
-    for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_of(t));
+    for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_of(t)), places_.push_back(place_of(t));
     tree_.emplace(std::move(boxes));
   }
   [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
@@ -42,7 +74,28 @@ class Charts {
     for (const std::uint32_t b : found) overlay.add(triangles_[b]);
   }
 
+  /// Makes those of them its candidates that seem to share more than an edge with `a` in the texture and to be within
+  /// `reach` of it in space; only the nearest one of those that have the same texture coordinates, if there are any.
+  /// Rounding decides about some.
+  void add_near_candidates(const ChartTriangle& a, double reach, Overlay& overlay,
+                           std::vector<std::uint32_t>& found) const {
+    found.clear();
+    tree_->find(box_of(*a.source), found);
+    const Eigen::AlignedBox3d place = place_of(*a.source);
+    std::erase_if(found, [&](std::uint32_t b) {
+      return places_[b].squaredExteriorDistance(place) > reach * reach || !seem_to_share_area(a, triangles_[b]);
+    });
+    if (const auto same = nearest_copy(a, reach, found)) found.assign(1, *same);
+    for (const std::uint32_t b : found) overlay.add(triangles_[b]);
+  }
+
  private:
+  static Eigen::AlignedBox3d place_of(const TexturedTriangle& t) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : t.corners) box.extend(p);
+    return box;
+  }
+
   /// The box of the texture coordinates; the third side keeps materials apart.
   static Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
     Eigen::AlignedBox3d box;
@@ -50,21 +103,35 @@ class Charts {
     return box;
   }
 
+  /// The nearest one with the texture coordinates of `a`, if it is within `reach`.
+  [[nodiscard]] std::optional<std::uint32_t> nearest_copy(const ChartTriangle& a, double reach,
+                                                          std::span<const std::uint32_t> among) const {
+    std::optional<std::uint32_t> nearest;
+    double least = reach * reach;
+    for (const std::uint32_t b : among) {
+      const double squared = squared_distance_at_corners(*a.source, *triangles_[b].source);
+      if (squared <= least) least = squared, nearest = b;
+    }
+    return nearest;
+  }
+
   const TexturedMesh& mesh_;
   std::vector<ChartTriangle> triangles_;
+  std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
   std::optional<BoxTree> tree_;
 };
 
 /// Computes the one-sided texture deviation from A to B.
 class Direction {
  public:
-  Direction(const Charts& a, const Charts& b, const ExactUnits& units, double error_bound,
+  /// `reach` is how far a first look goes.
+  Direction(const Charts& a, const Charts& b, const ExactUnits& units, double error_bound, double reach,
             const TextureDeviationOptions& options)
       : a_(a),
         b_(b),
         units_(units),
         options_(options),
-        known_(a.triangles().size()),
+        reach_(reach),
         bounds_(a.triangles().size()),
         shares_(a.triangles().size()) {
     goal_.error_bound = error_bound;
@@ -73,7 +140,10 @@ class Direction {
   }
 
   OneSidedTextureDeviation run() {
-    look_at_all();
+    pairs_.assign(bounds_.size(), 0);
+    look_at_near();
+    look_at_rest();
+    if (!first_ && !bounds_.empty()) look_at(std::array{worst()});
     refine();
     OneSidedTextureDeviation result;
     result.bounds = {goal_.lower, goal_.lower};
@@ -108,6 +178,10 @@ class Direction {
     return bounds_[triangle].upper > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
   }
 
+  [[nodiscard]] bool exceeds(const TriangleDeviation& found) const {
+    return options_.tolerance && found.bounds.upper > *options_.tolerance;
+  }
+
   template <class Work>
   void for_triangles(std::size_t count, std::size_t at_once, const Work& work) {
     with_team(options_.threads > 0 ? options_.threads : omp_get_max_threads(), [&] {
@@ -119,18 +193,45 @@ class Direction {
     });
   }
 
-  void look_at_all() {
-    const std::size_t count = bounds_.size();
-    pairs_.assign(count, 0);
-    for_triangles(count, grain, [&](std::size_t i, Workspace& work) {
-      overlay(i, work);
-      known_[i] = deviation_by_candidates(work.overlay, goal_.precision);
-      bounds_[i] = known_[i].all.bounds;
+  /// Many triangles are covered by few near ones: an upper bound, and no uncovered area.
+  void look_at_near() {
+    for_triangles(bounds_.size(), grain, [&](std::size_t i, Workspace& work) {
+      const ChartTriangle& t = a_.triangles()[i];
+      if (t.chart != Chart::Area) return;
+      work.overlay.begin(t);
+      b_.add_near_candidates(t, reach_, work.overlay, work.found);
       pairs_[i] = work.overlay.candidates();
+      if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision)) bounds_[i] = {0, *upper};
+    });
+  }
+
+  void look_at_rest() {
+    std::vector<std::size_t> rest;
+    for (std::size_t i = 0; i < bounds_.size(); ++i)
+      if (!(bounds_[i].upper < HUGE_VAL)) rest.push_back(i);
+    look_at(rest);
+  }
+
+  [[nodiscard]] std::size_t worst() const {
+    const auto is_smaller = [](const Bounds& p, const Bounds& q) { return p.upper < q.upper; };
+    return static_cast<std::size_t>(std::max_element(bounds_.begin(), bounds_.end(), is_smaller) - bounds_.begin());
+  }
+
+  /// With all candidates: also a lower bound, from the corners, and the area that none of them covers.
+  void look_at(std::span<const std::size_t> triangles) {
+    std::vector<std::uint8_t> is_covered(triangles.size(), 0);
+    for_triangles(triangles.size(), grain, [&](std::size_t k, Workspace& work) {
+      const std::size_t i = triangles[k];
+      overlay(i, work);
+      const TriangleDeviation known = deviation_by_candidates(work.overlay, goal_.precision).all;
+      bounds_[i] = known.bounds;
+      is_covered[k] = known.far ? 1 : 0;
+      pairs_[i] += work.overlay.candidates();
       shares_[i] = uncovered_share(work.overlay);
     });
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!known_[i].all.far || (first_ && bounds_[i].lower <= goal_.lower)) continue;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      const std::size_t i = triangles[k];
+      if (is_covered[k] == 0 || (first_ && bounds_[i].lower <= goal_.lower)) continue;
       goal_.lower = bounds_[i].lower;
       first_ = i;
     }
@@ -162,16 +263,18 @@ class Direction {
     for_triangles(triangles.size(), 1, [&](std::size_t k, Workspace& work) {
       if (!is_open(triangles[k])) return;
       overlay(triangles[k], work);
-      found[k] = deviation_by_pieces(work.overlay, known_[triangles[k]], goal);
-      if (found[k].far) witnesses[k] = work.overlay.witness(found[k].far->candidate, found[k].far->node);
+      const DeviationByCandidates known = deviation_by_candidates(work.overlay, goal.precision);
+      found[k] = deviation_by_pieces(work.overlay, known, goal);
+      const bool may_be_shown = found[k].bounds.lower >= goal_.lower || exceeds(found[k]);
+      if (found[k].far && may_be_shown)
+        witnesses[k] = work.overlay.witness(found[k].far->candidate, found[k].far->node);
     });
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       if (found[k].pieces == 0) continue;
       bounds_[triangles[k]] = found[k].bounds;
       gave_up_ = gave_up_ || found[k].gave_up;
       pieces_ += found[k].pieces;
-      if (options_.tolerance && found[k].bounds.upper > *options_.tolerance && witnesses[k])
-        exceeding_.push_back(*witnesses[k]);
+      if (exceeds(found[k]) && witnesses[k]) exceeding_.push_back(*witnesses[k]);
       if (!witnesses[k] || (witness_ && found[k].bounds.lower <= goal_.lower) || found[k].bounds.lower < goal_.lower)
         continue;
       goal_.lower = found[k].bounds.lower;
@@ -184,7 +287,7 @@ class Direction {
     if (witness_ || !first_) return witness_;
     Workspace work(units_);
     overlay(*first_, work);
-    const FarPoint& far = *known_[*first_].all.far;
+    const FarPoint far = *deviation_by_candidates(work.overlay, goal_.precision).all.far;
     return work.overlay.witness(far.candidate, far.node);
   }
 
@@ -192,9 +295,9 @@ class Direction {
   ExactUnits units_;
   const TextureDeviationOptions& options_;
   DeviationGoal goal_;
-  std::vector<DeviationByCandidates> known_;  ///< by triangle of A
-  std::vector<Bounds> bounds_;                ///< by triangle of A
-  std::vector<Approximate> shares_;           ///< by triangle of A: the share of it that B does not cover
+  double reach_ = 0;                 ///< of the first look, model units
+  std::vector<Bounds> bounds_;       ///< by triangle of A
+  std::vector<Approximate> shares_;  ///< by triangle of A: the share of it that B does not cover
   std::vector<std::uint32_t> pairs_;
   std::optional<std::size_t> first_;  ///< the triangle at a corner of which the lower bound was found
   std::optional<TextureWitness> witness_;
@@ -243,8 +346,9 @@ TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
   const ExactUnits units = units_of(a, b);
   const Charts charts_a(a, units), charts_b(b, units);
   TextureDeviation result;
-  result.a_to_b = Direction(charts_a, charts_b, units, error_bound, options).run();
-  result.b_to_a = Direction(charts_b, charts_a, units, error_bound, options).run();
+  const double reach = options.tolerance.value_or(reach_share * diagonal_of(a));
+  result.a_to_b = Direction(charts_a, charts_b, units, error_bound, reach, options).run();
+  result.b_to_a = Direction(charts_b, charts_a, units, error_bound, reach, options).run();
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
                    std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
   return result;

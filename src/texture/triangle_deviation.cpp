@@ -41,20 +41,23 @@ Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate
 }
 
 /// Moves the candidates of `part` that cover all of the piece to `full` and drops those that cover nothing. Returns a
-/// line to cut the piece by, absent if no candidate covers it in part.
-std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece) {
-  std::optional<Line> chosen;
+/// line to cut the piece by, of a candidate that `is_preferred` if possible; absent if no candidate covers it in part.
+template <class IsPreferred>
+std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece, const IsPreferred& is_preferred) {
   std::vector<std::uint32_t> part;
-  std::vector<Line> cuts;
+  std::vector<Line> preferred, others;
   for (const std::uint32_t c : piece.part) {
     Line cut = 0;
     const Cover cover = cover_of(overlay, piece.polygon, c, cut);
     if (cover == Cover::All) piece.full.push_back(c);
-    if (cover == Cover::Part) part.push_back(c), cuts.push_back(cut);
+    if (cover != Cover::Part) continue;
+    part.push_back(c);
+    (is_preferred(c) ? preferred : others).push_back(cut);
   }
   piece.part = std::move(part);
-  if (!cuts.empty()) chosen = cuts[cuts.size() / 2];  // a middle one halves pieces: candidates are in spatial order
-  return chosen;
+  const std::vector<Line>& cuts = preferred.empty() ? others : preferred;
+  if (cuts.empty()) return std::nullopt;
+  return cuts[cuts.size() / 2];  // a middle one halves pieces: candidates are in spatial order
 }
 
 /// The candidates that can cover more of A than a line or a point.
@@ -80,6 +83,20 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
   if (nearest == HUGE_VAL) return;
   result.bounds.lower = nearest;
   result.far = FarPoint{node, candidate};
+}
+
+/// What a candidate covers of A.
+Polygon covered_by(Overlay& overlay, std::uint32_t candidate) {
+  Polygon covered = overlay.whole();
+  overlay.clip(covered, candidate);
+  return covered;
+}
+
+/// The largest distance to the candidate over a polygon that it covers; -1 where that is empty.
+double upper_at_corners(Overlay& overlay, const Polygon& covered, std::uint32_t candidate, double precision) {
+  double upper = -1;
+  for (const auto& corner : covered) upper = std::max(upper, overlay.distance(candidate, corner.node, precision).upper);
+  return upper;
 }
 
 class PieceSearch {
@@ -145,7 +162,8 @@ class PieceSearch {
     ++result_.pieces;
     const Node* where = nullptr;
     if (const double upper = min_upper(piece, where); upper <= limit()) return accept(upper);
-    const std::optional<Line> cut = sort_candidates(overlay_, piece);
+    const auto is_near = [&](std::uint32_t c) { return uppers_[c] <= limit(); };  // what it covers needs no other one
+    const std::optional<Line> cut = sort_candidates(overlay_, piece, is_near);
     if (piece.full.empty()) {
       if (cut) return split(piece, *cut);
       has_uncovered_ = true;
@@ -234,7 +252,7 @@ class Uncovered {
   explicit Uncovered(Overlay& overlay) : overlay_(overlay) {}
 
   Approximate of(Piece piece) {
-    const std::optional<Line> cut = sort_candidates(overlay_, piece);
+    const std::optional<Line> cut = sort_candidates(overlay_, piece, [](std::uint32_t) { return true; });
     if (!piece.full.empty()) return {};
     if (!cut) return overlay_.share(piece.polygon);
     Approximate total;
@@ -252,16 +270,22 @@ class Uncovered {
 
 }  // namespace
 
+std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision) {
+  if (overlay.triangle().chart != Chart::Area) return std::nullopt;
+  if (!Covering().is_complete(overlay, spanning_candidates(overlay))) return std::nullopt;
+  double upper = 0;
+  for (std::uint32_t c = 0; c < overlay.candidates(); ++c)
+    upper = std::max(upper, upper_at_corners(overlay, covered_by(overlay, c), c, precision));
+  return upper;
+}
+
 DeviationByCandidates deviation_by_candidates(Overlay& overlay, double precision) {
   DeviationByCandidates found;
-  found.uppers.assign(overlay.candidates(), -1);
   std::optional<Node> covered_point;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
-    Polygon covered = overlay.whole();
-    overlay.clip(covered, c);
-    for (const auto& corner : covered)
-      found.uppers[c] = std::max(found.uppers[c], overlay.distance(c, corner.node, precision).upper);
-    found.all.bounds.upper = std::max(found.all.bounds.upper, found.uppers[c]);
+    const Polygon covered = covered_by(overlay, c);
+    found.uppers.push_back(upper_at_corners(overlay, covered, c, precision));
+    found.all.bounds.upper = std::max(found.all.bounds.upper, found.uppers.back());
     if (!covered.empty()) covered_point = covered.front().node;
   }
   for (const auto& corner : overlay.whole()) include(overlay, corner.node, precision, found.all);

@@ -36,6 +36,10 @@ struct DeviationGoal {
   std::uint64_t max_pieces = 0;
 };
 
+/// An upper bound over all of A, that of the farthest candidate. Absent unless the candidates are known to cover all of
+/// A. O(candidates log candidates).
+[[nodiscard]] std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision);
+
 /// Bounds the deviation by each candidate alone. The distance to one candidate is convex over what it covers, so its
 /// maximum is at a corner of that. Where several candidates cover the same points the upper bound is that of the
 /// farthest, not the nearest one: valid, but not tight. The lower bound comes from the corners of A, or from one

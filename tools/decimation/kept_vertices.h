@@ -35,7 +35,7 @@ class KeptVertices {
   [[nodiscard]] bool tighten();
 
  private:
-  static constexpr int gradual_rounds = 2, max_rounds = 12;
+  static constexpr int gradual_rounds = 1, max_rounds = 12;
   struct Worst {
     double amount = -1;  ///< a length or an angle: they are compared only to choose where to begin
     std::uint32_t triangle = 0;

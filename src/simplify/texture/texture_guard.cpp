@@ -75,6 +75,7 @@ void TextureGuard::begin(const TexturedStar& star) {
   samples_.clear();
   charts_.clear();
   faces_.clear();
+  matches_.clear();
   area_before_.clear();
   const auto add_samples = [&](std::uint32_t face) {
     for (std::uint32_t s = map_.first(face); s != TextureMap::none; s = map_.sample(s).following) {
@@ -89,6 +90,8 @@ void TextureGuard::begin(const TexturedStar& star) {
                       {map_.at(c), map_.at(next_corner(c)), map_.at(previous_corner(c))},
                       map_.chart(f),
                       f,
+                      Eigen::Matrix2d::Zero(),
+                      Eigen::Matrix<double, 3, 2>::Zero(),
                       Eigen::Matrix2d::Zero(),
                       false});
     area_before_.push_back(doubled_area(faces_.back().coordinates));
@@ -187,22 +190,29 @@ bool TextureGuard::is_turned_over() const {
   return false;
 }
 
+/// The point of a face with the coordinate of the sample, if it has one.
+std::optional<TextureGuard::Match> TextureGuard::match_inside(const TextureMap::Sample& sample,
+                                                              std::uint32_t number) const {
+  const Face& face = faces_[number];
+  Match match{number, true, {1, 0, 0}, {}};
+  if (!face.has_area) {  // one coordinate or a line of them: the nearest point stands for it
+    const CornerTriangle<double> t{face.at[0], face.at[1] - face.at[0], face.at[2] - face.at[0]};
+    match.offset = -1.0 * closest_on_triangle(t, sample.at).offset;
+    return match;
+  }
+  const Eigen::Vector2d weights = face.to_weights * (sample.coordinate - face.coordinates[0]);
+  match.weights = {1 - weights.x() - weights.y(), weights.x(), weights.y()};
+  if (std::min({match.weights[0], match.weights[1], match.weights[2]}) < min_weight) return std::nullopt;
+  match.offset = point_of(face.at, match.weights) - sample.at;
+  return match;
+}
+
 TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
   Match best;
   for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-    const Face& face = faces_[i];
-    if (face.chart != chart) continue;
-    Match here{i, true, {1, 0, 0}, {}};
-    if (!face.has_area) {  // one coordinate or a line of them: the nearest point stands for it
-      const CornerTriangle<double> t{face.at[0], face.at[1] - face.at[0], face.at[2] - face.at[0]};
-      here.offset = -1.0 * closest_on_triangle(t, sample.at).offset;
-    } else {
-      const Eigen::Vector2d weights = face.to_weights * (sample.coordinate - face.coordinates[0]);
-      here.weights = {1 - weights.x() - weights.y(), weights.x(), weights.y()};
-      if (std::min({here.weights[0], here.weights[1], here.weights[2]}) < min_weight) continue;
-      here.offset = point_of(face.at, here.weights) - sample.at;
-    }
-    if (!best.is_inside || squared_length(here.offset) < squared_length(best.offset)) best = here;
+    if (faces_[i].chart != chart) continue;
+    const auto here = match_inside(sample, i);
+    if (here && (!best.is_inside || squared_length(here->offset) < squared_length(best.offset))) best = *here;
   }
   return best.is_inside ? best : match_outside(sample, chart);
 }
@@ -222,22 +232,31 @@ TextureGuard::Match TextureGuard::match_outside(const TextureMap::Sample& sample
   return best;
 }
 
-void TextureGuard::prepare_weights() {
+void TextureGuard::prepare_faces() {
   for (Face& face : faces_) {
     Eigen::Matrix2d sides;
     sides << face.coordinates[1] - face.coordinates[0], face.coordinates[2] - face.coordinates[0];
     face.has_area = sides.determinant() != 0;
-    if (face.has_area) face.to_weights = sides.inverse();
+    if (!face.has_area) continue;
+    face.to_weights = sides.inverse();
+    Eigen::Matrix<double, 3, 2> sides_in_space;
+    sides_in_space << to_eigen(face.at[1] - face.at[0]), to_eigen(face.at[2] - face.at[0]);
+    face.derivative = (1 / map_.limit) * sides_in_space * face.to_weights;
+    face.squared_derivative = face.derivative.transpose() * face.derivative;
   }
 }
 
-/// Finds a face for each sample. False if a sample has none, or none within `max_squared`.
+/// Finds a face for each sample, that of the last call if it still has its coordinate. False if a sample has none, or
+/// none within `max_squared`.
 bool TextureGuard::match(double max_squared) {
-  prepare_weights();
+  prepare_faces();
   matches_.resize(samples_.size());
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    matches_[i] = match(map_.sample(samples_[i]), charts_[i]);
-    if (matches_[i].face == TextureMap::none || !(squared_length(matches_[i].offset) <= max_squared)) return false;
+    const TextureMap::Sample& sample = map_.sample(samples_[i]);
+    Match& match = matches_[i];
+    const auto again = match.is_inside ? match_inside(sample, match.face) : std::nullopt;
+    match = again ? *again : this->match(sample, charts_[i]);
+    if (match.face == TextureMap::none || !(squared_length(match.offset) <= max_squared)) return false;
   }
   return true;
 }
@@ -247,19 +266,16 @@ bool TextureGuard::match(double max_squared) {
 /// face by the coordinate.
 void TextureGuard::add_slope(const Face& face, const Match& match, Deviations& deviations) const {
   if (!face.has_area || !match.is_inside) return;
-  const Vec3 u = face.at[1] - face.at[0], v = face.at[2] - face.at[0];
-  Eigen::Matrix<double, 3, 2> sides;
-  sides << to_eigen(u), to_eigen(v);
-  const Eigen::Matrix<double, 3, 2> derivative = sides * face.to_weights * (-match.weights[0] / map_.limit);
+  const double weight = match.weights[0];
   const Eigen::Vector3d offset = to_eigen((1 / map_.limit) * match.offset);
   const double squared = offset.squaredNorm();
   // The objective is the sum of squared^3: its gradient is 6 squared^2 D^T e; of its Hessian only the positive
   // semidefinite part is kept.
-  const Eigen::Vector2d slope = derivative.transpose() * offset;
+  const Eigen::Vector2d slope = -weight * (face.derivative.transpose() * offset);
   deviations.sum += squared * squared * squared;
   deviations.gradient += 6 * squared * squared * slope;
   deviations.curvature +=
-      6 * squared * squared * derivative.transpose() * derivative + 24 * squared * slope * slope.transpose();
+      6 * squared * squared * weight * weight * face.squared_derivative + 24 * squared * slope * slope.transpose();
 }
 
 TextureGuard::Deviations TextureGuard::deviations() {

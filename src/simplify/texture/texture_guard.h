@@ -49,6 +49,9 @@ class TextureGuard {
     /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners; NaN where the face
     /// has no area in the texture.
     Eigen::Matrix2d to_weights;
+    /// Of a position in the face, in limits, by the texture coordinate there, and its product with itself.
+    Eigen::Matrix<double, 3, 2> derivative;
+    Eigen::Matrix2d squared_derivative;
     bool has_area = false;
   };
   /// The point of a face that a sample is compared with.
@@ -70,8 +73,9 @@ class TextureGuard {
   void set_sector(Corner of_leaving, const Eigen::Vector2d& coordinate);
   [[nodiscard]] std::optional<Eigen::Vector2d> coordinate_at(Vec3 point) const;
   [[nodiscard]] bool is_turned_over() const;
-  void prepare_weights();
+  void prepare_faces();
   [[nodiscard]] bool match(double max_squared);
+  [[nodiscard]] std::optional<Match> match_inside(const TextureMap::Sample& sample, std::uint32_t face) const;
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
   [[nodiscard]] Match match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const;
   void add_slope(const Face& face, const Match& match, Deviations& deviations) const;
