@@ -13,7 +13,7 @@ option(MESHBOUND_PRECOMPILED_HEADERS "Compile the common headers of other projec
 
 set(MESHBOUND_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <fstream> <functional>
   <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <thread> <unordered_map> <utility>
-  <variant> <vector> <Eigen/Geometry>)
+  <variant> <vector> <Eigen/Geometry> ${CMAKE_CURRENT_LIST_DIR}/compiled_types.h)
 
 # Only headers whose time is spent in reading them belong here: GCC compiles again, for each file, inline functions of
 # classes with virtual ones and templates that the headers themselves instantiate.
