@@ -4,7 +4,7 @@
 # what includes it.
 
 # Compiler caches as launchers cannot cache what is compiled with them.
-if(CMAKE_CXX_COMPILER_LAUNCHER OR EMSCRIPTEN)
+if(CMAKE_CXX_COMPILER_LAUNCHER OR DEFINED ENV{EM_COMPILER_WRAPPER})
   set(MESHBOUND_PRECOMPILED_HEADERS_DEFAULT OFF)
 else()
   set(MESHBOUND_PRECOMPILED_HEADERS_DEFAULT ON)

@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: MIT
-# Run by CTest: builds the npm package where Emscripten is installed, and tests it in Node against the native tools.
-find_program(EMCC em++)
+# Run by CTest: tests the npm package of this build in Node and Chromium against the native tools.
 find_program(NODE node)
-if(NOT EMCC OR NOT NODE)
-  message("js_test: Skipped\nemscripten is not installed; tools/install_dependencies --wasm does that")
+if(NOT npm OR NOT NODE)
+  message("js_test: Skipped\nthe build has no npm package: Emscripten is missing, tools/install_dependencies --wasm installs it")
   return()
 endif()
-function(run step)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${source_dir} RESULT_VARIABLE result OUTPUT_VARIABLE output
-    ERROR_VARIABLE output)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${step} failed (${result}):\n${output}")
-  endif()
-  message(STATUS "${step}: done")
-endfunction()
-run("configure" ${CMAKE_COMMAND} --preset wasm)
-run("build" ${CMAKE_COMMAND} --build --preset wasm)
-set(ENV{MESHBOUND_NPM} ${source_dir}/build-wasm/npm)
+set(ENV{MESHBOUND_NPM} ${npm})
 set(ENV{MESHBOUND_TOOLS} ${tools})
 set(ENV{MESHBOUND_GENERATOR} ${generator})
-run("test" ${NODE} --test ${source_dir}/bindings/js/test/)
+execute_process(COMMAND ${NODE} --test ${source_dir}/bindings/js/test/ WORKING_DIRECTORY ${source_dir}
+  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${output}")
+endif()

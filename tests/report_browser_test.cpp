@@ -25,16 +25,26 @@ class ReportInABrowser : public testing::Test {
   [[nodiscard]] std::string in(const std::string& name) const { return folder_ / name; }
 
   void expect_faultless(const std::string& report, const std::string& json) const {
+    look_at(report, json, {REPORT_MEASUREMENT});
+  }
+  /// Only that the page of r.html "repeats" the measurement of r.json, or "refuses" and says why.
+  void expect_measurement(const std::string& measurement) const {
+    look_at(in("r.html"), in("r.json"), {measurement, "alone"});
+  }
+
+ private:
+  void look_at(const std::string& report, const std::string& json, const std::vector<std::string>& more) const {
 #ifdef CHROMIUM
     std::filesystem::copy_file(MESHBOUND_SOURCE_DIR "/tests/browser/report.mjs", BROWSER_FOLDER "/report.mjs",
                                std::filesystem::copy_options::overwrite_existing);
     const char* const kept = std::getenv("MESHBOUND_SCREENSHOTS");  // a folder, for whoever wants to look at them
-    const ToolRun run = run_tool(
-        NODE, {BROWSER_FOLDER "/report.mjs", CHROMIUM, report, json, kept != nullptr ? kept : folder_.path().string()},
-        300);
+    std::vector<std::string> arguments = {BROWSER_FOLDER "/report.mjs", CHROMIUM, report, json,
+                                          kept != nullptr ? kept : folder_.path().string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ToolRun run = run_tool(NODE, arguments, 300);
     EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
 #else
-    (void)report, (void)json;
+    (void)report, (void)json, (void)more;
 #endif
   }
 
@@ -65,6 +75,42 @@ TEST_F(ReportInABrowser, ShowsADistanceThatExceedsATolerance) {
                                                     "--report", in("r.html"), "--json", in("r.json")});
   ASSERT_EQ(run.exit_code, 1) << run.err;
   expect_faultless(in("r.html"), in("r.json"));
+}
+
+/// With a decision before the measurement, only one direction, and coordinates that floats do not hold.
+TEST_F(ReportInABrowser, RepeatsMeasurementsOfEveryKind) {
+  write_mesh(in("a.off"), datasets::torus(1, 0.3, 60, 24));
+  write_mesh(in("b.off"), datasets::torus(1.001, 0.3, 50, 20));
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--tolerance", "0.02"},
+                                             {"--one-sided"},
+                                             {"--tolerance", "0.02", "--error-bound", "0.001"},
+                                             {"--tolerance", "0.001"}}) {
+    std::vector<std::string> arguments{in("a.off"), in("b.off"), "--report", in("r.html"), "--json", in("r.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_LE(run_tool(HAUSDORFF_DISTANCE, arguments).exit_code, 1);
+    expect_measurement(REPORT_MEASUREMENT);
+  }
+}
+
+TEST_F(ReportInABrowser, SaysWhyItDoesNotMeasure) {
+  write_mesh(in("a.off"), datasets::torus(1, 0.3, 60, 24));
+  write_mesh(in("b.off"), datasets::torus(1.001, 0.3, 50, 20));
+  const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in("a.off"), in("b.off"), "--method", "cross-culling", "--report",
+                                                    in("r.html"), "--json", in("r.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  expect_measurement("refuses");
+}
+
+/// Whatever the size of the meshes; where they are too large to be in it, it says so.
+TEST_F(ReportInABrowser, StaysBelow20Megabytes) {
+  write_mesh(in("a.ply"), datasets::torus(1, 0.3, 700, 250));
+  write_mesh(in("b.ply"), datasets::torus(1, 0.3, 690, 250));
+  const ToolRun run =
+      run_tool(HAUSDORFF_DISTANCE, {in("a.ply"), in("b.ply"), "--error-bound", "1%", "--report", in("r.html")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_LT(std::filesystem::file_size(in("r.html")), 20'000'000U);
+  EXPECT_NE(content_of(in("r.html")).find("too large to be in this page"), std::string::npos);
 }
 
 }  // namespace

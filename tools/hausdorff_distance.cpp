@@ -116,6 +116,20 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Trian
   return true;
 }
 
+/// How a browser repeats the search for the answer.
+RepeatedMeasurement repeated(const Answer& answer, const Question& question, const Arguments& arguments) {
+  RepeatedMeasurement repeated;
+  repeated.decides = question.tolerance && (question.decide_first || !question.error_bound);
+  repeated.error_bound = question.error_bound;
+  repeated.tolerance = question.tolerance;
+  repeated.one_sided = question.one_sided;
+  const std::string cannot = "The engine of this page cannot repeat how this was measured: ";
+  if (question.displacement > 0) repeated.obstacle = cannot + "--transform-b moved B.";
+  if (arguments.method != Method::CellWalking) repeated.obstacle = cannot + "by another --method.";
+  if (answer.outcome == Outcome::BudgetExhausted) repeated.obstacle = cannot + "a limit of time ended it.";
+  return repeated;
+}
+
 /// Measures what heatmaps, pictures and reports show. False if there was no time for it.
 bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Question& question, const TriangleMesh& a,
                        const TriangleMesh& b, const Arguments& arguments, const Stopwatch& watch) {
@@ -128,6 +142,7 @@ bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Qu
   subject.scale = scale_for(question.tolerance.value_or(0), answer.bounds, bounding_box_diagonal(a));
   const auto worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
   subject.worst_is_on_original = !worst || worst->on_a;
+  subject.measurement = repeated(answer, question, arguments);
   try {
     outputs.measure(subject, {arguments.common.threads, stop_of_run(arguments.common, watch)});
     return true;

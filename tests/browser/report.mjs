@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// node report.mjs CHROMIUM REPORT.html JSON SCREENSHOT_FOLDER: opens a report in headless Chromium at desktop and narrow
+// node report.mjs CHROMIUM REPORT.html JSON SCREENSHOT_FOLDER repeats|refuses [alone]: opens a report in headless Chromium at desktop and narrow
 // width, light and dark, and holds it against the JSON document. Exit code 0 when everything is as it should be; each
-// fault is a line on stdout.
+// fault is a line on stdout. With "alone" nothing but the measurement in the page is looked at.
 import { readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
-const [, , executablePath, report, json, screenshots] = process.argv;
+const [, , executablePath, report, json, screenshots, measurement, alone] = process.argv;
 const document_ = JSON.parse(await readFile(json, 'utf8'));
 const isChain = document_.schema.startsWith('meshbound/lod');
 const isSimplify = document_.schema.startsWith('meshbound/simplify');
@@ -71,6 +71,20 @@ async function checkNumbers(page) {
     expect(meshes.includes(mesh.sha256), `no checksum of ${mesh.path}`);
 }
 
+/** The button measures the same interval again, or is not there and a sentence says why. */
+async function checkMeasurement(page, where) {
+  const isVisible = await page.locator('#measure').isVisible();
+  equal(isVisible, measurement === 'repeats', `${where}: the button that measures is visible`);
+  expect((await page.locator('#measure-note').innerText()).length > 40, `${where}: no note on measuring here`);
+  if (!isVisible) return;
+  await page.click('#measure');
+  await page.locator('#measured').filter({ hasText: /\[|at least|failed/ }).waitFor({ timeout: 60000 });
+  const { lower, upper } = await page.locator('#measured').evaluate((node) => ({ ...node.dataset }));
+  equal(Number(lower), measured.distance.lower, `${where}: lower bound measured in the browser`);
+  equal(Number(upper), measured.distance.upper ?? Infinity, `${where}: upper bound measured in the browser`);
+  expect((await page.locator('#measured').innerText()).includes('to the last bit'), `${where}: the bounds are not said to be equal`);
+}
+
 /** Every control changes what is drawn. */
 async function checkControls(page, where) {
   let before = await look(page);
@@ -123,7 +137,12 @@ async function checkControls(page, where) {
   }
 }
 
-for (const [name, viewport] of [['desktop', { width: 1280, height: 900 }], ['narrow', { width: 390, height: 844 }]]) {
+if (alone) {
+  const page = await browser.newPage();
+  await page.goto(pathToFileURL(report).href);
+  await checkMeasurement(page, 'alone');
+}
+for (const [name, viewport] of alone ? [] : [['desktop', { width: 1280, height: 900 }], ['narrow', { width: 390, height: 844 }]]) {
   for (const colorScheme of ['light', 'dark']) {
     const where = `${name}, ${colorScheme}`;
     const context = await browser.newContext({ viewport, colorScheme });
@@ -141,6 +160,7 @@ for (const [name, viewport] of [['desktop', { width: 1280, height: 900 }], ['nar
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     expect(overflow <= 0, `${where}: the page is ${overflow} pixels wider than the window`);
     await checkNumbers(page);
+    await checkMeasurement(page, where);
     await page.screenshot({ path: join(screenshots, `${name}-${colorScheme}.png`), fullPage: true });
     if ((name === 'narrow') === (colorScheme === 'dark')) await checkControls(page, where);
     await context.close();

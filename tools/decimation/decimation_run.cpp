@@ -102,6 +102,15 @@ DistanceOptions DecimationRun::measurement(double tolerance) const {
   return options;
 }
 
+RepeatedMeasurement DecimationRun::repeated(double tolerance, DecidedBy how) const {
+  RepeatedMeasurement repeated;
+  repeated.error_bound = measurement(tolerance).error_bound;
+  repeated.tolerance = tolerance;
+  if (how == DecidedBy::SecondMethod || how == DecidedBy::SmallerLevel)
+    repeated.obstacle = "The engine of this page cannot repeat how this was measured: " + explanation(how) + ".";
+  return repeated;
+}
+
 double DecimationRun::remaining(double share) const {
   return shared_.common.has_time_limit ? std::max(0.0, share * shared_.common.time_limit - watch_.seconds())
                                        : std::numeric_limits<double>::infinity();

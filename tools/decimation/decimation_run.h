@@ -10,6 +10,7 @@
 #include "common/stopwatch.h"
 #include "common/time_limit.h"
 #include "decimation/decimation_options.h"
+#include "deviation/measure_here.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
 
@@ -35,6 +36,8 @@ class DecimationRun {
   void work_in_tiles(const TileOptions& tiles, int threads);
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
+  /// How a browser repeats the measurement of an output.
+  [[nodiscard]] RepeatedMeasurement repeated(double tolerance, DecidedBy how) const;
   /// Writes; false when the time limit came first.
   [[nodiscard]] bool writes(GatedOutput& output, const SimplifiedLevel& level) const;
   /// Measures what was written; true when the verdict is known.

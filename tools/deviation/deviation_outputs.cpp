@@ -85,6 +85,7 @@ void DeviationOutputs::make_scene(const DeviationSubject& subject, const Measure
   scene_.scale = subject.scale;
   scene_.up = request_.up;
   scene_.unit = request_.units;
+  scene_.measure_here = measure_here(subject.measurement, *subject.original, *subject.result);
   scene_.original =
       display_mesh(*subject.original, measured.original, measured.trees.second, max_display_triangles, options);
   if (subject.levels.size() <= max_display_levels) {

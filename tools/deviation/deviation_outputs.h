@@ -22,6 +22,7 @@ struct DeviationSubject {
   std::string original_name, result_name;  ///< such as "original", "simplified"
   std::vector<TriangleMesh> levels;        ///< finer results than `result`, from the finest on
   DeviationScale scale;
+  RepeatedMeasurement measurement;   ///< of the distance between `original` and `result`
   bool worst_is_on_original = true;  ///< the mesh that the picture shows in colours: where the worst spot is
 };
 

@@ -2,12 +2,10 @@
 #include "deviation/report_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "deviation/base64.h"
+#include "deviation/packed_numbers.h"
 #include "deviation/report_page.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
@@ -17,14 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The bytes of numbers in little-endian order, as typed arrays of a browser have them.
-template <class T>
-void append(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if constexpr (std::endian::native != std::endian::little) std::reverse(raw, raw + sizeof(T));
-  bytes.append(raw, sizeof(T));
-}
+/// Bytes of a report at most, also where the meshes are in it for its reader to measure.
+constexpr std::size_t max_report_size = 20'000'000;
 
 /// Coordinates of the view: the box of the original is centred at 0 and its diagonal is 1, so that floats can hold any
 /// model.
@@ -41,33 +33,25 @@ struct ViewFrame {
 };
 
 std::string positions(const TriangleMesh& mesh, const ViewFrame& frame) {
-  std::string bytes;
+  PackedNumbers numbers;
   for (const Eigen::Vector3d& p : mesh.vertices) {
     for (int k = 0; k < 3; ++k) {
       const double x = (p[k] - frame.centre[k]) / frame.size;
-      append(bytes, static_cast<float>(std::isfinite(x) ? std::clamp(x, -1e30, 1e30) : 0));
+      numbers.add(static_cast<float>(std::isfinite(x) ? std::clamp(x, -1e30, 1e30) : 0));
     }
   }
-  return base64(bytes);
+  return numbers.text();
 }
 
 /// Deviations as 16-bit numbers: 0 to 65534 on the scale, 65535 beyond it.
 std::string coded(const std::vector<Bounds>& deviations, const DeviationScale& scale) {
   constexpr std::uint16_t beyond = 65535;
-  std::string bytes;
+  PackedNumbers numbers;
   for (const Bounds& deviation : deviations) {
     const double share = std::min(1.0, deviation.upper / scale.end);
-    append(bytes, deviation.lower > scale.end ? beyond : static_cast<std::uint16_t>(std::lround(share * (beyond - 1))));
+    numbers.add(deviation.lower > scale.end ? beyond : static_cast<std::uint16_t>(std::lround(share * (beyond - 1))));
   }
-  return base64(bytes);
-}
-
-template <class Indices>
-std::string indices(const std::vector<Indices>& rows) {
-  std::string bytes;
-  for (const Indices& row : rows)
-    for (const std::uint32_t index : row) append(bytes, index);
-  return base64(bytes);
+  return numbers.text();
 }
 
 Json mesh_json(const DisplayMesh& display, const char* role, const std::string& name, const ReportScene& scene,
@@ -78,8 +62,8 @@ Json mesh_json(const DisplayMesh& display, const char* role, const std::string& 
           {"shown", display.mesh.triangles.size()},
           {"reduced", display.is_reduced},
           {"positions", positions(display.mesh, frame)},
-          {"triangles", indices(display.mesh.triangles)},
-          {"edges", indices(display.edges)},
+          {"triangles", packed_indices(display.mesh.triangles)},
+          {"edges", packed_indices(display.edges)},
           {"deviations", coded(display.deviations, scene.scale)}};
 }
 
@@ -132,10 +116,17 @@ void require_report_page(const std::string& option) {
 
 void write_report(AtomicFile& file, const std::string& document, const ReportScene& scene) {
   require_report_page("--report");
-  std::string_view rest = write_until(file, *report_page(), "@@DOCUMENT@@");
-  file.write(in_html(document));
-  rest = write_until(file, rest, "@@SCENE@@");
-  file.write(in_html(scene_json(scene)));
+  const std::string shown = in_html(scene_json(scene)), text = in_html(document);
+  std::string_view rest = *report_page();
+  const std::size_t size = rest.size() + shown.size() + text.size();
+  const MeasureHere here = scene.measure_here.within(max_report_size - std::min(max_report_size, size));
+  for (const auto& [mark, content] : {std::pair<std::string_view, std::string_view>("@@DOCUMENT@@", text),
+                                      {"@@SCENE@@", shown},
+                                      {"@@MEASUREMENT@@", here.measurement},
+                                      {"@@ENGINE@@", here.engine}}) {
+    rest = write_until(file, rest, mark);
+    file.write(content);
+  }
   file.write(rest);
 }
 

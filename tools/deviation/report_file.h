@@ -8,6 +8,7 @@
 #include "deviation/camera.h"
 #include "deviation/deviation_scale.h"
 #include "deviation/display_mesh.h"
+#include "deviation/measure_here.h"
 #include "mesh/atomic_file.h"
 
 namespace meshbound::tools {
@@ -27,6 +28,7 @@ struct ReportScene {
   DeviationScale scale;
   UpAxis up = UpAxis::Z;
   std::string unit;  ///< of lengths, may be empty
+  MeasureHere measure_here;
 };
 
 /// Throws `InvalidInput`, naming `option`, in a build without the page of a report.

@@ -35,21 +35,21 @@ Decimal shortest(double value) {
   return decimal;
 }
 
-char* copy(char* to, const char* from, int count) {
+char* put(char* to, const char* from, int count) {
   std::memcpy(to, from, static_cast<std::size_t>(count));
   return to + count;
 }
 
-char* fill(char* to, int zeros) {
-  std::memset(to, '0', static_cast<std::size_t>(zeros));
-  return to + zeros;
+char* put_zeros(char* to, int count) {
+  std::memset(to, '0', static_cast<std::size_t>(count));
+  return to + count;
 }
 
 char* write_scientific(char* to, const Decimal& decimal) {
   *to++ = decimal.digits[0];
   if (decimal.count > 1) {
     *to++ = '.';
-    to = copy(to, decimal.digits + 1, decimal.count - 1);
+    to = put(to, decimal.digits + 1, decimal.count - 1);
   }
   return to + std::sprintf(to, "e%+03d", decimal.exponent + decimal.count - 1);
 }
@@ -58,12 +58,12 @@ char* write_fixed(char* to, const Decimal& decimal, double value) {
   const int whole = decimal.count + decimal.exponent;  // digits before the point
   if (decimal.exponent >= 0) return to + std::sprintf(to, "%.0f", value);
   if (whole > 0) {
-    to = copy(to, decimal.digits, whole);
+    to = put(to, decimal.digits, whole);
     *to++ = '.';
-    return copy(to, decimal.digits + whole, decimal.count - whole);
+    return put(to, decimal.digits + whole, decimal.count - whole);
   }
-  to = fill(copy(to, "0.", 2), -whole);
-  return copy(to, decimal.digits, decimal.count);
+  to = put_zeros(put(to, "0.", 2), -whole);
+  return put(to, decimal.digits, decimal.count);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ char* write_fixed(char* to, const Decimal& decimal, double value) {
 /// Fixed where that takes no more characters than scientific notation. `value` is finite, and there is room for it.
 std::to_chars_result std::to_chars(char* first, char*, double value) {
   if (std::signbit(value)) *first++ = '-';
-  if (value == 0) return {fill(first, 1), std::errc{}};
+  if (value == 0) return {put_zeros(first, 1), std::errc{}};
   const double magnitude = std::fabs(value);
   const Decimal decimal = shortest(magnitude);
   const bool one = decimal.count == 1;  // scientific notation then needs no point

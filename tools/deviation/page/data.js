@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The two documents inside the page, and one view of them for both tools.
 
-const read = (id) => JSON.parse(document.getElementById(id).textContent);
+/** A JSON document inside the page. */
+export const read = (id) => JSON.parse(document.getElementById(id).textContent);
 
 /** The document as `--json` writes it. */
 export const document_ = read('document');

@@ -3,6 +3,7 @@
 import { histogram, levelCurve } from './charts.js';
 import { drawLegend } from './colours.js';
 import { directions, distance, levels, meshNames, meshReports, scene, short, showsLevels } from './data.js';
+import { connectMeasurement } from './measure.js';
 import { writeDistances, writeHeader, writeLevels, writeMeshes, writeSettings } from './tables.js';
 import { Viewer } from './viewer.js';
 
@@ -80,6 +81,7 @@ writeDistances();
 writeMeshes();
 writeSettings();
 drawLegend();
+connectMeasurement();
 describeDisplay();
 byId('charts').append(...directions.filter(({ statistics }) => statistics?.samples > 0).map(histogram));
 const viewer = makeViewer();

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string>
+
+#include "deviation/base64.h"
+
+namespace meshbound::tools {
+
+/// Numbers as a page holds them: base64 of their little-endian bytes, which is what a browser has in its arrays.
+class PackedNumbers {
+ public:
+  template <class Number>
+  void add(Number value) {
+    char raw[sizeof(Number)];
+    std::memcpy(raw, &value, sizeof(Number));
+    if constexpr (std::endian::native != std::endian::little) std::reverse(raw, raw + sizeof(Number));
+    bytes_.append(raw, sizeof(Number));
+  }
+  [[nodiscard]] std::string text() const { return base64(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+/// All indices of triangles or edges.
+template <class Rows>
+[[nodiscard]] std::string packed_indices(const Rows& rows) {
+  PackedNumbers numbers;
+  for (const auto& row : rows)
+    for (const auto index : row) numbers.add(index);
+  return numbers.text();
+}
+
+}  // namespace meshbound::tools
