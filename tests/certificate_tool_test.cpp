@@ -144,6 +144,22 @@ TEST_F(CertificateTools, EveryLevelHasItsOwn) {
   EXPECT_EQ(verify("torus.off", "small.ply", "small_level_0.cert").exit_code, 1);
 }
 
+TEST_F(CertificateTools, FeatureLinesAreCertifiedInEveryFormat) {
+  write_mesh(folder_ / "terrain.ply", datasets::terrain(1, 24, 5));
+  for (const std::string format : {"ply", "stl", "obj", "glb"}) {
+    const ToolRun made = simplify("terrain.ply", "small." + format,
+                                  {"--tolerance", "2%", "--line-tolerance", "0.5%", "--certificate", in("small.cert")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json document = checked_document(verify("terrain.ply", "small." + format, "small.cert", {"--json"}).out);
+    ASSERT_TRUE(document.contains("lines")) << format;
+    EXPECT_EQ(document["lines"]["original_edges"], 4 * 24);
+    EXPECT_LT(document["lines"]["simplified_edges"], 4 * 24);
+    EXPECT_EQ(document["lines"]["all_borders"], true);
+    EXPECT_LT(document["lines"]["tolerance"], document["tolerance"]);
+    EXPECT_NE(verify("terrain.ply", "small." + format, "small.cert").out.find("all borders"), std::string::npos);
+  }
+}
+
 TEST_F(CertificateTools, ATolerance0IsCertifiedWhereNothingChanged) {
   for (const char* out : {"same.off", "same.ply"}) {
     ASSERT_EQ(simplify("torus.off", out, {"--tolerance", "0", "--certificate", in("c")}).exit_code, 0);

@@ -59,6 +59,8 @@ class Run : DecimationRun {
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void guard_texture(SimplifyOptions& simplify) const;
   void certify();
+  [[nodiscard]] std::optional<Certificate> certificate_of(const GatedOutput& output, double tolerance,
+                                                          CertificateOptions options) const;
   void write_certificates();
   void measure_deviation();
   void end_if_interrupted() const;
@@ -342,6 +344,17 @@ void Run::end_if_interrupted() const {
   if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
 }
 
+/// Also of the lines if there are any. Absent if the time ended.
+std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double tolerance,
+                                               CertificateOptions options) const {
+  const TriangleMesh written = output.written_mesh();
+  if (original_lines_)
+    options.lines = CertifiedLines{lines_, output.lines_of(written), std::min(tolerance, original_lines_->tolerance)};
+  auto certificate = build_certificate(original_, written, tolerance, options);
+  end_if_interrupted();
+  return certificate;
+}
+
 /// Proves the files as they read. A result whose certificate is not complete in time is replaced by the original, which
 /// is certified in one pass.
 void Run::write_certificates() {
@@ -356,13 +369,11 @@ void Run::write_certificates() {
     options.cancel = &interrupted_;
     options.progress = [&](double fraction) { bar.show(fraction); };
     const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
-    auto certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
-    end_if_interrupted();
+    auto certificate = certificate_of(outputs_[i], tolerance, options);
     if (!certificate) {
       decided_by_[i] = fall_back(outputs_[i], nullptr, measurement(tolerance));
       options.seconds = std::numeric_limits<double>::infinity();
-      certificate = build_certificate(original_, outputs_[i].written_mesh(), tolerance, options);
-      end_if_interrupted();
+      certificate = certificate_of(outputs_[i], tolerance, options);
     }
     const std::vector<std::uint8_t>& bytes = certificate->bytes;
     certificates_[i].write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -82,6 +82,15 @@ Json to_json(const verify::Proof::Direction& direction) {
           {"exact_decisions", direction.exact_decisions}};
 }
 
+Json to_json(const verify::Proof::Lines& lines) {
+  return {{"tolerance", lines.tolerance},
+          {"original_edges", lines.original_edges},
+          {"simplified_edges", lines.simplified_edges},
+          {"all_borders", lines.has_all_borders},
+          {"original_to_simplified", to_json(lines.original_to_simplified)},
+          {"simplified_to_original", to_json(lines.simplified_to_original)}};
+}
+
 struct Outcome {
   std::optional<verify::Proof> proof;
   std::string reason;  ///< why it was rejected
@@ -108,6 +117,7 @@ void write_json(const Options& options, const Inputs& inputs, const Outcome& out
     json["tolerance"] = outcome.proof->tolerance;
     json["original_to_simplified"] = to_json(outcome.proof->original_to_simplified);
     json["simplified_to_original"] = to_json(outcome.proof->simplified_to_original);
+    if (outcome.proof->lines) json["lines"] = to_json(*outcome.proof->lines);
   }
   json["seconds"] = {{"read", outcome.read_seconds}, {"verify", outcome.verify_seconds}};
   write_text(options.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -121,6 +131,11 @@ void print(const Options& options, const Inputs& inputs, const Outcome& outcome)
   print_line("pieces", std::to_string(forward.pieces) + " of the original, " + std::to_string(backward.pieces) +
                            " of the simplified mesh; " + std::to_string(forward.by_parity + backward.by_parity) +
                            " of them proven by parity");
+  if (const auto& lines = outcome.proof->lines)
+    print_line("lines", std::to_string(lines->original_edges) + " edges of the original and " +
+                            std::to_string(lines->simplified_edges) + " of the simplified mesh are within " +
+                            exact_number(lines->tolerance) + " of each other; " +
+                            (lines->has_all_borders ? "all" : "not all") + " borders are among them");
   print_line("bytes", std::to_string(inputs.certificate.size()) + ", " +
                           short_number(static_cast<double>(inputs.certificate.size()) /
                                        static_cast<double>(inputs.original.triangles.size())) +

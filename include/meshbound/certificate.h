@@ -8,9 +8,17 @@
 #include <vector>
 
 #include "meshbound/error.h"
+#include "meshbound/line_mesh.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {
+
+/// Feature lines that a certificate speaks of as well: the symmetric Hausdorff distance between those of the original
+/// and those of the simplified mesh is at most `tolerance`.
+struct CertifiedLines {
+  std::vector<Edge> original, simplified;  ///< edges of triangles, by vertices of either mesh; neither is empty
+  double tolerance = 0;                    ///< model units
+};
 
 /// How a certificate is made.
 struct CertificateOptions {
@@ -20,10 +28,12 @@ struct CertificateOptions {
   double seconds = std::numeric_limits<double>::infinity();  ///< time after which the search ends without a certificate
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread
+  std::optional<CertifiedLines> lines = {};       ///< absent: the certificate does not speak of lines
 };
 
 /// A proof, checkable without any of our code, that the symmetric Hausdorff distance between two meshes is at most a
-/// tolerance. The format is documented in tools/schema/certificate-1.md; `verify_certificate` checks it.
+/// tolerance. The format is documented in tools/schema/certificate-1.md, that of
+/// lines in tools/schema/certificate-2.md; `verify_certificate` checks it.
 struct Certificate {
   std::vector<std::uint8_t> bytes;  ///< the file, checksum included
   /// What one direction of the proof consists of.
@@ -35,13 +45,19 @@ struct Certificate {
   };
   Direction original_to_simplified;  ///< every point of the original is near the simplified mesh
   Direction simplified_to_original;  ///< and the reverse
+  /// The proof about lines, each of which stands for one triangle without area.
+  struct Lines {
+    Direction original_to_simplified, simplified_to_original;
+  };
+  std::optional<Lines> lines = {};
 };
 
 /// Proves, for any two triangle soups, that each lies within `tolerance` (model units) of the other: vertices and
 /// triangles as they are in memory, so a certificate for files needs the meshes as `read_mesh` gives them back.
 /// Expected O(n log n) time; O(n) memory. Safe to call from several threads.
 ///
-/// Throws `InvalidInput` for meshes that `validate` refuses and a tolerance that is not finite or negative; `Error`,
+/// Throws `InvalidInput` for meshes that `validate` refuses, a tolerance that is not finite or negative, and lines that
+/// are no edges of triangles or of which one of the meshes has none; `Error`,
 /// with one line that names the triangle, when no proof was found: the distance exceeds the tolerance or is closer to
 /// it than double arithmetic can tell. Nothing when it was cancelled or ran out of time.
 [[nodiscard]] std::optional<Certificate> build_certificate(const MeshView& original, const MeshView& simplified,

@@ -14,6 +14,7 @@
 #include "distance/kernel/search_kernel.h"
 #include "distance/shortcuts/point_like.h"
 #include "geometry/magnitude.h"
+#include "geometry/position_table.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
@@ -30,6 +31,12 @@ constexpr std::size_t triangles_per_chunk = 256;  ///< hints are handed on insid
 constexpr std::uint64_t parity_work_per_triangle = 16;
 constexpr std::size_t max_small_patch = 256;
 
+/// What messages call the triangles of a source.
+struct SourceName {
+  const char* element;  ///< "triangle" or "line"
+  const char* mesh;     ///< "original" or "simplified"
+};
+
 /// A source triangle that could not be proven.
 struct Failure {
   std::size_t triangle = 0;
@@ -40,12 +47,12 @@ struct Failure {
 class DirectionProof {
  public:
   DirectionProof(const MeshView& source, const MeshView& target, double tolerance, const CertificateOptions& options,
-                 const StopToken& stop, const std::string& source_name)
+                 const StopToken& stop, SourceName name)
       : source_(source),
         target_(target),
         tolerance_(tolerance),
         options_(options),
-        source_name_(source_name),
+        name_(name),
         tree_(target, BvhOptions{options.threads, stop}),
         neighbours_(edge_neighbours(tree_.data().vertices, tree_.data().corners)) {
     load_vertices();
@@ -68,7 +75,7 @@ class DirectionProof {
   const MeshView& target_;
   double tolerance_;
   const CertificateOptions& options_;
-  std::string source_name_;
+  SourceName name_;
   Bvh tree_;
   std::vector<std::array<std::uint32_t, 3>> neighbours_;
   Goal goal_;
@@ -170,7 +177,8 @@ std::optional<std::uint64_t> DirectionProof::prove(std::size_t max_patch, double
 }
 
 void DirectionProof::fail(const Failure& failure) const {
-  const std::string where = "triangle " + std::to_string(failure.triangle) + " of the " + source_name_ + " mesh ";
+  const std::string where =
+      std::string(name_.element) + " " + std::to_string(failure.triangle) + " of the " + name_.mesh + " mesh ";
   if (failure.outcome == CutSearch::Outcome::TooFar) {
     const double slack = tree_.data().frame.length_up(2 * goal_.largest_slack());
     std::ostringstream provable;
@@ -188,26 +196,92 @@ Certificate::Direction counts_of(const EncodedSection& section) {
   return {section.pieces, section.by_parity, section.cuts, section.bytes.size()};
 }
 
+double checked_tolerance(double tolerance) {
+  if (!(std::isfinite(tolerance) && tolerance >= 0))
+    throw InvalidInput("the tolerance of a certificate must be a length in model units, 0 or more");
+  return tolerance + 0.0;  // turns the negative zero into the positive one
+}
+
+/// Both directions of a proof.
+struct Sections {
+  EncodedSection forward, backward;
+};
+
+/// Nothing if it was cancelled or ran out of time. `element` is what a triangle is called in messages.
+std::optional<Sections> prove(const MeshView& original, const MeshView& simplified, double tolerance,
+                              const CertificateOptions& options, const StopToken& stop, const char* element) {
+  const auto prove_one = [&](const MeshView& source, const MeshView& target, const char* name, double progress_from) {
+    return DirectionProof(source, target, tolerance, options, stop, {element, name}).run(progress_from);
+  };
+  try {
+    auto forward = prove_one(original, simplified, "original", 0);
+    if (!forward) return std::nullopt;
+    auto backward = prove_one(simplified, original, "simplified", 0.5);
+    if (!backward) return std::nullopt;
+    return Sections{std::move(*forward), std::move(*backward)};
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
+/// Edges as triangles without area. Throws `InvalidInput` where there are none, or one that no triangle has.
+TriangleMesh checked_lines(const MeshView& mesh, std::span<const Edge> edges, const char* name) {
+  if (edges.empty()) throw InvalidInput(std::string("the ") + name + " mesh has no lines to certify");
+  std::vector<Vec3> positions = positions_of(mesh);
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v] == 0) positions[v] = {};  // may be not finite
+  const std::vector<std::uint32_t> first = first_at_position(positions);
+  const auto key = [&](std::uint32_t a, std::uint32_t b) { return std::minmax({first[a], first[b]}); };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> known;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Triangle corners = mesh.triangle(t);
+    for (std::size_t k = 0; k < 3; ++k) known.push_back(key(corners[k], corners[(k + 1) % 3]));
+  }
+  std::sort(known.begin(), known.end());
+  for (const auto& [a, b] : edges)
+    if (a >= first.size() || b >= first.size() || used[a] == 0 || used[b] == 0 ||
+        !std::binary_search(known.begin(), known.end(), std::pair<std::uint32_t, std::uint32_t>(key(a, b))))
+      throw InvalidInput("the line from vertex " + std::to_string(a) + " to " + std::to_string(b) + " of the " + name +
+                         " mesh is no edge of a triangle");
+  TriangleMesh vertices;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) vertices.vertices.push_back(mesh.vertex(v));
+  return line_mesh(vertices, edges);
+}
+
+std::optional<EncodedLines> prove_lines(const MeshView& original, const MeshView& simplified,
+                                        const CertifiedLines& lines, CertificateOptions options,
+                                        const StopToken& stop) {
+  options.progress = {};
+  EncodedLines encoded{checked_tolerance(lines.tolerance), lines.original, lines.simplified, {}, {}};
+  auto sections =
+      prove(checked_lines(original, lines.original, "original"),
+            checked_lines(simplified, lines.simplified, "simplified"), encoded.tolerance, options, stop, "line");
+  if (!sections) return std::nullopt;
+  encoded.original_to_simplified = std::move(sections->forward);
+  encoded.simplified_to_original = std::move(sections->backward);
+  return encoded;
+}
+
 }  // namespace
 
 std::optional<Certificate> build_certificate(const MeshView& original, const MeshView& simplified, double tolerance,
                                              const CertificateOptions& options) {
-  if (!(std::isfinite(tolerance) && tolerance >= 0))
-    throw InvalidInput("the tolerance of a certificate must be a length in model units, 0 or more");
+  tolerance = checked_tolerance(tolerance);
   const StopToken stop = StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds);
-  std::optional<EncodedSection> forward, backward;
-  try {
-    forward = DirectionProof(original, simplified, tolerance, options, stop, "original").run(0);
-    if (forward) backward = DirectionProof(simplified, original, tolerance, options, stop, "simplified").run(0.5);
-  } catch (const Stopped&) {
-    return std::nullopt;
-  }
-  if (!backward) return std::nullopt;
+  const auto surface = prove(original, simplified, tolerance, options, stop, "triangle");
+  if (!surface) return std::nullopt;
   Certificate certificate;
-  certificate.original_to_simplified = counts_of(*forward);
-  certificate.simplified_to_original = counts_of(*backward);
-  // + 0 turns the negative zero, which is a tolerance of 0, into the positive one.
-  certificate.bytes = assemble(original, simplified, tolerance + 0.0, *forward, *backward);
+  certificate.original_to_simplified = counts_of(surface->forward);
+  certificate.simplified_to_original = counts_of(surface->backward);
+  std::optional<EncodedLines> lines;
+  if (options.lines) {
+    lines = prove_lines(original, simplified, *options.lines, options, stop);
+    if (!lines) return std::nullopt;
+    certificate.lines = {counts_of(lines->original_to_simplified), counts_of(lines->simplified_to_original)};
+  }
+  certificate.bytes =
+      assemble(original, simplified, tolerance, surface->forward, surface->backward, lines ? &*lines : nullptr);
   return certificate;
 }
 

@@ -110,6 +110,29 @@ void put_mesh(Bytes& bytes, const MeshView& mesh) {
   put(bytes, checksum_of(mesh), 8);
 }
 
+/// Sizes of two sections, then what stands between, then their bytes.
+template <class Between>
+void put_sections(Bytes& bytes, const EncodedSection& forward, const EncodedSection& backward, const Between& between) {
+  for (const EncodedSection* section : {&forward, &backward}) {
+    put(bytes, section->bytes.size(), 8);
+    put(bytes, section->pieces, 8);
+  }
+  between();
+  for (const EncodedSection* section : {&forward, &backward})
+    bytes.insert(bytes.end(), section->bytes.begin(), section->bytes.end());
+}
+
+void put_lines(Bytes& bytes, const EncodedLines& lines) {
+  put(bytes, std::bit_cast<std::uint64_t>(lines.tolerance), 8);
+  put(bytes, lines.original.size(), 8);
+  put(bytes, lines.simplified.size(), 8);
+  put_sections(bytes, lines.original_to_simplified, lines.simplified_to_original, [&] {
+    for (const std::span<const Edge> edges : {lines.original, lines.simplified})
+      for (const Edge& edge : edges)
+        for (const std::uint32_t vertex : edge) put(bytes, vertex, 4);
+  });
+}
+
 }  // namespace
 
 EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofNode>> trees) {
@@ -121,21 +144,17 @@ EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofN
 
 std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& simplified, double tolerance,
                                    const EncodedSection& original_to_simplified,
-                                   const EncodedSection& simplified_to_original) {
+                                   const EncodedSection& simplified_to_original, const EncodedLines* lines) {
   constexpr std::string_view magic = "MESHCERT";
-  constexpr std::uint64_t version = 1;
+  const std::uint64_t version = lines == nullptr ? 1 : 2;
   Bytes bytes(magic.begin(), magic.end());
   put(bytes, version, 4);
   put(bytes, 0, 4);
   put(bytes, std::bit_cast<std::uint64_t>(tolerance), 8);
   put_mesh(bytes, original);
   put_mesh(bytes, simplified);
-  for (const EncodedSection* section : {&original_to_simplified, &simplified_to_original}) {
-    put(bytes, section->bytes.size(), 8);
-    put(bytes, section->pieces, 8);
-  }
-  for (const EncodedSection* section : {&original_to_simplified, &simplified_to_original})
-    bytes.insert(bytes.end(), section->bytes.begin(), section->bytes.end());
+  put_sections(bytes, original_to_simplified, simplified_to_original, [] {});
+  if (lines != nullptr) put_lines(bytes, *lines);
   Crc64 crc;
   for (const std::uint8_t byte : bytes) crc.add(byte);
   put(bytes, crc.value(), 8);

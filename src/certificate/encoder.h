@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// Turns proofs into the bytes of a certificate (tools/schema/certificate-1.md).
+/// Turns proofs into the bytes of a certificate (tools/schema/certificate-1.md, certificate-2.md).
 #pragma once
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "certificate/proof_node.h"
+#include "meshbound/line_mesh.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {
@@ -19,9 +20,18 @@ struct EncodedSection {
 /// `trees` holds the nodes of all source triangles in their order, in any number of runs.
 [[nodiscard]] EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofNode>> trees);
 
-/// The file: header, both sections and the checksum.
+/// The proof about feature lines. An edge is a triangle whose last two corners are its second vertex.
+struct EncodedLines {
+  double tolerance = 0;                        ///< model units
+  std::span<const Edge> original, simplified;  ///< by vertices of the meshes
+  EncodedSection original_to_simplified, simplified_to_original;
+};
+
+/// The file: header, both sections, the lines if there are any (version 2 of the format; else version 1) and the
+/// checksum.
 [[nodiscard]] std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& simplified, double tolerance,
                                                  const EncodedSection& original_to_simplified,
-                                                 const EncodedSection& simplified_to_original);
+                                                 const EncodedSection& simplified_to_original,
+                                                 const EncodedLines* lines = nullptr);
 
 }  // namespace meshbound

@@ -6,7 +6,9 @@
 
 #include "common/sha256.h"
 #include "common/standard_streams.h"
+#include "geometry/position_table.h"
 #include "mesh/file_bytes.h"
+#include "mesh/mesh_arrays.h"
 #include "mesh/readers.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
@@ -115,6 +117,18 @@ bool GatedOutput::are_normals_within() const { return !normal_tolerance_ || (nor
 bool GatedOutput::is_texture_within() const {
   if (original_texture_ == nullptr) return true;
   return texture_ && verdict_of(texture_->bounds, original_texture_->tolerance) == Verdict::Within;
+}
+
+std::vector<Edge> GatedOutput::lines_of(const TriangleMesh& written) const {
+  const std::vector<Vec3> positions = positions_of(written);
+  const PositionTable table(positions);
+  const auto vertex = [&](std::uint32_t v) {
+    const Eigen::Vector3d& p = lines_.vertices[v];
+    return table.find({p.x(), p.y(), p.z()});
+  };
+  std::vector<Edge> edges;
+  for (const Triangle& line : lines_.triangles) edges.push_back({vertex(line[0]), vertex(line[1])});
+  return edges;
 }
 
 void GatedOutput::measure_lines(const TriangleMesh& written, DistanceOptions options) {

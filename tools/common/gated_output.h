@@ -79,6 +79,8 @@ class GatedOutput {
   [[nodiscard]] const HausdorffDistance& distance() const { return distance_; }
   [[nodiscard]] const std::optional<HausdorffDistance>& line_distance() const { return line_distance_; }
   [[nodiscard]] std::size_t line_edges() const { return lines_.triangles.size(); }
+  /// The measured lines by vertices of `written_mesh()`.
+  [[nodiscard]] std::vector<Edge> lines_of(const TriangleMesh& written) const;
   [[nodiscard]] const MeshSummary& summary() const { return summary_; }  ///< of the file as it reads
   /// The file that holds what was written, until `publish`.
   [[nodiscard]] const std::filesystem::path& staged() const { return file_->staged(); }

@@ -11,8 +11,8 @@
 namespace meshbound::verify {
 namespace {
 
-constexpr std::uint32_t version = 1;
-constexpr std::size_t header_size = 104, trailer_size = 8;
+constexpr std::uint64_t version_without_lines = 1, version_with_lines = 2;
+constexpr std::size_t header_size = 104, trailer_size = 8, line_header_size = 56;
 
 std::uint64_t load(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size) {
   std::uint64_t value = 0;
@@ -24,14 +24,52 @@ MeshIdentity identity_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return {load(bytes, at, 8), load(bytes, at + 8, 8), load(bytes, at + 16, 8)};
 }
 
+double length_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  const auto length = std::bit_cast<double>(load(bytes, at, 8));
+  if (!std::isfinite(length) || std::signbit(length))
+    throw Rejected("the tolerance is not a finite length of 0 or more");
+  return length;
+}
+
+/// Takes the first bytes of `rest` away.
+std::span<const std::uint8_t> take(std::span<const std::uint8_t>& rest, std::uint64_t size) {
+  if (size > rest.size()) throw Rejected("the sizes in the header do not add up");
+  const auto taken = rest.first(size);
+  rest = rest.subspan(size);
+  return taken;
+}
+
+EdgeList take_edges(std::span<const std::uint8_t>& rest, std::uint64_t count) {
+  if (count > rest.size()) throw Rejected("the sizes in the header do not add up");  // before a product overflows
+  return EdgeList(take(rest, EdgeList::bytes_per_edge * count));
+}
+
+LinePart line_part(std::span<const std::uint8_t> rest) {
+  const auto header = take(rest, line_header_size);
+  LinePart lines;
+  lines.tolerance = length_at(header, 0);
+  lines.original = take_edges(rest, load(header, 8, 8));
+  lines.simplified = take_edges(rest, load(header, 16, 8));
+  lines.original_to_simplified = {take(rest, load(header, 24, 8)), load(header, 32, 8)};
+  lines.simplified_to_original = {take(rest, load(header, 40, 8)), load(header, 48, 8)};
+  if (!rest.empty()) throw Rejected("the sizes in the header do not add up");
+  return lines;
+}
+
 }  // namespace
+
+std::array<std::uint32_t, 2> EdgeList::edge(std::size_t i) const {
+  return {static_cast<std::uint32_t>(load(bytes_, bytes_per_edge * i, 4)),
+          static_cast<std::uint32_t>(load(bytes_, bytes_per_edge * i + 4, 4))};
+}
 
 Certificate parse_certificate(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < magic.size() || !std::equal(magic.begin(), magic.end(), bytes.begin()))
     throw Rejected("not a meshbound certificate");
   if (bytes.size() < header_size + trailer_size) throw Rejected("the certificate is truncated");
-  if (load(bytes, 8, 4) != version)
-    throw Rejected("version " + std::to_string(load(bytes, 8, 4)) + " of the format is not known here");
+  const std::uint64_t version = load(bytes, 8, 4);
+  if (version != version_without_lines && version != version_with_lines)
+    throw Rejected("version " + std::to_string(version) + " of the format is not known here");
   Checksum checksum;
   checksum.add(bytes.first(bytes.size() - trailer_size));
   if (checksum.value() != load(bytes, bytes.size() - trailer_size, 8))
@@ -39,17 +77,16 @@ Certificate parse_certificate(std::span<const std::uint8_t> bytes) {
   if (load(bytes, 12, 4) != 0) throw Rejected("a reserved field of the header is not 0");
 
   Certificate certificate;
-  certificate.tolerance = std::bit_cast<double>(load(bytes, 16, 8));
-  if (!std::isfinite(certificate.tolerance) || std::signbit(certificate.tolerance))
-    throw Rejected("the tolerance is not a finite length of 0 or more");
+  certificate.tolerance = length_at(bytes, 16);
   certificate.original = identity_at(bytes, 24);
   certificate.simplified = identity_at(bytes, 48);
-  const std::uint64_t forward = load(bytes, 72, 8), backward = load(bytes, 88, 8);
-  const std::size_t body = bytes.size() - header_size - trailer_size;
-  if (forward > body || backward != body - forward) throw Rejected("the sizes in the header do not add up");
-  const auto tokens = bytes.subspan(header_size, body);
-  certificate.original_to_simplified = {tokens.first(forward), load(bytes, 80, 8)};
-  certificate.simplified_to_original = {tokens.subspan(forward), load(bytes, 96, 8)};
+  auto rest = bytes.subspan(header_size, bytes.size() - header_size - trailer_size);
+  certificate.original_to_simplified = {take(rest, load(bytes, 72, 8)), load(bytes, 80, 8)};
+  certificate.simplified_to_original = {take(rest, load(bytes, 88, 8)), load(bytes, 96, 8)};
+  if (version == version_with_lines)
+    certificate.lines = line_part(rest);
+  else if (!rest.empty())
+    throw Rejected("the sizes in the header do not add up");
   return certificate;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Reads the bytes of a certificate (tools/schema/certificate-1.md). Knows nothing of meshes; whatever the bytes are,
-/// it allocates nothing and reads each byte once.
+/// Reads the bytes of a certificate (tools/schema/certificate-1.md, certificate-2.md). Knows nothing of meshes;
+/// whatever the bytes are, it allocates nothing and reads each byte once.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -27,10 +29,31 @@ struct Section {
   std::uint64_t pieces = 0;
 };
 
+/// A list of edges by their two vertices.
+class EdgeList {
+ public:
+  EdgeList() = default;
+  explicit EdgeList(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  static constexpr std::size_t bytes_per_edge = 8;
+  [[nodiscard]] std::size_t size() const { return bytes_.size() / bytes_per_edge; }
+  [[nodiscard]] std::array<std::uint32_t, 2> edge(std::size_t i) const;
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+/// What a certificate says about feature lines.
+struct LinePart {
+  double tolerance = 0;  ///< model units, finite, not negative
+  EdgeList original, simplified;
+  Section original_to_simplified, simplified_to_original;
+};
+
 struct Certificate {
   double tolerance = 0;  ///< model units, finite, not negative
   MeshIdentity original, simplified;
   Section original_to_simplified, simplified_to_original;
+  std::optional<LinePart> lines;  ///< version 2 only
 };
 
 /// What every certificate begins with.

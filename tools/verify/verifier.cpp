@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "verify/checksum.h"
+#include "verify/mesh_edges.h"
 #include "verify/near_triangle.h"
 #include "verify/parity_check.h"
 #include "verify/pieces.h"
@@ -31,12 +32,13 @@ Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
 class DirectionCheck {
  public:
   DirectionCheck(const TriangleMesh& source, const TriangleMesh& target, double tolerance, const Section& section,
-                 const char* source_name)
+                 const char* source_name, const char* element = "triangle")
       : source_(source),
         target_(target),
         tolerance_(tolerance),
         section_(section),
         source_name_(source_name),
+        element_(element),
         tokens_(section.tokens),
         last_at_(source.vertices.size(), 0) {}
 
@@ -107,7 +109,8 @@ class DirectionCheck {
   }
 
   [[noreturn]] void fail(const char* why) const {
-    throw Rejected("triangle " + std::to_string(triangle_) + " of the " + source_name_ + " mesh " + why);
+    throw Rejected(std::string(element_) + " " + std::to_string(triangle_) + " of the " + source_name_ + " mesh " +
+                   why);
   }
 
   const TriangleMesh& source_;
@@ -115,6 +118,7 @@ class DirectionCheck {
   double tolerance_;
   Section section_;
   const char* source_name_;
+  const char* element_;  ///< what a triangle of the source is called
   TokenReader tokens_;
   std::vector<std::uint32_t> last_at_;  ///< by source vertex: the triangle used last there
   std::uint32_t last_ = 0;
@@ -149,6 +153,22 @@ void require_ieee_doubles() {
     throw std::runtime_error("this build or processor mode does not round doubles as IEEE 754 says");
 }
 
+Proof::Lines check_lines(const TriangleMesh& original, const TriangleMesh& simplified, const LinePart& part) {
+  const MeshEdges original_edges(original), simplified_edges(simplified);
+  const TriangleMesh original_lines = original_edges.lines(part.original, "original");
+  const TriangleMesh simplified_lines = simplified_edges.lines(part.simplified, "simplified");
+  const auto check = [&](const TriangleMesh& source, const TriangleMesh& target, const Section& section,
+                         const char* name) {
+    return DirectionCheck(source, target, part.tolerance, section, name, "line").run();
+  };
+  Proof::Lines proof{part.tolerance, part.original.size(), part.simplified.size(), false, {}, {}};
+  proof.has_all_borders =
+      original_edges.has_all_borders(part.original) && simplified_edges.has_all_borders(part.simplified);
+  proof.original_to_simplified = check(original_lines, simplified_lines, part.original_to_simplified, "original");
+  proof.simplified_to_original = check(simplified_lines, original_lines, part.simplified_to_original, "simplified");
+  return proof;
+}
+
 }  // namespace
 
 MeshIdentity identity_of(const TriangleMesh& mesh) {
@@ -174,6 +194,7 @@ Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simpli
       DirectionCheck(original, simplified, proof.tolerance, certificate.original_to_simplified, "original").run();
   proof.simplified_to_original =
       DirectionCheck(simplified, original, proof.tolerance, certificate.simplified_to_original, "simplified").run();
+  if (certificate.lines) proof.lines = check_lines(original, simplified, *certificate.lines);
   return proof;
 }
 

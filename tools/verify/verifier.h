@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "meshbound/triangle_mesh.h"
@@ -20,6 +21,14 @@ struct Proof {
     std::uint64_t exact_decisions = 0;  ///< distances that intervals of doubles could not decide
   };
   Direction original_to_simplified, simplified_to_original;
+  /// What was proven of feature lines.
+  struct Lines {
+    double tolerance = 0;  ///< of the symmetric Hausdorff distance between them
+    std::uint64_t original_edges = 0, simplified_edges = 0;
+    bool has_all_borders = false;  ///< every edge that only one triangle has is a line, in both meshes
+    Direction original_to_simplified, simplified_to_original;
+  };
+  std::optional<Lines> lines;  ///< absent: the certificate does not speak of lines
 };
 
 /// Counts, and a checksum of all coordinates and indices in the order of the file. O(n).

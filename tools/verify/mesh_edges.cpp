@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "verify/mesh_edges.h"
+
+#include <algorithm>
+#include <string>
+
+namespace meshbound::verify {
+namespace {
+
+/// By vertex: the rank of its coordinates, where 0 and -0 are equal.
+std::vector<std::uint32_t> position_ranks(const TriangleMesh& mesh) {
+  const auto& points = mesh.vertices;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < points.size(); ++v)
+    if (points[v].allFinite()) order.push_back(v);  // no triangle has the others
+  const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
+    return std::lexicographical_compare(points[a].begin(), points[a].end(), points[b].begin(), points[b].end());
+  };
+  std::sort(order.begin(), order.end(), is_before);
+  std::vector<std::uint32_t> rank(points.size(), 0);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    rank[order[i]] = rank[order[i - 1]] + (is_before(order[i - 1], order[i]) ? 1 : 0);
+  return rank;
+}
+
+}  // namespace
+
+MeshEdges::MeshEdges(const TriangleMesh& mesh) : mesh_(mesh), position_(position_ranks(mesh)) {
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges_.push_back(key(t[k], t[(k + 1) % 3]));
+  std::sort(edges_.begin(), edges_.end());
+}
+
+MeshEdges::Key MeshEdges::key(std::uint32_t a, std::uint32_t b) const {
+  return {std::min(position_[a], position_[b]), std::max(position_[a], position_[b])};
+}
+
+TriangleMesh MeshEdges::lines(const EdgeList& edges, const char* name) const {
+  if (edges.size() == 0) throw Rejected(std::string("it has no lines of the ") + name + " mesh");
+  TriangleMesh result;
+  result.vertices = mesh_.vertices;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges.edge(i);
+    if (a >= position_.size() || b >= position_.size() || !std::binary_search(edges_.begin(), edges_.end(), key(a, b)))
+      throw Rejected("line " + std::to_string(i) + " of the " + name + " mesh is no edge of a triangle");
+    result.triangles.push_back({a, b, b});
+  }
+  return result;
+}
+
+bool MeshEdges::has_all_borders(const EdgeList& edges) const {
+  std::vector<Key> listed;
+  for (std::size_t i = 0; i < edges.size(); ++i) listed.push_back(key(edges.edge(i)[0], edges.edge(i)[1]));
+  std::sort(listed.begin(), listed.end());
+  for (auto edge = edges_.begin(); edge != edges_.end();) {
+    const auto end = std::upper_bound(edge, edges_.end(), *edge);
+    const bool is_border = end - edge == 1 && (*edge)[0] != (*edge)[1];
+    if (is_border && !std::binary_search(listed.begin(), listed.end(), *edge)) return false;
+    edge = end;
+  }
+  return true;
+}
+
+}  // namespace meshbound::verify
