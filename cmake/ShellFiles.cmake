@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-# meshbound_shell_files(tool): completion scripts and a manual page, made by the tool itself once it is built, from its
-# --help, and installed where shells and man look. Without help2man there are no manual pages.
+# meshbound_shell_files(tool purpose): completion scripts and a manual page, made by the tool itself once it is built, from its
+# --help, and installed where shells and man look. `purpose` is what whatis says of it. Without help2man there are no
+# manual pages.
 include(GNUInstallDirs)
 find_program(HELP2MAN help2man)
 
-function(meshbound_shell_files tool)
+function(meshbound_shell_files tool purpose)
   set(folder ${PROJECT_BINARY_DIR}/shell)
   file(MAKE_DIRECTORY ${folder})
   foreach(shell IN ITEMS bash zsh fish)
@@ -13,7 +14,7 @@ function(meshbound_shell_files tool)
   endforeach()
   if(HELP2MAN)
     add_custom_command(TARGET ${tool} POST_BUILD
-      COMMAND ${HELP2MAN} --no-info --output=${folder}/${tool}.1 $<TARGET_FILE:${tool}> VERBATIM)
+      COMMAND ${HELP2MAN} --no-info --name=${purpose} --output=${folder}/${tool}.1 $<TARGET_FILE:${tool}> VERBATIM)
   endif()
   if(MESHBOUND_INSTALL)
     install(FILES ${folder}/${tool}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${tool})

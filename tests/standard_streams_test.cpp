@@ -46,6 +46,16 @@ TEST_F(StandardStreams, CarryAMeshThroughAPipe) {
   EXPECT_EQ(json["simplified"]["path"], "-");
 }
 
+TEST_F(StandardStreams, MayDifferInFormat) {
+  ASSERT_EQ(shell("\"$simplify\" in.off file.obj --tolerance 0.01").exit_code, 0);
+  for (const char* formats : {"--input-format off --output-format obj", "--format obj --input-format off",
+                              "--format off --output-format obj"}) {
+    const ToolRun piped = shell(std::string("cat in.off | \"$simplify\" - - --tolerance 0.01 ") + formats);
+    EXPECT_EQ(piped.exit_code, 0) << piped.err;
+    EXPECT_EQ(piped.out, content_of(in("file.obj"))) << formats;
+  }
+}
+
 TEST_F(StandardStreams, MayBeFiles) {
   const ToolRun run = shell("\"$simplify\" - - --format off --tolerance 0.01 <in.off >out.off");
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -70,6 +80,10 @@ TEST_F(StandardStreams, AreRefusedWhereTheyCannotBeUsed) {
   expect_refused("\"$simplify\" - out.ply --tolerance 1", "IN is standard input: say its format");
   expect_refused("\"$simplify\" in.off - --tolerance 1", "OUT is standard output: say its format");
   expect_refused("\"$simplify\" in.off out.ply --format ply --tolerance 1", "--format is for a mesh on standard input");
+  expect_refused("\"$simplify\" in.off - --input-format off --tolerance 1",
+                 "--input-format is for a mesh on standard input");
+  expect_refused("\"$simplify\" - out.ply --output-format ply --tolerance 1", "--output-format is for");
+  expect_refused("\"$simplify\" - - --input-format ply --tolerance 1", "OUT is standard output: say its format");
   expect_refused("\"$simplify\" in.off - --format ply --json - --tolerance 1", "cannot both be standard output");
   expect_refused("\"$simplify\" in.off - --format ply --levels 0.5 --tolerance 1", "name OUT");
   expect_refused("\"$simplify\" - - --format ply --tolerance 1", "the file is empty");

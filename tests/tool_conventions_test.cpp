@@ -417,6 +417,37 @@ TEST_F(ToolConventions, ProgressOfAPipeIsThatWhichIsAskedFor) {
   expect_refused(simplify({"--tolerance", "1%", "--progress", "loud"}), "--progress");
 }
 
+/// Neither in a pipe nor in a file, whatever NO_COLOR says.
+TEST_F(ToolConventions, NothingIsEscapedOutsideATerminal) {
+  for (const char* variable : {"", "NO_COLOR=1 ", "FORCE_COLOR=1 CLICOLOR_FORCE=1 "}) {
+    for (const std::string& tool : all_tools) {
+      for (const char* arguments : {" --help", " --nosuch"}) {
+        const ToolRun run = testing_tools::run_shell(variable + testing_tools::shell_quoted(tool) + arguments);
+        EXPECT_EQ((run.out + run.err).find('\033'), std::string::npos) << variable << tool << arguments;
+      }
+    }
+    const ToolRun run = testing_tools::run_shell(variable + testing_tools::shell_quoted(SIMPLIFY_WITH_BOUND) + " " +
+                                                 in("in.off") + " " + in("out.ply") + " --tolerance 1%");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ((run.out + run.err).find('\033'), std::string::npos) << run.out << run.err;
+  }
+}
+
+/// The bar moves the cursor and clears its line; it never sets a colour or a style, which codes that end in "m" do.
+TEST_F(ToolConventions, NothingIsColouredOnATerminal) {
+  for (const char* variable : {"", "NO_COLOR=1 "}) {
+    const std::string command =
+        testing_tools::shell_quoted(SIMPLIFY_WITH_BOUND) + " " + in("in.off") + " " + in("out.ply") + " --tolerance 1%";
+    const ToolRun run =
+        testing_tools::run_shell(variable + std::string("script --quiet --return --command ") +
+                                 testing_tools::shell_quoted(command) + " " + in("terminal") + " </dev/null");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const std::string shown = content_of(in("terminal"));
+    EXPECT_NE(shown.find("simplifying ["), std::string::npos) << "no bar:\n" << shown;
+    EXPECT_FALSE(std::regex_search(shown, std::regex("\033\\[[0-9;]*[^K0-9;]"))) << shown;
+  }
+}
+
 /// What a terminal would show of a run whose second direction begins at the beginning again.
 TEST(Progress, NeverGoesBack) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);

@@ -20,8 +20,8 @@ constexpr const char* output_device = "/dev/stdout";
 
 }  // namespace
 
-void add_stream_format(CLI::App& app, std::string& format) {
-  app.add_option("--format", format, "Format of a mesh on standard input or output, which - stands for")
+void add_stream_format(CLI::App& app, const std::string& name, std::string& format, const std::string& meshes) {
+  app.add_option(name, format, "Format of a mesh on standard " + meshes + ", which - stands for")
       ->check(CLI::IsMember({"ply", "obj", "off", "stl", "glb", "gltf"}));
 }
 

@@ -14,8 +14,8 @@ namespace meshbound::tools {
 
 enum class StandardStream { Input, Output };
 
-/// Adds --format.
-void add_stream_format(CLI::App& app, std::string& format);
+/// Adds the option `name`, the format of `meshes`: --format of meshes on standard input or output.
+void add_stream_format(CLI::App& app, const std::string& name, std::string& format, const std::string& meshes);
 
 /// The path that stands for `argument` inside the tool: itself, or for "-" a path below the device of the stream, where
 /// no file can be, with the extension of `format`. Throws `InvalidInput`, naming `role`, for "-" without a format.

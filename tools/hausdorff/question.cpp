@@ -15,7 +15,7 @@ namespace meshbound::tools {
 void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
   app.add_option("B", arguments.b, "The mesh to compare with it; - for standard input; not with --nearest");
-  add_stream_format(app, arguments.format);
+  add_stream_format(app, "--format", arguments.format, "input");
   app.add_option("--error-bound", arguments.error_bound,
                  "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");
   app.add_option("--tolerance", arguments.tolerance,

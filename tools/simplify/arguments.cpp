@@ -14,6 +14,17 @@ std::string is_effort(const std::string& effort) {
   return effort == "fast" ? "there is no fast any more: use normal, which is faster than it was" : "";
 }
 
+/// Throws `InvalidInput` for the format of a stream that no mesh is on.
+void check_formats(const SimplifyArguments& arguments) {
+  const bool reads = arguments.input == "-", writes = arguments.output == "-";
+  if (!reads && !writes && !arguments.format.empty())
+    throw InvalidInput("--format is for a mesh on standard input or output, which is called -; leave it out");
+  if (!reads && !arguments.input_format.empty())
+    throw InvalidInput("--input-format is for a mesh on standard input: IN is then -");
+  if (!writes && !arguments.output_format.empty())
+    throw InvalidInput("--output-format is for a mesh on standard output: OUT is then -");
+}
+
 }  // namespace
 
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
@@ -21,7 +32,9 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
   app.add_option("OUT", arguments.output,
                  "File for the result; its extension chooses the format; - for standard output, where nothing else is "
                  "printed then");
-  add_stream_format(app, arguments.format);
+  add_stream_format(app, "--format", arguments.format, "input and output");
+  add_stream_format(app, "--input-format", arguments.input_format, "input, where it is not that of --format");
+  add_stream_format(app, "--output-format", arguments.output_format, "output, where it is not that of --format");
   app.add_option("--tolerance", arguments.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
   auto* faces = app.add_option("--target-faces", arguments.target_faces, "End at this many faces, tolerance permitting")
@@ -77,14 +90,15 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
 }
 
 void resolve_streams(SimplifyArguments& arguments) {
+  check_formats(arguments);
   const bool writes = arguments.output == "-";
-  if (arguments.input != "-" && !writes && !arguments.format.empty())
-    throw InvalidInput("--format is for a mesh on standard input or output, which is called -; leave it out");
   if (writes && arguments.common.json == "-") throw InvalidInput("OUT and --json cannot both be standard output");
   if (writes && !arguments.levels.empty())
     throw InvalidInput("--levels are files named after OUT, which is -; name OUT");
-  arguments.input = stream_path("IN", arguments.input, StandardStream::Input, arguments.format);
-  arguments.output = stream_path("OUT", arguments.output, StandardStream::Output, arguments.format);
+  arguments.input = stream_path("IN", arguments.input, StandardStream::Input,
+                                arguments.input_format.empty() ? arguments.format : arguments.input_format);
+  arguments.output = stream_path("OUT", arguments.output, StandardStream::Output,
+                                 arguments.output_format.empty() ? arguments.format : arguments.output_format);
 }
 
 }  // namespace meshbound::tools
