@@ -9,7 +9,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/meshbound)
 install(TARGETS meshbound EXPORT meshboundTargets COMPONENT dev)
 install(EXPORT meshboundTargets NAMESPACE meshbound:: DESTINATION ${package_dir} COMPONENT dev)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/meshbound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
-  FILES_MATCHING PATTERN "*.h" PATTERN "cgal" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "cgal" EXCLUDE PATTERN "mpi.h" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/LICENSES ${PROJECT_SOURCE_DIR}/docs ${PROJECT_SOURCE_DIR}/tools/schema
   ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -21,6 +21,14 @@ if(TARGET meshbound_cgal)
   install(EXPORT meshboundCgalTargets NAMESPACE meshbound:: DESTINATION ${package_dir} COMPONENT dev)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/meshbound/cgal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meshbound
     COMPONENT dev FILES_MATCHING PATTERN "*.h")
+endif()
+
+if(TARGET meshbound_mpi)
+  set_target_properties(meshbound_mpi PROPERTIES EXPORT_NAME mpi)
+  install(TARGETS meshbound_mpi EXPORT meshboundMpiTargets COMPONENT dev)
+  install(EXPORT meshboundMpiTargets NAMESPACE meshbound:: DESTINATION ${package_dir} COMPONENT dev)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/meshbound/mpi.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/meshbound
+    COMPONENT dev)
 endif()
 
 # The C interface: <meshbound.h> beside the folder of C++ headers; found by pkg-config, or as the component c, which needs
@@ -47,6 +55,13 @@ endif()
 foreach(tool IN ITEMS simplify_with_bound lod_chain hausdorff_distance penetration_depth verify_certificate generate_mesh)
   if(TARGET ${tool})
     install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endforeach()
+
+# In a package of their own: the other tools need no MPI.
+foreach(tool IN ITEMS simplify_with_bound_mpi hausdorff_distance_mpi)
+  if(TARGET ${tool})
+    install(TARGETS ${tool} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
   endif()
 endforeach()
 

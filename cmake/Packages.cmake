@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Debian packages: `cpack -G DEB` in a built tree makes meshbound (tools and documents), libmeshbound-c1, libmeshbound-dev
-# and, where the Python package was built, python3-meshbound.
+# and, where they were built, meshbound-mpi (the tools that run over MPI) and python3-meshbound.
 set(MESHBOUND_PACKAGE_CONTACT "The meshbound authors <meshbound@users.noreply.github.com>" CACHE STRING
   "Name and address in the packages")
 set(CPACK_GENERATOR DEB)
@@ -46,7 +46,11 @@ endif()
 meshbound_package(dev libmeshbound-dev libdevel
   "This package holds headers and libraries for C++ and C, found by CMake and\npkg-config."
   "${c_library}libeigen3-dev, libgmp-dev")
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS libcgal-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libcgal-dev, libopenmpi-dev")
+if(TARGET meshbound_mpi)
+  meshbound_package(mpi meshbound-mpi graphics
+    "This package holds the command-line tools that work on one mesh over many\nprocesses of MPI." "openmpi-bin")
+endif()
 if(TARGET meshbound_python)
   meshbound_package(python python3-meshbound python
     "This package holds the Python package." "python3, python3-numpy")

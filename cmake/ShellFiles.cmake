@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: MIT
-# meshbound_shell_files(tool purpose): completion scripts and a manual page, made by the tool itself once it is built, from its
-# --help, and installed where shells and man look. `purpose` is what whatis says of it. Without help2man there are no
-# manual pages.
+# meshbound_shell_files(tool purpose [component]): completion scripts and a manual page, made by the tool itself once it is
+# built, from its --help, and installed where shells and man look. `purpose` is what whatis says of it. Without help2man
+# there are no manual pages.
 include(GNUInstallDirs)
 find_program(HELP2MAN help2man)
 
 function(meshbound_shell_files tool purpose)
+  set(component ${ARGN})
+  if(NOT component)
+    set(component ${CMAKE_INSTALL_DEFAULT_COMPONENT_NAME})
+  endif()
   set(folder ${PROJECT_BINARY_DIR}/shell)
   file(MAKE_DIRECTORY ${folder})
   foreach(shell IN ITEMS bash zsh fish)
@@ -17,9 +21,12 @@ function(meshbound_shell_files tool purpose)
       COMMAND ${HELP2MAN} --no-info --name=${purpose} --output=${folder}/${tool}.1 $<TARGET_FILE:${tool}> VERBATIM)
   endif()
   if(MESHBOUND_INSTALL)
-    install(FILES ${folder}/${tool}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${tool})
-    install(FILES ${folder}/${tool}.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _${tool})
-    install(FILES ${folder}/${tool}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-    install(FILES ${folder}/${tool}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+    install(FILES ${folder}/${tool}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${tool}
+      COMPONENT ${component})
+    install(FILES ${folder}/${tool}.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _${tool}
+      COMPONENT ${component})
+    install(FILES ${folder}/${tool}.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+      COMPONENT ${component})
+    install(FILES ${folder}/${tool}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component} OPTIONAL)
   endif()
 endfunction()

@@ -30,16 +30,20 @@ foreach(file IN ITEMS bash-completion/completions/lod_chain zsh/site-functions/_
 endforeach()
 run("configure the consumer" ${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/build -G ${generator}
   -D CMAKE_BUILD_TYPE=${config} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_PREFIX_PATH=${work_dir}/prefix
-  -D CONSUMER_CGAL=${with_cgal} ${flags})
+  -D CONSUMER_CGAL=${with_cgal} -D CONSUMER_MPI=${with_mpi} ${flags})
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/wrong -G ${generator}
   -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_PREFIX_PATH=${work_dir}/prefix -D CONSUMER_COMPONENT=CGAL
   RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE output)
 string(REGEX REPLACE "[ \n]+" " " output "${output}")
-if(result EQUAL 0 OR NOT output MATCHES "it has no component CGAL; its components are meshbound, cgal and c")
+if(result EQUAL 0 OR NOT output MATCHES "it has no component CGAL; its components are meshbound, cgal, mpi and c")
   message(FATAL_ERROR "a component that is not there: no reason given (${result}):\n${output}")
 endif()
 run("build the consumer" ${CMAKE_COMMAND} --build ${work_dir}/build)
 run("run the consumer" ${work_dir}/build/consumer)
 if(with_cgal)
   run("run the consumer of the cgal component" ${work_dir}/build/simplify)
+endif()
+if(with_mpi)
+  # One rank, for which MPI needs no mpirun.
+  run("run the consumer of the mpi component" ${work_dir}/build/simplify_over_ranks)
 endif()

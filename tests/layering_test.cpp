@@ -18,13 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Folders of src in dependency order; those of src/distance and src/simplify are rooms of their own, the files beside
-/// them are the entry points of a measurement and the steps of a decimation. `cgal` is what is compiled against CGAL
-/// and may use everything before it.
+/// them are the entry points of a measurement and the steps of a decimation. `cgal` and `mpi` are what is
+/// compiled against CGAL and MPI; they may use everything before them.
 // clang-format off
 constexpr std::array layers = std::to_array<std::string_view>(
     {"numeric", "geometry", "mesh", "bvh", "proof", "distance/paper", "distance/kernel", "distance/shortcuts",
      "distance/search", "distance", "distance/levels", "deviation", "penetration", "scene", "attributes", "simplify/kernel", "simplify/mesh",
-     "simplify/cover", "simplify/texture", "simplify", "normals", "texture", "certificate", "levels", "tiles", "view", "report", "cgal"});
+     "simplify/cover", "simplify/texture", "simplify", "normals", "texture", "certificate", "levels", "tiles", "view", "report", "cgal", "mpi"});
 // clang-format on
 constexpr std::size_t longest_file = 600;
 
@@ -85,6 +85,12 @@ bool may_use_cgal(const SourceFile& file) {
   return false;
 }
 
+bool may_use_mpi(const SourceFile& file) {
+  for (const char* prefix : {"include/meshbound/mpi.h", "src/mpi/", "tools/mpi/", "tests/", "examples/"})
+    if (starts_with(file.path, prefix)) return true;
+  return false;
+}
+
 bool is_gpl(const SourceFile& file) {
   return !file.lines.empty() && file.lines[0].find("GPL-3.0-or-later") != std::string::npos;
 }
@@ -96,6 +102,8 @@ std::string include_violation(const SourceFile& file, const std::string& include
   if (gpl_header && !may_use_cgal(file)) return "CGAL and Boost belong to the GPL part";
   if (gpl_header && !is_gpl(file) && !starts_with(file.path, "tests/"))
     return "a file that includes CGAL must carry the SPDX line of the GPL";
+  if ((include == "<mpi.h" || include.find("meshbound/mpi.h") == 1) && !may_use_mpi(file))
+    return "MPI belongs to src/mpi and to the tools that run over it";
   const bool quoted = starts_with(include, "\"");
   if (starts_with(file.path, "include/") && quoted && include.find("meshbound/") != 1)
     return "public headers include only public headers";
@@ -165,7 +173,7 @@ TEST(SourceTree, UmbrellaHeaderNamesEveryPublicHeaderOfTheCore) {
   const std::vector<std::string> umbrella = load(folder, folder / "meshbound.h").lines;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || name == "meshbound.h") continue;
+    if (!entry.is_regular_file() || name == "meshbound.h" || name == "mpi.h") continue;
     EXPECT_NE(std::find(umbrella.begin(), umbrella.end(), "#include \"meshbound/" + name + "\""), umbrella.end())
         << name;
   }
@@ -207,6 +215,16 @@ TEST_F(Layering, RefusesCgalInTheCore) {
   write("src/mesh/a.cpp", "#include <CGAL/Surface_mesh.h>", "GPL-3.0-or-later");
   write("include/meshbound/a.h", "#include <boost/optional.hpp>");
   write("include/meshbound/b.h", "#include \"meshbound/cgal/monitor.h\"");
+  EXPECT_EQ(violations(root_).size(), 3U);
+}
+
+TEST_F(Layering, RefusesMpiOutsideItsComponent) {
+  write("src/mpi/ranks.h", "#include <mpi.h>\n#include \"tiles/jobs.h\"");
+  write("include/meshbound/mpi.h", "#include <mpi.h>");
+  EXPECT_EQ(joined(violations(root_)), "");
+  write("src/tiles/jobs.cpp", "#include \"mpi/ranks.h\"");
+  write("src/mesh/a.cpp", "#include <mpi.h>");
+  write("tools/common/a.cpp", "#include \"meshbound/mpi.h\"");
   EXPECT_EQ(violations(root_).size(), 3U);
 }
 

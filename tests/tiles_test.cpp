@@ -6,15 +6,20 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
+#include "tiles/compact_bytes.h"
+#include "tiles/decimate_in_tiles.h"
+#include "tiles/measure_in_tiles.h"
 #include "tiles/tile_cut.h"
 
 namespace meshbound {
@@ -132,6 +137,72 @@ TEST(SimplifyInTiles, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(more.last().distance->bounds.lower, one.last().distance->bounds.lower);
     EXPECT_EQ(more.last().distance->bounds.upper, one.last().distance->bounds.upper);
   }
+}
+
+/// Does each job and puts it back from its bytes, as other processes would take it.
+class PackingRunner : public JobRunner {
+ public:
+  void run(TileJobs& jobs) override {
+    for (const std::size_t job : heaviest_first(jobs)) {
+      jobs.run(job);
+      const std::string bytes = jobs.packed(job);
+      jobs.unpack(job, bytes);
+      EXPECT_EQ(jobs.packed(job), bytes);
+      EXPECT_THROW(jobs.unpack(job, std::string_view(bytes).substr(0, bytes.size() - 1)), InvalidInput);
+      EXPECT_THROW(jobs.unpack(job, bytes + "0"), InvalidInput);
+      jobs.unpack(job, bytes);
+      size_ += bytes.size();
+    }
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  std::size_t size_ = 0;
+};
+
+TEST(SimplifyInTiles, GivesTheSameBitsFromPackedResults) {
+  for (const TriangleMesh& mesh : {datasets::terrain(1, 60, 7), datasets::mesh_of_size("uv-sphere", 4000),
+                                   unwelded(datasets::torus(1, 0.3, 60, 24))}) {
+    const SimplifyOptions options = share_of_diagonal(mesh, 0.001);
+    const TileOptions tiles{500};
+    PackingRunner packing;
+    const SimplifyResult packed = simplify_in_tiles(mesh, options, tiles, packing);
+    const SimplifyResult direct = simplify_in_tiles(mesh, options, tiles);
+    EXPECT_EQ(packed.last().mesh.triangles, direct.last().mesh.triangles);
+    EXPECT_EQ(packed.last().mesh.vertices, direct.last().mesh.vertices);
+    EXPECT_EQ(packed.last().source_triangle, direct.last().source_triangle);
+    EXPECT_EQ(packed.last().collapses_refused, direct.last().collapses_refused);
+    EXPECT_EQ(packed.dropped_triangles, direct.dropped_triangles);
+    EXPECT_EQ(packed.last().distance->bounds.lower, direct.last().distance->bounds.lower);
+    EXPECT_EQ(packed.last().distance->bounds.upper, direct.last().distance->bounds.upper);
+    EXPECT_EQ(packed.last().distance->a_to_b.witness.from.position,
+              direct.last().distance->a_to_b.witness.from.position);
+    EXPECT_EQ(packed.last().distance->a_to_b.stats.subdivisions, direct.last().distance->a_to_b.stats.subdivisions);
+  }
+}
+
+TEST(CompactBytes, GiveBackWhatWasWritten) {
+  CompactWriter writer;
+  const std::vector<std::uint64_t> numbers{0, 1, 127, 128, 300, ~std::uint64_t{0}};
+  for (const std::uint64_t number : numbers) writer.number(number);
+  const std::vector<std::uint32_t> steps{5, 0, 0xffffffff, 0x80000000, 7};
+  std::uint32_t before = 3;
+  for (const std::uint32_t step : steps) writer.step(std::exchange(before, step), step);
+  writer.raw(-0.0);
+  writer.raw(std::vector<std::uint32_t>{1, 2, 3});
+  const std::string bytes = writer.take();
+  CompactReader reader(bytes);
+  for (const std::uint64_t number : numbers) EXPECT_EQ(reader.number(), number);
+  before = 3;
+  for (const std::uint32_t step : steps) EXPECT_EQ(before = reader.step(before), step);
+  double zero = 1;
+  reader.raw(zero);
+  EXPECT_TRUE(zero == 0 && std::signbit(zero));
+  std::vector<std::uint32_t> list;
+  reader.raw(list);
+  EXPECT_EQ(list, (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_TRUE(reader.at_end());
+  EXPECT_THROW((void)reader.number(), InvalidInput);
 }
 
 TEST(SimplifyInTiles, LeavesNoCracksWhereTrianglesShareNoVertices) {

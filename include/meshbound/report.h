@@ -81,6 +81,13 @@ struct NormalReport {
   double tolerance = 0;       ///< degrees
 };
 
+/// What the ranks of a parallel run have told one another.
+struct CommunicationReport {
+  int ranks = 1;                  ///< processes
+  std::uint64_t input_bytes = 0;  ///< sent by all ranks together so that each has the files that were read
+  std::uint64_t bytes = 0;        ///< everything else that they sent
+};
+
 /// What `hausdorff_distance` says: schema "meshbound/distance/1".
 struct DistanceReport {
   std::optional<Provenance> provenance;  ///< absent: the document does not say who made it
@@ -102,12 +109,13 @@ struct DistanceReport {
   bool texture_was_wanted = false;               ///< by `--texture`
   /// Wall-clock time of the phases.
   struct Seconds {
-    double read = 0;   ///< both files
-    double build = 0;  ///< both trees
-    double query = 0;  ///< the search
-    double total = 0;  ///< from the start of the tool
-  } seconds;           ///< of the run
-  int threads = 1;     ///< that were used
+    double read = 0;                                      ///< both files
+    double build = 0;                                     ///< both trees
+    double query = 0;                                     ///< the search
+    double total = 0;                                     ///< from the start of the tool
+  } seconds;                                              ///< of the run
+  int threads = 1;                                        ///< that were used
+  std::optional<CommunicationReport> communication = {};  ///< of a run over several processes
 };
 
 /// How the distance of a result was decided.
@@ -177,15 +185,16 @@ struct SimplifyReport {
   } collapses;                          ///< of the whole run
   /// Wall-clock time of the phases.
   struct Seconds {
-    double read = 0;                ///< the original
-    double simplify = 0;            ///< collapses and their proofs
-    double certify = 0;             ///< measuring what was written
-    double certificate = 0;         ///< making certificates
-    double write = 0;               ///< meshes and certificates
-    double total = 0;               ///< from the start of the tool
-  } seconds;                        ///< of the run
-  std::size_t locked_vertices = 0;  ///< that options kept from moving
-  int threads = 1;                  ///< that were used
+    double read = 0;                                      ///< the original
+    double simplify = 0;                                  ///< collapses and their proofs
+    double certify = 0;                                   ///< measuring what was written
+    double certificate = 0;                               ///< making certificates
+    double write = 0;                                     ///< meshes and certificates
+    double total = 0;                                     ///< from the start of the tool
+  } seconds;                                              ///< of the run
+  std::size_t locked_vertices = 0;                        ///< that options kept from moving
+  int threads = 1;                                        ///< that were used
+  std::optional<CommunicationReport> communication = {};  ///< of a run over several processes
 };
 
 /// What `lod_chain` says: schema "meshbound/lod/1".

@@ -15,9 +15,9 @@ namespace meshbound {
 class FileBytes {
  public:
   /// Throws `IoError` when `path` is missing, unreadable, anything but a regular file, or shortened meanwhile;
-  /// `Interrupted` or `Stopped` as `stop` says. Never blocks. Reads the first `limit` bytes and no more.
+  /// `Interrupted` or `Stopped` as `stop` says. Never blocks. Reads at most `limit` bytes, those from `first` on.
   explicit FileBytes(const std::filesystem::path& path, const StopToken& stop = {},
-                     std::size_t limit = std::numeric_limits<std::size_t>::max());
+                     std::size_t limit = std::numeric_limits<std::size_t>::max(), std::size_t first = 0);
 
   [[nodiscard]] std::string_view bytes() const { return {data_.get(), size_}; }
 

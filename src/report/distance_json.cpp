@@ -30,6 +30,7 @@ std::string to_json(const DistanceReport& from) {
                      {"query", number(from.seconds.query)},
                      {"total", number(from.seconds.total)}};
   json["threads"] = from.threads;
+  if (from.communication) json["communication"] = communication(*from.communication);
   return text(json);
 }
 

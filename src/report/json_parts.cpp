@@ -50,6 +50,10 @@ Json length(double absolute, double diagonal) {
   return {{"absolute", number(absolute)}, {"percent_of_diagonal", number(absolute / diagonal * 100)}};
 }
 
+Json communication(const CommunicationReport& communication) {
+  return {{"ranks", communication.ranks}, {"input_bytes", communication.input_bytes}, {"bytes", communication.bytes}};
+}
+
 Json mesh(const MeshReport& mesh) {
   Json json = {{"path", mesh.path},
                {"vertices", mesh.summary.vertices},

@@ -55,6 +55,7 @@ using Json = nlohmann::ordered_json;
 
 /// {"read":..,"simplify":..,"certify":..,"write":..,"total":..}
 [[nodiscard]] Json seconds(const SimplifyReport::Seconds& seconds);
+[[nodiscard]] Json communication(const CommunicationReport& communication);
 
 /// The document as text, see `to_json`.
 [[nodiscard]] std::string text(const Json& document);

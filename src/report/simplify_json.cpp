@@ -50,6 +50,7 @@ std::string to_json(const SimplifyReport& from) {
   json["seconds"] = seconds(from.seconds);
   if (!from.certificates.empty()) json["seconds"]["certificate"] = number(from.seconds.certificate);
   json["threads"] = from.threads;
+  if (from.communication) json["communication"] = communication(*from.communication);
   return text(json);
 }
 

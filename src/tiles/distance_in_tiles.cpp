@@ -4,8 +4,6 @@
 /// A tile of A is compared with the clusters of B whose boxes are within a reach of its box. The upper bound of that
 /// holds for all of B. The lower bound holds up to the least distance of a cluster that was left out; where the upper
 /// bound is beyond that distance, a point of B that was left out might be nearer, and the reach grows.
-#include <omp.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -18,8 +16,9 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
-#include "numeric/first_error.h"
 #include "numeric/rounding.h"
+#include "tiles/measure_in_tiles.h"
+#include "tiles/tile_bytes.h"
 #include "tiles/tile_cut.h"
 
 namespace meshbound {
@@ -34,8 +33,10 @@ constexpr std::size_t clusters_beside = 8;
 /// The first reach where no tolerance tells one, and the least one after that, as shares of the diagonal of both.
 constexpr double first_reach = 1e-2, min_reach = 1e-5;
 
-/// Tiles that start from the same lower bound, so that results do not depend on the number of threads.
-constexpr std::size_t tiles_of_batch = 8;
+/// Tiles of the first batch, which start from the same lower bound, so that results do not depend on who works. Each
+/// batch has twice as many as the one before: the bound of the first ones is what saves work, and the later ones have
+/// work for many.
+constexpr std::size_t tiles_of_first_batch = 8;
 
 NumberLists cut(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles, std::uint64_t max_triangles) {
   return cut_into_tiles(
@@ -145,23 +146,44 @@ class TiledSearch {
   }
 
   /// `known_lower`: of the quantity that is wanted.
-  OneSidedDistance run(double known_lower, int threads) {
+  OneSidedDistance run(double known_lower, JobRunner& runner) {
     OneSidedDistance all;
     all.bounds = {0, 0};
-    for (std::size_t first = 0; first < tiles_.size(); first += tiles_of_batch) {
-      std::vector<OneSidedDistance> found(std::min(tiles_of_batch, tiles_.size() - first));
-      FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-      for (std::size_t i = 0; i < found.size(); ++i)
-        error.guard([&] { found[i] = search(tiles_[first + i], std::max(known_lower, all.bounds.lower)); });
-      error.rethrow();
-      for (const OneSidedDistance& tile : found) merge(all, tile);
+    std::size_t size = tiles_of_first_batch;
+    for (std::size_t first = 0; first < tiles_.size(); first += size, size *= 2) {
+      Batch batch(*this, first, std::min(size, tiles_.size() - first), std::max(known_lower, all.bounds.lower));
+      runner.run(batch);
+      for (const OneSidedDistance& tile : batch.found()) merge(all, tile);
     }
     all.stats.seconds = seconds_since(start_);
     return all;
   }
 
  private:
+  /// Some tiles as jobs.
+  class Batch : public TileJobs {
+   public:
+    Batch(const TiledSearch& search, std::size_t first, std::size_t size, double known_lower)
+        : search_(search), first_(first), known_lower_(known_lower), found_(size) {}
+
+    [[nodiscard]] std::size_t size() const override { return found_.size(); }
+    [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return search_.tiles_[first_ + job].size(); }
+    void run(std::size_t job) override { found_[job] = search_.search(search_.tiles_[first_ + job], known_lower_); }
+    [[nodiscard]] std::string packed(std::size_t job) const override { return packed_distance(found_[job]); }
+    void unpack(std::size_t job, std::string_view bytes) override { found_[job] = unpacked_distance(bytes); }
+    [[nodiscard]] bool is_complete(std::size_t job) const override {
+      return found_[job].outcome != Outcome::BudgetExhausted;
+    }
+    void progress(double) override {}
+    [[nodiscard]] const std::vector<OneSidedDistance>& found() const { return found_; }
+
+   private:
+    const TiledSearch& search_;
+    std::size_t first_;
+    double known_lower_;
+    std::vector<OneSidedDistance> found_;
+  };
+
   OneSidedDistance search(std::span<const std::uint32_t> tile, double known_lower) const {
     const MeshPart part = part_of(a_, tile);
     const Eigen::AlignedBox3d box = used_bounding_box(part.mesh);
@@ -220,8 +242,8 @@ class TiledSearch {
 class TiledMeasurement {
  public:
   TiledMeasurement(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
-                   const TileOptions& tiles)
-      : options_(options), tiles_(tiles) {
+                   const TileOptions& tiles, JobRunner& runner)
+      : options_(options), tiles_(tiles), runner_(runner) {
     validate(a);
     validate(b);
     const auto is_length = [](double length) { return length >= 0; };
@@ -236,33 +258,45 @@ class TiledMeasurement {
 
   [[nodiscard]] OneSidedDistance search(const TriangleMesh& from, const TriangleMesh& to, double known_lower) const {
     const Clusters clusters(to);
-    const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
-    return TiledSearch(from, clusters, options_, tiles_.max_triangles, reach_, start_).run(known_lower, threads);
+    return TiledSearch(from, clusters, options_, tiles_.max_triangles, reach_, start_).run(known_lower, runner_);
   }
 
  private:
   DistanceOptions options_;
   TileOptions tiles_;
+  JobRunner& runner_;
   Reach reach_{};
   StopToken::Clock::time_point start_ = StopToken::Clock::now();
 };
 
 }  // namespace
 
-OneSidedDistance one_sided_hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
-                                                       const DistanceOptions& options, const TileOptions& tiles) {
-  return TiledMeasurement(a, b, options, tiles).search(a, b, 0);
+OneSidedDistance measure_one_side_in_tiles(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+                                           const TileOptions& tiles, JobRunner& runner) {
+  return TiledMeasurement(a, b, options, tiles, runner).search(a, b, 0);
 }
 
-HausdorffDistance hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
-                                              const DistanceOptions& options, const TileOptions& tiles) {
-  const TiledMeasurement measurement(a, b, options, tiles);
+HausdorffDistance measure_in_tiles(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+                                   const TileOptions& tiles, JobRunner& runner) {
+  const TiledMeasurement measurement(a, b, options, tiles, runner);
   HausdorffDistance result;
   result.a_to_b = measurement.search(a, b, 0);
   result.b_to_a = measurement.search(b, a, result.a_to_b.bounds.lower);
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
                    std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
   return result;
+}
+
+OneSidedDistance one_sided_hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
+                                                       const DistanceOptions& options, const TileOptions& tiles) {
+  ThreadRunner threads(options.threads);
+  return measure_one_side_in_tiles(a, b, options, tiles, threads);
+}
+
+HausdorffDistance hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
+                                              const DistanceOptions& options, const TileOptions& tiles) {
+  ThreadRunner threads(options.threads);
+  return measure_in_tiles(a, b, options, tiles, threads);
 }
 
 }  // namespace meshbound

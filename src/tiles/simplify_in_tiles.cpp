@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <string>
 
 #include "levels/measured_level.h"
@@ -13,6 +10,7 @@
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
 #include "tiles/decimate_in_tiles.h"
+#include "tiles/measure_in_tiles.h"
 #include "tiles/tiled_mesh.h"
 
 namespace meshbound {
@@ -44,17 +42,13 @@ constexpr double min_gain_of_pass = 0.01;
 /// Share of the progress that the first pass stands for.
 constexpr double share_of_first_pass = 0.6;
 
-/// Which end of a tile says most about the run.
-EndedBy stronger(EndedBy a, EndedBy b) { return std::max(a, b); }
-
 /// All passes over one mesh.
 class TiledRun {
  public:
-  TiledRun(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles)
-      : original_(original),
-        options_(options),
+  TiledRun(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles, JobRunner& runner)
+      : options_(options),
         tiles_(tiles),
-        threads_(options.threads > 0 ? options.threads : omp_get_max_threads()),
+        runner_(runner),
         stop_(StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.time_limit)),
         mesh_(original, options.locked_vertices) {
     of_tile_.threads = 1;
@@ -66,7 +60,7 @@ class TiledRun {
       const std::size_t before = mesh_.faces();
       const std::size_t tiles = pass(k);
       const auto gain = static_cast<double>(before - mesh_.faces());
-      if (stop_.stopped() || tiles == 1 || gain < min_gain_of_pass * static_cast<double>(before)) break;
+      if (runner_.any(stop_.stopped()) || tiles == 1 || gain < min_gain_of_pass * static_cast<double>(before)) break;
     }
     SimplifyResult result;
     SimplifiedLevel& level = result.levels.emplace_back();
@@ -89,40 +83,33 @@ class TiledRun {
  private:
   std::size_t pass(std::size_t k) {
     if (k > 0) of_tile_.effort = Effort::Normal;  // flips would change triangles whose vertices stay
-    done_ = 0;
-    return mesh_.pass(cuts[k], tiles_.max_triangles, threads_, [&](const TileInput& input) {
-      TileOutput output = simplify_tile(input, of_tile_, stop_);
-      note(k, input, output);
-      return output;
-    });
-  }
-
-  void note(std::size_t k, const TileInput& input, const TileOutput& output) {
-    const std::lock_guard lock(mutex_);
-    counts_ += output.counts;
+    TiledMesh::Pass how{cuts[k],
+                        tiles_.max_triangles,
+                        [&](const TileInput& input) { return simplify_tile(input, of_tile_, stop_); },
+                        {}};
+    if (options_.progress) how.progress = [&](double share) { options_.progress(progress_at(k, share)); };
+    const TiledMesh::PassFacts facts = mesh_.pass(how, runner_);
+    counts_ += facts.counts;
+    ended_by_ = std::max(ended_by_, facts.ended_by);  // the later in the enumeration, the more it says about the run
     if (k == 0) {
-      dropped_ += output.dropped_triangles;
-      split_ = split_ || output.split;
+      dropped_ = facts.dropped_triangles;
+      split_ = facts.split;
     }
-    ended_by_ = stronger(ended_by_, output.ended_by);
-    done_ += input.original.triangles.size();
-    if (!options_.progress || omp_get_thread_num() != 0) return;
-    const double share = static_cast<double>(done_) / static_cast<double>(original_.triangles.size());
-    options_.progress(k == 0 ? share_of_first_pass * share
-                             : share_of_first_pass + (1 - share_of_first_pass) *
-                                                         (static_cast<double>(k - 1) + std::min(1.0, share)) /
-                                                         static_cast<double>(cuts.size() - 1));
+    return facts.tiles;
   }
 
-  const TriangleMesh& original_;
+  static double progress_at(std::size_t pass, double share) {
+    if (pass == 0) return share_of_first_pass * share;
+    return share_of_first_pass +
+           (1 - share_of_first_pass) * (static_cast<double>(pass - 1) + share) / static_cast<double>(cuts.size() - 1);
+  }
+
   const SimplifyOptions& options_;
   const TileOptions& tiles_;
-  int threads_;
+  JobRunner& runner_;
   StopToken stop_;
   SimplifyOptions of_tile_ = options_;
   TiledMesh mesh_;
-  std::mutex mutex_;
-  std::size_t done_ = 0;  ///< originals of the tiles of a pass
   std::size_t dropped_ = 0;
   EndedBy ended_by_ = EndedBy::NothingFits;
   CollapseCounts counts_;
@@ -131,28 +118,33 @@ class TiledRun {
 
 }  // namespace
 
-SimplifyResult decimate_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
-                                 const TileOptions& tiles) {
+SimplifyResult decimate_in_tiles(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
+                                 JobRunner& runner) {
   check_for_tiles(options);
   validate(original);
   if (!options.locked_vertices.empty() && options.locked_vertices.size() != original.vertices.size())
     throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
-  return TiledRun(original, options, tiles).run();
+  return TiledRun(original, options, tiles, runner).run();
 }
 
-SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
-                                 const TileOptions& tiles) {
-  SimplifyResult result = decimate_in_tiles(original, options, tiles);
+SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
+                                 JobRunner& runner) {
+  SimplifyResult result = decimate_in_tiles(original, options, tiles, runner);
   const auto measuring = StopToken::Clock::now();
   SimplifiedLevel& level = result.levels.back();
   DistanceOptions distance;
   distance.tolerance = level.tolerance;
-  distance.threads = options.threads;
   distance.cancel = options.cancel;
-  level.distance = hausdorff_distance_in_tiles(original, level.mesh, distance, tiles);
+  level.distance = measure_in_tiles(original, level.mesh, distance, tiles, runner);
   level.verdict = verdict_of(level.distance->bounds, level.tolerance);
   result.seconds.measure = seconds_since(measuring);
   return result;
+}
+
+SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
+                                 const TileOptions& tiles) {
+  ThreadRunner threads(options.threads);
+  return simplify_in_tiles(original, options, tiles, threads);
 }
 
 }  // namespace meshbound

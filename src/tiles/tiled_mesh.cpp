@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tiles/tiled_mesh.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -10,7 +8,6 @@
 
 #include "mesh/weld.h"
 #include "meshbound/error.h"
-#include "numeric/first_error.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -60,21 +57,64 @@ void release(std::vector<T>& v) {
 TiledMesh::TiledMesh(const TriangleMesh& original, const std::vector<bool>& locked)
     : original_(original), locked_(locked) {}
 
-std::size_t TiledMesh::pass(const TileCut& cut, std::size_t max_triangles, int threads, const Simplify& simplify) {
-  find_owners(cut, max_triangles);
+/// The tiles of a pass as jobs.
+class TiledMesh::Jobs : public TileJobs {
+ public:
+  Jobs(const TiledMesh& mesh, const Pass& how) : mesh_(mesh), how_(how), tiles_(mesh.triangles_.size()) {}
+
+  [[nodiscard]] std::size_t size() const override { return tiles_.size(); }
+  [[nodiscard]] std::uint64_t weight(std::size_t job) const override {
+    const auto triangles = mesh_.triangles_[job].size();
+    return mesh_.is_original_ ? triangles : std::max(triangles, mesh_.originals_[job].size());
+  }
+  void run(std::size_t job) override {
+    tiles_[job].output = how_.simplify(mesh_.input_of(static_cast<std::uint32_t>(job), tiles_[job]));
+  }
+  [[nodiscard]] std::string packed(std::size_t job) const override {
+    const Tile& tile = tiles_[job];
+    return packed_tile(tile.output, start_of(job, part_of(mesh_.mesh(), tile.triangles)));
+  }
+  void unpack(std::size_t job, std::string_view bytes) override {
+    MeshPart part = mesh_.find_numbers(static_cast<std::uint32_t>(job), tiles_[job]);
+    tiles_[job].output = unpacked_tile(bytes, start_of(job, std::move(part)));
+  }
+  [[nodiscard]] bool is_complete(std::size_t job) const override {
+    const EndedBy ended_by = tiles_[job].output.ended_by;
+    return ended_by != EndedBy::TimeLimit && ended_by != EndedBy::Cancelled;
+  }
+  void progress(double share) override {
+    if (how_.progress) how_.progress(share);
+  }
+
+  [[nodiscard]] std::vector<Tile>& tiles() { return tiles_; }
+
+ private:
+  [[nodiscard]] TileStart start_of(std::size_t job, MeshPart part) const {
+    return {std::move(part.mesh), mesh_.cover_of(static_cast<std::uint32_t>(job), tiles_[job]), mesh_.is_original_};
+  }
+
+  const TiledMesh& mesh_;
+  const Pass& how_;
+  std::vector<Tile> tiles_;
+};
+
+TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
+  find_owners(how.cut, how.max_triangles);
   find_triangles();
   find_what_stays();
   if (!is_original_) find_originals();
-  std::vector<Tile> tiles(triangles_.size());
-  FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    if (error.has_error()) continue;
-    error.guard([&] { tiles[i].output = simplify(input_of(static_cast<std::uint32_t>(i), tiles[i])); });
+  Jobs jobs(*this, how);
+  runner.run(jobs);
+  PassFacts facts;
+  facts.tiles = jobs.size();
+  for (const Tile& tile : jobs.tiles()) {
+    facts.ended_by = std::max(facts.ended_by, tile.output.ended_by);
+    facts.counts += tile.output.counts;
+    facts.dropped_triangles += tile.output.dropped_triangles;
+    facts.split = facts.split || tile.output.split;
   }
-  error.rethrow();
-  join(tiles);
-  return tiles.size();
+  join(jobs.tiles());
+  return facts;
 }
 
 std::uint32_t TiledMesh::tile_of(std::uint32_t triangle) const {
@@ -217,34 +257,49 @@ std::vector<bool> TiledMesh::locked(const std::vector<std::uint32_t>& vertices) 
   return locked;
 }
 
-TileInput TiledMesh::input_of(std::uint32_t tile, Tile& numbers) const {
+/// Finds which vertices, triangles and originals a tile has; returns the tile as a mesh.
+MeshPart TiledMesh::find_numbers(std::uint32_t tile, Tile& numbers) const {
   const auto own = triangles_[tile];
   numbers.triangles.assign(own.begin(), own.end());
   MeshPart part = part_of(mesh(), numbers.triangles);
   numbers.vertices = std::move(part.vertices);
   if (is_original_) {
     numbers.originals = numbers.triangles;
-    return {std::move(part.mesh), std::nullopt, locked(numbers.vertices)};
+    return part;
   }
   numbers.originals.assign(originals_[tile].begin(), originals_[tile].end());
   std::sort(numbers.originals.begin(), numbers.originals.end());
   numbers.originals.erase(std::unique(numbers.originals.begin(), numbers.originals.end()), numbers.originals.end());
-  TileInput input{part_of(original_, numbers.originals).mesh, start_of(tile, numbers), locked(numbers.vertices)};
-  input.start->mesh = std::move(part.mesh);
+  return part;
+}
+
+TileInput TiledMesh::input_of(std::uint32_t tile, Tile& numbers) const {
+  MeshPart part = find_numbers(tile, numbers);
+  if (is_original_) return {std::move(part.mesh), std::nullopt, locked(numbers.vertices)};
+  TileInput input{part_of(original_, numbers.originals).mesh, ProvenMesh(), locked(numbers.vertices)};
+  ProvenMesh& start = *input.start;
+  start.mesh = std::move(part.mesh);
+  start.cover = cover_of(tile, numbers);
+  for (const std::uint32_t f : numbers.triangles) start.near.push_back(index_in(numbers.originals, proven_.near[f]));
+  for (std::size_t k = 0; k < numbers.originals.size(); ++k)
+    start.is_covered.push_back(tile_of_cover(proven_.cover[numbers.originals[k]]) != tile);
   return input;
 }
 
-ProvenMesh TiledMesh::start_of(std::uint32_t tile, const Tile& numbers) const {
-  ProvenMesh start;
-  for (const std::uint32_t f : numbers.triangles) start.near.push_back(index_in(numbers.originals, proven_.near[f]));
-  for (const std::uint32_t t : numbers.originals) {
-    const bool is_own = tile_of_cover(proven_.cover[t]) == tile;
-    start.is_covered.push_back(!is_own);
-    if (is_own)
-      for (const std::uint32_t f : proven_.cover[t]) start.cover.numbers.push_back(index_in(numbers.triangles, f));
-    start.cover.end_list();
+/// By original of a tile: the triangles of the tile that cover it, where the tile may cover it anew. All numbers are
+/// those of the tile.
+NumberLists TiledMesh::cover_of(std::uint32_t tile, const Tile& numbers) const {
+  NumberLists lists;
+  for (std::uint32_t k = 0; k < numbers.originals.size(); ++k) {
+    const std::uint32_t t = numbers.originals[k];
+    if (is_original_) {
+      if (tile_of(t) == tile) lists.numbers.push_back(k);
+    } else if (tile_of_cover(proven_.cover[t]) == tile) {
+      for (const std::uint32_t f : proven_.cover[t]) lists.numbers.push_back(index_in(numbers.triangles, f));
+    }
+    lists.end_list();
   }
-  return start;
+  return lists;
 }
 
 /// A mesh that tiles are put together to.

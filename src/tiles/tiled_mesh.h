@@ -7,7 +7,9 @@
 
 #include "meshbound/simplify.h"
 #include "simplify/proven_mesh.h"
+#include "tiles/tile_bytes.h"
 #include "tiles/tile_cut.h"
+#include "tiles/tile_jobs.h"
 #include "tiles/tile_run.h"
 
 namespace meshbound {
@@ -27,9 +29,25 @@ class TiledMesh {
   /// `original` must outlive this. `locked`: by vertex of it, or empty.
   TiledMesh(const TriangleMesh& original, const std::vector<bool>& locked);
 
-  /// Cuts the mesh as it is into tiles, has each simplified, up to `threads` at once, and puts them together. A tile
-  /// stands for about `max_triangles` of the original. Returns the number of tiles.
-  std::size_t pass(const TileCut& cut, std::size_t max_triangles, int threads, const Simplify& simplify);
+  /// What came of the tiles of a pass, beside the mesh.
+  struct PassFacts {
+    std::size_t tiles = 0;
+    EndedBy ended_by = EndedBy::NothingFits;  ///< the strongest one of all tiles
+    CollapseCounts counts;
+    std::size_t dropped_triangles = 0;  ///< as in `SimplifyResult`
+    bool split = false;                 ///< as in `SimplifyResult`
+  };
+
+  /// How a pass is done.
+  struct Pass {
+    TileCut cut;
+    std::size_t max_triangles = 0;  ///< of the original, that a tile stands for
+    Simplify simplify;
+    std::function<void(double share)> progress;  ///< of the pass
+  };
+
+  /// Cuts the mesh as it is into tiles, has `runner` simplify each, and puts them together.
+  PassFacts pass(const Pass& how, JobRunner& runner);
 
   /// The mesh as it is now, in the order of the triangles that its faces come from.
   void current_mesh(SimplifiedLevel& into) const;
@@ -46,6 +64,7 @@ class TiledMesh {
     TileOutput output;
   };
   struct Joined;
+  class Jobs;
 
   [[nodiscard]] const TriangleMesh& mesh() const { return is_original_ ? original_ : proven_.mesh; }
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const {
@@ -64,8 +83,9 @@ class TiledMesh {
   void find_originals();
   void find_what_stays();
   void stay(std::uint32_t triangle, bool is_seam);
+  MeshPart find_numbers(std::uint32_t tile, Tile& numbers) const;
   [[nodiscard]] TileInput input_of(std::uint32_t tile, Tile& numbers) const;
-  [[nodiscard]] ProvenMesh start_of(std::uint32_t tile, const Tile& numbers) const;
+  [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const Tile& numbers) const;
   [[nodiscard]] std::vector<bool> locked(const std::vector<std::uint32_t>& vertices) const;
   void join(std::vector<Tile>& tiles);
   void join_tile(Joined& into, Tile& tile);

@@ -24,9 +24,9 @@ HausdorffDistance distance_between(MeshWithTree& original, const TriangleMesh& m
     const double limit = std::min(*options.tolerance, options.error_bound.value_or(*options.tolerance));
     if (const auto distance = distance_without_trees(original.mesh(), mesh, limit)) return *distance;
   }
-  if (original.tiles()) {
+  if (original.workers() != nullptr) {
     options.budget.seconds = std::min(options.budget.seconds, stop.seconds_left());
-    return hausdorff_distance_in_tiles(original.mesh(), mesh, options, *original.tiles());
+    return original.workers()->measure(original.mesh(), mesh, options);
   }
   const Bvh& original_tree = original.tree(stop);
   const Bvh mesh_tree(mesh, BvhOptions{options.threads, stop});

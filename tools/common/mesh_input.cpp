@@ -22,19 +22,22 @@ bool has_mesh_extension(const std::filesystem::path& path) {
   }
 }
 
-InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop, bool with_attributes) {
+InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop, bool with_attributes,
+                    TileWorkers* workers) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong
   const auto parsed = [&](std::string_view bytes) -> InputFile {
     const auto look = [&] { end_if_stopped(stop, path, "read"); };
     return {parse_mesh(path, bytes, {stop.cancel, stop.deadline, with_attributes}),
             with_checksum ? sha256(bytes, look) : ""};
   };
+  if (workers != nullptr)
+    if (const std::optional<std::string> bytes = workers->read(path, stop)) return parsed(*bytes);
   return is_stream_path(path) ? parsed(read_standard_input(stop)) : parsed(FileBytes(path, stop).bytes());
 }
 
 TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report, const StopToken& stop,
-                        MeshAttributes* attributes) {
-  InputFile file = read_file(path, with_checksum, stop, attributes != nullptr);
+                        MeshAttributes* attributes, TileWorkers* workers) {
+  InputFile file = read_file(path, with_checksum, stop, attributes != nullptr, workers);
   MeshFile& content = file.content;
   report = {as_typed(path),           summarise(content.mesh), content.triangulated_polygons, content.decoded_strips,
             content.ignored_elements, content.dropped,         std::move(file.sha256),        content.rest_pose_parts};

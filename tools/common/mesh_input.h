@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "common/tile_workers.h"
 #include "meshbound/io.h"
 #include "meshbound/report.h"
 #include "meshbound/stop_token.h"
@@ -17,12 +18,13 @@ struct InputFile {
 /// Whether the extension is one of those that `format_of` knows.
 [[nodiscard]] bool has_mesh_extension(const std::filesystem::path& path);
 
-/// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says.
+/// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says. `workers`: who reads; null: this process.
 [[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop,
-                                  bool with_attributes = false);
+                                  bool with_attributes = false, TileWorkers* workers = nullptr);
 
 /// The mesh of `read_file`; `report` says what was read, `attributes` (null: not wanted) what goes with it.
 [[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report,
-                                      const StopToken& stop, MeshAttributes* attributes = nullptr);
+                                      const StopToken& stop, MeshAttributes* attributes = nullptr,
+                                      TileWorkers* workers = nullptr);
 
 }  // namespace meshbound::tools

@@ -2,8 +2,8 @@
 #pragma once
 #include <optional>
 
+#include "common/tile_workers.h"
 #include "meshbound/bvh.h"
-#include "meshbound/tiles.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound::tools {
@@ -17,9 +17,10 @@ class MeshWithTree {
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 
-  /// Makes measurements run tile by tile from here on, as the whole tree may not fit into memory.
-  void measure_in_tiles(const TileOptions& tiles) { tiles_ = tiles; }
-  [[nodiscard]] const std::optional<TileOptions>& tiles() const { return tiles_; }
+  /// Makes measurements run tile by tile from here on, as the whole tree may not fit into memory. `workers` must
+  /// outlive this.
+  void measure_in_tiles(TileWorkers& workers) { workers_ = &workers; }
+  [[nodiscard]] TileWorkers* workers() const { return workers_; }  ///< null: it is measured by its tree
 
   /// Throws `Stopped` as `stop` says; the next call starts again.
   [[nodiscard]] const Bvh& tree(const StopToken& stop) {
@@ -31,7 +32,7 @@ class MeshWithTree {
   const TriangleMesh& mesh_;
   int threads_;
   std::optional<Bvh> tree_;
-  std::optional<TileOptions> tiles_;
+  TileWorkers* workers_ = nullptr;
 };
 
 }  // namespace meshbound::tools

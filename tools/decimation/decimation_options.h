@@ -8,6 +8,8 @@
 
 namespace meshbound::tools {
 
+class TileWorkers;
+
 struct DecimationOptions {
   std::string input, driver, cost = "garland-heckbert";
   bool preserve_boundary = false;
@@ -19,6 +21,7 @@ struct DecimationOptions {
   WriteOptions write;
   std::string error_bound;  ///< of the measurements, a length as typed; empty: the default
   CommonOptions common;
+  TileWorkers* workers = nullptr;  ///< who works on tiles; null: meshes are decimated and measured in one piece
 };
 
 /// Adds --driver, --cost, --preserve-boundary, --feature-angle, --line-tolerance, --placement, --drop-attributes,

@@ -49,7 +49,11 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
   const FileFormat format = format_of(output);
   const bool carries = !shared_.drop_attributes && carries_attributes(format);
   original_ = read_input(shared_.input, with_checksum, report, stop_of_reading(shared_.common, watch_),
-                         carries ? &attributes_ : nullptr);
+                         carries ? &attributes_ : nullptr, shared_.workers);
+  if (shared_.workers != nullptr) {
+    shared_.workers->keep(original_);
+    measured_original_.measure_in_tiles(*shared_.workers);
+  }
   validate(original_);
   if (carries) attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
   if (shared_.strict && *report.dropped != DroppedAttributes{})
@@ -173,11 +177,6 @@ std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output, 
   if (!original_lines_ || !output.line_distance()) return std::nullopt;
   return LineReport{std::min(original_lines_->tolerance, tolerance), lines_.size(), output.line_edges(),
                     *output.line_distance()};
-}
-
-void DecimationRun::work_in_tiles(const TileOptions& tiles, int threads) {
-  measured_original_.measure_in_tiles(tiles);
-  threads_ = threads;
 }
 
 int DecimationRun::threads() const { return threads_ > 0 ? threads_ : omp_get_max_threads(); }

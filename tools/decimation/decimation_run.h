@@ -32,8 +32,8 @@ class DecimationRun {
 
   /// Options of a decimation whose results are measured as they read from files like `output`.
   [[nodiscard]] SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
-  /// From now on meshes are measured tile by tile, and that and what is decimated uses so many threads.
-  void work_in_tiles(const TileOptions& tiles, int threads);
+  /// From now on decimations and measurements use so many threads.
+  void use_threads(int threads) { threads_ = threads; }
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
   /// How a browser repeats the measurement of an output.

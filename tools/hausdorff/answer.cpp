@@ -134,15 +134,15 @@ Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b, con
 }
 
 Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
-                       const DistanceOptions& from, const TileOptions& tiles) {
+                       const DistanceOptions& from, TileWorkers& workers) {
   DistanceOptions options = from;
   if (question.error_bound) options.error_bound = question.error_bound_of_image();
   if (question.tolerance) options.tolerance = question.tolerance_of_image();
   if (question.one_sided) {
-    const OneSidedDistance result = one_sided_hausdorff_distance_in_tiles(a, b, options, tiles);
+    const OneSidedDistance result = workers.measure_one_side(a, b, options);
     return answer_of(result.bounds, result, {}, question);
   }
-  const HausdorffDistance result = hausdorff_distance_in_tiles(a, b, options, tiles);
+  const HausdorffDistance result = workers.measure(a, b, options);
   return answer_of(result.bounds, result.a_to_b, result.b_to_a, question);
 }
 

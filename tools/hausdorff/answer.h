@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "common/tile_workers.h"
 #include "common/tool_main.h"
 #include "hausdorff/question.h"
 #include "meshbound/distance.h"
-#include "meshbound/tiles.h"
 
 namespace meshbound::tools {
 
@@ -34,7 +34,7 @@ struct Answer {
 
 /// Answers tile by tile as `answer_by_trees` does, without trees of whole meshes.
 [[nodiscard]] Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
-                                     const DistanceOptions& options, const TileOptions& tiles);
+                                     const DistanceOptions& options, TileWorkers& workers);
 
 /// Allows for the rounding of B's image and derives verdict, outcome, reason and exit code. A measurement is "done"
 /// only when its interval is as narrow as was asked.

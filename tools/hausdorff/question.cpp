@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 
 #include "common/standard_streams.h"
 #include "meshbound/distance.h"
@@ -12,7 +13,17 @@
 
 namespace meshbound::tools {
 
-void add_arguments(CLI::App& app, Arguments& arguments) {
+namespace {
+
+/// What needs trees of whole meshes, so that it does not go with --memory.
+constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
+    {"--poses", "--nearest", "--texture", "--certificate", "--heatmap", "--heatmap-original", "--image", "--report"});
+
+/// What speaks of one of these.
+constexpr std::array options_without_use_for_tiles =
+    std::to_array<const char*>({"--align", "--count", "--texture-tolerance", "--texture-size"});
+
+void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
   app.add_option("B", arguments.b, "The mesh to compare with it; - for standard input; not with --nearest");
   add_stream_format(app, "--format", arguments.format, "input");
@@ -65,13 +76,25 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
       app.add_option("--memory", arguments.memory,
                      "Work tile by tile within this memory, such as 4G, where the trees of whole meshes would not fit");
   add_deviation_options(app, arguments.deviation, "A", "B");
-  for (const char* const name :
-       {"--poses", "--nearest", "--texture", "--certificate", "--heatmap", "--heatmap-original", "--image", "--report"})
-    memory->excludes(app.get_option(name));
+  for (const char* const name : options_of_whole_meshes) memory->excludes(app.get_option(name));
   add_common_options(app, arguments.common);
+}
+
+}  // namespace
+
+void add_arguments(CLI::App& app, Arguments& arguments) {
+  add_options(app, arguments);
   add_examples(
       app, {"hausdorff_distance bunny.ply small.ply", "hausdorff_distance bunny.ply small.ply --tolerance 0.1% --quiet",
             "hausdorff_distance bunny.ply --nearest models"});
+}
+
+void add_tile_arguments(CLI::App& app, Arguments& arguments) {
+  add_options(app, arguments);
+  for (const char* const name : options_without_use_for_tiles) (void)app.remove_option(app.get_option(name));
+  for (const char* const name : options_of_whole_meshes) (void)app.remove_option(app.get_option(name));
+  app.get_option("B")->required();
+  add_examples(app, {"mpirun -n 4 hausdorff_distance_mpi bunny.ply small.ply --tolerance 0.1%"});
 }
 
 void resolve_streams(Arguments& arguments) {

@@ -12,6 +12,8 @@
 
 namespace meshbound::tools {
 
+class TileWorkers;
+
 /// The command line of hausdorff_distance.
 struct Arguments {
   std::string a;
@@ -35,9 +37,13 @@ struct Arguments {
   Method method = Method::CellWalking;
   DeviationRequest deviation;
   CommonOptions common;
+  TileWorkers* workers = nullptr;  ///< who works on tiles; null: trees of whole meshes are searched
 };
 
 void add_arguments(CLI::App& app, Arguments& arguments);
+
+/// Adds those that a measurement in tiles knows, of which --memory may be left out.
+void add_tile_arguments(CLI::App& app, Arguments& arguments);
 
 /// Puts what "-" stands for in place of it. Throws `InvalidInput` where it cannot be used, or not without --format.
 void resolve_streams(Arguments& arguments);

@@ -2,6 +2,7 @@
 #include "simplify/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
 
 #include "common/standard_streams.h"
 #include "meshbound/error.h"
@@ -25,9 +26,17 @@ void check_formats(const SimplifyArguments& arguments) {
     throw InvalidInput("--output-format is for a mesh on standard output: OUT is then -");
 }
 
-}  // namespace
+/// What needs the mesh in one piece, so that it does not go with --memory.
+constexpr std::array options_of_whole_meshes =
+    std::to_array<const char*>({"--levels", "--target-faces", "--target-ratio", "--certificate", "--prune", "--batch",
+                                "--texture-tolerance", "--normal-tolerance", "--feature-angle", "--line-tolerance",
+                                "--heatmap", "--heatmap-original", "--image", "--report"});
 
-void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
+/// What speaks of one of these, or of an attribute.
+constexpr std::array options_without_use_for_tiles =
+    std::to_array<const char*>({"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run"});
+
+void add_options(CLI::App& app, SimplifyArguments& arguments) {
   app.add_option("IN", arguments.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input");
   app.add_option("OUT", arguments.output,
                  "File for the result; its extension chooses the format; - for standard output, where nothing else is "
@@ -78,15 +87,28 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
       "without attributes");
   add_deviation_options(app, arguments.deviation, "IN", "OUT");
   add_decimation_options(app, arguments);
-  for (const char* const name : {"--levels", "--target-faces", "--target-ratio", "--certificate", "--prune", "--batch",
-                                 "--texture-tolerance", "--normal-tolerance", "--feature-angle", "--line-tolerance",
-                                 "--heatmap", "--heatmap-original", "--image", "--report"})
-    memory->excludes(app.get_option(name));
+  for (const char* const name : options_of_whole_meshes) memory->excludes(app.get_option(name));
+}
+
+}  // namespace
+
+void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
+  add_options(app, arguments);
   add_examples(app,
                {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
                 "simplify_with_bound bunny.ply part.stl --tolerance 0.05 --feature-angle 30 --line-tolerance 0.01",
                 "simplify_with_bound bunny.ply small.ply --tolerance 0.1% --certificate small.cert --json small.json",
                 "simplify_with_bound --batch models --output-dir small --tolerance 0.1% --jobs 2"});
+}
+
+void add_tile_arguments(CLI::App& app, SimplifyArguments& arguments) {
+  const std::string description = app.get_description();
+  add_options(app, arguments);
+  app.description(description);  // without what it says of attributes
+  for (const char* const name : options_of_whole_meshes) (void)app.remove_option(app.get_option(name));
+  for (const char* const name : options_without_use_for_tiles) (void)app.remove_option(app.get_option(name));
+  add_examples(app, {"mpirun -n 4 simplify_with_bound_mpi bunny.ply small.ply --tolerance 0.1%",
+                     "srun simplify_with_bound_mpi terrain.ply small.ply --tolerance 0.02% --memory 16G --threads 8"});
 }
 
 void resolve_streams(SimplifyArguments& arguments) {

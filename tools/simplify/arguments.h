@@ -31,4 +31,7 @@ void resolve_streams(SimplifyArguments& arguments);
 /// Adds all options of simplify_with_bound; `arguments` must outlive the parsing.
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments);
 
+/// Adds those that a run in tiles knows, of which --memory may be left out.
+void add_tile_arguments(CLI::App& app, SimplifyArguments& arguments);
+
 }  // namespace meshbound::tools

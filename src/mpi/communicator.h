@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meshbound::mpi {
+
+/// The ranks of a run, and what they say to one another. Who waits sleeps, so that ranks that share a processor do not
+/// take it from those that work. All members but `rank`, `size` and the counters are for the thread that initialised
+/// MPI, and all but the messages between two ranks must be called by all ranks in the same order.
+class Communicator {
+ public:
+  /// Uses a copy of `ranks`, so that no message of the caller can be mistaken for one of these.
+  explicit Communicator(MPI_Comm ranks);
+  ~Communicator();
+  Communicator(const Communicator&) = delete;
+  Communicator& operator=(const Communicator&) = delete;
+
+  [[nodiscard]] int rank() const { return rank_; }
+  [[nodiscard]] int size() const { return size_; }
+
+  /// Gives all ranks the bytes of `root`.
+  void broadcast(std::string& bytes, int root);
+  /// As above for `size` bytes where all ranks know the size.
+  void broadcast(char* bytes, std::size_t size, int root);
+  /// The bytes of each rank, by rank, on all of them.
+  [[nodiscard]] std::vector<std::string> all_gather(std::string bytes);
+  [[nodiscard]] bool any(bool here);
+  /// The sum over all ranks.
+  [[nodiscard]] std::uint64_t sum(std::uint64_t here);
+  /// Where `error` is not null on some rank, all ranks throw that of the first one: its kind where it is one of this
+  /// library's or out of memory, else `Error`.
+  void throw_together(const std::exception_ptr& error);
+  /// Whether `throw_together` has thrown since `begin_together`: all ranks have left what they did, and none waits for
+  /// another.
+  void begin_together() { has_thrown_together_ = false; }
+  [[nodiscard]] bool has_thrown_together() const { return has_thrown_together_; }
+
+  /// One number to another rank.
+  void send(std::int64_t number, int to, int tag);
+  struct Message {
+    int from = 0;
+    std::int64_t number = 0;
+  };
+  /// A number that has come with this tag, if one has.
+  [[nodiscard]] std::optional<Message> receive(int tag);
+
+  /// Bytes that this rank has sent, each as often as there are receivers.
+  [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }
+
+ private:
+  MPI_Comm ranks_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+  bool has_thrown_together_ = false;
+  std::uint64_t bytes_sent_ = 0;
+};
+
+/// Sleeps for about half a millisecond.
+void rest();
+
+}  // namespace meshbound::mpi

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "mpi/communicator.h"
+#include "tiles/tile_jobs.h"
+
+namespace meshbound::mpi {
+
+/// All ranks work on the same jobs: rank 0 hands the next one, heaviest first, to whichever asks, and when all are done
+/// each rank gets the results of the others. Ranks that are slower, or have heavier jobs, so get fewer of them. The
+/// thread that calls `run` hands out and asks, besides `threads` others that work. Every rank throws what a job of some
+/// rank has thrown.
+class RankRunner : public JobRunner {
+ public:
+  /// `ranks` must outlive this. `threads`: of this rank; 0 for as many as OpenMP has.
+  RankRunner(Communicator& ranks, int threads);
+  void run(TileJobs& jobs) override;
+  [[nodiscard]] bool any(bool here) override { return ranks_.any(here); }
+
+ private:
+  void exchange(TileJobs& jobs, const std::vector<std::size_t>& done);
+
+  Communicator& ranks_;
+  int threads_;
+};
+
+}  // namespace meshbound::mpi

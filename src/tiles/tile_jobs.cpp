@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "tiles/tile_jobs.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include "numeric/first_error.h"
+
+namespace meshbound {
+
+std::vector<std::size_t> heaviest_first(const TileJobs& jobs) {
+  std::vector<std::uint64_t> weights(jobs.size());
+  for (std::size_t job = 0; job < weights.size(); ++job) weights[job] = jobs.weight(job);
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return weights[i] > weights[j]; });
+  return order;
+}
+
+ThreadRunner::ThreadRunner(int threads) : threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+
+void ThreadRunner::run(TileJobs& jobs) {
+  const std::vector<std::size_t> order = heaviest_first(jobs);
+  std::uint64_t all = 0;
+  for (const std::size_t job : order) all += jobs.weight(job);
+  std::atomic<std::uint64_t> done = 0;
+  FirstError error;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (error.has_error()) continue;
+    error.guard([&] {
+      jobs.run(order[i]);
+      done += jobs.weight(order[i]);
+      if (omp_get_thread_num() == 0) jobs.progress(static_cast<double>(done) / static_cast<double>(all));
+    });
+  }
+  error.rethrow();
+}
+
+}  // namespace meshbound

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// The Hausdorff distance between two meshes as a proven interval, or the decision whether it is at most a tolerance.
+#include "hausdorff/distance_run.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "common/affine_argument.h"
+#include "common/distinct_files.h"
+#include "common/length.h"
+#include "common/memory.h"
+#include "common/mesh_input.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/provenance.h"
+#include "common/run_limits.h"
+#include "common/signals.h"
+#include "common/stopwatch.h"
+#include "common/threads.h"
+#include "common/tile_workers.h"
+#include "common/time_limit.h"
+#include "common/tool_main.h"
+#include "deviation/deviation_outputs.h"
+#include "hausdorff/answer.h"
+#include "hausdorff/motion.h"
+#include "hausdorff/nearest.h"
+#include "hausdorff/question.h"
+#include "hausdorff/text_report.h"
+#include "mesh/atomic_file.h"
+#include "meshbound/certificate.h"
+#include "meshbound/error.h"
+#include "meshbound/io.h"
+#include "meshbound/mesh_summary.h"
+#include "meshbound/report.h"
+#include "meshbound/texture_deviation.h"
+#include "meshbound/transform.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// Reads a mesh and, if there is a map, maps it. Returns a bound of how far rounding has moved its vertices.
+double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
+            const StopToken& stop, TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes,
+            TileWorkers* workers) {
+  mesh = read_input(path, with_checksum, report, stop, attributes, workers);
+  report.dropped.reset();  // nothing is written again
+  double displacement = 0;
+  if (map) {
+    TransformedMesh image = transformed(mesh, *map);
+    mesh = std::move(image.mesh);
+    displacement = image.displacement_bound;
+    report.summary = summarise(mesh);
+  } else if (workers != nullptr) {
+    workers->keep(mesh);
+  }
+  return displacement;
+}
+
+DistanceOptions engine_options(const Arguments& arguments, const Stopwatch& watch, ProgressBar& bar) {
+  DistanceOptions options;
+  options.method = arguments.method;
+  set_run_limits(options, arguments.common, watch, bar);
+  return options;
+}
+
+/// Answers by searching trees. Building these may take until `patience` after the time limit, since the bounds that a
+/// search gives at once are worth more than that time; later, nothing is searched.
+Answer searched_answer(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                       const Arguments& arguments, Stopwatch& watch, double& build_seconds) {
+  try {
+    const auto [tree_a, tree_b] =
+        build_trees(a, b, {arguments.common.threads, stop_of_run(arguments.common, watch, patience)});
+    build_seconds = watch.lap();
+    ProgressBar bar("measuring", arguments.common.quiet);
+    return answer_by_trees(question, tree_a, tree_b, engine_options(arguments, watch, bar));
+  } catch (const Stopped&) {
+    return unsearched_answer(question);
+  }
+}
+
+/// As `searched_answer`, tile by tile.
+Answer answer_by_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+                       const Arguments& arguments, const Stopwatch& watch) {
+  ProgressBar bar("measuring", arguments.common.quiet);
+  DistanceOptions options = engine_options(arguments, watch, bar);
+  if (!arguments.memory.empty())
+    options.threads =
+        threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
+                       a.triangles.size() + b.triangles.size(), TileOptions(), cost_of_measuring, options.threads);
+  return answer_in_tiles(question, a, b, options, *arguments.workers);
+}
+
+/// Checks, before any work, that no output replaces an input and that every output can be written.
+void check_paths(const Arguments& arguments) {
+  std::vector<NamedPath> outputs = arguments.deviation.outputs();
+  outputs.push_back({"--json", arguments.common.json});
+  outputs.push_back({"--certificate", arguments.certificate});
+  require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--transform-b", arguments.transform_b}}, outputs);
+  arguments.deviation.check();
+  if (!arguments.common.json.empty()) check_writable(arguments.common.json);
+}
+
+/// Writes the proof of a tolerance that was found to hold. False if there was no time for it.
+bool write_certificate(AtomicFile& file, const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
+                       double tolerance, const Stopwatch& watch) {
+  ProgressBar bar("proving", arguments.common.quiet);
+  CertificateOptions options;
+  options.threads = arguments.common.threads;
+  options.cancel = &interrupted();
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  options.seconds = seconds_left(arguments.common, watch);
+  const auto certificate = build_certificate(a, b, tolerance, options);
+  if (!certificate) return false;
+  file.write({reinterpret_cast<const char*>(certificate->bytes.data()), certificate->bytes.size()});
+  file.commit();
+  return true;
+}
+
+/// How a browser repeats the search for the answer.
+RepeatedMeasurement repeated(const Answer& answer, const Question& question, const Arguments& arguments) {
+  RepeatedMeasurement repeated;
+  repeated.decides = question.tolerance && (question.decide_first || !question.error_bound);
+  repeated.error_bound = question.error_bound;
+  repeated.tolerance = question.tolerance;
+  repeated.one_sided = question.one_sided;
+  const std::string cannot = "The engine of this page cannot repeat how this was measured: ";
+  if (question.displacement > 0) repeated.obstacle = cannot + "--transform-b moved B.";
+  if (arguments.method != Method::CellWalking) repeated.obstacle = cannot + "by another --method.";
+  if (answer.outcome == Outcome::BudgetExhausted) repeated.obstacle = cannot + "a limit of time ended it.";
+  return repeated;
+}
+
+/// Measures what heatmaps, pictures and reports show. False if there was no time for it.
+bool measure_deviation(DeviationOutputs& outputs, const Answer& answer, const Question& question, const TriangleMesh& a,
+                       const TriangleMesh& b, const Arguments& arguments, const Stopwatch& watch) {
+  const ProgressBar bar("measuring deviations", arguments.common.quiet);
+  DeviationSubject subject;
+  subject.original = &a;
+  subject.result = &b;
+  subject.original_name = "A";
+  subject.result_name = "B";
+  subject.scale = scale_for(question.tolerance.value_or(0), answer.bounds, bounding_box_diagonal(a));
+  const auto worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
+  subject.worst_is_on_original = !worst || worst->on_a;
+  subject.measurement = repeated(answer, question, arguments);
+  try {
+    outputs.measure(subject, {arguments.common.threads, stop_of_run(arguments.common, watch)});
+    return true;
+  } catch (const Stopped&) {
+    if (interrupted()) throw Error("interrupted before the deviation was measured; none of its files was written");
+    return false;
+  }
+}
+
+void fill(DistanceReport& report, const Answer& answer, const Question& question, const Arguments& arguments) {
+  report.provenance = provenance();
+  report.verdict = answer.verdict;
+  report.outcome = answer.outcome;
+  report.reason = answer.reason;
+  report.error_bound = question.error_bound;
+  report.tolerance = question.tolerance;
+  report.bounds = answer.bounds;
+  report.a_to_b = answer.a_to_b;
+  report.b_to_a = answer.b_to_a;
+  report.worst_was_wanted = arguments.worst;
+  report.texture_was_wanted = arguments.texture;
+  report.worst = worst_spot(answer.bounds, answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr);
+}
+
+/// Writes the JSON document and the text. With --quiet, an answer that is no success is still reported on stderr.
+void tell(const DistanceReport& report, const Arguments& arguments) {
+  if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(report));
+  if (arguments.common.quiet) {
+    const std::string line = closing_line(report);
+    if (!line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
+  } else if (arguments.common.json != "-") {
+    print_report(report, arguments.profile);
+  }
+}
+
+/// Reports the bounds proven before an interruption: they may have taken an hour.
+[[noreturn]] void throw_interrupted(const Bounds& bounds) {
+  throw Error("interrupted; proven until then: " + exact_number(bounds.lower) +
+              " <= distance <= " + exact_number(bounds.upper));
+}
+
+void widen(TextureDeviation& deviation, double displacement) {
+  deviation.bounds = widened(deviation.bounds, displacement);
+  deviation.a_to_b.bounds = widened(deviation.a_to_b.bounds, displacement);
+  deviation.b_to_a.bounds = widened(deviation.b_to_a.bounds, displacement);
+}
+
+void require_texture(const std::string& path, const MeshAttributes& attributes) {
+  if (attributes.texture_coordinates.empty())
+    throw InvalidInput(path + ": no texture coordinates were found, which --texture needs");
+}
+
+/// Makes the exit code the worse of the two answers: exceeding one tolerance counts whatever else is undecided.
+void join(Answer& answer, Verdict texture) {
+  if (texture == Verdict::Within || answer.exit_code == ExitExceeds) return;
+  answer.exit_code = exit_code(texture);
+  answer.verdict = to_string(texture);
+  if (texture == Verdict::Exceeds) answer.outcome = Outcome::ExceedsTolerance;
+}
+
+void measure_texture(DistanceReport& report, const Arguments& arguments, const TypedLengths& lengths,
+                     const std::array<TexturedMesh, 2>& meshes, const Stopwatch& watch, Answer& answer) {
+  TextureReport texture;
+  const double diagonal = report.a.summary.bbox_diagonal;
+  texture.texture_size = arguments.texture_size;
+  if (texture.texture_size) texture.texel_length = texel_length(meshes[0], *texture.texture_size);
+  if (lengths.texture_tolerance)
+    texture.tolerance = lengths.texture_tolerance->in_model_units(diagonal, texture.texel_length);
+  TextureDeviationOptions options;
+  options.threads = arguments.common.threads;
+  options.stop = stop_of_run(arguments.common, watch, patience);
+  if (lengths.error_bound) options.error_bound = lengths.error_bound->in_model_units(diagonal);
+  try {
+    texture.deviation = texture_deviation(meshes[0], meshes[1], options);
+  } catch (const Stopped&) {
+    if (interrupted()) throw_interrupted(answer.bounds);
+    join(answer, Verdict::Undecided);
+    answer.outcome = Outcome::BudgetExhausted;
+    answer.reason = "the time limit came before the texture deviation was measured";
+    return;
+  }
+  if (report.transform_displacement) widen(texture.deviation, *report.transform_displacement);
+  if (texture.tolerance) join(answer, verdict_of(texture.deviation.bounds, *texture.tolerance));
+  report.texture = texture;
+}
+
+}  // namespace
+
+int run_distance(const Arguments& arguments) {
+  Stopwatch watch;
+  const TypedLengths lengths = parse_lengths(arguments);
+  if (!arguments.memory.empty()) limit_memory(parse_memory("--memory", arguments.memory));
+  if (!arguments.nearest.empty()) return run_nearest(arguments);
+  if (!arguments.poses.empty()) return run_motion(arguments);
+  check_paths(arguments);
+  std::optional<AtomicFile> certificate;
+  std::optional<DeviationOutputs> deviation;
+  if (arguments.deviation.has_any()) deviation.emplace(arguments.deviation);
+  if (!arguments.certificate.empty())
+    certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
+  std::optional<Eigen::Affine3d> map;
+  if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
+
+  DistanceReport report;
+  TriangleMesh a, b;
+  MeshAttributes attributes_of_a, attributes_of_b;
+  double displacement = 0;
+  const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
+  const StopToken stop = stop_of_reading(arguments.common, watch);
+  run_both(
+      arguments.workers == nullptr ? arguments.common.threads : 1,  // workers read one file after the other
+      [&] {
+        load(arguments.a, std::nullopt, with_checksums, stop, a, report.a,
+             arguments.texture ? &attributes_of_a : nullptr, arguments.workers);
+      },
+      [&] {
+        displacement = load(arguments.b, map, with_checksums, stop, b, report.b,
+                            arguments.texture ? &attributes_of_b : nullptr, arguments.workers);
+      });
+  if (map) report.transform_displacement = displacement;
+  const Question question = question_about(a, b, arguments, lengths, report.a.summary.bbox_diagonal, displacement);
+  report.seconds.read = watch.lap();
+
+  std::optional<Answer> found = answer_without_trees(question, a, b, arguments.method);
+  if (!found)
+    found = arguments.workers == nullptr ? searched_answer(question, a, b, arguments, watch, report.seconds.build)
+                                         : answer_by_tiles(question, a, b, arguments, watch);
+  Answer& answer = *found;
+  conclude(answer, question);
+  if (interrupted() && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
+  report.seconds.query = watch.lap();
+  if (certificate && answer.exit_code == ExitDone &&
+      !write_certificate(*certificate, arguments, a, b, *question.tolerance, watch)) {
+    if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
+    std::fprintf(stderr, "%s: no time was left for the certificate; it was not written\n", provenance().tool.c_str());
+    answer.exit_code = ExitUndecided;
+    answer.outcome = Outcome::BudgetExhausted;
+    answer.reason = "the time limit came before the certificate was complete";
+  }
+  if (arguments.texture) {
+    require_texture(arguments.a, attributes_of_a);
+    require_texture(arguments.b, attributes_of_b);
+    measure_texture(report, arguments, lengths, textured_meshes(a, attributes_of_a, b, attributes_of_b), watch, answer);
+  }
+  if (deviation && measure_deviation(*deviation, answer, question, a, b, arguments, watch)) {
+    report.deviation = deviation->report();
+  } else if (deviation) {
+    deviation.reset();
+    std::fprintf(stderr, "%s: no time was left to measure deviations; their files were not written\n",
+                 provenance().tool.c_str());
+    answer.exit_code = ExitUndecided;
+  }
+  report.threads = arguments.common.threads > 0 ? arguments.common.threads : omp_get_max_threads();
+  if (arguments.workers != nullptr) report.communication = arguments.workers->communication();
+  report.seconds.total = watch.seconds();
+  fill(report, answer, question, arguments);
+  if (deviation) deviation->write(to_json(report));
+  tell(report, arguments);
+  return answer.exit_code;
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "mpi/rank_workers.h"
+
+#include <utility>
+
+#include "common/memory.h"
+#include "common/standard_streams.h"
+#include "decimation/drivers.h"
+#include "mesh/readers.h"
+#include "meshbound/error.h"
+#include "mpi/rank_runner.h"
+#include "mpi/read_ranges.h"
+#include "tiles/compact_bytes.h"
+#include "tiles/decimate_in_tiles.h"
+#include "tiles/measure_in_tiles.h"
+
+namespace meshbound::tools {
+
+/// What rank 0 tells the others to do: a message begins with one of these, and what belongs to it follows.
+enum class RankWorkers::Command : std::uint8_t {
+  End,
+  LimitMemory,
+  Read,
+  Take,
+  Decimate,
+  Measure,
+  MeasureOneSide,
+  Count
+};
+
+namespace {
+
+using Command = RankWorkers::Command;
+
+using mpi::Communicator;
+using mpi::RankRunner;
+
+bool lost_step = false;
+
+/// Does what all ranks do at the same time. An exception that not all have is noted, unless it is one that all throw by
+/// themselves: that something is asked for which cannot be.
+template <class Work>
+auto together(Communicator& ranks, const Work& work) {
+  ranks.begin_together();
+  try {
+    return work();
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (...) {
+    if (!ranks.has_thrown_together()) lost_step = true;
+    throw;
+  }
+}
+
+CompactWriter command(Command which) {
+  CompactWriter bytes;
+  bytes.raw(which);
+  return bytes;
+}
+
+void tell(Communicator& ranks, CompactWriter& bytes) {
+  std::string message = bytes.take();
+  ranks.broadcast(message, 0);
+}
+
+/// Those options of a simplification that tiles follow.
+void pack(CompactWriter& to, const SimplifyOptions& options) {
+  to.raw(options.tolerance);
+  to.raw(options.time_limit);
+  to.raw(options.effort);
+  to.raw(options.placements);
+  to.raw(options.precision);
+  to.raw(options.preserve_boundary);
+  to.raw(options.threads);
+}
+
+SimplifyOptions unpack_simplify(CompactReader& from) {
+  SimplifyOptions options;
+  from.raw(options.tolerance);
+  from.raw(options.time_limit);
+  from.raw(options.effort);
+  from.raw(options.placements);
+  from.raw(options.precision);
+  from.raw(options.preserve_boundary);
+  from.raw(options.threads);
+  return options;
+}
+
+void pack(CompactWriter& to, const DistanceOptions& options) {
+  constexpr double none = -1;
+  to.raw(options.error_bound.value_or(none));
+  to.raw(options.tolerance.value_or(none));
+  to.raw(options.budget);
+  to.raw(options.method);
+  to.raw(options.threads);
+}
+
+DistanceOptions unpack_distance(CompactReader& from) {
+  DistanceOptions options;
+  double error_bound = 0, tolerance = 0;
+  from.raw(error_bound);
+  from.raw(tolerance);
+  if (error_bound >= 0) options.error_bound = error_bound;
+  if (tolerance >= 0) options.tolerance = tolerance;
+  from.raw(options.budget);
+  from.raw(options.method);
+  from.raw(options.threads);
+  return options;
+}
+
+void pack(CompactWriter& to, const TriangleMesh& mesh) {
+  to.number(mesh.vertices.size());
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    for (int k = 0; k < 3; ++k) to.raw(p[k]);
+  to.raw(mesh.triangles);
+}
+
+TriangleMesh unpack_mesh(CompactReader& from) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(static_cast<std::size_t>(from.number()));
+  for (Eigen::Vector3d& p : mesh.vertices)
+    for (int k = 0; k < 3; ++k) from.raw(p[k]);
+  from.raw(mesh.triangles);
+  return mesh;
+}
+
+/// What a rank other than 0 has been given, and does with it.
+class Follower {
+ public:
+  explicit Follower(Communicator& ranks) : ranks_(ranks) {}
+
+  /// Returns the exit code once rank 0 has said what it is.
+  int run() {
+    for (;;) {
+      std::string bytes;
+      ranks_.broadcast(bytes, 0);
+      CompactReader from(bytes);
+      Command which{};
+      from.raw(which);
+      if (which == Command::End) return static_cast<int>(from.number());
+      try {
+        together(ranks_, [&] { follow(which, from); });
+      } catch (...) {
+        if (lost_step) throw;  // otherwise rank 0 has the same exception and decides
+      }
+    }
+  }
+
+ private:
+  void follow(Command which, CompactReader& from) {
+    switch (which) {
+      case Command::LimitMemory:
+        return limit_memory(from.number());
+      case Command::Read:
+        return read(std::string(from.text()));
+      case Command::Take:
+        meshes_.push_back(unpack_mesh(from));
+        return;
+      case Command::Decimate:
+        return decimate(from);
+      case Command::Measure:
+      case Command::MeasureOneSide:
+        return measure(which, from);
+      case Command::Count:
+        (void)ranks_.sum(input_bytes_);
+        (void)ranks_.sum(ranks_.bytes_sent() - input_bytes_);
+        return;
+      case Command::End:
+        return;
+    }
+  }
+
+  /// A file that is no mesh leaves no mesh here and ends rank 0.
+  void read(const std::string& path) {
+    const std::uint64_t before = ranks_.bytes_sent();
+    const std::string bytes = mpi::read_ranges(ranks_, path, {});
+    input_bytes_ += ranks_.bytes_sent() - before;
+    meshes_.push_back(parse_mesh(path, bytes).mesh);
+  }
+
+  void decimate(CompactReader& from) {
+    SimplifyOptions options = unpack_simplify(from);
+    const std::string driver(from.text()), cost(from.text());
+    options.driver = collapse_driver(driver, cost);
+    const TileOptions tiles{static_cast<std::size_t>(from.number())};
+    RankRunner runner(ranks_, options.threads);
+    (void)decimate_in_tiles(mesh(from), options, tiles, runner);
+  }
+
+  void measure(Command which, CompactReader& from) {
+    const DistanceOptions options = unpack_distance(from);
+    const TileOptions tiles{static_cast<std::size_t>(from.number())};
+    const TriangleMesh& a = mesh(from);
+    const TriangleMesh& b = mesh(from);
+    RankRunner runner(ranks_, options.threads);
+    if (which == Command::Measure)
+      (void)measure_in_tiles(a, b, options, tiles, runner);
+    else
+      (void)measure_one_side_in_tiles(a, b, options, tiles, runner);
+  }
+
+  [[nodiscard]] const TriangleMesh& mesh(CompactReader& from) const { return meshes_.at(from.number()); }
+
+  Communicator& ranks_;
+  std::vector<TriangleMesh> meshes_;
+  std::uint64_t input_bytes_ = 0;
+};
+
+}  // namespace
+
+RankWorkers::RankWorkers(Communicator& ranks, const RankSetting& setting) : ranks_(ranks), setting_(setting) {}
+
+void RankWorkers::limit_memory(std::uint64_t bytes) {
+  CompactWriter message = command(Command::LimitMemory);
+  message.number(bytes);
+  tell(ranks_, message);
+}
+
+std::optional<std::string> RankWorkers::read(const std::string& path, const StopToken& stop) {
+  last_read_.reset();
+  if (is_stream_path(path)) return std::nullopt;
+  CompactWriter message = command(Command::Read);
+  message.text(path);
+  tell(ranks_, message);
+  const std::uint64_t before = ranks_.bytes_sent();
+  std::string bytes = together(ranks_, [&] { return mpi::read_ranges(ranks_, path, stop); });
+  input_bytes_ += ranks_.bytes_sent() - before;
+  last_read_ = shared_++;
+  return bytes;
+}
+
+void RankWorkers::keep(const TriangleMesh& mesh) { kept_[&mesh] = last_read_ ? *last_read_ : share(mesh); }
+
+/// Sends a mesh that the others have not read. They keep it until the end.
+std::uint64_t RankWorkers::share(const TriangleMesh& mesh) {
+  CompactWriter message = command(Command::Take);
+  pack(message, mesh);
+  tell(ranks_, message);
+  return shared_++;
+}
+
+std::uint64_t RankWorkers::number_of(const TriangleMesh& mesh) {
+  const auto kept = kept_.find(&mesh);
+  return kept != kept_.end() ? kept->second : share(mesh);
+}
+
+SimplifyResult RankWorkers::decimate(const TriangleMesh& original, const SimplifyOptions& options) {
+  CompactWriter message = command(Command::Decimate);
+  pack(message, options);
+  message.text(setting_.driver);
+  message.text(setting_.cost);
+  message.number(setting_.tiles.max_triangles);
+  message.number(kept_.at(&original));
+  tell(ranks_, message);
+  RankRunner runner(ranks_, options.threads);
+  return together(ranks_, [&] { return decimate_in_tiles(original, options, setting_.tiles, runner); });
+}
+
+HausdorffDistance RankWorkers::measure(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {
+  tell_measurement(Command::Measure, a, b, options);
+  RankRunner runner(ranks_, options.threads);
+  return together(ranks_, [&] { return measure_in_tiles(a, b, options, setting_.tiles, runner); });
+}
+
+OneSidedDistance RankWorkers::measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+                                               const DistanceOptions& options) {
+  tell_measurement(Command::MeasureOneSide, a, b, options);
+  RankRunner runner(ranks_, options.threads);
+  return together(ranks_, [&] { return measure_one_side_in_tiles(a, b, options, setting_.tiles, runner); });
+}
+
+void RankWorkers::tell_measurement(Command which, const TriangleMesh& a, const TriangleMesh& b,
+                                   const DistanceOptions& options) {
+  const std::uint64_t number_of_a = number_of(a), number_of_b = number_of(b);
+  CompactWriter message = command(which);
+  pack(message, options);
+  message.number(setting_.tiles.max_triangles);
+  message.number(number_of_a);
+  message.number(number_of_b);
+  tell(ranks_, message);
+}
+
+std::optional<CommunicationReport> RankWorkers::communication() {
+  CompactWriter message = command(Command::Count);
+  tell(ranks_, message);
+  return together(ranks_, [&] {
+    CommunicationReport report{ranks_.size(), ranks_.sum(input_bytes_), 0};
+    report.bytes = ranks_.sum(ranks_.bytes_sent() - input_bytes_);
+    return report;
+  });
+}
+
+int serve(Communicator& ranks) { return Follower(ranks).run(); }
+
+void dismiss(Communicator& ranks, int exit_code) {
+  CompactWriter message = command(Command::End);
+  message.number(static_cast<std::uint64_t>(exit_code));
+  tell(ranks, message);
+}
+
+bool has_lost_step() { return lost_step; }
+
+}  // namespace meshbound::tools

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <map>
+#include <string>
+
+#include "common/tile_workers.h"
+#include "mpi/communicator.h"
+
+namespace meshbound::tools {
+
+/// What all ranks must know to simplify as rank 0 does, beside its options.
+struct RankSetting {
+  std::string driver = "core", cost = "garland-heckbert";
+  TileOptions tiles;
+};
+
+/// Rank 0 of a parallel run: tells the others, which are in `serve`, what all do together.
+class RankWorkers : public TileWorkers {
+ public:
+  /// `ranks` must outlive this.
+  RankWorkers(mpi::Communicator& ranks, const RankSetting& setting);
+
+  /// Limits the memory of the others as `tools::limit_memory` does.
+  void limit_memory(std::uint64_t bytes);
+
+  [[nodiscard]] std::optional<std::string> read(const std::string& path, const StopToken& stop) override;
+  void keep(const TriangleMesh& mesh) override;
+  [[nodiscard]] SimplifyResult decimate(const TriangleMesh& original, const SimplifyOptions& options) override;
+  [[nodiscard]] HausdorffDistance measure(const TriangleMesh& a, const TriangleMesh& b,
+                                          const DistanceOptions& options) override;
+  [[nodiscard]] OneSidedDistance measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+                                                  const DistanceOptions& options) override;
+  [[nodiscard]] std::optional<CommunicationReport> communication() override;
+
+  enum class Command : std::uint8_t;
+
+ private:
+  [[nodiscard]] std::uint64_t share(const TriangleMesh& mesh);
+  [[nodiscard]] std::uint64_t number_of(const TriangleMesh& mesh);
+  void tell_measurement(Command which, const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options);
+
+  mpi::Communicator& ranks_;
+  RankSetting setting_;
+  std::map<const TriangleMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
+  std::uint64_t shared_ = 0;                           ///< meshes that the others have
+  std::optional<std::uint64_t> last_read_;             ///< number of the file that came through `read` last
+  std::uint64_t input_bytes_ = 0;                      ///< that this rank sent
+};
+
+/// The other ranks: do what rank 0 says until it calls `dismiss`, and return the exit code that it gives.
+[[nodiscard]] int serve(mpi::Communicator& ranks);
+
+/// Ends `serve` on the other ranks. To be called by rank 0 unless `has_lost_step`.
+void dismiss(mpi::Communicator& ranks, int exit_code);
+
+/// Whether this rank has left something that the others are still at, by an exception that they do not know of: they
+/// can only be ended from outside.
+[[nodiscard]] bool has_lost_step();
+
+}  // namespace meshbound::tools

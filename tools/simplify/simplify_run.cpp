@@ -1,0 +1,530 @@
+// SPDX-License-Identifier: MIT
+// A run of simplify_with_bound: as few triangles as possible, never further than the tolerance from the original. A
+// file appears under the name OUT only after it was written, read back and measured against IN.
+#include "simplify/simplify_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "common/distance_text.h"
+#include "common/distinct_files.h"
+#include "common/length.h"
+#include "common/memory.h"
+#include "common/output.h"
+#include "common/output_folder.h"
+#include "common/provenance.h"
+#include "common/signals.h"
+#include "common/standard_streams.h"
+#include "common/texture_length.h"
+#include "common/texture_text.h"
+#include "common/tile_workers.h"
+#include "decimation/decimation_run.h"
+#include "decimation/kept_vertices.h"
+#include "deviation/deviation_outputs.h"
+#include "levels/level_run.h"
+#include "mesh/atomic_file.h"
+#include "meshbound/certificate.h"
+#include "meshbound/error.h"
+#include "simplify/reproducer.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// One run of the tool, in the order of its phases.
+class Run : DecimationRun {
+ public:
+  explicit Run(const SimplifyArguments& options) : DecimationRun(options), options_(options) {}
+  int operator()();
+
+ private:
+  void parse_target();
+  void check_paths() const;
+  [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
+  [[nodiscard]] std::filesystem::path certificate_path(std::size_t index) const;
+  void read();
+  void plan_memory();
+  [[nodiscard]] SimplifyResult decimated(const SimplifyOptions& options) const;
+  void choose_tolerances();
+  void print_estimate() const;
+  void open_outputs();
+  void simplify();
+  void choose_appearance();
+  [[nodiscard]] bool tightens_appearance();
+  [[nodiscard]] bool keeps_appearance() const;
+  [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
+  void guard_texture(SimplifyOptions& simplify) const;
+  void certify();
+  [[nodiscard]] std::optional<Certificate> certificate_of(const GatedOutput& output, double tolerance,
+                                                          CertificateOptions options) const;
+  void write_certificates();
+  void measure_deviation();
+  void end_if_interrupted() const;
+  void publish();
+  void report();
+  void print_summary() const;
+  [[nodiscard]] std::string end_reason() const;
+
+  const SimplifyArguments& options_;
+  std::optional<OutputFolder> folder_;  ///< of the levels
+  std::vector<GatedOutput> outputs_;
+  std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
+  std::optional<DeviationOutputs> deviation_;
+  SimplifyResult result_;
+  SimplifyReport report_;
+  Verdict verdict_ = Verdict::Undecided;
+  /// Whether the time limit ended the run: OUT is then the best mesh proven by that time.
+  [[nodiscard]] bool ended_by_time() const;
+  /// Whether some output contains the JSON document, which needs the checksums of the files.
+  [[nodiscard]] bool has_document() const {
+    return !options_.common.json.empty() || !options_.deviation.report.empty();
+  }
+
+  std::optional<double> target_ratio_;
+  std::optional<TextureLength> typed_texture_tolerance_;
+  std::optional<OriginalTexture> original_texture_;
+  double texel_length_ = 0;
+  std::optional<KeptVertices> kept_vertices_;
+  std::vector<std::string> checksums_;  ///< of the outputs, when a document is to name them
+  std::vector<DecidedBy> decided_by_;   ///< of the outputs
+};
+
+int Run::operator()() {
+  parse_target();
+  check_paths();
+  read();
+  choose_tolerances();
+  choose_appearance();
+  if (options_.dry_run) {
+    print_estimate();
+    return ExitDone;
+  }
+  open_outputs();
+  do {
+    simplify();
+    end_if_interrupted();
+    certify();
+  } while (tightens_appearance());
+  if (verdict_ == Verdict::Within) write_certificates();
+  if (verdict_ == Verdict::Within && deviation_) measure_deviation();
+  if (verdict_ == Verdict::Within) publish();
+  report();
+  const bool lacks_deviation = options_.deviation.has_any() && !report_.deviation;
+  return verdict_ == Verdict::Within && (ended_by_time() || lacks_deviation) ? ExitUndecided : exit_code(verdict_);
+}
+
+void Run::parse_target() {
+  if (!options_.target_ratio.empty()) target_ratio_ = parse_share("--target-ratio", options_.target_ratio);
+  if (!options_.texture_tolerance.empty())
+    typed_texture_tolerance_ =
+        parse_texture_length("--texture-tolerance", options_.texture_tolerance, options_.texture_size.has_value());
+}
+
+void Run::read() {
+  read_original(report_.original, has_document(), options_.output);
+  if (!options_.memory.empty()) plan_memory();
+  report_.seconds.read = watch_.lap();
+}
+
+/// Sets the number of triangles in a tile and the threads by --memory. The limit itself holds since the start of the
+/// process.
+void Run::plan_memory() {
+  const TileOptions tiles;
+  use_threads(threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
+                             original_.triangles.size(), tiles, cost_of_simplifying, options_.common.threads));
+}
+
+SimplifyResult Run::decimated(const SimplifyOptions& options) const {
+  return options_.workers == nullptr ? decimate_levels(original_, options, attributes_)
+                                     : options_.workers->decimate(original_, options);
+}
+
+/// Fills `tolerances_`, the last being that of OUT.
+void Run::choose_tolerances() {
+  add_tolerances("--levels", options_.levels);
+  sort_tolerances();
+  if (!options_.tolerance.empty()) {
+    const double largest_level = tolerances_.empty() ? 0 : tolerances_.back();
+    add_tolerances("--tolerance", {options_.tolerance});
+    if (tolerances_.back() < largest_level)
+      throw InvalidInput("--levels: a level is larger than --tolerance, which is that of OUT");
+  } else if (tolerances_.empty()) {
+    throw InvalidInput(
+        "--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%, or "
+        "--tolerance 100% where only the number of faces counts");
+  }
+  sort_tolerances();
+  report_.tolerance = tolerances_.back();
+}
+
+void Run::choose_appearance() {
+  if (typed_texture_tolerance_ || options_.normal_tolerance) kept_vertices_.emplace(original_);
+  if (!typed_texture_tolerance_) return;
+  if (attributes_.texture_coordinates.empty())
+    throw InvalidInput(
+        "--texture-tolerance needs texture coordinates, and an IN and OUT of a format that carries them "
+        "(OBJ, PLY, glTF): none were found in " +
+        options_.input);
+  if (options_.texture_size)
+    texel_length_ =
+        texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *options_.texture_size);
+  const double tolerance = typed_texture_tolerance_->in_model_units(diagonal_, texel_length_);
+  original_texture_ = OriginalTexture{&original_, &attributes_, tolerance};
+}
+
+/// `index` 0 is that of the smallest tolerance.
+std::filesystem::path Run::level_path(std::size_t index) const {
+  const std::filesystem::path out = options_.output;
+  const std::filesystem::path folder =
+      options_.output_dir.empty() ? out.parent_path() : std::filesystem::path(options_.output_dir);
+  return folder / (out.stem().string() + "_level_" + std::to_string(index) + out.extension().string());
+}
+
+std::filesystem::path Run::certificate_path(std::size_t index) const {
+  const std::filesystem::path certificate = options_.certificate;
+  return certificate.parent_path() /
+         (certificate.stem().string() + "_level_" + std::to_string(index) + certificate.extension().string());
+}
+
+/// Checks, before any work, that no output replaces an input or another output.
+void Run::check_paths() const {
+  std::vector<NamedPath> outputs = options_.deviation.outputs();
+  outputs.insert(outputs.end(),
+                 {{"OUT", options_.output}, {"--json", options_.common.json}, {"--certificate", options_.certificate}});
+  for (std::size_t i = 0; i < options_.levels.size(); ++i) {
+    outputs.push_back({"--levels", level_path(i)});
+    if (!options_.certificate.empty()) outputs.push_back({"--certificate", certificate_path(i)});
+  }
+  require_distinct_files({{"IN", options_.input}}, outputs);
+  options_.deviation.check();
+  if (!options_.common.json.empty()) check_writable(options_.common.json);
+}
+
+/// Prints the estimate of --dry-run, by the times that runs at 0.1% took on the meshes of the benchmark
+/// (docs/benchmarks.md).
+void Run::print_estimate() const {
+  constexpr double bytes_a_triangle = 500, seconds_a_triangle = 20e-6;  // of one thread, from 10e-6 to 40e-6
+  constexpr double mebibyte = 1024 * 1024;
+  const auto faces = static_cast<double>(report_.original.summary.faces);
+  print_line("faces", std::to_string(report_.original.summary.faces));
+  print_line("tolerance", both_units(report_.tolerance, diagonal_));
+  print_line("memory", "about " + short_number(std::ceil(bytes_a_triangle * faces / mebibyte)) + " MiB");
+  print_line("time", "about " + rounded_seconds(seconds_a_triangle * faces) + " s on one thread, half to twice that");
+  print_line("dry run", "nothing was written");
+}
+
+/// Opens an output for each level, if levels are asked for, and then OUT.
+void Run::open_outputs() {
+  if (!options_.levels.empty()) {
+    if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
+    for (std::size_t i = 0; i < tolerances_.size(); ++i) {
+      const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
+      if (is_level) outputs_.emplace_back(level_path(i), stop(), options_.write);
+    }
+  }
+  outputs_.emplace_back(options_.output, stop(), options_.write);
+  if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
+  if (options_.certificate.empty()) return;
+  const StopToken signals{.cancel = &interrupted_};
+  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
+    certificates_.emplace_back(certificate_path(i), AtomicFile::Stream::Staged, signals);
+  certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
+}
+
+void Run::simplify() {
+  ProgressBar bar("simplifying", options_.common.quiet);
+  SimplifyOptions simplify = decimation_options(bar);
+  simplify.tolerance = before_rounding(tolerances_.back());
+  if (kept_vertices_) simplify.locked_vertices = kept_vertices_->locked();
+  if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
+    simplify.tolerance = std::min(simplify.tolerance, original_texture_->tolerance);
+  for (std::size_t i = 0; i + 1 < tolerances_.size(); ++i) simplify.levels.push_back(before_rounding(tolerances_[i]));
+  result_ = decimated(simplify);
+  set_lines(result_.lines);
+  report_.effort = options_.effort;
+  report_.driver = options_.driver;
+  report_.locked_vertices = result_.locked_vertices;
+  report_.pruned = {result_.pruned_components, result_.pruned_faces};
+  report_.stopped_by = to_string(result_.last().ended_by);
+  report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused,
+                       result_.counts.proven_together, result_.counts.taken_back, result_.counts.proven_alone};
+  report_.seconds.simplify = watch_.lap();
+}
+
+/// All options of the decimation except its tolerances.
+SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
+  SimplifyOptions simplify = decimation(outputs_.back(), bar);
+  if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
+  simplify.target_ratio = target_ratio_;
+  simplify.on_exceed = options_.on_exceed == "stop" ? OnExceed::Stop : OnExceed::Skip;
+  simplify.effort = options_.effort == "high" ? Effort::High : Effort::Normal;
+  simplify.prune = options_.prune;
+  if (original_texture_) guard_texture(simplify);
+  return simplify;
+}
+
+/// Makes the decimation refuse collapses that move the texture too far.
+void Run::guard_texture(SimplifyOptions& simplify) const {
+  const CornerAttribute& from = attributes_.texture_coordinates;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (const Triangle& index : from.index) {
+    auto& corners = simplify.texture_coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = index[k] == CornerAttribute::none ? Eigen::Vector2d(none, none) : from.values[index[k]].head<2>();
+  }
+  simplify.materials = attributes_.materials.index;
+  simplify.texture_tolerance = original_texture_->tolerance;
+}
+
+/// Writes each mesh under a temporary name, reads it back and measures that.
+void Run::certify() {
+  verdict_ = Verdict::Within;
+  decided_by_.clear();
+  for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
+    const std::size_t level = std::min(i, tolerances_.size() - 1);  // OUT may repeat the last level
+    watch_.lap();
+    if (original_lines_) outputs_[i].require_lines(&*original_lines_);
+    if (original_texture_) outputs_[i].require_texture(&*original_texture_);
+    outputs_[i].require_normals(options_.normal_tolerance);
+    (void)writes(outputs_[i],
+                 result_.levels[level]);  // if this fails, `prove` falls back to a finer level or the original
+    report_.seconds.write += watch_.lap();
+    ProgressBar bar("measuring", options_.common.quiet);
+    bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
+    const auto redo = [&](double tolerance) {
+      SimplifyOptions again = decimation_options(bar);
+      again.tolerance = before_rounding(tolerance);
+      return decimated(again).last();
+    };
+    decided_by_.push_back(prove(outputs_[i], tolerances_[level], i > 0 ? &outputs_[i - 1] : nullptr, redo));
+    verdict_ = outputs_[i].verdict();
+    report_.seconds.certify += watch_.lap();
+    if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
+      throw Error(
+          "internal error: the result is further from the original than was proven during decimation; nothing was "
+          "written under its name. Please report this with the folder " +
+          save_reproducer(options_, outputs_[i], {tolerances_, tolerances_[level], target_ratio_}).string());
+  }
+}
+
+bool Run::keeps_appearance() const {
+  return std::all_of(outputs_.begin(), outputs_.end(), [](const GatedOutput& output) {
+    return output.verdict() != Verdict::Within || output.keeps_appearance();
+  });
+}
+
+/// Prepares another run with more vertices of the original locked where the texture of a result has moved too far or
+/// faces have turned too much. A result that does not get within these tolerances in this way, or not in time, is
+/// replaced by the original.
+bool Run::tightens_appearance() {
+  if (!kept_vertices_ || keeps_appearance()) return false;
+  end_if_interrupted();
+  if (!is_out_of_time()) {
+    for (const GatedOutput& output : outputs_) {
+      if (output.texture_deviation())
+        kept_vertices_->learn(*output.texture_deviation(), original_tree(), output.written_mesh());
+      if (output.normal_deviation()) kept_vertices_->learn(*output.normal_deviation());
+    }
+    if (kept_vertices_->tighten()) return true;
+  }
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].keeps_appearance()) continue;
+    const bool has_smaller = i > 0 && outputs_[i - 1].keeps_appearance();
+    const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
+    decided_by_[i] = fall_back(outputs_[i], has_smaller ? &outputs_[i - 1] : nullptr, measurement(tolerance));
+  }
+  return false;
+}
+
+void Run::end_if_interrupted() const {
+  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
+}
+
+/// Also of the lines if there are any. Absent if the time ended.
+std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double tolerance,
+                                               CertificateOptions options) const {
+  const TriangleMesh written = output.written_mesh();
+  if (original_lines_)
+    options.lines = CertifiedLines{lines_, output.lines_of(written), std::min(tolerance, original_lines_->tolerance)};
+  auto certificate = build_certificate(original_, written, tolerance, options);
+  end_if_interrupted();
+  return certificate;
+}
+
+/// Proves the files as they read. A result whose certificate is not complete in time is replaced by the original, which
+/// is certified in one pass.
+void Run::write_certificates() {
+  if (certificates_.empty()) return;
+  watch_.lap();
+  ProgressBar bar("proving", options_.common.quiet);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    CertificateOptions options;
+    options.threads = options_.common.threads;
+    const bool is_original = decided_by_[i] == DecidedBy::Original || result_.last().collapses_performed == 0;
+    if (!is_original) options.seconds = remaining(1);
+    options.cancel = &interrupted_;
+    options.progress = [&](double fraction) { bar.show(fraction); };
+    const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
+    auto certificate = certificate_of(outputs_[i], tolerance, options);
+    if (!certificate) {
+      decided_by_[i] = fall_back(outputs_[i], nullptr, measurement(tolerance));
+      options.seconds = std::numeric_limits<double>::infinity();
+      certificate = certificate_of(outputs_[i], tolerance, options);
+    }
+    const std::vector<std::uint8_t>& bytes = certificate->bytes;
+    certificates_[i].write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    certificates_[i].complete();
+    report_.certificates.push_back({certificates_[i].path().string(), bytes.size()});
+  }
+  report_.seconds.certificate = watch_.lap();
+}
+
+/// Measures deviations of the meshes as they read from their files. Leaves `deviation_` empty if there was no time for
+/// it.
+void Run::measure_deviation() {
+  const ProgressBar bar("measuring deviations", options_.common.quiet);
+  const GatedOutput& out = outputs_.back();
+  const TriangleMesh result = out.written_mesh();
+  const HausdorffDistance& distance = out.distance();
+  DeviationSubject subject;
+  subject.original = &original_;
+  subject.result = &result;
+  subject.original_name = "original";
+  subject.result_name = "simplified";
+  subject.scale = scale_for(tolerances_.back(), distance.bounds, diagonal_);
+  const auto worst = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a);
+  subject.worst_is_on_original = !worst || worst->on_a;
+  subject.measurement = repeated(tolerances_.back(), decided_by_.back());
+  if (!options_.deviation.report.empty())
+    for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) subject.levels.push_back(outputs_[i].written_mesh());
+  try {
+    deviation_->measure(subject, {options_.common.threads, stop()});
+    report_.deviation = deviation_->report();
+  } catch (const Stopped&) {
+    end_if_interrupted();
+    deviation_.reset();
+    std::fprintf(stderr, "%s: no time was left to measure deviations; their files were not written\n",
+                 provenance().tool.c_str());
+  }
+}
+
+/// Publishes certificates last, so that the mesh of each published certificate is there.
+void Run::publish() {
+  if (has_document())
+    for (const GatedOutput& output : outputs_) checksums_.push_back(output.checksum());
+  const UninterruptedScope together;
+  for (GatedOutput& output : outputs_) output.publish();
+  for (AtomicFile& certificate : certificates_) certificate.commit();
+}
+
+void Run::report() {
+  const GatedOutput& out = outputs_.back();
+  report_.verdict = verdict_;
+  report_.decided_by = decided_by_.empty() ? DecidedBy::Measurement : decided_by_.back();
+  if (ended_by_time()) report_.stopped_by = to_string(EndedBy::TimeLimit);
+  report_.provenance = provenance();
+  report_.simplified = {verdict_ == Verdict::Within ? as_typed(options_.output) : "", out.summary()};
+  if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
+  report_.distance = out.distance();
+  report_.lines = line_report(out, report_.tolerance);
+  if (original_texture_ && out.texture_deviation())
+    report_.texture =
+        TextureReport{*out.texture_deviation(), original_texture_->tolerance, options_.texture_size, texel_length_};
+  if (options_.normal_tolerance && out.normal_deviation())
+    report_.normals = NormalReport{*out.normal_deviation(), *options_.normal_tolerance};
+  for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
+    report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
+                              outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
+                              checksums_.empty() ? "" : checksums_[i]});
+  report_.threads = threads();
+  if (options_.workers != nullptr) report_.communication = options_.workers->communication();
+  report_.seconds.total = watch_.seconds();
+  if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
+  if (report_.deviation) deviation_->write(to_json(report_));
+  const bool is_stdout_taken = options_.common.json == "-" || is_stream_path(options_.output);
+  if (!is_stdout_taken && !options_.common.quiet) print_summary();
+  if (verdict_ == Verdict::Within && ended_by_time())
+    std::fprintf(stderr, "%s: the time limit came first: %s is the best mesh that was proven by then\n",
+                 provenance().tool.c_str(), as_typed(options_.output).c_str());
+  if (verdict_ != Verdict::Within)
+    std::fprintf(
+        stderr,
+        "%s: the tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ; nothing was "
+        "written\n",
+        provenance().tool.c_str());
+}
+
+bool Run::ended_by_time() const {
+  if (!options_.common.has_time_limit) return false;
+  const bool was_late = std::any_of(decided_by_.begin(), decided_by_.end(), [](DecidedBy how) {
+    return how == DecidedBy::SmallerLevel || how == DecidedBy::Original;
+  });
+  return result_.last().ended_by == EndedBy::TimeLimit || (was_late && remaining(1) == 0);
+}
+
+std::string Run::end_reason() const {
+  const auto ended = result_.last().ended_by;
+  const bool had_target = options_.target_faces || target_ratio_;
+  if (result_.tolerance_below_rounding)
+    return "the tolerance is below the rounding of the coordinates: nothing collapsed";
+  if (ended_by_time() && ended != EndedBy::TimeLimit) return "the time limit came before a smaller mesh was proven";
+  if (ended == EndedBy::Target) return "the target was reached first, within the tolerance";
+  if (ended == EndedBy::TimeLimit) return "the time limit came first";
+  const std::string tolerance = ended == EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
+                                                            : "no further collapse fits the tolerance";
+  return had_target ? tolerance + ": it came before the target" : tolerance;
+}
+
+void Run::print_summary() const {
+  const GatedOutput& out = outputs_.back();
+  const HausdorffDistance& distance = out.distance();
+  const std::size_t faces = out.summary().faces, before = report_.original.summary.faces;
+  print_line("faces", std::to_string(before) + " -> " + std::to_string(faces) + " (" +
+                          short_number(100.0 * static_cast<double>(faces) / static_cast<double>(before)) +
+                          "%): " + end_reason());
+  print_line("tolerance", both_units(report_.tolerance, diagonal_));
+  print_distance(distance.bounds, distance.a_to_b, &distance.b_to_a,
+                 {"original to simplified", "simplified to original"}, diagonal_);
+  print_line("verdict", to_string(verdict_));
+  for (std::size_t i = 0; i < decided_by_.size(); ++i) {
+    if (const std::string how = explanation(decided_by_[i]); !how.empty())
+      print_line("decided", outputs_[i].path().string() + ": " + how);
+  }
+  print_lines(report_.lines, diagonal_);
+  if (report_.normals) print_normals(*report_.normals);
+  if (report_.texture) print_texture(*report_.texture, {"original to simplified", "simplified to original"}, diagonal_);
+  if (report_.deviation) print_deviation(*report_.deviation, "original to simplified", "simplified to original");
+  print_locked(result_.locked_vertices, report_.original.summary);
+  if (options_.prune)
+    print_line("pruned", std::to_string(result_.pruned_components) + " components of " +
+                             std::to_string(result_.pruned_faces) + " faces");
+  if (result_.split)
+    print_line("input", "not an oriented 2-manifold: simplified as one, with edges and vertices doubled where needed");
+  if (result_.dropped_triangles + result_.kept_triangles > 0)
+    print_line("input", std::to_string(result_.dropped_triangles) + " duplicate or degenerate triangles dropped, " +
+                            std::to_string(result_.kept_triangles) + " kept as they are");
+  print_dropped(report_.original);
+  print_seconds(report_.seconds, report_.threads);
+  if (!options_.memory.empty())
+    print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + options_.memory);
+  if (verdict_ != Verdict::Within) return;
+  for (const GatedOutput& output : outputs_)
+    print_line("wrote", output.path().string() + ", " + std::to_string(output.summary().faces) + " faces, " +
+                            interval(output.distance().bounds));
+  for (const CertificateReport& certificate : report_.certificates)
+    print_line("wrote",
+               certificate.path + ", " + std::to_string(certificate.bytes) + " bytes: a proof for verify_certificate");
+}
+
+}  // namespace
+
+int run_simplify(const SimplifyArguments& options) {
+  if (!options.memory.empty()) limit_memory(parse_memory("--memory", options.memory));
+  return Run(options)();
+}
+
+}  // namespace meshbound::tools
