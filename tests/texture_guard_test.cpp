@@ -106,16 +106,27 @@ TEST(TextureGuard, KeepsFacesWhereTheTextureIsUneven) {
   EXPECT_LT(simplified(square, 0.01, 0.02).faces(), level.faces());
 }
 
+/// A surface that so many samples miss that proofs fail and collapses are taken back.
+double hilly(double x, double y) { return 0.04 * std::sin(17 * x) * std::cos(13 * y) + 0.01 * std::sin(61 * x * y); }
+
 /// Proofs fail here, and what is taken back gets its texture coordinates and samples back. A coordinate that stayed
 /// behind would be off by the length of an edge, which is many tolerances.
 TEST(TextureGuard, GivesCoordinatesBackWithWhatIsTakenBack) {
-  const Textured hills = sheet(
-      48, [](double x, double y) { return 0.04 * std::sin(17 * x) * std::cos(13 * y) + 0.01 * std::sin(61 * x * y); },
-      warped);
+  const Textured hills = sheet(48, hilly, warped);
   const SimplifyResult result = simplify_with_bound(hills.mesh, options_of(hills, 0.004, 0.006));
   EXPECT_GT(result.counts.taken_back + result.counts.unproven, 0U);
   EXPECT_LE(deviation_of(hills, result.last()).bounds.upper, 0.006 * 1.2);  // guard and measurement look elsewhere
   EXPECT_LT(result.last().faces(), hills.mesh.triangles.size() / 2);
+}
+
+/// Squares of distances between such coordinates overflow; the samples of what is taken back go to faces all the same.
+TEST(TextureGuard, GivesSamplesBackWhateverTheScaleOfTheTexture) {
+  const Textured hills = sheet(48, hilly, [](double x, double y, bool is_right) {
+    return Eigen::Vector2d(warped(x, y, is_right).cwiseProduct(Eigen::Vector2d(1e160, 1e-160)));
+  });
+  const SimplifyResult result = simplify_with_bound(hills.mesh, options_of(hills, 0.004, 0.006));
+  EXPECT_GT(result.counts.taken_back + result.counts.unproven, 0U);
+  EXPECT_EQ(result.last().verdict, Verdict::Within);
 }
 
 /// The two halves have charts that do not touch. At the line between them each side keeps its own coordinates.

@@ -381,6 +381,7 @@ std::string bash_offers(const std::string& words, int last) {
 
 TEST_F(ToolConventions, ShellsCompleteOptionsAndTheirValues) {
   EXPECT_EQ(bash_offers("simplify_with_bound --on-exceed s", 2), "skip stop\n");
+  EXPECT_EQ(bash_offers("simplify_with_bound --up ''", 2), "x y z\n");
   EXPECT_EQ(bash_offers("simplify_with_bound --target-f", 1), "--target-faces\n");
   EXPECT_EQ(bash_offers("simplify_with_bound '" + in("in.o") + "'", 1), in("in.off") + "\n");
   const std::string zsh = run_tool(HAUSDORFF_DISTANCE, {"--completion", "zsh"}).out,

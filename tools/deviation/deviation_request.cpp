@@ -2,7 +2,7 @@
 #include "deviation/deviation_request.h"
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <string>
 
 #include "deviation/report_file.h"
 #include "mesh/output_target.h"
@@ -32,10 +32,14 @@ void add_report_options(CLI::App& app, DeviationRequest& request) {
   app.add_option("--report", request.report,
                  "Write a report as one HTML file: the meshes in 3D with their deviation, statistics, and the JSON "
                  "document");
-  app.add_option("--units", request.units, "What a length is called in a report or picture, such as mm");
-  app.add_option("--up", request.up, "Axis that points up in a report or picture: x, y or z (default)")
-      ->transform(CLI::Transformer(std::map<std::string, UpAxis>{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}},
-                                   CLI::ignore_case));
+  app.add_option("--units", request.units, "Name of the unit of lengths in reports and pictures, such as mm");
+  app.add_option_function<std::string>(
+         "--up",
+         [&request](const std::string& axis) {
+           request.up = axis == "x" ? UpAxis::X : (axis == "y" ? UpAxis::Y : UpAxis::Z);
+         },
+         "Axis that points up in reports and pictures (default z)")
+      ->check(CLI::IsMember({"x", "y", "z"}, CLI::ignore_case));
 }
 
 void add_deviation_options(CLI::App& app, DeviationRequest& request, const std::string& original,

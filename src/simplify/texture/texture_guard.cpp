@@ -459,7 +459,7 @@ void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const s
       const auto weights = weights_at(corners, map.sample(s).coordinate);
       if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < 0; }))
         (void)closest_on_outline(corners, map.sample(s).coordinate, squared);
-      if (squared < least) least = squared, best = f;
+      if (best == TextureMap::none || squared < least) least = squared, best = f;
     }
     map.give_to(s, best);
   }
