@@ -37,7 +37,7 @@ std::uint64_t index_from_environment() {
 void add_batch_options(CLI::App& app, BatchOptions& options) {
   app.add_option("--batch", options.source,
                  "Instead of IN and OUT: simplify every mesh below a folder, or each of a list of files (a line each), "
-                 "into --output-dir; a run that was ended goes on where the same command is given again");
+                 "into --output-dir; the same command resumes a run that was ended");
   app.add_option("--batch-merge", options.merge,
                  "Instead of IN and OUT: make batch.csv and batch.html of the reports in this --output-dir of a batch");
   app.add_option("--jobs", options.jobs,

@@ -233,6 +233,56 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
   report.texture = texture;
 }
 
+/// What is compared, as read.
+struct Meshes {
+  TriangleMesh a, b;
+  MeshAttributes attributes_of_a, attributes_of_b;  ///< empty unless textures are compared
+  double displacement = 0;                          ///< how far rounding has moved the image of B at most, model units
+};
+
+Meshes read_meshes(const Arguments& arguments, const Stopwatch& watch, DistanceReport& report) {
+  std::optional<Eigen::Affine3d> map;
+  if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
+  const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
+  const StopToken stop = stop_of_reading(arguments.common, watch);
+  Meshes meshes;
+  run_both(
+      arguments.workers == nullptr ? arguments.common.threads : 1,  // workers read one file after the other
+      [&] {
+        load(arguments.a, std::nullopt, with_checksums, stop, meshes.a, report.a,
+             arguments.texture ? &meshes.attributes_of_a : nullptr, arguments.workers);
+      },
+      [&] {
+        meshes.displacement = load(arguments.b, map, with_checksums, stop, meshes.b, report.b,
+                                   arguments.texture ? &meshes.attributes_of_b : nullptr, arguments.workers);
+      });
+  if (map) report.transform_displacement = meshes.displacement;
+  return meshes;
+}
+
+Answer answer_to(const Question& question, const Meshes& meshes, const Arguments& arguments, Stopwatch& watch,
+                 double& build_seconds) {
+  std::optional<Answer> found = answer_without_trees(question, meshes.a, meshes.b, arguments.method);
+  if (!found)
+    found = arguments.workers == nullptr
+                ? searched_answer(question, meshes.a, meshes.b, arguments, watch, build_seconds)
+                : answer_by_tiles(question, meshes.a, meshes.b, arguments, watch);
+  conclude(*found, question);
+  if (interrupted() && found->exit_code == ExitUndecided) throw_interrupted(found->bounds);
+  return std::move(*found);
+}
+
+/// Writes the certificate of a tolerance that was found to hold; the answer is undecided if there was no time for it.
+void certify(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
+             const Stopwatch& watch, Answer& answer) {
+  if (answer.exit_code != ExitDone || write_certificate(file, arguments, meshes.a, meshes.b, tolerance, watch)) return;
+  if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
+  std::fprintf(stderr, "%s: no time was left for the certificate; it was not written\n", provenance().tool.c_str());
+  answer.exit_code = ExitUndecided;
+  answer.outcome = Outcome::BudgetExhausted;
+  answer.reason = "the time limit came before the certificate was complete";
+}
+
 }  // namespace
 
 int run_distance(const Arguments& arguments) {
@@ -247,51 +297,22 @@ int run_distance(const Arguments& arguments) {
   if (arguments.deviation.has_any()) deviation.emplace(arguments.deviation);
   if (!arguments.certificate.empty())
     certificate.emplace(arguments.certificate, AtomicFile::Stream::Staged, StopToken{.cancel = &interrupted()});
-  std::optional<Eigen::Affine3d> map;
-  if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
 
   DistanceReport report;
-  TriangleMesh a, b;
-  MeshAttributes attributes_of_a, attributes_of_b;
-  double displacement = 0;
-  const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
-  const StopToken stop = stop_of_reading(arguments.common, watch);
-  run_both(
-      arguments.workers == nullptr ? arguments.common.threads : 1,  // workers read one file after the other
-      [&] {
-        load(arguments.a, std::nullopt, with_checksums, stop, a, report.a,
-             arguments.texture ? &attributes_of_a : nullptr, arguments.workers);
-      },
-      [&] {
-        displacement = load(arguments.b, map, with_checksums, stop, b, report.b,
-                            arguments.texture ? &attributes_of_b : nullptr, arguments.workers);
-      });
-  if (map) report.transform_displacement = displacement;
-  const Question question = question_about(a, b, arguments, lengths, report.a.summary.bbox_diagonal, displacement);
+  const Meshes meshes = read_meshes(arguments, watch, report);
+  const Question question =
+      question_about(meshes.a, meshes.b, arguments, lengths, report.a.summary.bbox_diagonal, meshes.displacement);
   report.seconds.read = watch.lap();
-
-  std::optional<Answer> found = answer_without_trees(question, a, b, arguments.method);
-  if (!found)
-    found = arguments.workers == nullptr ? searched_answer(question, a, b, arguments, watch, report.seconds.build)
-                                         : answer_by_tiles(question, a, b, arguments, watch);
-  Answer& answer = *found;
-  conclude(answer, question);
-  if (interrupted() && answer.exit_code == ExitUndecided) throw_interrupted(answer.bounds);
+  Answer answer = answer_to(question, meshes, arguments, watch, report.seconds.build);
   report.seconds.query = watch.lap();
-  if (certificate && answer.exit_code == ExitDone &&
-      !write_certificate(*certificate, arguments, a, b, *question.tolerance, watch)) {
-    if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
-    std::fprintf(stderr, "%s: no time was left for the certificate; it was not written\n", provenance().tool.c_str());
-    answer.exit_code = ExitUndecided;
-    answer.outcome = Outcome::BudgetExhausted;
-    answer.reason = "the time limit came before the certificate was complete";
-  }
+  if (certificate) certify(*certificate, arguments, meshes, *question.tolerance, watch, answer);
   if (arguments.texture) {
-    require_texture(arguments.a, attributes_of_a);
-    require_texture(arguments.b, attributes_of_b);
-    measure_texture(report, arguments, lengths, textured_meshes(a, attributes_of_a, b, attributes_of_b), watch, answer);
+    require_texture(arguments.a, meshes.attributes_of_a);
+    require_texture(arguments.b, meshes.attributes_of_b);
+    measure_texture(report, arguments, lengths,
+                    textured_meshes(meshes.a, meshes.attributes_of_a, meshes.b, meshes.attributes_of_b), watch, answer);
   }
-  if (deviation && measure_deviation(*deviation, answer, question, a, b, arguments, watch)) {
+  if (deviation && measure_deviation(*deviation, answer, question, meshes.a, meshes.b, arguments, watch)) {
     report.deviation = deviation->report();
   } else if (deviation) {
     deviation.reset();

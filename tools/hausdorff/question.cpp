@@ -40,7 +40,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "Affine map for the vertices of B: 16 numbers, row-major, or a file that holds them");
   app.add_option("--poses", arguments.poses,
                  "Measure, or decide with --tolerance, at each pose of B in this file: a line of 16 numbers for each, "
-                 "row-major, rigid. Each step begins with what the one before has left");
+                 "row-major, rigid. Each pose starts from the results of the one before");
   CLI::Option* nearest = app.add_option("--nearest", arguments.nearest,
                                         "Instead of B: find the meshes below this folder that are most like A, by the "
                                         "distance after both are moved to the "
@@ -49,7 +49,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
          "--align", arguments.align,
          "With --nearest: also turn each mesh so that its principal axes lie on those of A, in the best of 4 ways")
       ->needs(nearest);
-  app.add_option("--count", arguments.count, "With --nearest: how many are wanted (default 1)")
+  app.add_option("--count", arguments.count, "With --nearest: number of meshes to find (default 1)")
       ->needs(nearest)
       ->check(CLI::Range(1, 1000000));
   app.add_flag("--profile", arguments.profile, "Print culling rates, queries, subdivisions and the time of each phase");
@@ -58,10 +58,10 @@ void add_options(CLI::App& app, Arguments& arguments) {
       "Also measure how far the texture moves on the surface: the largest distance from a point to the nearest "
       "one of the other mesh with the same texture coordinate");
   app.add_option("--texture-tolerance", arguments.texture_tolerance,
-                 "With --texture: decide whether that is at most this, too: a length as above, or '2texels' with "
-                 "--texture-size");
+                 "With --texture: also decide whether the texture moves at most this far: a length as above, or "
+                 "'2texels' with --texture-size");
   app.add_option("--texture-size", arguments.texture_size,
-                 "With --texture: texels of a side of the texture, to tell lengths in texels of A as well")
+                 "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels of A as well")
       ->check(CLI::PositiveNumber);
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate");

@@ -73,13 +73,13 @@ void add_options(CLI::App& app, SimplifyArguments& arguments) {
                "Read and check everything, say what a run would take in memory and time, and write nothing");
   add_batch_options(app, arguments.batch);
   app.add_option("--texture-tolerance", arguments.texture_tolerance,
-                 "How far the texture may move on the surface at most: a length as above, or '2texels' with "
-                 "--texture-size. Measured of what was written, between points of the same texture coordinate");
-  app.add_option("--texture-size", arguments.texture_size, "Texels of a side of the texture")
+                 "Largest distance that the texture may move on the surface, between points of equal texture "
+                 "coordinates, measured on what was written: a length as above, or '2texels' with --texture-size");
+  app.add_option("--texture-size", arguments.texture_size, "Width of the texture, which counts as square, in texels")
       ->check(CLI::PositiveNumber);
   app.add_option("--normal-tolerance", arguments.normal_tolerance,
-                 "How far faces may turn at most, in degrees: each face of IN against the face of OUT that is nearest "
-                 "to its centroid")
+                 "Largest angle by which a face may turn, in degrees: between each face of IN and the face of OUT "
+                 "nearest to its centroid")
       ->check(CLI::Range(0.0, 180.0));
   auto* const memory = app.add_option(
       "--memory", arguments.memory,

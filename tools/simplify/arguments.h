@@ -13,7 +13,8 @@ namespace meshbound::tools {
 
 /// What the command line of simplify_with_bound says.
 struct SimplifyArguments : DecimationOptions {
-  std::string output, format, input_format, output_format, tolerance, on_exceed = "skip", effort = "normal", output_dir, certificate;
+  std::string output, format, input_format, output_format, tolerance, on_exceed = "skip", effort = "normal", output_dir,
+                                                                      certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
   std::string target_ratio, texture_tolerance;

@@ -30,6 +30,7 @@
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
+#include "simplify/estimate.h"
 #include "simplify/reproducer.h"
 
 namespace meshbound::tools {
@@ -50,7 +51,6 @@ class Run : DecimationRun {
   void plan_memory();
   [[nodiscard]] SimplifyResult decimated(const SimplifyOptions& options) const;
   void choose_tolerances();
-  void print_estimate() const;
   void open_outputs();
   void simplify();
   void choose_appearance();
@@ -100,7 +100,7 @@ int Run::operator()() {
   choose_tolerances();
   choose_appearance();
   if (options_.dry_run) {
-    print_estimate();
+    print_estimate(report_.original.summary.faces, report_.tolerance, diagonal_);
     return ExitDone;
   }
   open_outputs();
@@ -202,19 +202,6 @@ void Run::check_paths() const {
   require_distinct_files({{"IN", options_.input}}, outputs);
   options_.deviation.check();
   if (!options_.common.json.empty()) check_writable(options_.common.json);
-}
-
-/// Prints the estimate of --dry-run, by the times that runs at 0.1% took on the meshes of the benchmark
-/// (docs/benchmarks.md).
-void Run::print_estimate() const {
-  constexpr double bytes_a_triangle = 500, seconds_a_triangle = 20e-6;  // of one thread, from 10e-6 to 40e-6
-  constexpr double mebibyte = 1024 * 1024;
-  const auto faces = static_cast<double>(report_.original.summary.faces);
-  print_line("faces", std::to_string(report_.original.summary.faces));
-  print_line("tolerance", both_units(report_.tolerance, diagonal_));
-  print_line("memory", "about " + short_number(std::ceil(bytes_a_triangle * faces / mebibyte)) + " MiB");
-  print_line("time", "about " + rounded_seconds(seconds_a_triangle * faces) + " s on one thread, half to twice that");
-  print_line("dry run", "nothing was written");
 }
 
 /// Opens an output for each level, if levels are asked for, and then OUT.
