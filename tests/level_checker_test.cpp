@@ -11,6 +11,7 @@
 #include <random>
 
 #include "meshbound/error.h"
+#include "random_poses.h"
 #include "reference/brute_force.h"
 #include "reference/small_meshes.h"
 
@@ -19,18 +20,11 @@ namespace {
 using namespace meshbound;
 using namespace meshbound::reference;
 
-class Random {
+class Random : public test::RandomPoses {
  public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
+  using RandomPoses::RandomPoses;
   std::size_t below(std::size_t n) { return engine_() % n; }
-  Eigen::Vector3d offset(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
   std::mt19937& engine() { return engine_; }
-
- private:
-  std::mt19937 engine_;
 };
 
 TriangleMesh jittered(TriangleMesh mesh, double size, Random& random, double share = 1) {

@@ -9,7 +9,7 @@
 #include "datasets/analytic_meshes.h"
 #include "json_claims.h"
 #include "meshbound/io.h"
-#include "run_tool.h"
+#include "tool_refusal.h"
 
 namespace meshbound {
 namespace {
@@ -30,12 +30,6 @@ class MotionTool : public testing::Test {
   ToolRun run(std::vector<std::string> options) {
     options.insert(options.begin(), {cube_, cube_, "--poses", poses_});
     return run_tool(HAUSDORFF_DISTANCE, options);
-  }
-  static void expect_refused(const ToolRun& result, const std::string& why) {
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_EQ(line_count(result.err), 1) << result.err;
-    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
-    EXPECT_EQ(result.out, "");
   }
 
   static constexpr int steps = 12;

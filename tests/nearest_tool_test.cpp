@@ -11,7 +11,7 @@
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
 #include "meshbound/transform.h"
-#include "run_tool.h"
+#include "tool_refusal.h"
 
 namespace meshbound {
 namespace {
@@ -43,12 +43,6 @@ class NearestTool : public testing::Test {
     const ToolRun result = run(options);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return checked_document(result.out);
-  }
-  static void expect_refused(const ToolRun& result, const std::string& why) {
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_EQ(line_count(result.err), 1) << result.err;
-    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
-    EXPECT_EQ(result.out, "");
   }
 
   TemporaryFolder folder_;

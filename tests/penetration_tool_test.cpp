@@ -9,8 +9,8 @@
 #include "meshbound/io.h"
 #include "meshbound/penetration_depth.h"
 #include "reference/small_meshes.h"
-#include "run_tool.h"
 #include "solids.h"
+#include "tool_refusal.h"
 
 namespace meshbound {
 namespace {
@@ -28,12 +28,6 @@ class PenetrationTool : public testing::Test {
     write_mesh(fork_, reference::both(box({0.1, 0.1, 0.75}, {0.2, 0.9, 3}), box({0.7, 0.1, 0.5}, {0.9, 0.9, 3})));
   }
   static ToolRun run(const std::vector<std::string>& arguments) { return run_tool(PENETRATION_DEPTH, arguments); }
-  static void expect_refused(const ToolRun& result, const std::string& reason) {
-    EXPECT_EQ(result.exit_code, 2) << result.err;
-    EXPECT_EQ(line_count(result.err), 1) << result.err;
-    EXPECT_EQ(result.out, "");
-    EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
-  }
 
   TemporaryFolder folder_;
   std::string unit_ = folder_ / "unit.off";

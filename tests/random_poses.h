@@ -12,7 +12,7 @@ inline Eigen::Isometry3d translated(const Eigen::Vector3d& by) {
   return pose;
 }
 
-/// Poses that are the same on every machine.
+/// Numbers, vectors and poses that are the same on every machine.
 class RandomPoses {
  public:
   explicit RandomPoses(std::uint32_t seed) : engine_(seed) {}
@@ -28,7 +28,7 @@ class RandomPoses {
     return pose;
   }
 
- private:
+ protected:
   std::mt19937 engine_;
 };
 

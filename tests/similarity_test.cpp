@@ -13,18 +13,16 @@
 #include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
 #include "meshbound/transform.h"
+#include "random_poses.h"
 
 namespace {
 
 using namespace meshbound;
 using Eigen::Vector3d;
 
-class Random {
+class Random : public test::RandomPoses {
  public:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
-  Vector3d offset(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  Random() : RandomPoses(5) {}
   /// Anywhere, at any scale, and turned if asked.
   Eigen::Affine3d similarity(bool turned) {
     Eigen::Affine3d map = Eigen::Affine3d::Identity();
@@ -33,9 +31,6 @@ class Random {
     map.scale(std::exp(uniform(-5, 5)));
     return map;
   }
-
- private:
-  std::mt19937 engine_{5};
 };
 
 struct Family {

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
+#include "numeric/numbers_below.h"
 #include "tiles/compact_bytes.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"

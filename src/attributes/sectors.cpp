@@ -3,27 +3,12 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "numeric/disjoint_sets.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
-
-/// Sets of corners, each named by one of its members.
-class CornerSets {
- public:
-  explicit CornerSets(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  std::uint32_t root(std::uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 Edge sorted(Edge edge) {
   std::sort(edge.begin(), edge.end());
@@ -42,7 +27,7 @@ std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level, co
   for (const Edge& edge : level.lines) lines.push_back(sorted(edge));
   std::sort(lines.begin(), lines.end());
 
-  CornerSets sets(count);
+  DisjointSets sets(count);
   std::map<Edge, std::uint32_t> open;  // edges seen once, with the corner where they start
   for (std::uint32_t c = 0; c < count; ++c) {
     const Edge edge = sorted({vertex(c), vertex(next(c))});
@@ -51,13 +36,13 @@ std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level, co
     if (is_new) continue;
     for (const std::uint32_t i : {c, next(c)})
       for (const std::uint32_t j : {at->second, next(at->second)})
-        if (vertex(i) == vertex(j) && (!may_join || may_join(i, j))) sets.join(i, j);
+        if (vertex(i) == vertex(j) && (!may_join || may_join(i, j))) sets.unite(i, j);
   }
 
   std::vector<std::vector<std::uint32_t>> result;
-  std::vector<std::uint32_t> sector_of(count, no_index);  // by root of its set
+  std::vector<std::uint32_t> sector_of(count, no_index);  // by name of its set
   for (std::uint32_t c = 0; c < count; ++c) {
-    std::uint32_t& sector = sector_of[sets.root(c)];
+    std::uint32_t& sector = sector_of[sets.find(c)];
     if (sector == no_index) {
       sector = static_cast<std::uint32_t>(result.size());
       result.emplace_back();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bvh/bvh_data.h"
+#include "geometry/longest_edge.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -25,13 +26,6 @@ std::size_t useful_threads(int wanted, std::size_t triangles);
 
 /// Sets box, diagonal and frame, and a new serial number. `box`: of the vertices that triangles use, model units.
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
-
-/// Where the longest edge of a triangle begins: corner 0, 1 or 2, the first of them when edges are equally long.
-inline std::uint32_t longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double ab = squared_length(b - a), bc = squared_length(c - b), ca = squared_length(a - c);
-  const auto not_ab = static_cast<std::uint32_t>((ab < bc) | (ab < ca));
-  return not_ab * (2 - static_cast<std::uint32_t>(bc >= ca));
-}
 
 /// Fills `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so the order is unique.
 void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);

@@ -13,6 +13,7 @@
 
 #include "bvh/build.h"
 #include "bvh/bvh_data.h"
+#include "geometry/eigen_vec3.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/rounding.h"
@@ -23,8 +24,6 @@ namespace {
 
 /// Slots are 30-bit numbers in the adjacency.
 constexpr std::size_t max_triangles = std::size_t{1} << 30;
-
-Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 void check_size(const MeshView& mesh) {
   if (mesh.triangle_count() >= max_triangles)

@@ -11,6 +11,7 @@
 #include "distance/kernel/point_query.h"
 #include "distance/kernel/search_kernel.h"
 #include "distance/shortcuts/point_like.h"
+#include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
@@ -21,8 +22,6 @@ namespace {
 
 /// Queries that make one task: some half a millisecond of work.
 constexpr std::size_t queries_per_task = 1024;
-
-Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// The answer where the mesh is a point beside its distance: see `distance_to_point_like`.
 ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d& query) {

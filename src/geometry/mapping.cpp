@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/eigen_vec3.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 
@@ -26,8 +27,6 @@ double drift_of(const Eigen::Isometry3d& pose) {
         "a pose is not a rigid motion: its columns are not orthonormal; apply it to the vertices instead");
   return drift + 32 * unit_roundoff;
 }
-
-Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 bool same_pose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return a.matrix() == b.matrix(); }
 

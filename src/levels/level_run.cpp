@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "levels/level_run.h"
 
-#include <numeric>
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 
@@ -36,10 +36,8 @@ void LevelRun::take_original(SimplifiedLevel& level) const {
   level.lines = lines_;
   if (options_.precision == Precision::Single)
     for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
-  level.source_vertex.resize(original_.vertices.size());
-  level.source_triangle.resize(original_.triangles.size());
-  std::iota(level.source_vertex.begin(), level.source_vertex.end(), 0u);
-  std::iota(level.source_triangle.begin(), level.source_triangle.end(), 0u);
+  level.source_vertex = numbers_below(original_.vertices.size());
+  level.source_triangle = numbers_below(original_.triangles.size());
   level.texture_coordinates = options_.texture_coordinates;
 }
 

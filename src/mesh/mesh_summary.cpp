@@ -7,35 +7,13 @@
 #include <vector>
 
 #include "mesh/mesh_arrays.h"
+#include "numeric/disjoint_sets.h"
 
 namespace meshbound {
 namespace {
 
-/// Disjoint sets of vertices, with path halving.
-class VertexSets {
- public:
-  explicit VertexSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-
-  std::uint32_t find(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-
-  /// The smaller index becomes the root, which keeps paths short where neighbours have nearby indices.
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[a < b ? b : a] = a < b ? a : b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 std::size_t count_components(const MeshView& mesh) {
-  VertexSets sets(mesh.vertex_count());
+  DisjointSets sets(mesh.vertex_count());
   for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
     const Triangle t = mesh.triangle(i);
     sets.unite(t[0], t[1]);

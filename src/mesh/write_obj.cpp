@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <numeric>
 
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {
@@ -49,9 +49,7 @@ std::vector<Triangle> put_vertices(AtomicFile& file, const TriangleMesh& mesh, c
     }
     return mesh.triangles;
   }
-  std::vector<std::uint32_t> all(mesh.triangles.size());
-  std::iota(all.begin(), all.end(), 0u);
-  SplitVertices vertices = split_vertices(mesh, all, {&colours->index});
+  SplitVertices vertices = split_vertices(mesh, numbers_below(mesh.triangles.size()), {&colours->index});
   for (std::size_t v = 0; v < vertices.corners.size(); ++v) {
     file.write("v ");
     const std::uint32_t colour = vertices.value(colours->index, v);

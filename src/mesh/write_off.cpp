@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <numeric>
 
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {
@@ -36,9 +36,7 @@ void put_counts(AtomicFile& file, std::size_t vertices, std::size_t triangles) {
 }
 
 void write_coloured(AtomicFile& file, const TriangleMesh& mesh, const NamedAttribute& colours) {
-  std::vector<std::uint32_t> all(mesh.triangles.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const SplitVertices split = split_vertices(mesh, all, {&colours.index});
+  const SplitVertices split = split_vertices(mesh, numbers_below(mesh.triangles.size()), {&colours.index});
   file.write("COFF\n");
   put_counts(file, split.corners.size(), mesh.triangles.size());
   for (std::size_t v = 0; v < split.corners.size(); ++v) {

@@ -3,12 +3,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {
@@ -74,9 +74,7 @@ class PlyWriter {
     std::vector<const std::vector<Triangle>*> indices;
     for (const Column& column : columns_)
       if (indices.empty() || indices.back() != column.index) indices.push_back(column.index);
-    std::vector<std::uint32_t> all(mesh_.triangles.size());
-    std::iota(all.begin(), all.end(), 0u);
-    split_ = split_vertices(mesh_, all, indices);
+    split_ = split_vertices(mesh_, numbers_below(mesh_.triangles.size()), indices);
   }
 
   [[nodiscard]] std::size_t vertex_count() const {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/point_triangle.h"
+#include "geometry/longest_edge.h"
 #include "meshbound/error.h"
 #include "numeric/tasks.h"
 #include "simplify/cover/box_tree.h"
@@ -88,11 +88,7 @@ Eigen::Vector3d offset_from(const Corners& corners, const Eigen::Vector3d& p) {
     const Eigen::Vector3d way = (corners[k] - p) / size;
     c[k] = {way.x(), way.y(), way.z()};
   }
-  std::size_t first = 0;  // of the longest edge
-  for (std::size_t k = 1; k < 3; ++k)
-    if (squared_length(c[(k + 1) % 3] - c[k]) > squared_length(c[(first + 1) % 3] - c[first])) first = k;
-  const CornerTriangle<double> t{c[first], c[(first + 1) % 3] - c[first], c[(first + 2) % 3] - c[first]};
-  const Vec3 offset = closest_on_triangle(t, Vec3{}).offset;
+  const Vec3 offset = closest_on_triangle(longest_edge_first(c), Vec3{}).offset;
   return size * Eigen::Vector3d(offset.x, offset.y, offset.z);
 }
 

@@ -9,9 +9,6 @@
 namespace meshbound {
 namespace {
 
-double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-const mpz_class& coordinate(const ExactPoint& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-
 /// Sign of the turn p, q, r seen along an axis; 0 where doubles cannot tell. A computed difference is off by at most h
 /// = 2 `error` and a relative u, so each of the two products by at most h (|.| + |.| + h) and 3 u.
 int certain_turn(const Vec3& p, const Vec3& q, const Vec3& r, int axis, double error) {

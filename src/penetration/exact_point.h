@@ -15,6 +15,12 @@ struct ExactPoint {
   mpz_class x, y, z;
 };
 
+/// Coordinate 0, 1 or 2 of a point.
+[[nodiscard]] inline double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
+[[nodiscard]] inline const mpz_class& coordinate(const ExactPoint& p, int axis) {
+  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+}
+
 [[nodiscard]] ExactPoint operator-(const ExactPoint& p, const ExactPoint& q);
 [[nodiscard]] ExactPoint cross(const ExactPoint& p, const ExactPoint& q);
 [[nodiscard]] mpz_class dot(const ExactPoint& p, const ExactPoint& q);

@@ -9,13 +9,6 @@
 #include "penetration/pieces.h"
 
 namespace meshbound {
-namespace {
-
-double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-const mpz_class& coordinate(const ExactPoint& p, int axis) { return axis == 0 ? p.x : (axis == 1 ? p.y : p.z); }
-
-}  // namespace
-
 const Vec3& position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side, PieceCorner corner) {
   if (corner.kind == PieceCorner::Kind::Vertex) return pair.local({side, corner.index});
   return corner.kind == PieceCorner::Kind::Node ? curves.nodes[corner.index].position

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "numeric/disjoint_sets.h"
 #include "penetration/curves.h"
 #include "penetration/piece_plane.h"
 #include "penetration/placed_pair.h"
@@ -28,25 +29,6 @@ struct Piece {
   std::uint32_t holes = no_index;  ///< the first of the cycles around its holes
 };
 
-/// Disjoint sets of the numbers 0, 1, ...
-class PieceSets {
- public:
-  void clear() { parent_.clear(); }
-  void add() { parent_.push_back(static_cast<std::uint32_t>(parent_.size())); }
-  [[nodiscard]] std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 class Pieces {
  public:
   /// Finds all pieces of both sides and the shells that they form: the closed surfaces that bound the intersection.
@@ -56,7 +38,7 @@ class Pieces {
   std::vector<Piece> pieces;
   std::vector<PieceCycle> cycles;
   std::vector<PieceCorner> corners;
-  PieceSets shells;  ///< sets of pieces
+  DisjointSets shells;  ///< sets of pieces
 
   /// The corners of a cycle.
   [[nodiscard]] std::span<const PieceCorner> corners_of(const PieceCycle& cycle) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
@@ -12,7 +13,6 @@
 namespace meshbound {
 namespace {
 
-Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Vec3 magnitudes(const Vec3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 Vec3 larger(const Vec3& p, const Vec3& q) { return {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}; }
 

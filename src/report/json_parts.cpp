@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "report/json_parts.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "distance/distance_stats.h"
 
 namespace meshbound::report {
 namespace {
@@ -154,24 +155,7 @@ Json stats(const std::vector<const OneSidedDistance*>& directions) {
   double culled_queries = 0;
   for (const OneSidedDistance* direction : directions) {
     const DistanceStats& one = direction->stats;
-    sum.triangles += one.triangles;
-    sum.matched += one.matched;
-    sum.culled_by_node += one.culled_by_node;
-    sum.culled_by_vertices += one.culled_by_vertices;
-    sum.walked += one.walked;
-    sum.closest_point_queries += one.closest_point_queries;
-    sum.nodes_visited += one.nodes_visited;
-    sum.triangles_tested += one.triangles_tested;
-    sum.subdivisions += one.subdivisions;
-    sum.pieces += one.pieces;
-    sum.resolved += one.resolved;
-    sum.enclosed += one.enclosed;
-    sum.given_up += one.given_up;
-    sum.phases.matching += one.phases.matching;
-    sum.phases.culling_on_a += one.phases.culling_on_a;
-    sum.phases.culling_on_b += one.phases.culling_on_b;
-    sum.phases.subdivision += one.phases.subdivision;
-    sum.deepest_subdivision = std::max(sum.deepest_subdivision, one.deepest_subdivision);
+    add(sum, one);
     culled_triangles += one.culled_on_a_percent * static_cast<double>(one.triangles);
     culled_queries += one.culled_on_b_percent * static_cast<double>(one.closest_point_queries);
   }

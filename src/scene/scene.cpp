@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "meshbound/error.h"
 #include "meshbound/motion.h"
 #include "meshbound/stop_token.h"
+#include "numeric/numbers_below.h"
 #include "numeric/tasks.h"
 #include "scene/world_box.h"
 
@@ -57,7 +57,7 @@ bool is_complete(const PenetrationDepth& penetration) {
 struct ContactMemory {
   MovePair moves;                     ///< of both bodies when `penetration` was found
   std::optional<double> error_bound;  ///< for which `penetration` was found
-  std::optional<double> decide;       ///< `stop_when_deeper` for which it was found
+  std::optional<double> decide;       ///< `PenetrationOptions::decide` for which it was found
   std::optional<PenetrationDepth> penetration = {};
 
   [[nodiscard]] bool answers(const PenetrationOptions& options, const MovePair& now) const {
@@ -70,8 +70,7 @@ struct ContactMemory {
 /// the lower side of a box the lower side of another box may be, for the two to be tested.
 template <class Reach, class IsNear>
 std::vector<BodyPair> sweep_and_prune(const std::vector<Body>& bodies, Reach&& reach, IsNear&& is_near) {
-  std::vector<std::uint32_t> order(bodies.size());
-  std::iota(order.begin(), order.end(), 0U);
+  std::vector<std::uint32_t> order = numbers_below(bodies.size());
   const auto low = [&](std::uint32_t i) { return bodies[i].box.lo.x; };
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t i, std::uint32_t j) { return low(i) != low(j) ? low(i) < low(j) : i < j; });
@@ -83,6 +82,22 @@ std::vector<BodyPair> sweep_and_prune(const std::vector<Body>& bodies, Reach&& r
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+/// Calls work(i, own) for the numbers in `open`, side by side, each on one thread: `own` are the options of the
+/// question without its progress, and with what is left of its time.
+template <class Options, class Work>
+void for_open_pairs(const std::vector<std::size_t>& open, const Options& options, const Work& work) {
+  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
+  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
+    for_each_task(open.size(), [&](std::size_t k) {
+      Options own = options;
+      own.threads = 1;
+      own.progress = nullptr;
+      own.budget.seconds = stop.seconds_left();
+      work(open[k], own);
+    });
+  });
 }
 
 /// What rounding may hide along the sweep: the errors of any two boxes, and of the sums.
@@ -185,26 +200,18 @@ SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& optio
   const std::vector<PairMemory*> memories = Impl::memories_of(pairs, impl_->memories, [&](const BodyPair& pair) {
     return PairMemory{MovingPair(*model(pair.first).bvh, *model(pair.second).bvh), {}, {}};
   });
-  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
 
   SceneCheck result;
   for (const BodyPair& pair : pairs) result.pairs.push_back({pair.first, pair.second, {}});
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!impl_->stands(pairs[i], *memories[i], tolerance)) open.push_back(i);
-  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
-    for_each_task(open.size(), [&](std::size_t k) {
-      const std::size_t i = open[k];
-      DistanceOptions own = options;
-      own.threads = 1;
-      own.progress = nullptr;
-      own.budget.seconds = stop.seconds_left();
-      PairMemory& memory = *memories[i];
-      memory.check.reset();
-      memory.check =
-          memory.moving.check_tolerance(model(pairs[i].first).pose, model(pairs[i].second).pose, tolerance, own);
-      memory.moves = impl_->moves_of(pairs[i]);
-    });
+  for_open_pairs(open, options, [&](std::size_t i, const DistanceOptions& own) {
+    PairMemory& memory = *memories[i];
+    memory.check.reset();
+    memory.check =
+        memory.moving.check_tolerance(model(pairs[i].first).pose, model(pairs[i].second).pose, tolerance, own);
+    memory.moves = impl_->moves_of(pairs[i]);
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) result.pairs[i].check = *memories[i]->check;
   const std::uint64_t n = size();
@@ -234,19 +241,11 @@ SceneContacts Scene::contacts(const PenetrationOptions& options) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!memories[i]->answers(options, impl_->moves_of(pairs[i]))) open.push_back(i);
-  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
-  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
-    for_each_task(open.size(), [&](std::size_t k) {
-      const std::size_t i = open[k];
-      PenetrationOptions own = options;
-      own.threads = 1;
-      own.progress = nullptr;
-      own.budget.seconds = stop.seconds_left();
-      const Body &a = bodies[pairs[i].first], &b = bodies[pairs[i].second];
-      ContactMemory& memory = *memories[i];
-      memory = {impl_->moves_of(pairs[i]), options.error_bound, options.decide, {}};
-      memory.penetration = penetration_depth({*a.solid, a.model.pose}, {*b.solid, b.model.pose}, own);
-    });
+  for_open_pairs(open, options, [&](std::size_t i, const PenetrationOptions& own) {
+    const Body &a = bodies[pairs[i].first], &b = bodies[pairs[i].second];
+    ContactMemory& memory = *memories[i];
+    memory = {impl_->moves_of(pairs[i]), options.error_bound, options.decide, {}};
+    memory.penetration = penetration_depth({*a.solid, a.model.pose}, {*b.solid, b.model.pose}, own);
   });
   stats.measured = open.size();
   stats.unmoved = pairs.size() - open.size();

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "geometry/position_table.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
+#include "numeric/numbers_below.h"
 #include "simplify/change_prover.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify/propose.h"
@@ -39,14 +40,6 @@ std::vector<Vec3> positions_of(const TriangleMesh& mesh) {
   return result;
 }
 
-std::vector<std::uint32_t> numbers(std::size_t count) {
-  std::vector<std::uint32_t> result(count);
-  std::iota(result.begin(), result.end(), 0u);
-  return result;
-}
-
-bool is_same(Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
-
 }  // namespace
 
 class CollapseChecker::Impl {
@@ -57,8 +50,8 @@ class CollapseChecker::Impl {
         framed_(in_frame(original, frame_)),
         vertices_(positions_of(framed_)),
         tree_(framed_),
-        state_(vertices_, framed_.triangles, tree_, indexed_manifold(framed_), numbers(framed_.vertices.size()),
-               numbers(framed_.triangles.size())),
+        state_(vertices_, framed_.triangles, tree_, indexed_manifold(framed_), numbers_below(framed_.vertices.size()),
+               numbers_below(framed_.triangles.size())),
         split_(whole(state_)),
         proposer_(state_),
         workers_(state_, 1),
@@ -145,9 +138,9 @@ std::optional<Vec3> CollapseChecker::Impl::point_in_frame(const Eigen::Vector3d&
 /// What the caller gave is given back to the bit: the way into the frame and back may round.
 Eigen::Vector3d CollapseChecker::Impl::point_in_model(Vec3 p, const Question& wanted) const {
   const auto framed = point_in_frame(wanted.point);
-  if (framed && is_same(*framed, p)) return wanted.point;
+  if (framed && same_position(*framed, p)) return wanted.point;
   for (const std::uint32_t end : {wanted.u, wanted.v})
-    if (is_same(state_.mesh.position(end), p)) return model_[end];
+    if (same_position(state_.mesh.position(end), p)) return model_[end];
   return frame_.to_model({p.x, p.y, p.z});
 }
 
@@ -186,7 +179,8 @@ bool CollapseChecker::Impl::admits(std::uint32_t u, std::uint32_t v, const Eigen
   const std::optional<Vec3> wanted = state_.limit > 0 ? point_in_frame(point) : std::nullopt;
   if (wanted) {
     const std::optional<Vec3> found = proposer_.placement(edge, 1, wanted);
-    if (found && is_same(*found, *wanted) && prove(*wanted, {u, v, point}) && admitted_->point == point) return true;
+    if (found && same_position(*found, *wanted) && prove(*wanted, {u, v, point}) && admitted_->point == point)
+      return true;
   }
   take_back();
   ++counts.refused;

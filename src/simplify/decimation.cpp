@@ -6,14 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "geometry/eigen_vec3.h"
+#include "geometry/position_table.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
+#include "numeric/numbers_below.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/prune.h"
@@ -29,14 +31,10 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   return result;
 }
 
-Vec3 to_vec3(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
 /// What samples may reach of the texture tolerance: between them the texture moves further.
 constexpr double share_of_texture_tolerance = 0.9;
 
 bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
-bool is_same(Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
-
 /// False at a border, and where a face has no area and so no normal.
 bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
   if (mesh.twin(edge) == ArrayMesh::none) return false;
@@ -136,10 +134,9 @@ void Decimation::go_on_from_start(ManifoldSoup soup, ArrayMesh mesh) {
 
 void Decimation::sort_start_points() {
   const std::vector<Vec3>& points = start_points();
-  by_start_point_.resize(points.size());
-  std::iota(by_start_point_.begin(), by_start_point_.end(), 0u);
+  by_start_point_ = numbers_below(points.size());
   std::sort(by_start_point_.begin(), by_start_point_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return is_before(points[a], points[b]) || (is_same(points[a], points[b]) && a < b);
+    return is_before(points[a], points[b]) || (same_position(points[a], points[b]) && a < b);
   });
 }
 
@@ -147,7 +144,7 @@ void Decimation::sort_start_points() {
 std::optional<std::uint32_t> Decimation::first_at(Vec3 p) const {
   const auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p,
                                    [&](std::uint32_t v, Vec3 q) { return is_before(start_points()[v], q); });
-  if (at == by_start_point_.end() || !is_same(start_points()[*at], p)) return std::nullopt;
+  if (at == by_start_point_.end() || !same_position(start_points()[*at], p)) return std::nullopt;
   return *at;
 }
 
@@ -215,7 +212,7 @@ bool Decimation::is_seam(Corner edge) const {
   const auto at = [&](Corner face, std::uint32_t vertex) {
     const std::uint32_t t = state_->source_triangle[face / 3];
     std::size_t k = 0;
-    while (k < 2 && !is_same(vertices_[original_.triangles[t][k]], mesh.position(vertex))) ++k;
+    while (k < 2 && !same_position(vertices_[original_.triangles[t][k]], mesh.position(vertex))) ++k;
     return options_.texture_coordinates[order_.triangle[t]][k];
   };
   const auto differ = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -4,9 +4,9 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "numeric/first_error.h"
+#include "numeric/numbers_below.h"
 #include "simplify/proof_worker.h"
 
 namespace meshbound {
@@ -24,8 +24,7 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
     if (state.stamp[f] != 0 && !state.mesh.is_removed(f)) open_faces_.push_back(f);
   only_face_.assign(originals_.size(), ArrayMesh::none);
   faces_.resize(originals_.size());
-  open_originals_.resize(originals_.size());
-  std::iota(open_originals_.begin(), open_originals_.end(), 0u);
+  open_originals_ = numbers_below(originals_.size());
 }
 
 std::span<const std::uint32_t> Proof::draft(std::uint32_t index) const {

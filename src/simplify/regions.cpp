@@ -2,10 +2,10 @@
 #include "simplify/regions.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 
 #include "geometry/cut_axes.h"
+#include "numeric/numbers_below.h"
 #include "simplify/propose.h"
 
 namespace meshbound {
@@ -56,8 +56,7 @@ class Cutter {
   /// refused: the cap of a cylinder would be decimated in one sector only, and the other cap in another one.
   void join_at_hubs() {
     const ArrayMesh& mesh = state_.mesh;
-    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0), joined(of_region_.size());
-    std::iota(joined.begin(), joined.end(), 0u);
+    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0), joined = numbers_below(of_region_.size());
     const auto root = [&](std::uint32_t r) {
       while (joined[r] != r) r = joined[r];
       return r;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/point_triangle.h"
+#include "geometry/longest_edge.h"
 
 namespace meshbound {
 namespace {
@@ -161,12 +161,7 @@ Bounds length_bounds(const std::array<Approximate, 3>& v) {
 Eigen::Vector3d nearest_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
   std::array<Vec3, 3> c;
   for (std::size_t k = 0; k < 3; ++k) c[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
-  std::size_t first = 0;  // of the longest edge
-  for (std::size_t k = 1; k < 3; ++k)
-    if (squared_length(c[(k + 1) % 3] - c[k]) > squared_length(c[(first + 1) % 3] - c[first])) first = k;
-  const Vec3 a = c[first];
-  const CornerTriangle<double> t{a, c[(first + 1) % 3] - a, c[(first + 2) % 3] - a};
-  const Vec3 offset = closest_on_triangle(t, Vec3{p.x(), p.y(), p.z()}).offset;
+  const Vec3 offset = closest_on_triangle(longest_edge_first(c), Vec3{p.x(), p.y(), p.z()}).offset;
   return p - Eigen::Vector3d(offset.x, offset.y, offset.z);
 }
 

@@ -11,11 +11,13 @@
 #include <span>
 #include <utility>
 
+#include "distance/distance_stats.h"
 #include "distance/search/one_sided.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
+#include "numeric/numbers_below.h"
 #include "numeric/rounding.h"
 #include "tiles/measure_in_tiles.h"
 #include "tiles/tile_bytes.h"
@@ -105,27 +107,6 @@ void add_tiles(NumberLists& tiles, const TriangleMesh& a, std::vector<std::uint3
     tiles.numbers.insert(tiles.numbers.end(), part.begin(), part.end());
     tiles.end_list();
   }
-}
-
-void add(DistanceStats& sum, const DistanceStats& stats) {
-  sum.triangles += stats.triangles;
-  sum.matched += stats.matched;
-  sum.culled_by_node += stats.culled_by_node;
-  sum.culled_by_vertices += stats.culled_by_vertices;
-  sum.walked += stats.walked;
-  sum.closest_point_queries += stats.closest_point_queries;
-  sum.nodes_visited += stats.nodes_visited;
-  sum.triangles_tested += stats.triangles_tested;
-  sum.subdivisions += stats.subdivisions;
-  sum.deepest_subdivision = std::max(sum.deepest_subdivision, stats.deepest_subdivision);
-  sum.pieces += stats.pieces;
-  sum.resolved += stats.resolved;
-  sum.enclosed += stats.enclosed;
-  sum.given_up += stats.given_up;
-  sum.phases.matching += stats.phases.matching;
-  sum.phases.culling_on_a += stats.phases.culling_on_a;
-  sum.phases.culling_on_b += stats.phases.culling_on_b;
-  sum.phases.subdivision += stats.phases.subdivision;
 }
 
 /// How far around a tile B is looked for: at first, and at least from then on. Model units.

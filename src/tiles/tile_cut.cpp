@@ -81,12 +81,6 @@ NumberLists cut_into_tiles(std::vector<std::uint32_t> items, const PositionOf& p
   return TileCutter(position, weights, max_weight, cut).run(std::move(items));
 }
 
-std::vector<std::uint32_t> numbers_below(std::size_t count) {
-  std::vector<std::uint32_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), 0u);
-  return numbers;
-}
-
 MeshPart part_of(const TriangleMesh& whole, std::span<const std::uint32_t> triangles) {
   MeshPart part;
   part.vertices.reserve(3 * triangles.size());

@@ -33,9 +33,6 @@ using PositionOf = std::function<Eigen::Vector3d(std::uint32_t)>;
   return mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c];
 }
 
-/// 0, 1, ... below `count`.
-[[nodiscard]] std::vector<std::uint32_t> numbers_below(std::size_t count);
-
 /// Some triangles of a mesh as a mesh of their own.
 struct MeshPart {
   TriangleMesh mesh;                    ///< the triangles in the order that they were asked for

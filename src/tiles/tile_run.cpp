@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tiles/tile_run.h"
 
+#include "numeric/numbers_below.h"
 #include "simplify/decimation.h"
 #include "tiles/tile_cut.h"
 

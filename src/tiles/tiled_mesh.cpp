@@ -9,6 +9,7 @@
 #include "mesh/weld.h"
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {

@@ -2,12 +2,13 @@
 #include "simplify/cover/box_tree.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 
-BoxTree::BoxTree(std::vector<Eigen::AlignedBox3d> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
+BoxTree::BoxTree(std::vector<Eigen::AlignedBox3d> boxes)
+    : boxes_(std::move(boxes)), order_(numbers_below(boxes_.size())) {
   if (!boxes_.empty()) build(0, 0, boxes_.size());
 }
 

@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "geometry/eigen_vec3.h"
 #include "geometry/point_triangle.h"
 #include "geometry/vec3.h"
 
 namespace meshbound {
 
-inline Eigen::Vector3d to_eigen(Vec3 p) { return {p.x, p.y, p.z}; }
 inline Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& corners) {
   Eigen::AlignedBox3d box;
   for (const Vec3 p : corners) box.extend(to_eigen(p));

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+
+#include "numeric/numbers_below.h"
 
 namespace meshbound {
 
 LocalTolerance::LocalTolerance(const std::vector<Eigen::AlignedBox3d>& boxes, std::span<const double> tolerances)
     : count_(boxes.size()) {
-  Input input{boxes, tolerances, std::vector<std::uint32_t>(count_)};
-  std::iota(input.order.begin(), input.order.end(), 0u);
+  Input input{boxes, tolerances, numbers_below(count_)};
   if (count_ > 0) build(0, 0, count_, input);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/position_table.h"
+
 namespace meshbound {
 namespace {
 
@@ -23,8 +25,6 @@ std::array<Corner, 4> outer_corners(const ArrayMesh& mesh, Corner edge) {
   if (other != ArrayMesh::none) outer[2] = mesh.twin(next_corner(other)), outer[3] = mesh.twin(previous_corner(other));
   return outer;
 }
-
-bool is_same(Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
 
 }  // namespace
 
@@ -116,7 +116,7 @@ FeatureLines::Before FeatureLines::before(const ArrayMesh& mesh, Corner edge) co
 void FeatureLines::collapse(const ArrayMesh& mesh, Corner edge, Vec3 point) {
   if (empty()) return;
   const std::uint32_t kept = mesh.start(edge), gone = mesh.end(edge);
-  if (at_[gone] != none && (at_[kept] == none || is_same(point, position_[at_[gone]]))) at_[kept] = at_[gone];
+  if (at_[gone] != none && (at_[kept] == none || same_position(point, position_[at_[gone]]))) at_[kept] = at_[gone];
   const auto outer = outer_corners(mesh, edge);
   for (std::size_t side = 0; side < outer.size(); side += 2) {
     const Corner c = outer[side], d = outer[side + 1];
