@@ -14,7 +14,8 @@ namespace meshbound {
 struct OutputTarget {
   std::filesystem::path path;  ///< links followed
   bool is_stream = false;      ///< a device or FIFO, or a descriptor of this process: written to, never replaced
-  /// Of this process (`/dev/stdout` is 1), or -1. Used as it is, so that writing continues at its position.
+  /// The descriptor of this process that the path names (`/dev/stdout` is 1), or -1. Used as it is, so that writing
+  /// continues at its position.
   int descriptor = -1;
 
   /// Owner and permissions of a file that is replaced, which the new file takes over.

@@ -14,19 +14,19 @@ class ChangeProver {
   /// Uses the memory of one thread of `workers`. All must outlive this.
   ChangeProver(DecimationState& state, ProofWorkers& workers, std::size_t thread)
       : state_(state), workers_(workers), thread_(thread) {}
-  /// Makes the last change part of what is proven, or takes it back where that fails.
+  /// Adds the last change to what is proven, or undoes it if it cannot be proven.
   bool prove_or_undo(const Split& split, Region& region) {
     if (!prove(split, region)) return false;
     accept(region);
     return true;
   }
-  /// In two steps: until `accept`, `undo_last` may still take back a change that holds.
+  /// The same in two steps: until `accept`, `undo_last` may still undo a change that was proven.
   bool prove(const Split& split, Region& region);
   /// Whether the last change failed, but might have been proven with the help of faces of other regions.
   [[nodiscard]] bool met_seam() const;
   void accept(Region& region);
-  /// Makes all changes of the region that are not proven yet, many around one place, part of what is proven. False
-  /// where that fails; they are as they were then.
+  /// Proves all unproven changes of the region together; they must lie around one place. False if that fails: they are
+  /// then still unproven.
   [[nodiscard]] bool prove_group(const Split& split, Region& region);
 
   std::uint64_t proven = 0, unproven = 0, originals_tested = 0, faces_tested = 0;
@@ -37,7 +37,7 @@ class ChangeProver {
   DecimationState& state_;
   ProofWorkers& workers_;
   std::size_t thread_;
-  std::vector<std::uint32_t> changed_;  ///< by a group
+  std::vector<std::uint32_t> changed_;  ///< faces changed by a group
 };
 
 }  // namespace meshbound

@@ -27,17 +27,17 @@ constexpr std::size_t min_vertices_together = 2000, min_vertices_one_by_one = 10
 /// Passes over the edges that something has changed around end where one removes a smaller share of the faces.
 constexpr double min_gain_of_pass = 0.01;
 
-/// Where proofs have failed, what was taken back is proposed again, with less of the tolerance, while it is more than
-/// the first share of what was proposed, and less than the second: proofs of single collapses cost many times more, but
-/// where most proposals fail they save the failures.
+/// Where proofs failed, what was undone is proposed again with a smaller share of the tolerance, as long as it is more
+/// than the first share of what was proposed and less than the second: proofs of single collapses cost many times more,
+/// but where most proposals fail they avoid the failures.
 constexpr int max_rounds = 4;
 constexpr double min_share_taken_back = 0.05, max_share_taken_back = 0.3;
 
-/// The time is looked at once in this many edges, and progress is told.
+/// Edges between two checks of the time and two reports of progress.
 constexpr std::uint32_t edges_between_looks = 32;
 
-/// What was collapsed before the time ended may still be proven in this share of it, or in these seconds where the run
-/// was cancelled.
+/// Once the time limit has ended a run, proofs of what was collapsed before may take this share of it more, or this
+/// many seconds if the run was cancelled.
 constexpr double proof_share_of_time = 0.25;
 constexpr double seconds_of_last_proof = 0.3;
 
@@ -108,7 +108,7 @@ void Run::keep_what_has_no_face() {
   proof.commit();
 }
 
-/// Runs of the regions of a split side by side.
+/// Runs `work` for the regions of a split side by side.
 void Run::in_regions(Split split, const Work& work) {
   removed_ = 0;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_.count())
@@ -124,7 +124,7 @@ void Run::in_regions(Split split, const Work& work) {
   error_.rethrow();
 }
 
-/// For one region: asked before each collapse.
+/// Whether a region must stop; asked before each collapse.
 std::function<bool(std::size_t)> Run::must_stop() {
   const bool tells = omp_get_thread_num() == 0 && goal_.progress;
   return [this, tells, edges = std::uint32_t{0}, known = std::size_t{0}](std::size_t removed) mutable {
@@ -142,7 +142,7 @@ std::function<bool(std::size_t)> Run::must_stop() {
   };
 }
 
-/// Collapses that samples find well within the tolerance. Nothing of them is proven.
+/// Makes the collapses that samples find well within the tolerance, without proofs.
 void Run::propose(int shift) {
   if (has_ended()) return;
   if (is_global() && shift > 0) return;
@@ -154,7 +154,7 @@ void Run::propose(int shift) {
              });
 }
 
-/// How many changes have not been proven yet.
+/// Number of changes that are not proven yet.
 std::size_t Run::proposed() const {
   std::size_t changes = 0;
   for (const EditLog& log : state_.logs) changes += log.edits.size();
@@ -166,8 +166,8 @@ StopToken Run::stop_of_proof() const {
   return StopToken().until(StopToken::Clock::now(), seconds_of_last_proof);
 }
 
-/// Proves what the proposals left, and takes back what cannot be proven until all is. Where the time ends before, all
-/// of them are taken back. Returns how many were.
+/// Proves the proposals, and undoes what cannot be proven until the rest is. If the time ends before, all of them are
+/// undone. Returns how many were undone.
 std::size_t Run::prove_and_repair() {
   if (state_.logs.empty()) return 0;
   std::size_t left = proposed();
@@ -196,14 +196,14 @@ std::size_t Run::prove_and_repair() {
   return taken_back;
 }
 
-/// What was refused for a smaller share of the tolerance may fit now.
+/// Makes edges open again that were refused for a smaller share of the tolerance.
 void Run::try_the_others_again() {
   for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
     if (state_.hope[e] == Hope::WithMoreTolerance) state_.refused_at[e] = 0;
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
-/// What is near the tolerance.
+/// Collapses near the tolerance, each proven before the next.
 void Run::prove_one_by_one() {
   try_the_others_again();
   while (!has_ended()) {
@@ -234,7 +234,7 @@ void Run::prove_one_by_one() {
   }
 }
 
-/// Moves and flips make room for further collapses.
+/// Moves vertices and flips edges to make room for further collapses.
 void Run::refine() {
   if (has_ended()) return;
   RefinementGoal goal;
@@ -247,7 +247,7 @@ void Run::refine() {
   if (!has_ended() && goal_.target_faces > 0 && state_.faces <= goal_.target_faces) ended_by_ = EndedBy::Target;
 }
 
-/// Whether the mesh leaves the tolerance by the collapse that was refused last.
+/// Whether the mesh would leave the tolerance by the collapse refused last.
 bool Run::truly_exceeds(Region& region, Proposer& proposer) {
   DistanceOptions options;
   options.threads = threads_.count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The main loop: propose, prove, repair, then what is near the tolerance one by one.
+/// The main loop: propose, prove, repair; then collapses near the tolerance, proven one by one.
 #pragma once
 #include <functional>
 #include <memory>
@@ -11,9 +11,9 @@
 
 namespace meshbound {
 
-/// When a decimation ends, beside where nothing fits. Lengths as in its mesh.
+/// Limits at which a decimation ends before nothing fits any more. Lengths as in its mesh.
 struct DecimationGoal {
-  double tolerance = 0;  ///< less all room for rounding
+  double tolerance = 0;  ///< without the room reserved for rounding
   std::size_t target_faces = 0;
   OnExceed on_exceed = OnExceed::Skip;
   Effort effort = Effort::Normal;
@@ -22,8 +22,8 @@ struct DecimationGoal {
   const CollapseDriver* driver = nullptr;           ///< null: our own
 };
 
-/// Decimates until nothing more fits or the goal is reached. The state is proven for the tolerance of the goal, which
-/// must not be smaller than that of the call before, whatever ends it.
+/// Decimates until nothing more fits or the goal is reached. Afterwards the state is proven for the tolerance of the
+/// goal, whatever ended it; that tolerance must not be smaller than that of the call before.
 [[nodiscard]] EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads);
 
 }  // namespace meshbound

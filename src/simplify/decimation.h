@@ -12,13 +12,14 @@
 
 namespace meshbound {
 
-/// One decimation under growing tolerances: the state in its working frame, and the way there and back.
+/// One decimation under growing tolerances: the state in its working frame, and the maps into that frame and back.
 class Decimation {
  public:
   /// `options` must outlive this. Throws `Stopped`.
   Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop);
-  /// Goes on from `start`, which must outlive this too. `SimplifyOptions::locked_vertices` are by its vertices, and the
-  /// sources of a result are numbers of `start` instead of the original. It has no lines and no tolerances of faces.
+  /// Continues from `start`, which must outlive this. `SimplifyOptions::locked_vertices` are then by the vertices of
+  /// `start`, and the sources of a result refer to `start` instead of the original. `start` has no lines and no
+  /// tolerances of faces.
   Decimation(const TriangleMesh& original, const ProvenMesh& start, const SimplifyOptions& options,
              const StopToken& stop);
 
@@ -26,13 +27,13 @@ class Decimation {
   /// than in the call before.
   EndedBy run(double tolerance, std::size_t target_faces, const StopToken& stop);
 
-  /// The mesh as it is now, in model coordinates, with its sources. What is left of the original comes in its order.
+  /// The current mesh in model coordinates, with its sources. Vertices and triangles are in the order of the original.
   void current_mesh(SimplifiedLevel& into) const;
-  /// The proof of `current_mesh`, without triangles of the original that are part of it as they are.
+  /// The proof of `current_mesh`, without the triangles of the original that it contains unchanged.
   void current_proof(ProvenMesh& into) const;
   [[nodiscard]] CollapseCounts counts() const { return threads_->counts(); }
   void describe(SimplifyResult& result) const;
-  /// Edges of the original that are lines, by its own numbers.
+  /// Edges of the original that are feature lines, by the original's own vertex numbers.
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
 
  private:

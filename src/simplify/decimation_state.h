@@ -16,58 +16,59 @@
 
 namespace meshbound {
 
-/// Points of the original, each with the face of the mesh that it was found nearest to: its vertices, and points
-/// between them where they lie far apart. A guide, not a bound.
+/// Points of the original, each assigned to the face of the mesh that it was found nearest to: the vertices, and points
+/// on long edges. They guide decimation and prove nothing.
 ///
-/// A face that grows large would have more than it needs: half of them then go with another one near, which stands for
-/// both. They keep to its face from then on.
+///
+/// When a face has more samples than it needs, every second one is attached to another sample nearby that represents
+/// both, and stays with that one's face from then on.
 class Samples {
  public:
   static constexpr std::uint32_t none = ArrayMesh::none;
 
   Samples() = default;
-  /// Vertices of the original, and points on edges longer than `spacing`, between them.
+  /// Takes the vertices of the original, and points at most `spacing` apart on longer edges.
   Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
           const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
           const std::vector<std::uint32_t>& vertex_of_vertex, double spacing);
-  /// Vertices and points on edges of an original that the mesh has left already, each with the nearest of the faces
-  /// that cover its triangle. Originals without a cover have none.
+  /// Takes samples for a mesh that is no longer the original: each sample gets the nearest of the faces that cover its
+  /// triangle. Originals without a cover have no samples.
   Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
           const ArrayMesh& mesh, const CoverAssignment& cover, double spacing);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
   [[nodiscard]] std::uint32_t triangle_near(std::uint32_t sample) const { return triangle_near_[sample] & ~at_edge; }
-  /// Whether it lies on a border or a crease, where distances are largest: no other one can stand for it.
+  /// Whether the sample lies on a border or a crease, where distances are largest: no other sample can represent it.
   [[nodiscard]] bool is_at_edge(std::uint32_t sample) const { return (triangle_near_[sample] & at_edge) != 0; }
-  /// None where no face is known.
+  /// The face of a sample; `none` if it has none.
   [[nodiscard]] std::uint32_t face_of(std::uint32_t sample) const {
     while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != none)
       sample = samples_[sample].face;
     return samples_[sample].face;
   }
-  /// The samples of a face form a list; those that go with others are not in it.
+  /// First sample in the list of the face; attached samples are in no list.
   [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
   [[nodiscard]] std::uint32_t following(std::uint32_t sample) const { return samples_[sample].following; }
 
-  /// The sample is going to be asked for.
+  /// Prefetches a sample that is needed soon.
   void prefetch(std::uint32_t sample) const { __builtin_prefetch(&samples_[sample]); }
 
-  /// Empties the list of the face; its samples must be given to other faces then.
+  /// Empties the list of the face; the caller must assign its samples to other faces.
   void clear(std::uint32_t face) { first_[face] = none; }
   void give_to(std::uint32_t sample, std::uint32_t face) {
     samples_[sample].face = face;
     samples_[sample].following = first_[face];
     first_[face] = sample;
   }
-  /// The sample keeps to the face of `other` from now on, and is in no list.
+  /// Attaches the sample to `other`: it is in no list from here on and has the face of `other`.
   void go_with(std::uint32_t sample, std::uint32_t other) {
     samples_[sample].face = other;
     samples_[sample].following = goes_with;
   }
 
  private:
-  /// Points between p and q that are at most `spacing` apart, as far as they are not too many.
+  /// Adds points between p and q that are at most `spacing` apart, up to a limit.
   template <class FaceAt>
   void add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle_and_mark, const FaceAt& face_at);
 
@@ -80,32 +81,33 @@ class Samples {
   std::vector<std::uint32_t> triangle_near_, first_;
 };
 
-/// When an edge that was refused may be worth another trial.
+/// What must change before a refused edge is worth another trial.
 enum class Hope : std::uint8_t {
   WithMoreTolerance,  ///< a larger share of the tolerance, or a change around it
   AfterChange,        ///< something changes around it
   OfOtherEnds         ///< one of its ends moves: it was refused by a wide margin
 };
 
-/// One change of the mesh that has not been proven yet, and what was before.
+/// An unproven change of the mesh, with what is needed to undo it.
 struct Edit {
   enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
   bool was_locked = false;
-  Corner edge = ArrayMesh::none;  ///< collapsed or flipped; for a move a corner of the vertex
-  Vec3 position;                  ///< of the start of the edge
-  FeatureLines::Before lines;     ///< at the edge of a collapse
-  std::uint32_t first_stamp = 0;  ///< its faces in `EditLog::stamps`
+  Corner edge = ArrayMesh::none;  ///< the edge collapsed or flipped; for a move, a corner of the vertex
+  Vec3 position;                  ///< of the start of the edge, before the change
+  FeatureLines::Before lines;     ///< before a collapse, at its edge
+  std::uint32_t first_stamp = 0;  ///< index of its first face in `EditLog::stamps`
 };
 
-/// Changes in their order. The number of the first one is `before + 1`.
+/// The changes of a region in their order. The first one has the number `before` + 1.
 struct EditLog {
   struct Stamp {
-    std::uint32_t face, before;  ///< the number of the change before that touched the face; 0: none
+    std::uint32_t face, before;  ///< the number of the change that touched the face before, 0 for none
   };
   std::uint32_t before = 0;
   std::vector<Edit> edits;
   std::vector<Stamp> stamps;
-  std::vector<CornerCoordinates> coordinates;  ///< by stamp: those of the face before; empty without a texture
+  /// By stamp: the coordinates of the face before the change; empty without a texture.
+  std::vector<CornerCoordinates> coordinates;
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
   void clear() { edits.clear(), stamps.clear(), coordinates.clear(); }
@@ -120,16 +122,17 @@ struct EditLog {
 /// A part of the mesh that one thread changes, see `Split`.
 struct Region {
   std::uint32_t id = 0;
-  EditLog log;  ///< of what has not been proven
+  EditLog log;  ///< unproven changes
   std::size_t removed_faces = 0;
   std::uint32_t clock = 0;
   std::vector<std::uint32_t> vertices;  ///< of the region; empty where it is the whole mesh
 };
 
-/// A mesh under decimation and all that is known of it.
+/// A mesh under decimation and everything known about it.
 ///
-/// `mesh` is proven to be within the tolerance of the original, both ways, but for the faces with a stamp: these were
-/// changed since, and `logs` can take the changes back. All coordinates are those of the working frame.
+///
+/// `mesh` is proven to be within the tolerance of the original, both ways, except for faces with a stamp: these were
+/// changed since the last proof, and `logs` can undo the changes. All coordinates are those of the working frame.
 struct DecimationState {
   /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
   /// vertex of the original is at the same place. The original must outlive this. Samples are still to be set.
@@ -147,8 +150,9 @@ struct DecimationState {
                   CoverAssignment cover_of);
   /// Takes samples for proposals of this tolerance.
   void set_samples(double for_tolerance);
-  /// Between samples on an edge of the original, in tolerances: a face may be nearer than that to both ends of an edge
-  /// and miss its middle. Half as much costs a tenth more time for as many faces, twice as much 4% more faces.
+  /// Largest distance between samples on an edge of the original, in tolerances: with samples further apart, a face may
+  /// be near both ends of an edge and miss its middle. Half of this costs a tenth more time for as many faces, twice as
+  /// much gives 4% more faces.
   static constexpr double spacing_of_samples = 3;
 
   const std::vector<Vec3>& vertices;                           ///< of the original
@@ -166,33 +170,34 @@ struct DecimationState {
 
   double magnitude = 0;  ///< largest coordinate of the original
   double tolerance = 0;
-  double limit = 0;  ///< what must be found in doubles so that `tolerance` holds
+  double limit = 0;  ///< largest computed distance that proves `tolerance` in real arithmetic
   FeatureLines lines;
   double line_tolerance = HUGE_VAL;  ///< of `lines`, where it is smaller than `tolerance`
-  double line_limit = 0;             ///< what must be found in doubles so that both hold for lines
-  bool keeps_positions = false;      ///< vertices stand only where the original has vertices
+  double line_limit = 0;             ///< largest computed distance that proves both tolerances for lines
+  bool keeps_positions = false;      ///< vertices may stand only where the original has vertices
   std::optional<LocalTolerance> local;
-  std::optional<TextureMap> texture;  ///< where the texture must not move too far
+  std::optional<TextureMap> texture;  ///< set if the texture must not move too far
 
   std::vector<std::uint32_t> stamp;  ///< by face: the number of the last change since the last proof, or 0
   std::vector<EditLog> logs;         ///< since the last proof, their numbers ascending
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
-  std::uint32_t clock = 0;                         ///< changes since the beginning
+  std::uint32_t clock = 0;                         ///< changes since the start
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  std::vector<Hope> hope;                          ///< by edge: what may help one that was refused
+  std::vector<Hope> hope;                          ///< by edge: what must change before a refused edge is tried again
   std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
-  /// All proofs hold for a larger tolerance as well, and what was refused may fit now. Not for a smaller one.
+  /// Sets a larger tolerance: all proofs hold for it as well, and what was refused may fit now. A smaller one is not
+  /// allowed.
   void grow_tolerance(double to);
-  /// What must be found in doubles so that `value` holds in real arithmetic.
+  /// The largest computed distance that proves `value` in real arithmetic.
   [[nodiscard]] double provable(double value) const;
-  /// What must be found in doubles around a triangle so that the tolerances hold there.
+  /// The largest computed distance around a triangle that proves all tolerances there.
   [[nodiscard]] double limit_around(const std::array<Vec3, 3>& corners) const;
   [[nodiscard]] double limit_in(const Eigen::AlignedBox3d& box) const {
     return local ? provable(local->sufficient_around(box, tolerance)) : limit;
   }
   std::vector<std::uint32_t> kept;     ///< original triangles without a face near: part of every result as they are
-  std::vector<std::uint8_t> is_kept;   ///< by original triangle; empty: none is
+  std::vector<std::uint8_t> is_kept;   ///< by original triangle: whether it is in `kept`; empty if none is
   bool starts_as_original = true;      ///< the mesh was the original when the decimation began
   CoverAssignment cover;               ///< which faces each original triangle is proven to be near
   std::vector<std::uint32_t> nearest;  ///< by face: an original triangle near it

@@ -11,20 +11,21 @@
 
 namespace meshbound {
 
-/// Decides by the distance engine whether a refused collapse really breaks the bound, for `OnExceed::Stop`: the proof
-/// of a collapse may fail where the bound still holds, with the help of faces that are far along the surface.
+/// Decides by the distance engine whether a refused collapse would really break the bound, for `OnExceed::Stop`: its
+/// proof may fail although the bound would hold, with the help of faces that are far away along the surface.
 ///
-/// The state is proven but for that collapse, so only what it touches is compared: the originals that relied on its
-/// faces with all faces that lie within the tolerance of their box, found by boxes, and its new faces with the
-/// original. Boxes are those of an earlier mesh; faces around vertices that were touched since are looked at one by
-/// one, until they are so many that the boxes are made anew.
+///
+/// The state is proven except for that collapse, so only what the collapse touches is compared: the originals that
+/// relied on its faces with all faces within the tolerance of their box, which are found by boxes, and its new faces
+/// with the original. The boxes are those of an earlier mesh; faces around vertices touched since then are tested one
+/// by one, and the boxes are built again when these become too many.
 class ExceedCheck {
  public:
   /// `state` must outlive this.
   explicit ExceedCheck(DecimationState& state) : state_(state) {}
 
-  /// True unless the engine finds the mesh within `tolerance` of the original after the collapse that `proposer` was
-  /// refused last. The mesh is as it was afterwards. O(n) with a small constant for n vertices.
+  /// False only if the engine finds the mesh after the collapse that `proposer` refused last to be within `tolerance`
+  /// of the original. The mesh is unchanged afterwards. O(n) with a small constant for n vertices.
   [[nodiscard]] bool exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options);
 
  private:

@@ -24,23 +24,23 @@ class LocalEdit {
   using Corners = std::array<Vec3, 3>;
 
   explicit LocalEdit(DecimationState& state);
-  /// Changes are made in this region from now on. Both arguments must stay where they are until the last change.
+  /// Selects the region in which changes are made. Both arguments must stay where they are until the last change.
   void enter(const Split& split, Region& region);
 
-  /// Gather the faces around as they are. False where borders, locks, the region or the topology forbid the
-  /// change. A collapse takes no border edge either.
+  /// Gather the faces around, before the change. False if borders, locks, the region or the topology forbid the change,
+  /// and for the collapse of a border edge.
   [[nodiscard]] bool gather_move(std::uint32_t vertex);
   [[nodiscard]] bool gather_flip(Corner edge);
   [[nodiscard]] bool gather_collapse(Corner edge);
 
-  /// The faces that stay as they would be with the vertex at `point` or the edge flipped. False where one is folded.
+  /// Places the faces that stay with the vertex at `point`, or the edge flipped. False if a face would be folded.
   [[nodiscard]] bool place(Vec3 point);
   [[nodiscard]] bool place_flipped();
-  /// Gathers and places a flip. False where that is not possible, and where the deviation would not be lower.
+  /// Gathers and places a flip. False if it is not possible or would not lower the deviation.
   [[nodiscard]] bool flip_lowers_deviation(Corner edge);
   /// The vertex that moves comes first in each of these faces.
   [[nodiscard]] std::span<const Corners> faces() const { return corners_; }
-  /// Where the vertex that moves is now.
+  /// The position of the moving vertex before the change.
   [[nodiscard]] Vec3 origin() const { return origin_; }
 
   /// The sum over the samples, and over points on the edges that change, of (distance / tolerance)^6: a high power
@@ -48,17 +48,17 @@ class LocalEdit {
   [[nodiscard]] DeviationSums deviation();
   /// The part of that sum that stands for samples.
   [[nodiscard]] DeviationSums sampled_deviation() const;
-  /// Whether samples and points on the edges that change are within `share` of what has to be proven. Looks at far more
-  /// points of the edges than `deviation`: most proofs of an edit that looks good fail between the samples.
+  /// Whether the samples, and points on the edges that change, are within `share` of what has to be proven. Tests many
+  /// more points of the edges than `deviation`: most proofs of a promising change fail between the samples.
   [[nodiscard]] bool fits(double share);
 
-  /// Makes the change as it was placed last.
+  /// Makes the change in the mesh, as placed last.
   void make();
-  /// Gives the samples to the faces nearest to them, where the change is to stay.
+  /// Assigns the samples to their nearest faces, once the change is final.
   void assign_samples();
 
-  /// A group is a collapse, gathered and placed, with changes around it that make room for it: their samples are
-  /// assigned at once, and they stay or are taken back together.
+  /// Starts a group: a collapse, gathered and placed, together with changes around it that make room for it. Their
+  /// samples are assigned at once, and they are kept or undone together.
   void begin_group();
   /// As `fits`, for all faces of the group.
   [[nodiscard]] bool group_fits(double share);

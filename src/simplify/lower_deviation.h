@@ -12,7 +12,7 @@ struct DeviationSearch {
 };
 
 struct LoweredDeviation {
-  Vec3 point;         ///< where the vertex is best; it has been placed there
+  Vec3 point;         ///< the best position found; the vertex has been placed there
   double before = 0;  ///< sum at the start
   DeviationSums lowest;
 };

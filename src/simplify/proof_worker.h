@@ -16,7 +16,7 @@
 
 namespace meshbound {
 
-/// What one thread needs to prove single triangles and faces, with its scratch memory.
+/// The scratch memory and the data with which one thread proves single triangles and faces.
 class ProofWorkers::Worker {
  public:
   using Corners = std::array<Vec3, 3>;
@@ -32,7 +32,8 @@ class ProofWorkers::Worker {
     vertex_marks_.reserve(state.mesh.vertex_count());
   }
 
-  /// The face that covers an original triangle alone, or else those that do so together. Neither where none were found.
+  /// Covers an original triangle: sets `only` to a face that covers it alone, or else `faces` to faces that do so
+  /// together. Neither is set if no cover was found.
   void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
     only = ArrayMesh::none;
     faces.clear();
@@ -72,7 +73,7 @@ class ProofWorkers::Worker {
     cover_in_parts(corners, limit, faces);
   }
 
-  /// Whether a face is near the original.
+  /// Whether a face is near the original; `near` is an original triangle to start with, and the one found.
   bool is_near(std::uint32_t face, std::uint32_t& near) {
     const Corners corners = state_.mesh.triangle(face);
     for (const Vec3 p : corners)

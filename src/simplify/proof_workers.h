@@ -12,7 +12,7 @@
 
 namespace meshbound {
 
-/// The boxes of all faces of a mesh as it was, to find those near something from scratch.
+/// The boxes of all faces of a mesh at the time of construction, to find faces near something without samples.
 class FaceBoxes {
  public:
   /// O(n log n).
@@ -32,7 +32,7 @@ class ProofWorkers {
   ProofWorkers(const DecimationState& state, int threads);
   ~ProofWorkers();
 
-  /// Covers of originals by faces that are there, found by their boxes. False where one has none.
+  /// Covers originals by faces found by their boxes. False if one has no cover.
   [[nodiscard]] bool cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
                                     std::vector<std::vector<std::uint32_t>>& covers);
 

@@ -22,17 +22,17 @@ struct EdgeStar {
   std::vector<Corner> moved;           ///< of faces that stay: the corner that moves
   std::vector<std::uint32_t> removed;  ///< faces that go
 
-  /// False where the collapse would not leave a manifold, or where there are too many faces.
+  /// False if the collapse would not leave a manifold, or if there are too many faces around it.
   [[nodiscard]] bool gather(const ArrayMesh& mesh, Corner edge);
 
  private:
   std::vector<std::uint32_t> around_kept_, around_gone_;  ///< vertices
 };
 
-/// Which points of an edge are compared with the original.
+/// Points on an edge that are compared with the original.
 struct PointsOnEdge {
-  double spacing;  ///< in tolerances, at least
-  double max;      ///< between the ends
+  double spacing;  ///< smallest distance between them, in tolerances
+  double max;      ///< most points between the ends
 };
 
 /// Makes a collapse that has been noted.
@@ -46,11 +46,10 @@ class Proposer {
  public:
   explicit Proposer(DecimationState& state);
 
-  /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance:
-  /// at `wanted`, or where its cost is least, or where the largest distance is smallest. None where no such point is
-  /// found.
+  /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance: at
+  /// `wanted`, or where its cost is least, or where the largest distance is smallest. Absent if no such point is found.
   [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share, std::optional<Vec3> wanted);
-  /// Changes from now on are those of this region. Both must outlive them.
+  /// Selects the region in which changes are made. Both must outlive them.
   void enter(const Split& split, const Region& region);
   /// Whether all vertices around an edge belong to the region. An edge with too many faces around it may count as
   /// outside: it can not be collapsed either.
@@ -58,14 +57,14 @@ class Proposer {
   /// Whether the last edge was refused because of the bound, and where its vertex was to go.
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
-  /// What the edge that was refused last needs.
+  /// What must change before the edge refused last is worth another trial.
   [[nodiscard]] Hope hope() const { return hope_; }
-  /// Another placement for the edge that was asked for last, where the largest distance is smaller: for one that could
-  /// not be proven.
+  /// Another placement for the edge asked for last, if the first one could not be proven: one with a smaller largest
+  /// distance.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
-  /// Makes the collapse that was found last.
+  /// Makes the collapse found last.
   void collapse(Region& region, Vec3 point);
-  /// Gives the samples to the faces that are left by that collapse, where it is to stay.
+  /// Assigns the samples to the faces that this collapse leaves, once it is final.
   void assign_samples(Region& region);
   [[nodiscard]] const EdgeStar& star() const { return star_; }
 
@@ -105,10 +104,10 @@ class Proposer {
   std::vector<GuardedFace> before_;    ///< the faces that move
   double limit_ = 0, full_limit_ = 0;  ///< what samples may reach, and all of the tolerance
   bool is_together_ = false;           ///< proofs are still to come
-  bool lowered_ = false;               ///< the last placement is one where the largest distance is smallest
+  bool lowered_ = false;               ///< the last placement already has the smallest largest distance
   bool gathered_ = false;              ///< samples of the star are in `samples_`
   Hope hope_ = Hope::WithMoreTolerance;
-  bool by_bound_ = false;  ///< samples were asked
+  bool by_bound_ = false;  ///< samples decided the refusal
   Vec3 tried_;             ///< the first placement
   Vec3 origin_;
   std::vector<Vec3> borders_;  ///< other ends of border edges

@@ -11,7 +11,7 @@
 
 namespace meshbound {
 
-/// What could not be proven.
+/// What a proof could not confirm.
 struct Unproven {
   std::vector<std::uint32_t> originals;  ///< triangles with a part that no face is near enough to
   std::vector<std::uint32_t> faces;      ///< those that are too far from the original
@@ -30,12 +30,12 @@ class Proof {
 
   /// Proves what is still open. Throws `Stopped` where `stop` asks for it; the state is then as it was.
   void run(const StopToken& stop);
-  /// What was found not to hold. Empty: all is proven.
+  /// What does not hold; empty if all is proven.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
   /// Opens what was proven with these faces, which are in ascending order: they have been changed again, most of them
   /// back to what they were.
   void reopen(const std::vector<std::uint32_t>& changed);
-  /// Makes the proof that of the state, which has nothing unproven from then on.
+  /// Takes the proof over into the state, which then has nothing unproven.
   void commit();
 
   std::uint64_t originals_tested = 0, faces_tested = 0;
@@ -43,7 +43,7 @@ class Proof {
  private:
   void cover_anywhere();
   [[nodiscard]] bool is_stale(std::uint32_t original) const;
-  /// The faces that cover `originals_[index]`; none: open.
+  /// The faces that cover `originals_[index]`; empty if it is open.
   [[nodiscard]] std::span<const std::uint32_t> draft(std::uint32_t index) const;
 
   DecimationState& state_;

@@ -27,13 +27,14 @@ constexpr std::size_t min_vertices_refined = 1000;
 constexpr double min_gain_of_round = 0.025;
 constexpr int min_rounds = 3, max_rounds = 12;
 
-/// From the second round on, a shaken vertex goes this share of the way to the middle of its neighbours, and up to a
-/// share of an edge beside. Without, the search ends in the next local minimum, with 5 to 8% more faces.
+/// From the second round on, a shaken vertex is moved this share of the way to the mean of its neighbours, plus a
+/// random offset of up to `jitter` times an edge. Without this the search ends in the next local minimum, with 5 to 8%
+/// more faces.
 constexpr double way_to_middle = 0.2, jitter = 0.3;
-/// Where that breaks the bound, a shorter way may do.
+/// Attempts with a shorter way each, where a shake breaks the bound.
 constexpr int max_shakes = 3;
 constexpr double shorter_way = 0.4;
-/// On a crease nearly every way does, but along it: up to a share of a random edge.
+/// Attempts along a random edge, for vertices of creases, where nearly every other way breaks the bound.
 constexpr int max_slides = 2;
 constexpr double max_slide = 0.4;
 

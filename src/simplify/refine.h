@@ -9,7 +9,7 @@ namespace meshbound {
 
 struct RefinementGoal {
   std::size_t target_faces = 0;
-  std::function<bool()> stop = [] { return false; };  ///< asked now and then, by several threads; ends at once
+  std::function<bool()> stop = [] { return false; };  ///< asked now and then, by several threads; true ends at once
 };
 
 /// Makes room for further collapses where nothing fits any more: shakes the mesh a little, flips edges and moves

@@ -17,8 +17,8 @@ class RegionCollapses {
   struct Limits {
     double share = 1;                                    ///< share of the tolerance that samples may reach
     std::function<bool(std::size_t removed)> must_stop;  ///< asked with the number of faces gone from the region
-    /// Asked where a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
-    /// None: they go on.
+    /// Asked when a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
+    /// Empty: they continue.
     std::function<bool()> ends_at_refusal;
   };
 
@@ -54,11 +54,11 @@ class RegionCollapses {
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the
   /// largest distance is least. False: it is refused, and the mesh is as it was.
   bool collapse(Corner edge, std::optional<Vec3> wanted = std::nullopt);
-  /// The vertex that the last collapse left, and the edges that there were around both ends before it.
+  /// The vertex that the last collapse left, and the edges around both ends before it.
   [[nodiscard]] std::uint32_t kept() const { return proposer_.star().kept; }
   [[nodiscard]] const std::vector<Corner>& edges_before() const { return edges_before_; }
 
-  /// All open edges by cost, until nothing fits.
+  /// Collapses all open edges by cost, until nothing fits.
   void collapse_all();
 
  private:

@@ -13,10 +13,10 @@ namespace {
 /// the time for 1% fewer faces.
 constexpr double hopeless_placement = 3.0 * 3.0, hopeless_vertex = 1.35 * 1.35, hopeless_ring = 1.15 * 1.15;
 
-/// The neighbours and the vertex itself move this often, and edges flip before they do in the first two sweeps.
+/// Sweeps over the neighbours and the vertex itself; edges are flipped in the first two.
 constexpr int max_sweeps = 3, sweeps_with_flips = 2;
 
-/// A vertex with distances of 0.7 tolerances at most is not in the way.
+/// Vertices with distances of at most 0.7 tolerances need no move.
 constexpr DeviationSearch search_of_vertex{4, 2, 0.05, 0.5}, search_of_neighbour{2, 2, 0.05, 0.5};
 
 }  // namespace

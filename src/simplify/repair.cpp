@@ -39,18 +39,18 @@ std::size_t take_back(DecimationState& s, const Edit& edit) {
   return faces;
 }
 
-/// The texture coordinates that faces had before they got these stamps.
+/// Restores the texture coordinates that the faces had before they got these stamps.
 void restore_coordinates(DecimationState& s, const EditLog& log, std::size_t first, std::size_t end) {
   if (!s.texture) return;
   for (std::size_t i = first; i < end; ++i) s.texture->restore(log.stamps[i].face, log.coordinates[i]);
 }
 
-/// Takes changes back, the last one first, with everything that was built on them.
+/// Undoes changes, the last one first, together with everything built on them.
 class Undoing {
  public:
   explicit Undoing(DecimationState& state) : state_(state) {}
 
-  /// A change that is at fault.
+  /// Marks a change to be undone.
   void blame(std::uint32_t number) {
     if (number == 0) return;
     wanted_.push(number);
@@ -176,7 +176,7 @@ class NearestFaces {
   [[nodiscard]] double squared_from(std::uint32_t face, std::uint32_t vertex) const {
     return squared_distance(state_.mesh.triangle(face), state_.vertices[vertex]);
   }
-  /// Where samples do not know: in boxes that grow until they meet a face that is nearer than what they reach.
+  /// Finds the face where samples do not know it: in boxes that grow until they contain a face nearer than their reach.
   std::uint32_t search(std::uint32_t vertex) {
     if (!boxes_) boxes_.emplace(state_.mesh);
     const Eigen::Vector3d p = to_eigen(state_.vertices[vertex]);

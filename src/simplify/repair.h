@@ -7,11 +7,11 @@
 
 namespace meshbound {
 
-/// Takes back the changes that made what could not be proven, and those made on top of them. Samples around may reach a
-/// smaller share of the tolerance from then on.
+/// Undoes the changes that caused what could not be proven, and those made on top of them. From then on, samples around
+/// may reach a smaller share of the tolerance.
 struct Repair {
-  std::vector<std::uint32_t> faces;  ///< that have changed by that, ascending
-  std::size_t changes = 0;           ///< taken back
+  std::vector<std::uint32_t> faces;  ///< changed by undoing, ascending
+  std::size_t changes = 0;           ///< changes undone
 };
 [[nodiscard]] Repair repair(DecimationState& state, const Unproven& unproven);
 
@@ -19,10 +19,10 @@ struct Repair {
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
                std::span<const std::uint32_t> faces);
 
-/// Takes back the last change of a region, whose samples have not been given to other faces yet.
+/// Undoes the last change of a region, before its samples were assigned to other faces.
 void undo_last(DecimationState& state, Region& region);
 
-/// Takes back all changes since the last proof.
+/// Undoes all changes since the last proof.
 void undo_all(DecimationState& state);
 
 }  // namespace meshbound

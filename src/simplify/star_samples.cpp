@@ -12,12 +12,12 @@
 namespace meshbound {
 namespace {
 
-/// Samples that faces beside the star may take: there are few, at its rim.
+/// Most samples that faces beside the star may hold: only few lie at its rim.
 constexpr std::size_t max_outside = 8;
 
-/// A star with more is thinned out.
+/// Samples of a star above which it is thinned out.
 constexpr std::size_t max_samples = 384;
-/// Two of them may stand for each other where the original rises by no more between them, in tolerances.
+/// One sample may represent two if the original rises by no more than this between them, in tolerances.
 constexpr double max_deviation_of_pair = 0.1;
 /// Cells along the curve that pairs them, as a power of two: a few thousand to an axis.
 constexpr int curve_bits = 12;

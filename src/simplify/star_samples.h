@@ -15,7 +15,7 @@ class StarSamples {
  public:
   explicit StarSamples(DecimationState& state) : state_(state), proximity_(state.tree) {}
 
-  /// Starts anew, without samples. `points` are relative to `origin`, a point near by.
+  /// Starts anew, without samples. `points` are relative to `origin`, a point nearby.
   void begin(Vec3 origin);
   void add_face(std::uint32_t face) { add_faces({&face, 1}); }
   void add_faces(std::span<const std::uint32_t> faces);
@@ -31,8 +31,8 @@ class StarSamples {
   [[nodiscard]] bool is_edge_near_original(Vec3 vertex, Vec3 end, int points, double limit);
   /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
-  /// Gives each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the faces
-  /// whose samples were added must have been cleared.
+  /// Assigns each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the
+  /// lists of the faces whose samples were added must have been cleared.
   void give(std::span<const std::uint32_t> numbers);
 
  private:

@@ -26,13 +26,14 @@
 namespace meshbound {
 namespace {
 
-/// Triangles of a cluster: the finer, the less is taken that lies beyond the reach, and the more boxes are looked at.
+/// Triangles of a cluster. Smaller clusters include less beyond the reach, but more boxes have to be tested.
 constexpr std::uint64_t triangles_of_cluster = 4096;
 
-/// Clusters near a tile that are no reason to halve it, however small tiles are: a single triangle may be near as many.
+/// Number of clusters near a tile for which it is not halved, however small it is: a single triangle may be near as
+/// many.
 constexpr std::size_t clusters_beside = 8;
 
-/// The first reach where no tolerance tells one, and the least one after that, as shares of the diagonal of both.
+/// First reach if there is no tolerance, and smallest reach after it, as shares of the diagonal of both meshes.
 constexpr double first_reach = 1e-2, min_reach = 1e-5;
 
 /// Tiles of the first batch, which start from the same lower bound, so that results do not depend on who works. Each
@@ -69,7 +70,7 @@ double separation(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   return std::max(0.0, next_down(gap));
 }
 
-/// The part of B near a box, and a distance within which the box is from none of the rest.
+/// The triangles of B near a box, and a lower bound of the distance between the box and all others.
 struct Near {
   MeshPart part;
   std::vector<std::uint32_t> triangles;  ///< by triangle of the part: its number in B
@@ -89,8 +90,8 @@ Near near_to(const Clusters& b, const Eigen::AlignedBox3d& box, double reach) {
   return near;
 }
 
-/// Adds tiles of some triangles of A: of at most `max_size`, and halves of them as long as more than `max_near`
-/// triangles of B are near, as a few large triangles may run along all of it.
+/// Adds tiles of the given triangles of A: at most `max_size` in each, halved further while more than `max_near`
+/// triangles of B are near, since a few large triangles may run along all of B.
 void add_tiles(NumberLists& tiles, const TriangleMesh& a, std::vector<std::uint32_t> triangles, std::size_t max_size,
                const Clusters& b, double reach, std::size_t max_near) {
   const NumberLists parts = cut(a, std::move(triangles), max_size);
@@ -109,12 +110,12 @@ void add_tiles(NumberLists& tiles, const TriangleMesh& a, std::vector<std::uint3
   }
 }
 
-/// How far around a tile B is looked for: at first, and at least from then on. Model units.
+/// How far around a tile B is searched: the first reach, and the smallest one after it. Model units.
 struct Reach {
   double first, min;
 };
 
-/// One direction.
+/// Measures one direction, h(A, B).
 class TiledSearch {
  public:
   TiledSearch(const TriangleMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
@@ -219,7 +220,7 @@ class TiledSearch {
   NumberLists tiles_;
 };
 
-/// What both directions have in common.
+/// What both directions share.
 class TiledMeasurement {
  public:
   TiledMeasurement(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,

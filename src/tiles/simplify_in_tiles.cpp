@@ -32,14 +32,14 @@ void check_for_tiles(const SimplifyOptions& options) {
   refuse(options.certificate, "a certificate");
 }
 
-/// The passes. The planes of each run where those before it have left no seams.
+/// The cuts of the passes: the planes of each run where earlier ones have left no seams.
 constexpr std::array<TileCut, 6> cuts = {
     {{0, 1.0 / 2}, {1, 1.0 / 3}, {2, 1.0 / 3}, {0, 2.0 / 3}, {1, 2.0 / 3}, {2, 2.0 / 3}}};
 
-/// The passes end with one that removes a smaller share of the triangles.
+/// Smallest share of the triangles that a pass must remove for another one to follow.
 constexpr double min_gain_of_pass = 0.01;
 
-/// Share of the progress that the first pass stands for.
+/// Share of the whole progress that the first pass counts for.
 constexpr double share_of_first_pass = 0.6;
 
 /// All passes over one mesh.

@@ -236,7 +236,7 @@ class TileCoder {
   const TileStart& start_;
   NumberChances facts_;
 
-  // Of the covers.
+  // Scratch memory for covers:
   std::vector<std::uint32_t> now_;  ///< by triangle of the start: its number in the result
   std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::vector<std::uint32_t> list_, expected_, known_;

@@ -28,7 +28,7 @@ TileOutput as_it_was(const TileInput& input, const SimplifyOptions& options, End
   return output;
 }
 
-/// Takes what is not part of the mesh that the proof is about from the end of a level.
+/// Moves what is not part of the proven mesh from the end of a level to the output.
 void split_off_kept(SimplifiedLevel& level, std::size_t proven_triangles, TileOutput& output) {
   output.kept.assign(level.source_triangle.begin() + static_cast<std::ptrdiff_t>(proven_triangles),
                      level.source_triangle.end());

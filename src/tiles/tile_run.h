@@ -28,9 +28,8 @@ struct TileOutput {
   bool split = false;                 ///< as in `SimplifyResult`
 };
 
-/// Simplifies a tile until nothing fits, or as far as `stop` lets it: then it may come out as it was. Of `options`
-/// those that a tile can follow count: tolerance, effort, boundary, placements, precision, threads and driver. Throws
-/// as `simplify_with_bound`.
+/// Simplifies a tile until nothing fits or `stop` ends it; the tile may then be unchanged. Uses only these options:
+/// tolerance, effort, boundary, placements, precision, threads and driver. Throws as `simplify_with_bound`.
 [[nodiscard]] TileOutput simplify_tile(const TileInput& input, const SimplifyOptions& options, const StopToken& stop);
 
 }  // namespace meshbound

@@ -14,8 +14,8 @@
 namespace meshbound {
 namespace {
 
-/// Triangles from a seam that a later pass goes over, in triangles that may be large: what lies further away has been
-/// simplified as far as it goes.
+/// Rings of triangles around a seam that a later pass works on. The triangles may be large; what lies further away was
+/// simplified as far as possible.
 constexpr int rings_around_seam = 4;
 
 /// By vertex: the first one at its position.
@@ -150,7 +150,7 @@ void TiledMesh::for_each_cover(const Use& use) const {
   }
 }
 
-/// Those around what stayed in the pass before.
+/// Marks the vertices around those that stayed in the pass before.
 std::vector<std::uint8_t> TiledMesh::vertices_near_seams() const {
   std::vector<std::uint8_t> is_near = at_seam_;
   for (int ring = 0; ring < rings_around_seam; ++ring) {
@@ -206,7 +206,7 @@ void TiledMesh::find_triangles() {
   });
 }
 
-/// The vertices of a triangle stay where they are. `is_seam`: for the sake of another tile.
+/// Makes the vertices of a triangle stay where they are. `is_seam`: because another tile has them, too.
 void TiledMesh::stay(std::uint32_t triangle, bool is_seam) {
   for (const std::uint32_t v : mesh().triangles[triangle]) {
     stays_[joined(v)] = 1;
@@ -303,7 +303,7 @@ NumberLists TiledMesh::cover_of(std::uint32_t tile, const Tile& numbers) const {
   return lists;
 }
 
-/// A mesh that tiles are put together to.
+/// The mesh that tiles are joined into.
 struct TiledMesh::Joined {
   ProvenMesh whole;
   std::vector<std::uint32_t> source_vertex, source_triangle;
@@ -312,7 +312,8 @@ struct TiledMesh::Joined {
   std::vector<std::uint32_t> triangle_now;  ///< by triangle before; `no_index` where it has gone
 };
 
-/// The number of a vertex that comes from `before` and stands at `position`. A vertex that stays is one in all tiles.
+/// The number in the joined mesh of a vertex that comes from vertex `before` and stands at `position`. A vertex that
+/// stays is one vertex for all tiles.
 std::uint32_t TiledMesh::join_vertex(Joined& into, std::uint32_t before, const Eigen::Vector3d& position) const {
   std::uint32_t* const now = stays_[before] != 0 ? &into.vertex_now[joined(before)] : nullptr;
   if (now != nullptr && *now != no_index) return *now;
@@ -331,7 +332,7 @@ void TiledMesh::join_triangle(Joined& into, std::uint32_t before, const Triangle
   into.whole.near.push_back(near);
 }
 
-/// Triangles that stay are there already.
+/// Adds the triangles of a tile, except those that stay, which are there already.
 void TiledMesh::join_tile(Joined& into, Tile& tile) {
   TileOutput& output = tile.output;
   std::vector<std::uint32_t> number;

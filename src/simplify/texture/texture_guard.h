@@ -49,7 +49,7 @@ class TextureGuard {
     /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners; NaN where the face
     /// has no area in the texture.
     Eigen::Matrix2d to_weights;
-    /// Of a position in the face, in limits, by the texture coordinate there, and its product with itself.
+    /// Derivative D of a position in the face by the texture coordinate there, in limits, and its square D^T D.
     Eigen::Matrix<double, 3, 2> derivative;
     Eigen::Matrix2d squared_derivative;
     bool has_area = false;
