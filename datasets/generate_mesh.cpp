@@ -1,12 +1,31 @@
 // SPDX-License-Identifier: MIT
 // generate_mesh KIND --size N -o FILE: one of our own analytic meshes as a file.
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <cstdio>
 #include <string>
 
 #include "common/tool_main.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/io.h"
+
+namespace {
+
+/// x and y of the vertices, from 0 to 1 over the bounding box.
+meshbound::CornerAttribute texture_seen_along_z(const meshbound::TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+  const Eigen::Array2d size = box.sizes().head<2>();
+  meshbound::CornerAttribute texture;
+  texture.index = mesh.triangles;
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    const Eigen::Array2d at = (p - box.min()).head<2>().array() / size;
+    texture.values.emplace_back(at.x(), at.y(), 0);
+  }
+  return texture;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   namespace datasets = meshbound::datasets;
@@ -15,6 +34,7 @@ int main(int argc, char** argv) {
   std::string kind;
   std::string path;
   std::size_t faces = 100'000;
+  bool has_texture = false;
   meshbound::WriteOptions options;
   app.add_option("KIND", kind, "Shape: " + datasets::kind_names())->required();
   app.add_option("--size", faces,
@@ -22,6 +42,8 @@ int main(int argc, char** argv) {
                  "(icosphere: a quarter)")
       ->capture_default_str();
   app.add_option("-o,--output", path, "OFF, OBJ, PLY or STL file to write")->required();
+  app.add_flag("--texture", has_texture,
+               "With texture coordinates: the bounding box seen along z, from 0 to 1 in x and y (OBJ and PLY)");
   meshbound::tools::add_write_options(app, options);
   std::string footer = "Kinds, closed unless said otherwise, in model units:\n";
   for (const datasets::Kind& known : datasets::kinds())
@@ -30,7 +52,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "generate_mesh " MESHBOUND_VERSION);
   return meshbound::tools::tool_main(app, argc, argv, [&] {
     const meshbound::TriangleMesh mesh = datasets::mesh_of_size(kind, faces);
-    meshbound::write_mesh(path, mesh, options);
+    meshbound::MeshAttributes attributes;
+    if (has_texture) attributes.texture_coordinates = texture_seen_along_z(mesh);
+    meshbound::write_mesh(path, mesh, options, attributes);
     std::printf("%s: %zu vertices, %zu faces\n", path.c_str(), mesh.vertices.size(), mesh.triangles.size());
     return 0;
   });

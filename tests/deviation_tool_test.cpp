@@ -13,6 +13,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "deviation/base64.h"
+#include "deviation/checkerboard.h"
 #include "deviation/colour_map.h"
 #include "deviation/display_mesh.h"
 #include "json_claims.h"
@@ -212,6 +213,22 @@ Pixels decoded_png(const std::string& bytes) {
   return pixels;
 }
 
+/// A square of triangles at z = 0 with x and y as texture coordinates, of which v is shifted.
+void write_textured_square(const std::string& path, double shift) {
+  std::ofstream file(path);
+  constexpr int n = 8;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) file << "v " << double(i) / n << ' ' << double(j) / n << " 0\n";
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) file << "vt " << double(i) / n << ' ' << double(j) / n + shift << '\n';
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i + 1, b = a + 1, c = a + n + 1, d = c + 1;
+      for (const std::array<int, 3>& t : {std::array{a, b, d}, std::array{a, d, c}})
+        file << "f " << t[0] << '/' << t[0] << ' ' << t[1] << '/' << t[1] << ' ' << t[2] << '/' << t[2] << '\n';
+    }
+}
+
 /// Share of the pixels of panel 0, 1 or 2 whose channels differ by more than a few grey levels.
 double coloured_share(const Pixels& pixels, std::size_t panel) {
   const std::size_t width = pixels.image.width, panel_width = width / 3;
@@ -224,6 +241,39 @@ double coloured_share(const Pixels& pixels, std::size_t panel) {
     }
   }
   return static_cast<double>(coloured) / static_cast<double>(all);
+}
+
+TEST(Checkerboard, AlternatesAlongUAndV) {
+  CornerAttribute texture;
+  texture.values = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  texture.index = {{0, 1, 2}, {0, 1, CornerAttribute::none}};
+  const Colour otherwise = {1, 2, 3};
+  const auto at = [&](double u, double v) { return tools::checkerboard_at(texture, 0, {1 - u - v, u, v}, otherwise); };
+  constexpr double square = 1.0 / tools::squares_per_unit;
+  const auto is_dark = [&](double u, double v) { return at(u * square, v * square)[1] < 140; };
+  EXPECT_FALSE(is_dark(0.5, 0.5));
+  EXPECT_TRUE(is_dark(1.5, 0.5));
+  EXPECT_TRUE(is_dark(0.5, 1.5));
+  EXPECT_FALSE(is_dark(1.5, 1.5));
+  EXPECT_LT(at(0.5 * square, 0.5 * square)[2], at(0.5 * square, 10.5 * square)[2]);
+  EXPECT_EQ(tools::checkerboard_at(texture, 1, {1, 0, 0}, otherwise), otherwise);
+  EXPECT_EQ(tools::checkerboard_at(texture, 2, {1, 0, 0}, otherwise), otherwise);
+}
+
+TEST_F(DeviationTool, PictureShowsACheckerboardInTheTexture) {
+  std::vector<Pixels> pictures;
+  for (const double shift : {0.0, 0.5 / tools::squares_per_unit}) {
+    write_textured_square(in("square.obj"), shift);
+    const ToolRun run = run_tool(SIMPLIFY_WITH_BOUND, {in("square.obj"), in("out.obj"), "--tolerance", "0.1%",
+                                                       "--texture-tolerance", "0.1%", "--image", in("i.png")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    pictures.push_back(decoded_png(content_of(in("i.png"))));
+    EXPECT_GT(coloured_share(pictures.back(), 0), 0.2);
+    EXPECT_GT(coloured_share(pictures.back(), 1), 0.2);
+    // The texture has hardly moved, so both panels show the same but for the edges of triangles.
+    EXPECT_NEAR(coloured_share(pictures.back(), 0), coloured_share(pictures.back(), 1), 0.05);
+  }
+  EXPECT_NE(pictures[0].rgb, pictures[1].rgb);
 }
 
 TEST_F(DeviationTool, PictureHasThreePanelsOfWhichTheLastIsInColours) {

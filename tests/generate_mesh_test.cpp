@@ -54,4 +54,21 @@ TEST_F(GenerateMesh, HelpDescribesEveryKind) {
         << help;
 }
 
+TEST_F(GenerateMesh, WritesTextureCoordinatesOfTheBoundingBox) {
+  ASSERT_EQ(run({"torus", "--size", "2000", "--texture", "-o", in("torus.obj")}).exit_code, 0);
+  meshbound::ReadOptions options;
+  options.attributes = true;
+  const meshbound::MeshFile file = meshbound::read_mesh(in("torus.obj"), options);
+  const meshbound::CornerAttribute& texture = file.attributes.texture_coordinates;
+  ASSERT_EQ(texture.index.size(), file.mesh.triangles.size());
+  for (std::size_t t = 0; t < texture.index.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = file.mesh.vertices[file.mesh.triangles[t][k]];
+      const Eigen::Vector3d& uv = texture.values[texture.index[t][k]];
+      EXPECT_NEAR(uv.x(), (p.x() + 1.4) / 2.8, 1e-9);  // the torus reaches from -1.4 to 1.4 in x and y
+      EXPECT_NEAR(uv.y(), (p.y() + 1.4) / 2.8, 1e-9);
+    }
+  }
+}
+
 }  // namespace

@@ -75,11 +75,13 @@ void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, c
   file_->complete();
 }
 
-TriangleMesh GatedOutput::written_mesh() const { return written_file(only_flag()).mesh; }
+TriangleMesh GatedOutput::written_mesh() const { return written_file(only_flag(), false).mesh; }
 
-MeshFile GatedOutput::written_file(const StopToken& stop) const {
+MeshFile GatedOutput::written_with_attributes() const { return written_file(only_flag(), true); }
+
+MeshFile GatedOutput::written_file(const StopToken& stop, bool with_attributes) const {
   const FileBytes bytes(file_->staged(), stop);
-  return parse_mesh(path_, bytes.bytes(), {stop.cancel, stop.deadline, original_texture_ != nullptr});
+  return parse_mesh(path_, bytes.bytes(), {stop.cancel, stop.deadline, with_attributes});
 }
 
 std::string GatedOutput::checksum() const { return sha256(FileBytes(file_->staged(), only_flag()).bytes()); }
@@ -88,7 +90,7 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   verdict_ = Verdict::Undecided;
   texture_.reset();
   normals_.reset();
-  const MeshFile file = written_file(stop_);
+  const MeshFile file = written_file(stop_, original_texture_ != nullptr);
   const TriangleMesh& mesh = file.mesh;
   summary_ = summarise(mesh);
   distance_ = distance_between(original, mesh, options, stop_);

@@ -62,6 +62,8 @@ class GatedOutput {
 
   /// Reads the mesh that was written. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
+  /// The same with its attributes.
+  [[nodiscard]] MeshFile written_with_attributes() const;
 
   /// Measures the distance between the original (a) and the file as it reads (b), and between their lines if these are
   /// required; the verdict is on both. `options.tolerance` must be set. The tree of the original is not built if the
@@ -103,7 +105,7 @@ class GatedOutput {
   void measure_lines(const TriangleMesh& written, DistanceOptions options);
   void measure_texture(const MeshFile& written, const DistanceOptions& options);
   [[nodiscard]] StopToken only_flag() const { return {.cancel = stop_.cancel}; }
-  [[nodiscard]] MeshFile written_file(const StopToken& stop) const;
+  [[nodiscard]] MeshFile written_file(const StopToken& stop, bool with_attributes) const;
 
   std::filesystem::path path_;  ///< as named by the user
   StopToken stop_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/length.h"
+#include "deviation/checkerboard.h"
 #include "deviation/surface_image.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
@@ -41,9 +42,9 @@ void for_each_pixel(const SurfaceImage& image, Draw&& draw) {
       if (const std::uint32_t triangle = image.triangle(x, y); triangle != no_index) draw(x, y, triangle);
 }
 
-/// Draws a surface; edges only if triangles are large enough to be told apart.
-void draw_surface(Picture& picture, int left, const TriangleMesh& mesh, const SurfaceImage& image,
-                  const Camera& camera) {
+/// Draws a surface; edges only if triangles are large enough to be told apart. `texture` may be null.
+void draw_surface(Picture& picture, int left, const TriangleMesh& mesh, const CornerAttribute* texture,
+                  const SurfaceImage& image, const Camera& camera) {
   std::size_t edge_pixels = 0;
   for_each_pixel(image, [&](int x, int y, std::uint32_t) { edge_pixels += image.is_edge(x, y) ? 1 : 0; });
   constexpr double max_share = 0.5;  // of the pixels
@@ -51,7 +52,8 @@ void draw_surface(Picture& picture, int left, const TriangleMesh& mesh, const Su
   for_each_pixel(image, [&](int x, int y, std::uint32_t triangle) {
     const double light = light_on(mesh, triangle, camera);
     constexpr double on_edges = 0.5;  // share of the light
-    picture.set(left + x, header + y, shaded(stone, has_edges && image.is_edge(x, y) ? on_edges * light : light));
+    const Colour colour = texture != nullptr ? checkerboard_at(*texture, triangle, image.weights(x, y), stone) : stone;
+    picture.set(left + x, header + y, shaded(colour, has_edges && image.is_edge(x, y) ? on_edges * light : light));
   });
 }
 
@@ -100,8 +102,8 @@ Picture deviation_image(const DeviationScene& scene, const DeviationOptions& opt
   const Camera camera(box, scene.up, panel, height);
   const SurfaceImage original(*scene.original, camera, panel, height), result(*scene.result, camera, panel, height);
   options.stop.check();
-  draw_surface(picture, 0, *scene.original, original, camera);
-  draw_surface(picture, panel, *scene.result, result, camera);
+  draw_surface(picture, 0, *scene.original, scene.original_texture, original, camera);
+  draw_surface(picture, panel, *scene.result, scene.result_texture, result, camera);
   draw_deviation(picture, 2 * panel, scene, scene.coloured == scene.original ? original : result, camera, options);
   write_centred(picture, 0, header / 2, title("original", *scene.original));
   write_centred(picture, panel, header / 2, title(scene.result_title, *scene.result));

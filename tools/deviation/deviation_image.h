@@ -5,6 +5,7 @@
 #include "deviation/camera.h"
 #include "deviation/deviation_scale.h"
 #include "deviation/picture.h"
+#include "meshbound/attributes.h"
 #include "meshbound/bvh.h"
 #include "meshbound/deviation_map.h"
 #include "meshbound/triangle_mesh.h"
@@ -15,6 +16,8 @@ namespace meshbound::tools {
 struct DeviationScene {
   const TriangleMesh* original = nullptr;  ///< in the first panel
   const TriangleMesh* result = nullptr;    ///< in the second one
+  /// Texture coordinates of both: the panels show a checkerboard there. Null: they do not.
+  const CornerAttribute *original_texture = nullptr, *result_texture = nullptr;
   const TriangleMesh* coloured = nullptr;  ///< in the third one: one of both ...
   const Bvh* other = nullptr;              ///< ... in the colours of its distance from the other one
   std::string coloured_title;              ///< such as "original to result"

@@ -67,6 +67,8 @@ void DeviationOutputs::make_picture(const DeviationSubject& subject, const Measu
   DeviationScene scene;
   scene.original = subject.original;
   scene.result = subject.result;
+  scene.original_texture = subject.original_texture;
+  scene.result_texture = subject.result_texture;
   scene.result_title = subject.result_name;
   const bool first = subject.worst_is_on_original;
   scene.coloured = first ? subject.original : subject.result;

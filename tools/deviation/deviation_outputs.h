@@ -9,6 +9,7 @@
 #include "deviation/deviation_scale.h"
 #include "deviation/report_file.h"
 #include "mesh/atomic_file.h"
+#include "meshbound/attributes.h"
 #include "meshbound/deviation_map.h"
 #include "meshbound/report.h"
 #include "meshbound/triangle_mesh.h"
@@ -19,6 +20,8 @@ namespace meshbound::tools {
 struct DeviationSubject {
   const TriangleMesh* original = nullptr;
   const TriangleMesh* result = nullptr;
+  /// Their texture coordinates, for the picture; null: not shown.
+  const CornerAttribute *original_texture = nullptr, *result_texture = nullptr;
   std::string original_name, result_name;  ///< such as "original", "simplified"
   std::vector<TriangleMesh> levels;        ///< finer results than `result`, from the finest on
   DeviationScale scale;

@@ -20,7 +20,9 @@ class SurfaceImage {
   /// The triangle at a pixel, or `no_index` where there is no surface. 0 <= x < `width()`, 0 <= y < `height()`, here
   /// and below.
   [[nodiscard]] std::uint32_t triangle(int x, int y) const { return triangles_[index(x, y)]; }
-  /// The point of the surface at the middle of a pixel that has a triangle, model units.
+  /// The barycentric coordinates, in its triangle, of the point at the middle of a pixel that has a triangle.
+  [[nodiscard]] Eigen::Vector3d weights(int x, int y) const;
+  /// That point, model units.
   [[nodiscard]] Eigen::Vector3d point(int x, int y) const;
   /// Whether a pixel is at the border between two triangles, or at that of the surface.
   [[nodiscard]] bool is_edge(int x, int y) const;

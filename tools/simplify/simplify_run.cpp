@@ -375,11 +375,15 @@ void Run::write_certificates() {
 void Run::measure_deviation() {
   const ProgressBar bar("measuring deviations", options_.common.quiet);
   const GatedOutput& out = outputs_.back();
-  const TriangleMesh result = out.written_mesh();
+  const MeshFile written = out.written_with_attributes();
+  const TriangleMesh& result = written.mesh;
   const HausdorffDistance& distance = out.distance();
   DeviationSubject subject;
   subject.original = &original_;
   subject.result = &result;
+  const CornerAttribute &before = attributes_.texture_coordinates, &after = written.attributes.texture_coordinates;
+  if (!before.empty()) subject.original_texture = &before;
+  if (!after.empty()) subject.result_texture = &after;
   subject.original_name = "original";
   subject.result_name = "simplified";
   subject.scale = scale_for(tolerances_.back(), distance.bounds, diagonal_);
