@@ -16,8 +16,9 @@ namespace meshbound {
 /// Feature lines that a certificate speaks of as well: the symmetric Hausdorff distance between those of the original
 /// and those of the simplified mesh is at most `tolerance`.
 struct CertifiedLines {
-  std::vector<Edge> original, simplified;  ///< edges of triangles, by vertices of either mesh; neither is empty
-  double tolerance = 0;                    ///< model units
+  std::vector<Edge> original;    ///< edges of triangles of the original, by its vertices; not empty
+  std::vector<Edge> simplified;  ///< edges of triangles of the simplified mesh, by its vertices; not empty
+  double tolerance = 0;          ///< model units
 };
 
 /// How a certificate is made.
@@ -32,8 +33,8 @@ struct CertificateOptions {
 };
 
 /// A proof, checkable without any of our code, that the symmetric Hausdorff distance between two meshes is at most a
-/// tolerance. The format is documented in tools/schema/certificate-1.md, that of
-/// lines in tools/schema/certificate-2.md; `verify_certificate` checks it.
+/// tolerance. The format is documented in tools/schema/certificate-1.md, that of lines in
+/// tools/schema/certificate-2.md; `verify_certificate` checks it.
 struct Certificate {
   std::vector<std::uint8_t> bytes;  ///< the file, checksum included
   /// What one direction of the proof consists of.
@@ -47,9 +48,10 @@ struct Certificate {
   Direction simplified_to_original;  ///< and the reverse
   /// The proof about lines, each of which stands for one triangle without area.
   struct Lines {
-    Direction original_to_simplified, simplified_to_original;
+    Direction original_to_simplified;  ///< every point of the original's lines is near those of the simplified mesh
+    Direction simplified_to_original;  ///< and the reverse
   };
-  std::optional<Lines> lines = {};
+  std::optional<Lines> lines = {};  ///< where `CertificateOptions::lines` are given
 };
 
 /// Proves, for any two triangle soups, that each lies within `tolerance` (model units) of the other: vertices and
