@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
@@ -101,6 +102,107 @@ TEST_F(Tiles, EndAtTheTimeLimitWithAMeshThatHolds) {
   const ToolRun distance =
       run_tool(HAUSDORFF_DISTANCE, {in_folder("torus.ply"), in_folder("late.ply"), "--tolerance", "1%"});
   EXPECT_EQ(distance.exit_code, 0) << distance.out;
+}
+
+/// Results of tiles in a folder, from which a run goes on.
+class TileScratch : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    ASSERT_EQ(run_tool(GENERATE_MESH, {"torus", "--output", in("torus.ply"), "--size", "60000"}).exit_code, 0);
+    ASSERT_EQ(simplify("whole.ply", {}).exit_code, 0);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string in(const std::string& name) { return *folder_ / name; }
+  static std::vector<std::string> arguments(const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> all{in("torus.ply"), in(out), "--tolerance",      "0.3%", "--memory", "4G",
+                                 "--threads",     "1",     "--tile-triangles", "1000"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static ToolRun simplify(const std::string& out, const std::vector<std::string>& more) {
+    return run_tool(SIMPLIFY_WITH_BOUND, arguments(out, more));
+  }
+  /// Kills a run once it has finished some tiles.
+  static void kill_run(const std::string& scratch) {
+    const ToolRun run = meshbound::testing_tools::run_shell(
+        "(" + meshbound::testing_tools::command_line(SIMPLIFY_WITH_BOUND, arguments("k.ply", {"--scratch", scratch})) +
+        ") & run=$!; until [ -e " + scratch +
+        "/*/0-3 ]; do sleep 0.01; kill -0 $run || exit 99; done; kill -KILL $run; "
+        "wait $run");
+    ASSERT_EQ(run.exit_code, 137) << run.err;
+  }
+  static std::size_t reused(const ToolRun& run) {
+    std::smatch found;
+    return std::regex_search(run.out, found, std::regex("resumed +(\\d+) finished")) ? std::stoul(found[1]) : 0;
+  }
+  /// Files of finished tiles.
+  static std::vector<std::filesystem::path> files(const std::string& scratch) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch))
+      if (entry.is_regular_file()) found.push_back(entry.path());
+    return found;
+  }
+
+ private:
+  static TemporaryFolder* folder_;
+};
+
+TemporaryFolder* TileScratch::folder_ = nullptr;
+
+TEST_F(TileScratch, IsEmptyAfterARunThatEnds) {
+  ASSERT_EQ(simplify("kept.ply", {"--scratch", in("ends")}).exit_code, 0);
+  EXPECT_EQ(content_of(in("kept.ply")), content_of(in("whole.ply")));
+  EXPECT_TRUE(std::filesystem::is_empty(in("ends")));
+}
+
+TEST_F(TileScratch, ResumesARunThatWasKilledWithTheSameResult) {
+  kill_run(in("killed"));
+  const ToolRun run = simplify("resumed.ply", {"--scratch", in("killed"), "--resume"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GE(reused(run), 1u) << run.out;
+  EXPECT_EQ(content_of(in("resumed.ply")), content_of(in("whole.ply")));
+  EXPECT_TRUE(std::filesystem::is_empty(in("killed")));
+}
+
+TEST_F(TileScratch, ComputesAnewWhatIsDamagedOrOfAnotherRun) {
+  kill_run(in("damaged"));
+  const std::vector<std::filesystem::path> finished = files(in("damaged"));
+  ASSERT_GE(finished.size(), 2u);
+  for (std::size_t i = 0; i < finished.size(); ++i) {
+    std::string bytes = content_of(finished[i]);
+    if (i % 3 == 0) bytes[bytes.size() / 2] ^= 1;         // a bit
+    if (i % 3 == 1) bytes.resize(bytes.size() - 1);       // the end
+    if (i % 3 == 2) bytes = content_of(finished[i - 1]);  // another tile
+    std::ofstream(finished[i], std::ios::binary) << bytes;
+  }
+  const ToolRun run = simplify("anew.ply", {"--scratch", in("damaged"), "--resume"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(reused(run), 0u);
+  EXPECT_EQ(content_of(in("anew.ply")), content_of(in("whole.ply")));
+}
+
+TEST_F(TileScratch, IsOfOneMeshAndItsOptions) {
+  kill_run(in("other"));
+  const ToolRun run = simplify("other.ply", {"--scratch", in("other"), "--resume", "--preserve-boundary"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(reused(run), 0u);
+  EXPECT_FALSE(files(in("other")).empty());  // those of the run that was killed
+  ASSERT_EQ(simplify("again.ply", {"--scratch", in("other")}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(in("other")));
+}
+
+TEST_F(TileScratch, ThatIsFullEndsTheRunInOneLineAndCanBeResumed) {
+  const ToolRun run = meshbound::testing_tools::run_shell(
+      "ulimit -f 1; " + meshbound::testing_tools::command_line(
+                            SIMPLIFY_WITH_BOUND, arguments("full.ply", {"--scratch", in("full"), "--quiet"})));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(in("full.ply")));
+  const ToolRun resumed = simplify("full.ply", {"--scratch", in("full"), "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(content_of(in("full.ply")), content_of(in("whole.ply")));
 }
 
 }  // namespace

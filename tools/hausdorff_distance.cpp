@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   add_arguments(app, arguments);
   return tool_main(app, argc, argv, [&arguments] {
     std::optional<LocalTileWorkers> workers;
-    if (!arguments.memory.empty()) arguments.workers = &workers.emplace(meshbound::TileOptions{});
+    if (!arguments.memory.empty())
+      arguments.workers = &workers.emplace(TileSetting{.tiles = {arguments.tile_triangles}});
     resolve_streams(arguments);
     return run_distance(arguments);
   });

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   return tool_main(app, argc, argv, [&] {
     std::optional<LocalTileWorkers> workers;
     if (!options.memory.empty()) {
-      options.workers = &workers.emplace(meshbound::TileOptions{});
+      options.workers = &workers.emplace(tile_setting(options));
       options.drop_attributes = true;
     }
     check_batch_usage(app, options.batch);

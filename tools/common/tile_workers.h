@@ -11,6 +11,14 @@
 
 namespace meshbound::tools {
 
+/// What tiles are cut and simplified by, beside the options of the library.
+struct TileSetting {
+  TileOptions tiles;
+  std::string driver = "core", cost = "garland-heckbert";  ///< as typed
+  std::string scratch = {};  ///< folder for results of finished tiles; empty: they are kept in memory alone
+  bool resumes = false;      ///< goes on from what an earlier run left there
+};
+
 /// Who works on the tiles of meshes: this process alone, or all ranks of a parallel run. Called from one thread.
 class TileWorkers {
  public:
@@ -33,14 +41,20 @@ class TileWorkers {
   [[nodiscard]] virtual OneSidedDistance measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
                                                           const DistanceOptions& options) = 0;
 
+  /// Tiles whose results the decimations so far took from the scratch folder.
+  [[nodiscard]] std::size_t reused_tiles() const { return reused_tiles_; }
+
   /// What they have told one another so far; absent for one process.
   [[nodiscard]] virtual std::optional<CommunicationReport> communication() = 0;
+
+ protected:
+  std::size_t reused_tiles_ = 0;
 };
 
 /// The threads of this process.
 class LocalTileWorkers : public TileWorkers {
  public:
-  explicit LocalTileWorkers(const TileOptions& tiles) : tiles_(tiles) {}
+  explicit LocalTileWorkers(const TileSetting& setting) : setting_(setting) {}
   [[nodiscard]] std::optional<std::string> read(const std::string&, const StopToken&) override { return std::nullopt; }
   void keep(const TriangleMesh&) override {}
   [[nodiscard]] SimplifyResult decimate(const TriangleMesh& original, const SimplifyOptions& options) override;
@@ -51,7 +65,7 @@ class LocalTileWorkers : public TileWorkers {
   [[nodiscard]] std::optional<CommunicationReport> communication() override { return std::nullopt; }
 
  private:
-  TileOptions tiles_;
+  TileSetting setting_;
 };
 
 }  // namespace meshbound::tools

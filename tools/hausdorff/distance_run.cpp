@@ -90,7 +90,7 @@ Answer answer_by_tiles(const Question& question, const TriangleMesh& a, const Tr
   if (!arguments.memory.empty())
     options.threads =
         threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
-                       a.triangles.size() + b.triangles.size(), TileOptions(), cost_of_measuring, options.threads);
+                       a.triangles.size() + b.triangles.size(), TileOptions{arguments.tile_triangles}, cost_of_measuring, options.threads);
   return answer_in_tiles(question, a, b, options, *arguments.workers);
 }
 

@@ -23,7 +23,8 @@ constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
 constexpr std::array options_without_use_for_tiles =
     std::to_array<const char*>({"--align", "--count", "--texture-tolerance", "--texture-size"});
 
-void add_options(CLI::App& app, Arguments& arguments) {
+/// `is_in_tiles`: with and without --memory.
+void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
   app.add_option("B", arguments.b, "The mesh to compare with it; - for standard input; not with --nearest");
   add_stream_format(app, "--format", arguments.format, "input");
@@ -76,6 +77,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
       app.add_option("--memory", arguments.memory,
                      "Work tile by tile within this memory, such as 4G, where the trees of whole meshes would not fit");
   add_deviation_options(app, arguments.deviation, "A", "B");
+  auto* const tile = app.add_option("--tile-triangles", arguments.tile_triangles,
+                                    "Triangles of a tile; the interval may depend on them")
+                         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30))
+                         ->capture_default_str();
+  if (!is_in_tiles) tile->needs(memory);
   for (const char* const name : options_of_whole_meshes) memory->excludes(app.get_option(name));
   add_common_options(app, arguments.common);
 }
@@ -83,14 +89,14 @@ void add_options(CLI::App& app, Arguments& arguments) {
 }  // namespace
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
-  add_options(app, arguments);
+  add_options(app, arguments, false);
   add_examples(
       app, {"hausdorff_distance bunny.ply small.ply", "hausdorff_distance bunny.ply small.ply --tolerance 0.1% --quiet",
             "hausdorff_distance bunny.ply --nearest models"});
 }
 
 void add_tile_arguments(CLI::App& app, Arguments& arguments) {
-  add_options(app, arguments);
+  add_options(app, arguments, true);
   for (const char* const name : options_without_use_for_tiles) (void)app.remove_option(app.get_option(name));
   for (const char* const name : options_of_whole_meshes) (void)app.remove_option(app.get_option(name));
   app.get_option("B")->required();

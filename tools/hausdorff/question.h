@@ -8,6 +8,7 @@
 #include "common/tool_main.h"
 #include "deviation/deviation_request.h"
 #include "meshbound/distance.h"
+#include "meshbound/tiles.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound::tools {
@@ -34,6 +35,7 @@ struct Arguments {
   std::optional<double> texture_size;
   std::string certificate;
   std::string memory;  ///< as typed; empty: no limit, and trees of whole meshes
+  std::size_t tile_triangles = meshbound::TileOptions().max_triangles;
   Method method = Method::CellWalking;
   DeviationRequest deviation;
   CommonOptions common;

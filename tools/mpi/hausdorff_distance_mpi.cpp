@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     Arguments arguments;
     add_tile_arguments(app, arguments);
     return tool_main(app, argc, argv, [&] {
-      RankWorkers workers(ranks, {});
+      RankWorkers workers(ranks, {.tiles = {arguments.tile_triangles}});
       arguments.workers = &workers;
       resolve_streams(arguments);
       if (!arguments.memory.empty()) workers.limit_memory(parse_memory("--memory", arguments.memory));

@@ -5,6 +5,7 @@
 
 #include "common/memory.h"
 #include "common/standard_streams.h"
+#include "common/tile_scratch.h"
 #include "decimation/drivers.h"
 #include "mesh/readers.h"
 #include "meshbound/error.h"
@@ -124,6 +125,20 @@ TriangleMesh unpack_mesh(CompactReader& from) {
   return mesh;
 }
 
+struct Decimated {
+  SimplifyResult result;
+  std::size_t reused = 0;  ///< tiles of all ranks that came from the scratch folder
+};
+
+Decimated decimate_together(Communicator& ranks, const TriangleMesh& original, const SimplifyOptions& options,
+                            const TileOptions& tiles, RankRunner& runner, std::optional<TileScratch>& scratch) {
+  if (!scratch) return {decimate_in_tiles(original, options, tiles, runner), 0};
+  ScratchRunner with_scratch(runner, *scratch);
+  Decimated decimated{decimate_in_tiles(original, options, tiles, with_scratch), 0};
+  decimated.reused = ranks.sum(with_scratch.reused());
+  return decimated;
+}
+
 /// What a rank other than 0 has been given, and does with it.
 class Follower {
  public:
@@ -183,8 +198,12 @@ class Follower {
     const std::string driver(from.text()), cost(from.text());
     options.driver = collapse_driver(driver, cost);
     const TileOptions tiles{static_cast<std::size_t>(from.number())};
+    const TriangleMesh& original = mesh(from);
+    const std::string folder(from.text()), key(from.text());
+    std::optional<TileScratch> scratch;
+    if (!key.empty()) scratch.emplace(folder, key, true, false);
     RankRunner runner(ranks_, options.threads);
-    (void)decimate_in_tiles(mesh(from), options, tiles, runner);
+    (void)decimate_together(ranks_, original, options, tiles, runner, scratch);
   }
 
   void measure(Command which, CompactReader& from) {
@@ -208,7 +227,7 @@ class Follower {
 
 }  // namespace
 
-RankWorkers::RankWorkers(Communicator& ranks, const RankSetting& setting) : ranks_(ranks), setting_(setting) {}
+RankWorkers::RankWorkers(Communicator& ranks, const TileSetting& setting) : ranks_(ranks), setting_(setting) {}
 
 void RankWorkers::limit_memory(std::uint64_t bytes) {
   CompactWriter message = command(Command::LimitMemory);
@@ -251,9 +270,21 @@ SimplifyResult RankWorkers::decimate(const TriangleMesh& original, const Simplif
   message.text(setting_.cost);
   message.number(setting_.tiles.max_triangles);
   message.number(kept_.at(&original));
+  const std::string key =
+      setting_.scratch.empty()
+          ? ""
+          : decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles);
+  std::optional<TileScratch> scratch;  // made, and removed, by this rank alone
+  if (!key.empty()) scratch.emplace(setting_.scratch, key, setting_.resumes, true);
+  message.text(setting_.scratch);
+  message.text(key);
   tell(ranks_, message);
   RankRunner runner(ranks_, options.threads);
-  return together(ranks_, [&] { return decimate_in_tiles(original, options, setting_.tiles, runner); });
+  return together(ranks_, [&] {
+    auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, runner, scratch);
+    reused_tiles_ += reused;
+    return std::move(result);
+  });
 }
 
 HausdorffDistance RankWorkers::measure(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {

@@ -8,17 +8,11 @@
 
 namespace meshbound::tools {
 
-/// What all ranks must know to simplify as rank 0 does, beside its options.
-struct RankSetting {
-  std::string driver = "core", cost = "garland-heckbert";
-  TileOptions tiles;
-};
-
 /// Rank 0 of a parallel run: tells the others, which are in `serve`, what all do together.
 class RankWorkers : public TileWorkers {
  public:
   /// `ranks` must outlive this.
-  RankWorkers(mpi::Communicator& ranks, const RankSetting& setting);
+  RankWorkers(mpi::Communicator& ranks, const TileSetting& setting);
 
   /// Limits the memory of the others as `tools::limit_memory` does.
   void limit_memory(std::uint64_t bytes);
@@ -40,7 +34,7 @@ class RankWorkers : public TileWorkers {
   void tell_measurement(Command which, const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options);
 
   mpi::Communicator& ranks_;
-  RankSetting setting_;
+  TileSetting setting_;
   std::map<const TriangleMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
   std::uint64_t shared_ = 0;                           ///< meshes that the others have
   std::optional<std::uint64_t> last_read_;             ///< number of the file that came through `read` last

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     SimplifyArguments options;
     add_tile_arguments(app, options);
     return tool_main(app, argc, argv, [&] {
-      RankWorkers workers(ranks, {options.driver, options.cost, {}});
+      RankWorkers workers(ranks, tile_setting(options));
       options.workers = &workers;
       options.drop_attributes = true;
       resolve_streams(options);

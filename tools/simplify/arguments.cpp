@@ -36,7 +36,8 @@ constexpr std::array options_of_whole_meshes =
 constexpr std::array options_without_use_for_tiles =
     std::to_array<const char*>({"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run"});
 
-void add_options(CLI::App& app, SimplifyArguments& arguments) {
+/// `is_in_tiles`: with and without --memory.
+void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
   app.add_option("IN", arguments.input, "Mesh to simplify: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input");
   app.add_option("OUT", arguments.output,
                  "File for the result; its extension chooses the format; - for standard output, where nothing else is "
@@ -87,13 +88,26 @@ void add_options(CLI::App& app, SimplifyArguments& arguments) {
       "without attributes");
   add_deviation_options(app, arguments.deviation, "IN", "OUT");
   add_decimation_options(app, arguments);
+  auto* const tile = app.add_option("--tile-triangles", arguments.tile_triangles,
+                                    "Triangles of IN that a tile stands for; the result depends on them")
+                         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30))
+                         ->capture_default_str();
+  auto* const scratch = app.add_option("--scratch", arguments.scratch,
+                                       "Keep the results of finished tiles in this folder until the run has ended, so "
+                                       "that one that was killed can be resumed");
+  auto* const resume = app.add_flag("--resume", arguments.resume,
+                                    "Go on from what a run of the same mesh and options left in the folder of "
+                                    "--scratch when it was killed")
+                           ->needs(scratch);
+  if (is_in_tiles) return;
+  for (CLI::Option* const option : {tile, scratch, resume}) option->needs(memory);
   for (const char* const name : options_of_whole_meshes) memory->excludes(app.get_option(name));
 }
 
 }  // namespace
 
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
-  add_options(app, arguments);
+  add_options(app, arguments, false);
   add_examples(app,
                {"simplify_with_bound bunny.ply small.ply --tolerance 0.1%",
                 "simplify_with_bound bunny.ply part.stl --tolerance 0.05 --feature-angle 30 --line-tolerance 0.01",
@@ -101,9 +115,13 @@ void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments) {
                 "simplify_with_bound --batch models --output-dir small --tolerance 0.1% --jobs 2"});
 }
 
+TileSetting tile_setting(const SimplifyArguments& arguments) {
+  return {{arguments.tile_triangles}, arguments.driver, arguments.cost, arguments.scratch, arguments.resume};
+}
+
 void add_tile_arguments(CLI::App& app, SimplifyArguments& arguments) {
   const std::string description = app.get_description();
-  add_options(app, arguments);
+  add_options(app, arguments, true);
   app.description(description);  // without what it says of attributes
   for (const char* const name : options_of_whole_meshes) (void)app.remove_option(app.get_option(name));
   for (const char* const name : options_without_use_for_tiles) (void)app.remove_option(app.get_option(name));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "batch/batch_run.h"
+#include "common/tile_workers.h"
 #include "decimation/decimation_options.h"
 #include "deviation/deviation_request.h"
 
@@ -22,6 +23,9 @@ struct SimplifyArguments : DecimationOptions {
   bool prune = false;
   bool dry_run = false;
   std::string memory;  ///< as typed; empty: no limit, and the mesh in one piece
+  std::size_t tile_triangles = meshbound::TileOptions().max_triangles;
+  std::string scratch;  ///< folder; empty: none
+  bool resume = false;
   BatchOptions batch;
   DeviationRequest deviation;
 };
@@ -31,6 +35,9 @@ void resolve_streams(SimplifyArguments& arguments);
 
 /// Adds all options of simplify_with_bound; `arguments` must outlive the parsing.
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments);
+
+/// What they say of tiles.
+[[nodiscard]] TileSetting tile_setting(const SimplifyArguments& arguments);
 
 /// Adds those that a run in tiles knows, of which --memory may be left out.
 void add_tile_arguments(CLI::App& app, SimplifyArguments& arguments);

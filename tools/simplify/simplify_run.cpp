@@ -133,7 +133,7 @@ void Run::read() {
 /// Sets the number of triangles in a tile and the threads by --memory. The limit itself holds since the start of the
 /// process.
 void Run::plan_memory() {
-  const TileOptions tiles;
+  const TileOptions tiles{options_.tile_triangles};
   use_threads(threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
                              original_.triangles.size(), tiles, cost_of_simplifying, options_.common.threads));
 }
@@ -500,6 +500,9 @@ void Run::print_summary() const {
                             std::to_string(result_.kept_triangles) + " kept as they are");
   print_dropped(report_.original);
   print_seconds(report_.seconds, report_.threads);
+  if (options_.resume)
+    print_line("resumed",
+               std::to_string(options_.workers->reused_tiles()) + " finished tiles came from " + options_.scratch);
   if (!options_.memory.empty())
     print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + options_.memory);
   if (verdict_ != Verdict::Within) return;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "common/tile_scratch.h"
+
+#include <utility>
+
+#include "common/sha256.h"
+#include "mesh/atomic_file.h"
+#include "mesh/file_bytes.h"
+#include "meshbound/error.h"
+#include "tiles/compact_bytes.h"
+
+namespace meshbound::tools {
+namespace {
+
+/// Of the files; another one whenever their bytes, or the results of tiles, change.
+constexpr std::string_view format = "meshbound tiles 1 " MESHBOUND_VERSION;
+
+template <class T>
+std::string_view bytes_of(const std::vector<T>& items) {
+  return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
+}
+
+}  // namespace
+
+std::string decimation_key(const TriangleMesh& original, const SimplifyOptions& options, const std::string& driver,
+                           const TileOptions& tiles) {
+  CompactWriter bytes;
+  bytes.text(format);
+  bytes.text(driver);
+  bytes.number(tiles.max_triangles);
+  bytes.raw(options.tolerance);
+  bytes.raw(options.effort);
+  bytes.raw(options.placements);
+  bytes.raw(options.precision);
+  bytes.raw(options.preserve_boundary);
+  bytes.text(sha256(bytes_of(original.vertices)));
+  bytes.text(sha256(bytes_of(original.triangles)));
+  return sha256(bytes.take());
+}
+
+TileScratch::TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, bool owns)
+    : folder_(folder / ("meshbound-" + key.substr(0, 16))), key_(std::move(key)), owns_(owns) {
+  std::error_code error;
+  if (!resumes) std::filesystem::remove_all(folder_, error);
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw IoError("--scratch: cannot make " + folder_.string() + ": " + error.message());
+  if (owns_) listed_.emplace_back(folder_);
+}
+
+TileScratch::~TileScratch() {
+  if (!owns_) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+std::filesystem::path TileScratch::file_of(std::size_t stage, std::size_t job) const {
+  return folder_ / (std::to_string(stage) + "-" + std::to_string(job));
+}
+
+std::string TileScratch::checksum_of(std::size_t stage, std::size_t job, std::string_view bytes) const {
+  return sha256(key_ + " " + std::to_string(stage) + " " + std::to_string(job) + " " + std::string(bytes));
+}
+
+std::optional<std::string> TileScratch::load(std::size_t stage, std::size_t job) const {
+  try {
+    const FileBytes file(file_of(stage, job));
+    constexpr std::size_t checksum_size = 64;
+    if (file.bytes().size() < checksum_size) return std::nullopt;
+    const std::string_view bytes = file.bytes().substr(checksum_size);
+    if (file.bytes().substr(0, checksum_size) != checksum_of(stage, job, bytes)) return std::nullopt;
+    return std::string(bytes);
+  } catch (const IoError&) {
+    return std::nullopt;  // it was not finished
+  }
+}
+
+void TileScratch::store(std::size_t stage, std::size_t job, std::string_view bytes) {
+  AtomicFile file(file_of(stage, job));
+  file.write(checksum_of(stage, job, bytes));
+  file.write(bytes);
+  file.commit();
+  if (!owns_) return;
+  const std::lock_guard lock(mutex_);
+  listed_.emplace_front(file_of(stage, job));
+}
+
+/// Jobs of which some may be in the folder.
+class ScratchRunner::Jobs : public TileJobs {
+ public:
+  Jobs(TileJobs& jobs, ScratchRunner& runner) : jobs_(jobs), runner_(runner), stage_(runner.stage_) {}
+
+  [[nodiscard]] std::size_t size() const override { return jobs_.size(); }
+  [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return jobs_.weight(job); }
+  void run(std::size_t job) override {
+    if (is_taken_over(job)) {
+      ++runner_.reused_;
+      return;
+    }
+    jobs_.run(job);
+    if (jobs_.is_complete(job)) runner_.scratch_.store(stage_, job, jobs_.packed(job));
+  }
+  [[nodiscard]] std::string packed(std::size_t job) const override { return jobs_.packed(job); }
+  void unpack(std::size_t job, std::string_view bytes) override { jobs_.unpack(job, bytes); }
+  [[nodiscard]] bool is_complete(std::size_t job) const override { return jobs_.is_complete(job); }
+  void progress(double share) override { jobs_.progress(share); }
+
+ private:
+  bool is_taken_over(std::size_t job) {
+    const std::optional<std::string> bytes = runner_.scratch_.load(stage_, job);
+    if (!bytes) return false;
+    try {
+      jobs_.unpack(job, *bytes);
+    } catch (const InvalidInput&) {
+      return false;
+    }
+    return true;
+  }
+
+  TileJobs& jobs_;
+  ScratchRunner& runner_;
+  std::size_t stage_;
+};
+
+void ScratchRunner::run(TileJobs& jobs) {
+  Jobs with_scratch(jobs, *this);
+  try {
+    runner_.run(with_scratch);
+  } catch (const IoError&) {  // of the folder: nothing else is written by jobs
+    scratch_.keep();
+    throw;
+  }
+  ++stage_;
+}
+
+}  // namespace meshbound::tools

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <atomic>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mesh/temporary_files.h"
+#include "meshbound/simplify.h"
+#include "meshbound/tiles.h"
+#include "tiles/tile_jobs.h"
+
+namespace meshbound::tools {
+
+/// What the results of all tiles of a decimation follow from, as a word: a hash of the original, the options, and the
+/// version of the program and of the files.
+[[nodiscard]] std::string decimation_key(const TriangleMesh& original, const SimplifyOptions& options,
+                                         const std::string& driver, const TileOptions& tiles);
+
+/// Results of finished tiles in a folder, from which a run that was killed is resumed. Each file stands for one tile,
+/// is there whole or not at all, and says with a checksum whose result it is: any other file counts as none.
+class TileScratch {
+ public:
+  /// Uses the folder `key` in `folder`, which is made if needed. Unless `resumes`, what an earlier run left there is
+  /// removed first. `owns`: the destructor removes it, unless `keep` was called. Throws `IoError`.
+  TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, bool owns);
+  ~TileScratch();
+  TileScratch(const TileScratch&) = delete;
+  TileScratch& operator=(const TileScratch&) = delete;
+
+  /// Safe to call from several threads, as `store` is.
+  [[nodiscard]] std::optional<std::string> load(std::size_t stage, std::size_t job) const;
+  /// Throws `IoError`.
+  void store(std::size_t stage, std::size_t job, std::string_view bytes);
+  /// For a run that ends as there was no room for a result: it can be resumed.
+  void keep() { owns_ = false; }
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(std::size_t stage, std::size_t job) const;
+  [[nodiscard]] std::string checksum_of(std::size_t stage, std::size_t job, std::string_view bytes) const;
+
+  std::filesystem::path folder_;
+  std::string key_;
+  bool owns_;
+  std::mutex mutex_;
+  std::deque<TemporaryName> listed_;  ///< what a signal removes: the folder, then the files
+};
+
+/// Runs jobs by another runner, but takes results that the scratch folder has and stores those that it has not.
+class ScratchRunner : public JobRunner {
+ public:
+  /// Both must outlive this.
+  ScratchRunner(JobRunner& runner, TileScratch& scratch) : runner_(runner), scratch_(scratch) {}
+  void run(TileJobs& jobs) override;
+  [[nodiscard]] bool any(bool here) override { return runner_.any(here); }
+  /// Results that came from the folder, in this process.
+  [[nodiscard]] std::size_t reused() const { return reused_; }
+
+ private:
+  class Jobs;
+
+  JobRunner& runner_;
+  TileScratch& scratch_;
+  std::size_t stage_ = 0;  ///< calls of `run`
+  std::atomic<std::size_t> reused_ = 0;
+};
+
+}  // namespace meshbound::tools
