@@ -52,6 +52,7 @@ TEST(Readme, IsShort) { EXPECT_LE(meshbound::testing_tools::line_count(content_o
 TEST(Documents, ShowOnlyProgramsThatTheTestsCompile) {
   std::vector<std::string> programs;
   for (const fs::directory_entry& entry : fs::directory_iterator(root / "examples")) {
+    if (!entry.is_regular_file()) continue;
     const std::string program = content_of(entry.path());
     programs.push_back(program.substr(program.find('\n') + 1));
   }
