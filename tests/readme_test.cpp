@@ -80,6 +80,10 @@ TEST(Documents, CommandsRunAsTheyAreWritten) {
   const TemporaryFolder folder;
   meshbound::write_mesh(folder / "bunny.ply", meshbound::datasets::torus(1, 0.3, 60, 24));
   meshbound::write_mesh(folder / "terrain.ply", meshbound::datasets::torus(1, 0.3, 60, 24));
+  const meshbound::TriangleMesh torus = meshbound::datasets::torus(1, 0.3, 60, 24);
+  meshbound::MeshAttributes textured;
+  textured.texture_coordinates = {torus.vertices, torus.triangles};  // x and y are u and v
+  meshbound::write_mesh(folder / "torus.obj", torus, {}, textured);
   fs::create_directory(folder / "models");
   meshbound::write_mesh(folder / "models/cube.off", meshbound::datasets::cube(1, 4));
   std::size_t count = 0;
