@@ -183,7 +183,9 @@ int run(const Options& options) {
 void declare(CLI::App& app, Options& options) {
   app.add_option("ORIGINAL", options.original, "The mesh that was simplified")->required();
   app.add_option("SIMPLIFIED", options.simplified, "The result")->required();
-  app.add_option("CERTIFICATE", options.certificate, "File written by --certificate of simplify_with_bound or hausdorff_distance")->required();
+  app.add_option("CERTIFICATE", options.certificate,
+                 "File written by --certificate of simplify_with_bound or hausdorff_distance")
+      ->required();
   app.add_option("--tolerance", options.tolerance,
                  "Reject certificates of larger tolerances: model units, or 0.1% of the original's diagonal");
   app.add_flag("--quiet", options.quiet, "Nothing on stdout; the exit code tells");

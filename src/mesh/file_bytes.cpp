@@ -38,8 +38,7 @@ class FileDescriptor {
 
 }  // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& path, const StopToken& stop, std::size_t limit,
-                     std::size_t first) {
+FileBytes::FileBytes(const std::filesystem::path& path, const StopToken& stop, std::size_t limit, std::size_t first) {
   // O_NONBLOCK: opening a fifo must not wait for somebody to write into it.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) refuse(path, std::strerror(errno));
@@ -52,8 +51,8 @@ FileBytes::FileBytes(const std::filesystem::path& path, const StopToken& stop, s
   data_ = std::make_unique_for_overwrite<char[]>(size);
   while (size_ < size) {
     end_if_stopped(stop, path, "read");
-    const ssize_t count = ::pread(file.get(), data_.get() + size_, std::min(size - size_, max_read),
-                                  static_cast<off_t>(first + size_));
+    const ssize_t count =
+        ::pread(file.get(), data_.get() + size_, std::min(size - size_, max_read), static_cast<off_t>(first + size_));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuse(path, std::strerror(errno));
     if (count == 0) refuse(path, "it became shorter while it was read; wait until it is complete");

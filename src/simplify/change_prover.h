@@ -20,7 +20,7 @@ class ChangeProver {
     accept(region);
     return true;
   }
-  /// The same in two steps: until `accept`, `undo_last` may still undo a change that was proven.
+  /// Proves the last change. Until `accept`, `undo_last` may still undo it.
   bool prove(const Split& split, Region& region);
   /// Whether the last change failed, but might have been proven with the help of faces of other regions.
   [[nodiscard]] bool met_seam() const;

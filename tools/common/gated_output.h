@@ -62,7 +62,7 @@ class GatedOutput {
 
   /// Reads the mesh that was written. Throws as `read_mesh`.
   [[nodiscard]] TriangleMesh written_mesh() const;
-  /// The same with its attributes.
+  /// As `written_mesh`, with the attributes of its triangles.
   [[nodiscard]] MeshFile written_with_attributes() const;
 
   /// Measures the distance between the original (a) and the file as it reads (b), and between their lines if these are

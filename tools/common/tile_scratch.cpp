@@ -12,7 +12,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// Of the files; another one whenever their bytes, or the results of tiles, change.
+/// Version of the files in the folder; it must change whenever their bytes, or the results of tiles, change.
 constexpr std::string_view format = "meshbound tiles 1 " MESHBOUND_VERSION;
 
 template <class T>

@@ -88,9 +88,9 @@ Answer answer_by_tiles(const Question& question, const TriangleMesh& a, const Tr
   ProgressBar bar("measuring", arguments.common.quiet);
   DistanceOptions options = engine_options(arguments, watch, bar);
   if (!arguments.memory.empty())
-    options.threads =
-        threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
-                       a.triangles.size() + b.triangles.size(), TileOptions{arguments.tile_triangles}, cost_of_measuring, options.threads);
+    options.threads = threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
+                                     a.triangles.size() + b.triangles.size(), TileOptions{arguments.tile_triangles},
+                                     cost_of_measuring, options.threads);
   return answer_in_tiles(question, a, b, options, *arguments.workers);
 }
 
