@@ -7,7 +7,6 @@
 #include "mesh/atomic_file.h"
 #include "mesh/file_bytes.h"
 #include "meshbound/error.h"
-#include "tiles/compact_bytes.h"
 
 namespace meshbound::tools {
 namespace {
@@ -22,17 +21,21 @@ std::string_view bytes_of(const std::vector<T>& items) {
 
 }  // namespace
 
+void pack_tile_options(CompactWriter& to, const SimplifyOptions& options) {
+  to.raw(options.tolerance);
+  to.raw(options.effort);
+  to.raw(options.placements);
+  to.raw(options.precision);
+  to.raw(options.preserve_boundary);
+}
+
 std::string decimation_key(const TriangleMesh& original, const SimplifyOptions& options, const std::string& driver,
                            const TileOptions& tiles) {
   CompactWriter bytes;
   bytes.text(format);
   bytes.text(driver);
   bytes.number(tiles.max_triangles);
-  bytes.raw(options.tolerance);
-  bytes.raw(options.effort);
-  bytes.raw(options.placements);
-  bytes.raw(options.precision);
-  bytes.raw(options.preserve_boundary);
+  pack_tile_options(bytes, options);
   bytes.text(sha256(bytes_of(original.vertices)));
   bytes.text(sha256(bytes_of(original.triangles)));
   return sha256(bytes.take());

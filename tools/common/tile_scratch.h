@@ -11,9 +11,13 @@
 #include "mesh/temporary_files.h"
 #include "meshbound/simplify.h"
 #include "meshbound/tiles.h"
+#include "tiles/compact_bytes.h"
 #include "tiles/tile_jobs.h"
 
 namespace meshbound::tools {
+
+/// Appends those options of a simplification that the results of tiles follow from.
+void pack_tile_options(CompactWriter& to, const SimplifyOptions& options);
 
 /// What the results of all tiles of a decimation follow from, as a word: a hash of the original, the options, and the
 /// version of the program and of the files.

@@ -62,7 +62,8 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
                  "With --texture: also decide whether the texture moves at most this far: a length as above, or "
                  "'2texels' with --texture-size");
   app.add_option("--texture-size", arguments.texture_size,
-                 "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels of A as well")
+                 "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels "
+                 "of A as well")
       ->check(CLI::PositiveNumber);
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate");

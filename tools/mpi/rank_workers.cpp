@@ -64,25 +64,20 @@ void tell(Communicator& ranks, CompactWriter& bytes) {
   ranks.broadcast(message, 0);
 }
 
-/// Those options of a simplification that tiles follow.
 void pack(CompactWriter& to, const SimplifyOptions& options) {
-  to.raw(options.tolerance);
+  pack_tile_options(to, options);
   to.raw(options.time_limit);
-  to.raw(options.effort);
-  to.raw(options.placements);
-  to.raw(options.precision);
-  to.raw(options.preserve_boundary);
   to.raw(options.threads);
 }
 
 SimplifyOptions unpack_simplify(CompactReader& from) {
   SimplifyOptions options;
   from.raw(options.tolerance);
-  from.raw(options.time_limit);
   from.raw(options.effort);
   from.raw(options.placements);
   from.raw(options.precision);
   from.raw(options.preserve_boundary);
+  from.raw(options.time_limit);
   from.raw(options.threads);
   return options;
 }
