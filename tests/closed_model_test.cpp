@@ -2,10 +2,14 @@
 // What is accepted as the boundary of a solid, and what the refusals say.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <string>
 
 #include "meshbound/error.h"
 #include "meshbound/penetration_depth.h"
+#include "penetration/closed_model_data.h"
 #include "reference/small_meshes.h"
 #include "solids.h"
 
@@ -40,6 +44,33 @@ TEST(ClosedModel, AcceptsSolids) {
   EXPECT_EQ(refusal(scaled(icosphere(2), 1e-160)), "");
   EXPECT_EQ(refusal(scaled(icosphere(2), 1e150)), "");
   EXPECT_EQ(refusal(moved(icosphere(2), {1e9, -1e9, 1e9})), "");
+}
+
+/// How many different planes the triangles of a mesh are said to lie in, once each is checked to lie in its own.
+std::size_t planes_of(const TriangleMesh& mesh) {
+  const ClosedModel model(mesh);
+  const ClosedModel::Data& data = model.data();
+  std::map<std::uint32_t, std::uint32_t> first_in;
+  for (std::uint32_t t = 0; t < data.triangles.size(); ++t) {
+    const std::uint32_t first = first_in.try_emplace(data.plane_of[t], t).first->second;
+    const auto corner = [&](std::uint32_t triangle, std::size_t k) {
+      return mesh.vertices[mesh.triangles[data.source_triangle[triangle]][k]];
+    };
+    const Vector3d o = corner(first, 0), normal = (corner(first, 1) - o).cross(corner(first, 2) - o);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(std::abs(normal.dot(corner(t, k) - o)), 1e-12 * normal.norm());
+  }
+  return first_in.size();
+}
+
+TEST(ClosedModel, KnowsWhichNeighboursLieInOnePlane) {
+  EXPECT_EQ(planes_of(unit), 6U);
+  EXPECT_EQ(planes_of(subdivided(subdivided(unit))), 6U);
+  EXPECT_EQ(planes_of(icosphere(1)), 80U);
+  EXPECT_EQ(planes_of(both(unit, box({1, 2, 0}, {2, 3, 1}))), 12U) << "of two components";
+  TriangleMesh almost = subdivided(unit);
+  for (Vector3d& p : almost.vertices)
+    if (p == Vector3d(0.5, 0.5, 1)) p.z() = std::nextafter(1.0, 2.0);
+  EXPECT_GT(planes_of(almost), 6U) << "one vertex is off by one rounding";
 }
 
 TEST(ClosedModel, AcceptsCavitiesAndSolidsWithinCavities) {

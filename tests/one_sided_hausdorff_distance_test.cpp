@@ -150,6 +150,22 @@ TEST(OneSidedDistance, OfIdenticalMeshesIsExactlyZero) {
   }
 }
 
+TEST(OneSidedDistance, FindsTrianglesThatBothMeshesHave) {
+  const TriangleMesh original = icosphere(1);
+  TriangleMesh other = original;
+  std::reverse(other.triangles.begin(), other.triangles.end());
+  for (Triangle& t : other.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
+  for (Vector3d& p : other.vertices)
+    for (double& x : p)
+      if (x == 0) x = -x;
+  const Bvh tree(original);
+  EXPECT_EQ(one_sided_hausdorff_distance(tree, Bvh(other)).stats.matched, 80U);
+  // A vertex at a side of the box would change the frame.
+  const Triangle lost = other.triangles[11];
+  other.triangles[11] = {lost[0], lost[1], lost[1]};
+  EXPECT_EQ(one_sided_hausdorff_distance(tree, Bvh(other)).stats.matched, 79U);
+}
+
 TEST(OneSidedDistance, OfASubdividedCopyIsRounding) {
   for (const TriangleMesh& mesh : {cube(1), icosphere(2), random_soup(5, 50, 0.3)}) {
     for (const auto& [a, b] : {std::pair(mesh, subdivided(mesh)), std::pair(subdivided(subdivided(mesh)), mesh)}) {

@@ -170,6 +170,20 @@ TEST(PenetrationDepth, ThroughAndThrough) {
   expect_volume(result, 0.5, 1, 4);
 }
 
+TEST(PenetrationDepth, FacesOfManyTrianglesNeedNoIntegers) {
+  // A curve that crosses triangles of one plane has many corners in one line, which doubles cannot tell from a turn.
+  const TriangleMesh fine = subdivided(subdivided(subdivided(unit)));
+  const ClosedModel coarse_model(unit), fine_model(fine);
+  const Eigen::Isometry3d pose = motion({0.6, 0.3, 0.4}, 0.7, {1, 2, 3});
+  const PenetrationDepth coarse = penetration_depth({coarse_model}, {coarse_model, pose}),
+                         result = penetration_depth({fine_model}, {fine_model, pose});
+  EXPECT_GT(result.stats.crossings, 5 * coarse.stats.crossings);
+  EXPECT_EQ(result.stats.exact_decisions, 0U);
+  ASSERT_EQ(result.volumes.size(), 1U);
+  EXPECT_LE(result.depth.lower, coarse.depth.upper);
+  EXPECT_GE(result.depth.upper, coarse.depth.lower);
+}
+
 TEST(PenetrationDepth, SpheresApproachTheLensBetweenThem) {
   // Two unit spheres at distance 1.5: the caps are 0.25 high and face each other; the poles are 0.5 apart. Volume of
   // the lens: pi (4 + d)(2 - d)^2 / 12 with d = 1.5.

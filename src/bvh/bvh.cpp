@@ -166,14 +166,19 @@ std::array<std::unique_ptr<const Bvh::Data>, count> build_all(const std::array<M
   const std::size_t threads = useful_threads(options.threads, triangles);
   std::array<std::unique_ptr<const Bvh::Data>, count> trees;
   std::array<FirstError, count> errors;
-#pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto build_one = [&](std::size_t i) {
     const std::size_t size = meshes[i].triangle_count();
     const auto share = static_cast<double>(threads) * static_cast<double>(size) / static_cast<double>(triangles + 1);
     const auto runs = static_cast<std::size_t>(std::ceil(share - tolerated_excess));
     errors[i].guard([&] {
       trees[i] = build(meshes[i], std::clamp<std::size_t>(runs, 1, 1 + size / triangles_per_thread), options.stop);
     });
+  };
+  if (needs_team(static_cast<int>(threads))) {
+#pragma omp parallel for num_threads(static_cast <int>(threads)) schedule(dynamic, 1)
+    for (std::size_t i = 0; i < count; ++i) build_one(i);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) build_one(i);
   }
   for (const FirstError& error : errors) error.rethrow();
   return trees;

@@ -95,6 +95,13 @@ class Partition {
 
 /// Sorts by key; items of one key keep their order.
 void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end, std::size_t parts) {
+  // Clearing the counters of the digits costs more than this many items; those of one key are in the order of their
+  // indices, which stand in the lower bits.
+  constexpr std::size_t max_compared = 256;
+  if (items.size() <= max_compared) {
+    std::sort(items.begin(), items.end());
+    return;
+  }
   const int passes = (end - first + digit_bits - 1) / digit_bits;
   if (parts == 1) {
     radix_sort(items, scratch, first, end, passes);

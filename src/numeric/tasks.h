@@ -17,10 +17,15 @@
 
 namespace meshbound {
 
+/// Whether loops for so many threads need a team of their own. One thread outside of any team runs them alone as it is;
+/// inside a team it would share them with the others.
+inline bool needs_team(int threads) { return threads > 1 || omp_get_level() > 0; }
+
 /// Calls `work()` on the calling thread. The loops that it runs are shared with `threads` - 1 others;
 /// `omp_get_thread_num()` tells them apart. Rethrows what `work` throws.
 template <class Work>
 void with_team(int threads, Work&& work) {
+  if (!needs_team(threads)) return std::forward<Work>(work)();
   FirstError error;
 #pragma omp parallel num_threads(threads) default(none) shared(error, work)
   {

@@ -13,6 +13,7 @@
 #include "penetration/closed_model_check.h"
 #include "penetration/closed_model_data.h"
 #include "penetration/exact_point.h"
+#include "penetration/model_planes.h"
 
 namespace meshbound {
 namespace {
@@ -103,6 +104,7 @@ ClosedModel::ClosedModel(const MeshView& mesh, const BvhOptions& options) {
   require_closed(*data);
   set_components(*data);
   require_no_crossing(*data, options.stop);
+  find_planes(*data, options.stop);
   require_outward(*data, options.stop);
   data_ = std::move(data);
 }

@@ -32,6 +32,7 @@ struct ClosedModel::Data {
   std::vector<std::array<std::uint32_t, 3>> edges_of;  ///< by triangle: [k] runs from corner k to corner k + 1
   std::vector<ModelEdge> edges;                        ///< by edge
   std::vector<std::uint32_t> component_of;             ///< by triangle
+  std::vector<std::uint32_t> plane_of;                 ///< by triangle: equal numbers lie in one plane (model_planes.h)
   std::vector<ModelComponent> components;              ///< by component
   std::size_t given_triangles = 0;                     ///< of the mesh as it was given
   int lowest_bit = 0;                                  ///< every coordinate is a multiple of 2^lowest_bit

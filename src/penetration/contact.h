@@ -39,14 +39,17 @@ bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>&
   const std::uint32_t side = pair.tree_side();
   const Bvh::Data &a = pair.model(side).tree.data(), &b = pair.model(1 - side).tree.data();
   const auto on_leaves = [&](std::uint32_t block_a, std::uint32_t block_b) {
+    pair.count_step();
+    const Box& around_b = pair.block_box(1 - side, block_b);
+    if (!boxes_meet(pair.block_box(side, block_a), around_b)) return true;
     const std::uint32_t end_a = std::min((block_a + 1) * block_width, a.triangle_count()),
                         end_b = std::min((block_b + 1) * block_width, b.triangle_count());
     for (std::uint32_t i = block_a * block_width; i < end_a; ++i) {
       const std::uint32_t s = a.triangle_of_slot[i];
       const Box& box = pair.box(side, s);
+      if (!boxes_meet(box, around_b)) continue;
       for (std::uint32_t j = block_b * block_width; j < end_b; ++j) {
         const std::uint32_t t = b.triangle_of_slot[j];
-        pair.count_step();
         if ((is_same && block_a == block_b && i >= j) || !boxes_meet(box, pair.box(1 - side, t))) continue;
         ++counters.triangle_pairs;
         if (!(side == 0 ? on_triangles(s, t) : on_triangles(t, s))) return false;

@@ -55,6 +55,43 @@ PiecePlane::Flat PiecePlane::exact(PieceCorner corner) const {
   return {coordinate(node.numerator, first_), coordinate(node.numerator, second_), node.denominator};
 }
 
+/// The edge of this triangle's model that a node lies on, if it is not within the triangle.
+std::uint32_t PiecePlane::edge_with(PieceCorner corner) const {
+  if (corner.kind != PieceCorner::Kind::Node) return no_index;
+  const CurveNode& node = curves_->nodes[corner.index];
+  return node.side == side_ ? node.edge : no_index;
+}
+
+bool PiecePlane::is_on_edge(PieceCorner corner, std::uint32_t edge) const {
+  const ModelEdge& ends = pair_->model(side_).edges[edge];
+  if (corner.kind == PieceCorner::Kind::Vertex) return corner.index == ends.from || corner.index == ends.to;
+  return edge_with(corner) == edge;
+}
+
+/// Planes of the other model that pass through a node, by their numbers there.
+std::array<std::uint32_t, 2> PiecePlane::planes_through(PieceCorner corner) const {
+  if (corner.kind != PieceCorner::Kind::Node) return {no_index, no_index};
+  const CurveNode& node = curves_->nodes[corner.index];
+  const ClosedModel::Data& other = pair_->model(1 - side_);
+  if (node.side == side_) return {other.plane_of[node.triangle], other.plane_of[node.triangle]};
+  const std::array<std::uint32_t, 2>& triangles = other.edges[node.edge].triangle;
+  return {other.plane_of[triangles[0]], other.plane_of[triangles[1]]};
+}
+
+/// Whether it follows from what the corners are that they lie in one line: all on one edge of the triangle, or all in
+/// one plane of the other model. That plane is not the triangle's, as a node's edge is not parallel to the triangle
+/// that it goes through.
+bool PiecePlane::are_in_line(PieceCorner p, PieceCorner q, PieceCorner r) const {
+  for (const PieceCorner corner : {p, q, r})
+    if (const std::uint32_t edge = edge_with(corner); edge != no_index)
+      if (is_on_edge(p, edge) && is_on_edge(q, edge) && is_on_edge(r, edge)) return true;
+  const std::array<std::uint32_t, 2> at_q = planes_through(q), at_r = planes_through(r);
+  for (const std::uint32_t plane : planes_through(p))
+    if (plane != no_index && (plane == at_q[0] || plane == at_q[1]) && (plane == at_r[0] || plane == at_r[1]))
+      return true;
+  return false;
+}
+
 int PiecePlane::turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
   const double ax = x(q) - x(p), ay = y(q) - y(p), bx = x(r) - x(p), by = y(r) - y(p);
   // As in `orientation`: h is the error of a difference.
@@ -65,6 +102,8 @@ int PiecePlane::turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
   const double value = ax * by - ay * bx;
   if (value > bound) return 1;
   if (value < -bound) return -1;
+  if (are_in_line(p, q, r)) return 0;
+  pair_->count_exact_decision();
   const Flat a = exact(p), b = exact(q), c = exact(r);
   const mpz_class determinant =
       a.w * (b.x * c.y - b.y * c.x) - b.w * (a.x * c.y - a.y * c.x) + c.w * (a.x * b.y - a.y * b.x);

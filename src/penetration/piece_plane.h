@@ -57,6 +57,10 @@ class PiecePlane {
     mpz_class x, y, w;
   };
   [[nodiscard]] Flat exact(PieceCorner corner) const;
+  [[nodiscard]] bool are_in_line(PieceCorner p, PieceCorner q, PieceCorner r) const;
+  [[nodiscard]] std::uint32_t edge_with(PieceCorner node) const;
+  [[nodiscard]] bool is_on_edge(PieceCorner corner, std::uint32_t edge) const;
+  [[nodiscard]] std::array<std::uint32_t, 2> planes_through(PieceCorner corner) const;
 
   PlacedPair* pair_;
   const CrossingCurves* curves_;

@@ -14,6 +14,7 @@ namespace meshbound {
 namespace {
 
 Vec3 magnitudes(const Vec3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+Vec3 smaller(const Vec3& p, const Vec3& q) { return {std::min(p.x, q.x), std::min(p.y, q.y), std::min(p.z, q.z)}; }
 Vec3 larger(const Vec3& p, const Vec3& q) { return {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}; }
 
 void require_motion(const Eigen::Isometry3d& pose) {
@@ -40,15 +41,14 @@ double error_of_volume(const Vec3& d, double h) {
   return (64 * unit_roundoff * product + 6 * h * (d.x * d.y + d.y * d.z + d.z * d.x)) * (1 + 16 * unit_roundoff);
 }
 
-/// Sign of dot(q - p, cross(r - p, s - p)) for coordinates that are off by at most `error` each; 0 where doubles cannot
-/// tell.
-int certain_sign(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, double error) {
-  const Vec3 a = q - p, b = r - p, c = s - p;
+/// Sign of `volume`, computed as dot(a, cross(b, c)) for differences of points whose coordinates are off by at most
+/// `error` each; 0 where doubles cannot tell.
+int certain_sign(double volume, const Vec3& a, const Vec3& b, const Vec3& c, double error) {
   const double h = 2 * error;
   const Vec3 d = larger(larger(magnitudes(a), magnitudes(b)), magnitudes(c)) + Vec3{h, h, h};
-  const double bound = error_of_volume(d, h), value = dot(a, cross(b, c));
-  if (value > bound) return 1;
-  return value < -bound ? -1 : 0;
+  const double bound = error_of_volume(d, h);
+  if (volume > bound) return 1;
+  return volume < -bound ? -1 : 0;
 }
 
 }  // namespace
@@ -63,6 +63,7 @@ void PlacedPair::place(const ClosedModel::Data& a, const Eigen::Isometry3d& pose
     side.map.reset();
     side.points.clear(side.model->positions.size());
     side.boxes.clear(side.model->triangles.size());
+    side.block_boxes.clear(side.model->triangles.size() / block_width + 1);
     side.exact_points.clear(side.model->positions.size());
   }
   const auto frame = [this](std::uint32_t side) -> const Frame& { return model(side).tree.data().frame; };
@@ -104,6 +105,8 @@ void PlacedPair::set_frame() {
     side.offset = {std::ldexp(side.offset.x, -exponent_), std::ldexp(side.offset.y, -exponent_),
                    std::ldexp(side.offset.z, -exponent_)};
   }
+  constexpr double largest_difference = 2.5;  // of coordinates of magnitude about 1, with their errors
+  volume_error_ = error_of_volume({largest_difference, largest_difference, largest_difference}, 2 * largest_error());
 }
 
 /// R center + t - origin, model units, with a relative error of 2 u.
@@ -149,6 +152,17 @@ const Box& PlacedPair::place_box(std::uint32_t side, std::uint32_t triangle) {
                  Vec3{largest(a.x, b.x, c.x), largest(a.y, b.y, c.y), largest(a.z, b.z, c.z)} + margin});
 }
 
+const Box& PlacedPair::place_block_box(std::uint32_t side, std::uint32_t block) {
+  const Bvh::Data& tree = model(side).tree.data();
+  const std::uint32_t first = block * block_width, end = std::min(first + block_width, tree.triangle_count());
+  Box all = box(side, tree.triangle_of_slot[first]);
+  for (std::uint32_t slot = first + 1; slot < end; ++slot) {
+    const Box& own = box(side, tree.triangle_of_slot[slot]);
+    all = {smaller(all.lo, own.lo), larger(all.hi, own.hi)};
+  }
+  return sides_[side].block_boxes.set(block, all);
+}
+
 const ExactPoint& PlacedPair::exact(PairVertex v) {
   prepare_exact();
   Side& side = sides_[v.side];
@@ -180,8 +194,10 @@ Vec3 PlacedPair::to_local(const ExactPoint& numerator, const mpz_class& denomina
 }
 
 int PlacedPair::orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s) {
-  const double error = std::max(sides_[0].error, sides_[1].error);
-  const int sign = certain_sign(local(p), local(q), local(r), local(s), error);
+  const Vec3 from = local(p), a = local(q) - from, b = local(r) - from, c = local(s) - from;
+  const double volume = dot(a, cross(b, c));
+  int sign = sign_beyond_error(volume);
+  if (sign == 0) sign = certain_sign(volume, a, b, c, largest_error());
   if (sign != 0) return sign;
   ++exact_decisions_;
   return sgn(volume_of(exact(p), exact(q), exact(r), exact(s)));
@@ -202,23 +218,14 @@ int PlacedPair::side_of_plane(std::uint32_t side, const Triangle& triangle, std:
   return sign_of_first(cross(exact(q) - exact(p), exact(r) - exact(p)), side == 0 ? -1 : 1);
 }
 
-/// As `certain_sign` for three vertices, with the terms of the plane computed once.
+/// As `side_of_plane` for three vertices, with the plane computed once.
 std::array<int, 3> PlacedPair::sides_of_plane(std::uint32_t side, const Triangle& triangle, const Triangle& vertices) {
   const Vec3 p = local({side, triangle[0]}), a = local({side, triangle[1]}) - p, b = local({side, triangle[2]}) - p;
-  const Vec3 normal = cross(a, b), of_plane = larger(magnitudes(a), magnitudes(b));
-  const double h = 2 * std::max(sides_[0].error, sides_[1].error);
+  const Vec3 normal = cross(a, b);
   std::array<int, 3> signs{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 c = local({1 - side, vertices[k]}) - p;
-    const Vec3 d = larger(of_plane, magnitudes(c)) + Vec3{h, h, h};
-    const double bound = error_of_volume(d, h), value = dot(c, normal);
-    if (value > bound) {
-      signs[k] = 1;
-    } else if (value < -bound) {
-      signs[k] = -1;
-    } else {
-      signs[k] = side_of_plane(side, triangle, vertices[k]);
-    }
+    signs[k] = sign_beyond_error(dot(local({1 - side, vertices[k]}) - p, normal));
+    if (signs[k] == 0) signs[k] = side_of_plane(side, triangle, vertices[k]);
   }
   return signs;
 }
@@ -245,10 +252,15 @@ bool PlacedPair::is_beyond(std::uint32_t side, const Vec3& p, const Eigen::Align
 }
 
 bool PlacedPair::goes_through(std::uint32_t side, const Triangle& triangle, std::uint32_t p, std::uint32_t q) {
+  // The turns of the edge around those of the triangle, seen from p.
+  const Vec3 from = local({1 - side, p}), edge = local({1 - side, q}) - from;
+  const std::array<Vec3, 3> corners{local({side, triangle[0]}) - from, local({side, triangle[1]}) - from,
+                                    local({side, triangle[2]}) - from};
   const auto turn = [&](std::size_t k) {
-    const std::uint32_t from = triangle[k], to = triangle[next_corner(k)];
+    const std::size_t next = next_corner(k);
+    if (const int sign = sign_beyond_error(dot(edge, cross(corners[k], corners[next]))); sign != 0) return sign;
     // Exchanging the two edges is an even permutation of the four points.
-    return side == 1 ? edge_turn(p, q, from, to) : edge_turn(from, to, p, q);
+    return side == 1 ? edge_turn(p, q, triangle[k], triangle[next]) : edge_turn(triangle[k], triangle[next], p, q);
   };
   const int first = turn(0);
   return turn(1) == first && turn(2) == first;

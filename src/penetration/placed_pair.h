@@ -8,6 +8,7 @@
 /// of both sides vanishes for every such motion only where a triangle has no area or two edges are parallel, and an
 /// edge parallel to a triangle does not cross it.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -78,7 +79,13 @@ class PlacedPair {
     Side& own = sides_[side];
     return own.boxes.has(triangle) ? own.boxes[triangle] : place_box(side, triangle);
   }
+  /// A box around the triangles of a leaf of the side's tree; local.
+  [[nodiscard]] const Box& block_box(std::uint32_t side, std::uint32_t block) {
+    Side& own = sides_[side];
+    return own.block_boxes.has(block) ? own.block_boxes[block] : place_block_box(side, block);
+  }
   [[nodiscard]] double error(std::uint32_t side) const { return sides_[side].error; }
+  [[nodiscard]] double largest_error() const { return std::max(sides_[0].error, sides_[1].error); }
   [[nodiscard]] const ExactPoint& exact(PairVertex v);
 
   /// Conversion of local lengths and points to model units and world coordinates.
@@ -112,6 +119,8 @@ class PlacedPair {
   /// 1 where side 0 moves along an exact vector, -1 where it moves against it.
   [[nodiscard]] static int motion_along(const ExactPoint& vector) { return sign_of_first(vector, 1); }
 
+  /// Notes a sign that was decided by integers elsewhere.
+  void count_exact_decision() { ++exact_decisions_; }
   [[nodiscard]] std::uint64_t exact_decisions() const { return exact_decisions_; }
 
  private:
@@ -123,22 +132,30 @@ class PlacedPair {
     Vec3 offset;               ///< local
     double error = 0;
     SparseArray<Vec3> points;
-    SparseArray<Box> boxes;  ///< by triangle
+    SparseArray<Box> boxes;        ///< by triangle
+    SparseArray<Box> block_boxes;  ///< by leaf
     SparseArray<ExactPoint> exact_points;
     std::optional<ExactMap> map;
   };
 
   const Vec3& place_vertex(Side& side, std::uint32_t vertex);
   const Box& place_box(std::uint32_t side, std::uint32_t triangle);
+  const Box& place_block_box(std::uint32_t side, std::uint32_t block);
   void set_frame();
   void set_offset(Side& side);
   void prepare_exact();
   static int sign_of_first(const ExactPoint& normal, int sign);
+  /// Sign of a computed `volume_of` of four vertices of this pair; 0 where its error could hide it.
+  [[nodiscard]] int sign_beyond_error(double volume) const {
+    if (volume > volume_error_) return 1;
+    return volume < -volume_error_ ? -1 : 0;
+  }
 
   std::array<Side, 2> sides_;
   std::uint32_t tree_side_ = 0;
   Mapping tree_mapping_;
-  Vec3 origin_;  ///< world coordinates of the origin of the local frame
+  Vec3 origin_;              ///< world coordinates of the origin of the local frame
+  double volume_error_ = 0;  ///< of `volume_of` computed for any four vertices, at most; local unit cubed
   int exponent_ = 0;
   int unit_ = 0;  ///< exact coordinates are multiples of 2^unit
   bool is_exact_ready_ = false;
