@@ -43,9 +43,12 @@ if(TARGET meshbound_c)
   set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/triggers)
   set(c_library "libmeshbound-c${c_abi} (= ${PROJECT_VERSION}), ")
 endif()
+if(MESHBOUND_HAS_DRACO)
+  set(draco_package ", libdraco-dev")
+endif()
 meshbound_package(dev libmeshbound-dev libdevel
   "This package holds headers and libraries for C++ and C, found by CMake and\npkg-config."
-  "${c_library}libeigen3-dev, libgmp-dev")
+  "${c_library}libeigen3-dev, libgmp-dev${draco_package}")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libcgal-dev, libopenmpi-dev")
 if(TARGET meshbound_mpi)
   meshbound_package(mpi meshbound-mpi graphics

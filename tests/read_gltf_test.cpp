@@ -238,7 +238,9 @@ TEST_F(ReadGltf, RefusesReferencesBeyondWhatIsThere) {
       [](GltfJson& json) {
         json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = GltfJson::object();
       },
-      "KHR_draco_mesh_compression");
+      "KHR_draco_mesh_compression: 'attributes' is missing");
+  refused([](GltfJson& json) { json["extensionsRequired"] = {"KHR_meshopt_compression"}; },
+          "'KHR_meshopt_compression'");
   refused([](GltfJson& json) { json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = 1; },
           "EXT_meshopt_compression");
   refused([](GltfJson& json) { json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = 1; },

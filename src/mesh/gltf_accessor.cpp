@@ -16,6 +16,21 @@ struct Elements {
   std::size_t stride = 0;
 };
 
+GltfComponent component_of(const GltfValue& accessor) {
+  const GltfValue type = accessor.at("componentType");
+  const std::size_t number = type.integer();
+  if (number < 5120 || number > 5126 || number == 5124) type.fail("is none of the types of glTF 2");
+  return static_cast<GltfComponent>(number);
+}
+
+std::size_t width_of(const GltfValue& accessor) {
+  static constexpr std::array<const char*, 4> names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  const std::string type = accessor.at("type").text();
+  const auto found = std::find(names.begin(), names.end(), type);
+  if (found == names.end()) accessor.fail("elements of type " + quote(type) + " are not read");
+  return static_cast<std::size_t>(found - names.begin()) + 1;
+}
+
 class AccessorReader {
  public:
   AccessorReader(const MeshSource& source, const GltfDocument& document)
@@ -24,7 +39,7 @@ class AccessorReader {
   GltfAccessor read(std::size_t index) {
     const GltfValue accessor = root_.at("accessors").item(index);
     GltfAccessor result;
-    result.numbers = {component_of(accessor), accessor.flag_or("normalized", false), width_of(accessor)};
+    result.numbers = numbers_of(accessor);
     result.count = accessor.at("count").integer();
     const std::size_t size = size_of(result.numbers.component) * result.numbers.width;
     if (accessor.find("bufferView")) {
@@ -45,26 +60,10 @@ class AccessorReader {
     return accessor.values.data() + i * accessor.numbers.width;
   }
 
-  static GltfComponent component_of(const GltfValue& accessor) {
-    const GltfValue type = accessor.at("componentType");
-    const std::size_t number = type.integer();
-    if (number < 5120 || number > 5126 || number == 5124) type.fail("is none of the types of glTF 2");
-    return static_cast<GltfComponent>(number);
-  }
-
-  static std::size_t width_of(const GltfValue& accessor) {
-    static constexpr std::array<const char*, 4> names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const std::string type = accessor.at("type").text();
-    const auto found = std::find(names.begin(), names.end(), type);
-    if (found == names.end()) accessor.fail("elements of type " + quote(type) + " are not read");
-    return static_cast<std::size_t>(found - names.begin()) + 1;
-  }
-
   /// The elements that the "bufferView" and "byteOffset" of `of` locate: `count` elements of `size` bytes each.
   [[nodiscard]] Elements elements(const GltfValue& of, std::size_t count, std::size_t size) const {
     const std::size_t number = of.at("bufferView").index(root_.count("bufferViews"), "buffer views");
     const GltfValue view = root_.at("bufferViews").item(number);
-    refuse_compression(view);
     const std::string& buffer = document_.buffers[view.at("buffer").index(document_.buffers.size(), "buffers")];
     const std::size_t begin = view.integer_or("byteOffset", 0), length = view.at("byteLength").integer();
     if (begin > buffer.size() || length > buffer.size() - begin)
@@ -75,14 +74,6 @@ class AccessorReader {
       of.fail("its " + std::to_string(count) + " elements reach beyond the " + std::to_string(length) +
               " bytes of their buffer view");
     return {std::string_view(buffer).substr(begin + std::min(offset, length)), stride};
-  }
-
-  static void refuse_compression(const GltfValue& view) {
-    const auto extensions = view.find("extensions");
-    if (!extensions) return;
-    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-      if (extensions->find(name))
-        view.fail(std::string("data compressed by ") + name + " are not read; convert the file to one without it");
   }
 
   static void load(const Elements& from, std::size_t i, const GltfNumbers& numbers, double* to) {
@@ -140,6 +131,10 @@ class AccessorReader {
 };
 
 }  // namespace
+
+GltfNumbers numbers_of(const GltfValue& accessor) {
+  return {component_of(accessor), accessor.flag_or("normalized", false), width_of(accessor)};
+}
 
 std::size_t size_of(GltfComponent component) {
   switch (component) {

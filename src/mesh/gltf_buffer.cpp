@@ -58,8 +58,6 @@ void append_number(std::string& to, const GltfNumbers& numbers, double value) {
   append(to, static_cast<float>(rounded_to_float(value)));
 }
 
-std::size_t padded(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
-
 /// Visits the number behind every key "bufferView", wherever it stands.
 void visit_views(const GltfJson& json, const std::function<void(std::size_t)>& visit) {
   if (!json.is_structured()) return;
@@ -83,6 +81,18 @@ const GltfJson& unused_accessor() {
 }
 
 }  // namespace
+
+std::size_t padded_to_alignment(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
+
+std::string packed_elements(const GltfNumbers& numbers, const std::vector<double>& values, std::size_t stride) {
+  const std::size_t size = size_of(numbers.component) * numbers.width;
+  std::string bytes;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    append_number(bytes, numbers, values[i]);
+    if ((i + 1) % numbers.width == 0) bytes.resize(bytes.size() + stride - size);
+  }
+  return bytes;
+}
 
 /// Makes every array that entries are added to before anything else: adding a key to an ordered object moves all other
 /// keys in memory, and callers hold references into the document.
@@ -118,7 +128,7 @@ std::size_t GltfBuffer::add_item(const char* key, GltfJson item, std::vector<std
 }
 
 std::size_t GltfBuffer::add_view(std::string_view bytes, std::size_t stride, int target) {
-  bytes_.resize(padded(bytes_.size()));
+  bytes_.resize(padded_to_alignment(bytes_.size()));
   GltfJson view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
   if (stride != 0) view["byteStride"] = stride;
   if (target != 0) view["target"] = target;
@@ -130,15 +140,12 @@ std::size_t GltfBuffer::add_view(std::string_view bytes, std::size_t stride, int
 
 std::size_t GltfBuffer::add_accessor(const GltfNumbers& numbers, const std::vector<double>& values, bool with_range) {
   const std::size_t size = size_of(numbers.component) * numbers.width, count = values.size() / numbers.width;
-  std::string bytes;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    append_number(bytes, numbers, values[i]);
-    if ((i + 1) % numbers.width == 0) bytes.resize(bytes.size() + padded(size) - size);
-  }
-  GltfJson accessor = {{"bufferView", add_view(bytes, padded(size) != size ? padded(size) : 0, target_vertices)},
-                       {"componentType", static_cast<int>(numbers.component)},
-                       {"count", count},
-                       {"type", type_of_width(numbers.width)}};
+  const std::size_t stride = padded_to_alignment(size);
+  GltfJson accessor = {
+      {"bufferView", add_view(packed_elements(numbers, values, stride), stride != size ? stride : 0, target_vertices)},
+      {"componentType", static_cast<int>(numbers.component)},
+      {"count", count},
+      {"type", type_of_width(numbers.width)}};
   if (numbers.normalized) accessor["normalized"] = true;
   for (std::size_t k = 0; with_range && count > 0 && k < numbers.width; ++k) {
     double min = rounded_to_float(values[k]), max = min;
@@ -171,14 +178,11 @@ void GltfBuffer::move_old_view(GltfJson& view, std::size_t number) {
     throw InvalidInput("bufferViews[" + std::to_string(number) + "] of the glTF file: " + defect);
   };
   if (!view.is_object()) fail("expected an object of JSON");
-  if (const auto extensions = view.find("extensions"); extensions != view.end() && extensions->is_object())
-    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-      if (extensions->contains(name)) fail(std::string("data compressed by ") + name + " cannot be written again");
   const std::size_t buffer = integer_or(view, "buffer", old_.size());
   const std::size_t offset = integer_or(view, "byteOffset", 0), length = integer_or(view, "byteLength", 0);
   if (buffer >= old_.size() || offset > old_[buffer].size() || length > old_[buffer].size() - offset)
     fail("reaches beyond its buffer");
-  bytes_.resize(padded(bytes_.size()));
+  bytes_.resize(padded_to_alignment(bytes_.size()));
   view["buffer"] = 0;
   view["byteOffset"] = bytes_.size();
   bytes_ += std::string_view(old_[buffer]).substr(offset, length);
@@ -214,7 +218,7 @@ std::string GltfBuffer::finish() {
     json_.erase("buffers");
     return {};
   }
-  bytes_.resize(padded(bytes_.size()));
+  bytes_.resize(padded_to_alignment(bytes_.size()));
   GltfJson& buffers = json_["buffers"];
   GltfJson buffer = buffers.is_array() && !buffers.empty() && buffers[0].is_object() ? buffers[0] : GltfJson::object();
   buffer.erase("uri");

@@ -9,6 +9,14 @@
 
 namespace meshbound {
 
+/// The bytes of an element of a vertex, `size` rounded up to what glTF aligns elements to.
+[[nodiscard]] std::size_t padded_to_alignment(std::size_t size);
+
+/// The elements of an accessor, `numbers.width` of the values each, `stride` bytes apart. Integers are rounded and
+/// clamped; normalised ones from the number that they stand for.
+[[nodiscard]] std::string packed_elements(const GltfNumbers& numbers, const std::vector<double>& values,
+                                          std::size_t stride);
+
 /// The accessors, buffer views and bytes of a glTF file that is written. Entries that stay keep their numbers, so that
 /// references to them remain valid, also those in extensions that are unknown here. New entries take freed numbers
 /// first.
@@ -30,7 +38,7 @@ class GltfBuffer {
   std::size_t add_view(std::string_view bytes, std::size_t stride, int target);
 
   /// Copies the old buffer views that are left behind the new ones and returns the bytes of the single buffer. Call
-  /// last. Throws `InvalidInput` for a view that is compressed or reaches beyond its buffer.
+  /// last. Throws `InvalidInput` for a view that reaches beyond its buffer.
   [[nodiscard]] std::string finish();
 
  private:

@@ -9,6 +9,7 @@
 
 #include "mesh/data_uri.h"
 #include "mesh/file_bytes.h"
+#include "mesh/gltf_compression.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -110,10 +111,14 @@ void read_buffers(const MeshSource& source, const GltfValue& root, std::optional
     const std::size_t size = buffer.at("byteLength").integer();
     const auto uri = buffer.find("uri");
     std::string bytes;
-    if (uri) {
-      bytes = bytes_at_uri(source, *uri);
-    } else if (i == 0 && binary) {
+    const bool is_binary_chunk = i == 0 && binary && !uri;
+    if (is_binary_chunk) {
       bytes = std::string(*binary);
+    } else if (is_placeholder_buffer(root, buffer)) {
+      buffers.emplace_back();
+      continue;
+    } else if (uri) {
+      bytes = bytes_at_uri(source, *uri);
     } else {
       buffer.fail("the buffer has no 'uri', and the file no binary chunk for it");
     }
@@ -131,7 +136,7 @@ void refuse_unknown_requirements(const GltfValue& root) {
     const std::string name = item.text();
     const bool is_harmless = std::any_of(harmless_extensions.begin(), harmless_extensions.end(),
                                          [&](std::string_view known) { return name.starts_with(known); });
-    if (!is_harmless)
+    if (!is_harmless && !is_read_compression(name))
       item.fail("the file requires the extension " + quote(name) +
                 ", which is not read; convert the file to one without it");
   }
@@ -154,6 +159,7 @@ GltfDocument read_gltf_document(const MeshSource& source) {
   check_version(root);
   refuse_unknown_requirements(root);
   read_buffers(source, root, container.binary, document.buffers);
+  decompress(source, document);
   return document;
 }
 

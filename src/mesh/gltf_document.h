@@ -20,9 +20,10 @@ struct GltfDocument : SceneLayout {
   std::filesystem::path folder;  ///< image files are named relative to it
 };
 
-/// The JSON and the buffers of a file, `placed` and `parts` still empty. The version must be 2, the JSON not nested too
-/// deeply to be written again, each buffer as long as it says, and no extension required that is unknown here and may
-/// change triangles. Throws `InvalidInput`, and `IoError` where a file of a buffer cannot be read.
+/// The JSON and the buffers of a file, compressed data decoded, `placed` and `parts` still empty. The version must be
+/// 2, the JSON not nested too deeply to be written again, each buffer as long as it says, and no extension required
+/// that is unknown here and may change triangles. Throws `InvalidInput`, and `IoError` where a file of a buffer cannot
+/// be read.
 [[nodiscard]] GltfDocument read_gltf_document(const MeshSource& source);
 
 /// The number of textures, cameras, animations and skins.
@@ -44,6 +45,10 @@ struct GltfNumbers {
   std::size_t width = 1;    ///< numbers in an element
 };
 
+/// How the numbers of an accessor of the document are stored. Throws `InvalidInput` where it has elements that are
+/// matrices, or of a type that glTF 2 does not know.
+[[nodiscard]] GltfNumbers numbers_of(const GltfValue& accessor);
+
 /// An accessor with all its numbers, sparse substitutions applied. Integers are exact; a normalised integer is the
 /// quotient in double precision.
 struct GltfAccessor {
@@ -52,8 +57,8 @@ struct GltfAccessor {
   std::vector<double> values;  ///< `numbers.width` for each element
 };
 
-/// Reads `accessors[index]`. Throws `InvalidInput` where it reaches beyond its buffer, is compressed, or has elements
-/// that are matrices. Never allocates more than the file can justify.
+/// Reads `accessors[index]`. Throws `InvalidInput` where it reaches beyond its buffer or has elements that are
+/// matrices. Never allocates more than the file can justify.
 [[nodiscard]] GltfAccessor read_accessor(const MeshSource& source, const GltfDocument& document, std::size_t index);
 
 }  // namespace meshbound

@@ -89,7 +89,6 @@ class GltfReader {
 
   void read_primitive(const GltfValue& primitive, std::size_t mode, std::uint32_t placed, std::uint32_t number,
                       std::uint32_t group) {
-    refuse_compression(primitive);
     const GltfValue where = primitive.at("attributes").at("POSITION");
     const std::size_t accessor = where.index(root_.count("accessors"), "accessors");
     const GltfAccessor& positions = accessors_.at(accessor);
@@ -111,12 +110,6 @@ class GltfReader {
       assembler_.add_polygon(corners);
       if (attributes_) attributes_->add_triangle(t);
     }
-  }
-
-  static void refuse_compression(const GltfValue& primitive) {
-    const auto extensions = primitive.find("extensions");
-    if (extensions && extensions->find("KHR_draco_mesh_compression"))
-      primitive.fail("data compressed by KHR_draco_mesh_compression are not read; convert the file to one without it");
   }
 
   std::vector<std::uint32_t> corners_of(const GltfValue& primitive, std::size_t vertices) {
