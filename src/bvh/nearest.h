@@ -8,6 +8,7 @@
 
 #include "bvh/bvh_data.h"
 #include "geometry/point_triangle.h"
+#include "numeric/double_double.h"
 #include "numeric/simd.h"
 
 namespace meshbound {
@@ -196,8 +197,9 @@ inline std::uint32_t step_over(const Bvh::Data& data, const Vec3& p, std::uint32
 inline double best_separation(const CornerTriangle<double>& t, const Vec3& p, double wanted) {
   double best = separation(t, p, closest_on_triangle(t, p).offset);
   if (best >= wanted) return best;
-  const CornerTriangle<long double> fine{{t.a.x, t.a.y, t.a.z}, {t.ab.x, t.ab.y, t.ab.z}, {t.ac.x, t.ac.y, t.ac.z}};
-  const Vec<long double> offset = closest_on_triangle(fine, Vec<long double>{p.x, p.y, p.z}).offset;
+  const auto extended = [](const Vec3& v) { return Vec<DoubleDouble>{v.x, v.y, v.z}; };
+  const CornerTriangle<DoubleDouble> fine{extended(t.a), extended(t.ab), extended(t.ac)};
+  const Vec<DoubleDouble> offset = closest_on_triangle(fine, extended(p)).offset;
   const Vec3 normal = cross(t.ab, t.ac);
   for (const Vec3& direction :
        {Vec3{static_cast<double>(offset.x), static_cast<double>(offset.y), static_cast<double>(offset.z)}, normal,

@@ -6,7 +6,7 @@
 
 namespace meshbound {
 
-/// A point or vector in a working frame; `Real` is double, long double or four lanes of double.
+/// A point or vector in a working frame; `Real` is double, `DoubleDouble` or four lanes of double.
 template <class Real>
 struct Vec {
   Real x{}, y{}, z{};

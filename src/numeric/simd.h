@@ -21,7 +21,6 @@ inline Double4 broadcast4(double x) { return Double4{x, x, x, x}; }
 inline Float8 broadcast8(float x) { return Float8{x, x, x, x, x, x, x, x}; }
 
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
-inline long double select(bool mask, long double yes, long double no) { return mask ? yes : no; }
 inline Double4 select(Mask4 mask, Double4 yes, Double4 no) { return mask ? yes : no; }
 
 inline Float8 maximum(Float8 a, Float8 b) {
