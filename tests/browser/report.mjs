@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// node report.mjs CHROMIUM REPORT.html JSON SCREENSHOT_FOLDER repeats|refuses [alone]: opens a report in headless Chromium at desktop and narrow
+// node report.mjs CHROMIUM REPORT.html JSON SCREENSHOT_FOLDER repeats|chooses|refuses [alone]: opens a report in headless Chromium at desktop and narrow
 // width, light and dark, and holds it against the JSON document. Exit code 0 when everything is as it should be; each
 // fault is a line on stdout. With "alone" nothing but the measurement in the page is looked at.
 import { readFile } from 'node:fs/promises';
@@ -74,11 +74,20 @@ async function checkNumbers(page) {
 /** The button measures the same interval again, or is not there and a sentence says why. */
 async function checkMeasurement(page, where) {
   const isVisible = await page.locator('#measure').isVisible();
-  equal(isVisible, measurement === 'repeats', `${where}: the button that measures is visible`);
+  equal(isVisible, measurement !== 'refuses', `${where}: the button that measures is visible`);
   expect((await page.locator('#measure-note').innerText()).length > 40, `${where}: no note on measuring here`);
   if (!isVisible) return;
-  await page.click('#measure');
-  await page.locator('#measured').filter({ hasText: /\[|at least|failed/ }).waitFor({ timeout: 60000 });
+  const answered = async (pattern) => {
+    await page.click('#measure');
+    await page.locator('#measured').filter({ hasText: pattern }).waitFor({ timeout: 60000 });
+  };
+  if (measurement === 'chooses') {
+    await page.setInputFiles('#measure-first', inputs[1].path);
+    await page.setInputFiles('#measure-second', inputs[1].path);
+    await answered(/another file/);
+    await page.setInputFiles('#measure-first', inputs[0].path);
+  }
+  await answered(/\[|at least|failed/);
   const { lower, upper } = await page.locator('#measured').evaluate((node) => ({ ...node.dataset }));
   equal(Number(lower), measured.distance.lower, `${where}: lower bound measured in the browser`);
   equal(Number(upper), measured.distance.upper ?? Infinity, `${where}: upper bound measured in the browser`);

@@ -43,11 +43,9 @@ Json whole_mesh(const TriangleMesh& mesh, bool in_floats) {
 
 Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
 
-MeasureHere impossible(const std::string& reason) { return {Json{{"reason", reason}}.dump(), ""}; }
+constexpr const char* absent = "null";
 
-MeasureHere too_large() {
-  return impossible("The meshes are too large to be in this page; the tool hausdorff_distance measures them.");
-}
+MeasureHere impossible(const std::string& reason) { return {Json{{"reason", reason}}.dump(), absent, absent, ""}; }
 
 std::optional<std::string> engine_script() {
   namespace fs = std::filesystem;
@@ -60,29 +58,34 @@ std::optional<std::string> engine_script() {
 
 }  // namespace
 
+std::string MeasureHere::measurement() const {
+  return "{\"options\":" + options + ",\"first\":" + first + ",\"second\":" + second + "}";
+}
+
 MeasureHere MeasureHere::within(std::size_t max_bytes) const {
-  return measurement.size() + engine.size() > max_bytes && !engine.empty() ? too_large() : *this;
+  if (first.size() + second.size() + engine.size() <= max_bytes) return *this;
+  return {options, absent, absent, engine};
 }
 
 MeasureHere measure_here(const RepeatedMeasurement& measurement, const TriangleMesh& first,
                          const TriangleMesh& second) {
   if (!measurement.obstacle.empty()) return impossible(measurement.obstacle);
-  constexpr std::size_t max_bytes = 20'000'000;  // more is not worth packing: a report is smaller
-  const bool first_in_floats = holds_floats(first), second_in_floats = holds_floats(second);
-  if (bytes_of(first, first_in_floats) + bytes_of(second, second_in_floats) > max_bytes) return too_large();
   std::optional<std::string> engine = engine_script();
   if (!engine)
     return impossible(
         "The tool that made this report was built without its engine in WebAssembly, which would repeat the "
         "measurement "
         "here.");
-  const Json json = {{"decides", measurement.decides},
-                     {"error_bound", number_or_null(measurement.error_bound)},
-                     {"tolerance", number_or_null(measurement.tolerance)},
-                     {"one_sided", measurement.one_sided},
-                     {"first", whole_mesh(first, first_in_floats)},
-                     {"second", whole_mesh(second, second_in_floats)}};
-  return {json.dump(), std::move(*engine)};
+  const Json options = {{"decides", measurement.decides},
+                        {"error_bound", number_or_null(measurement.error_bound)},
+                        {"tolerance", number_or_null(measurement.tolerance)},
+                        {"one_sided", measurement.one_sided}};
+  constexpr std::size_t max_bytes = 20'000'000;  // more is not worth packing: a report is smaller
+  const bool first_in_floats = holds_floats(first), second_in_floats = holds_floats(second);
+  if (bytes_of(first, first_in_floats) + bytes_of(second, second_in_floats) > max_bytes)
+    return {options.dump(), absent, absent, std::move(*engine)};
+  return {options.dump(), whole_mesh(first, first_in_floats).dump(), whole_mesh(second, second_in_floats).dump(),
+          std::move(*engine)};
 }
 
 }  // namespace meshbound::tools

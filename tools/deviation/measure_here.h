@@ -20,9 +20,12 @@ struct RepeatedMeasurement {
 
 /// What a report holds so that the browser of its reader can repeat the measurement.
 struct MeasureHere {
-  std::string measurement;  ///< JSON: the options with both meshes whole, or the reason why there are none
-  std::string engine;       ///< the script with the engine in WebAssembly; empty where there is a reason
+  std::string options;        ///< JSON; or the reason why nothing can be measured
+  std::string first, second;  ///< JSON: the meshes whole; null where the reader is to choose their files
+  std::string engine;         ///< the script with the engine in WebAssembly; empty where there is a reason
 
+  /// All of it as one JSON document.
+  [[nodiscard]] std::string measurement() const;
   /// Meshes are left out where they and the engine would take more than `max_bytes`.
   [[nodiscard]] MeasureHere within(std::size_t max_bytes) const;
 };

@@ -120,9 +120,10 @@ void write_report(AtomicFile& file, const std::string& document, const ReportSce
   std::string_view rest = *report_page();
   const std::size_t size = rest.size() + shown.size() + text.size();
   const MeasureHere here = scene.measure_here.within(max_report_size - std::min(max_report_size, size));
+  const std::string measurement = here.measurement();
   for (const auto& [mark, content] : {std::pair<std::string_view, std::string_view>("@@DOCUMENT@@", text),
                                       {"@@SCENE@@", shown},
-                                      {"@@MEASUREMENT@@", here.measurement},
+                                      {"@@MEASUREMENT@@", measurement},
                                       {"@@ENGINE@@", here.engine}}) {
     rest = write_until(file, rest, mark);
     file.write(content);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The button that repeats the measurement in this browser: the engine runs in a worker, on both meshes, which the page
-// holds whole.
-import { decoded, distance, exact, read } from './data.js';
+// holds whole, or else on files that its reader chooses.
+import { decoded, distance, exact, meshNames, meshReports, read } from './data.js';
 
 const byId = (id) => document.getElementById(id);
 const measurement = read('measurement');
+const sides = ['first', 'second'];
+const hasMeshes = measurement.first !== null;
 
 function mesh({ type, positions, triangles }) {
   return {
@@ -31,26 +33,52 @@ function engineWorker() {
   return worker;
 }
 
-function measure() {
-  const button = byId('measure');
-  button.disabled = true;
-  byId('measured').textContent = 'Measuring …';
-  const worker = engineWorker();
-  const end = (act) => {
-    act();
-    worker.terminate();
-    button.disabled = false;
-  };
-  worker.onmessage = ({ data }) =>
-    end(() => (data.fault ? (byId('measured').textContent = `It failed: ${data.fault}`) : show(data)));
-  worker.onerror = ({ message }) => end(() => { byId('measured').textContent = `It failed: ${message}`; });
-  const { first, second, ...options } = measurement;
-  worker.postMessage({ ...options, first: mesh(first), second: mesh(second) });
+/** The file that was chosen for a mesh, when it is the one that the report is about. */
+async function chosenFile(side, index) {
+  const [file] = byId(`measure-${side}`).files;
+  if (!file) throw new Error(`choose the file of ${meshNames[index]} first`);
+  const bytes = await file.arrayBuffer();
+  const digest = Array.from(new Uint8Array(await crypto.subtle.digest('SHA-256', bytes)));
+  const checksum = digest.map((byte) => byte.toString(16).padStart(2, '0')).join('');
+  if (checksum !== meshReports[index].sha256)
+    throw new Error(`${file.name} is another file than ${meshNames[index]} of this report: its SHA-256 is ${checksum}`);
+  return { bytes, format: file.name.split('.').pop().toLowerCase() };
 }
 
+const meshes = () => Promise.all(sides.map(hasMeshes ? (side) => mesh(measurement[side]) : chosenFile));
+
+/** What the worker answers; it ends with the answer. */
+function answer(message) {
+  const worker = engineWorker();
+  return new Promise((resolve, reject) => {
+    worker.onmessage = ({ data }) => (data.fault ? reject(new Error(data.fault)) : resolve(data));
+    worker.onerror = ({ message: fault }) => reject(new Error(fault));
+    worker.postMessage(message);
+  }).finally(() => worker.terminate());
+}
+
+async function measure() {
+  byId('measure').disabled = true;
+  byId('measured').textContent = 'Measuring …';
+  try {
+    const [first, second] = await meshes();
+    show(await answer({ options: measurement.options, first, second }));
+  } catch (error) {
+    byId('measured').textContent = `This failed: ${error.message}`;
+  }
+  byId('measure').disabled = false;
+}
+
+const note = hasMeshes
+  ? 'Both meshes are in this page whole, and so is the engine: it measures them again in this browser, without a network.'
+  : 'The engine is in this page, but the meshes are too large to be: choose their files, and it measures them again in this ' +
+    'browser, without a network.';
+
 export function connectMeasurement() {
-  byId('measure').hidden = measurement.reason !== undefined;
-  byId('measure-note').textContent = measurement.reason ??
-    'Both meshes are in this page whole, and so is the engine: it measures them again in this browser, without a network.';
+  const { reason } = measurement.options;
+  byId('measure').hidden = reason !== undefined;
+  byId('measure-files').hidden = reason !== undefined || hasMeshes;
+  sides.forEach((side, i) => { byId(`measure-${side}`).previousElementSibling.textContent = meshNames[i]; });
+  byId('measure-note').textContent = reason ?? note;
   byId('measure').addEventListener('click', measure);
 }
