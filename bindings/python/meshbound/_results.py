@@ -88,6 +88,13 @@ class Level:
     certificate: Optional[bytes]
     """What the tool verify_certificate checks, where it was asked for."""
 
+    def __repr__(self) -> str:
+        return (
+            f"Level(tolerance={self.tolerance!r}, verdict={self.verdict!r}, ended_by={self.ended_by!r}, "
+            f"distance=[{self.distance.lower!r}, {self.distance.upper!r}], "
+            f"{len(self.vertices)} vertices, {len(self.triangles)} triangles)"
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class Simplification:

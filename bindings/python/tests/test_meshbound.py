@@ -123,6 +123,11 @@ class Simplifying(unittest.TestCase):
         with self.assertRaises(dataclasses.FrozenInstanceError):
             level.tolerance = 1
 
+    def test_results_print_as_one_line(self):
+        result = meshbound.simplify(sheet(60), 0.1)
+        self.assertRegex(repr(result), r"verdict='within'.*distance=\[0.0, .*4 vertices, 2 triangles\)")
+        self.assertLess(len(repr(result)), 400)
+
 
 class Arrays(unittest.TestCase):
     def test_no_copy_where_the_layout_allows(self):
