@@ -110,7 +110,7 @@ void put_mesh(Bytes& bytes, const MeshView& mesh) {
   put(bytes, checksum_of(mesh), 8);
 }
 
-/// Sizes of two sections, then what stands between, then their bytes.
+/// Appends the sizes of two sections, then what `between` appends, then the bytes of both sections.
 template <class Between>
 void put_sections(Bytes& bytes, const EncodedSection& forward, const EncodedSection& backward, const Between& between) {
   for (const EncodedSection* section : {&forward, &backward}) {

@@ -16,10 +16,10 @@
 namespace meshbound::mpi {
 namespace {
 
-/// MPI counts in ints; one message has at most so many bytes.
+/// Bytes of the largest message: MPI counts in ints.
 constexpr std::size_t max_message = std::size_t{1} << 30;
 
-/// Waits for what may take long to begin.
+/// Waits asleep for a message that may be long in coming.
 void wait_asleep(MPI_Request& request) {
   for (int done = 0;;) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);

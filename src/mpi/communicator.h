@@ -27,7 +27,7 @@ class Communicator {
 
   /// Gives all ranks the bytes of `root`.
   void broadcast(std::string& bytes, int root);
-  /// As above for `size` bytes where all ranks know the size.
+  /// Gives all ranks the `size` bytes of `root`; all ranks know the size.
   void broadcast(char* bytes, std::size_t size, int root);
   /// The bytes of each rank, by rank, on all of them.
   [[nodiscard]] std::vector<std::string> all_gather(std::string bytes);
@@ -42,7 +42,7 @@ class Communicator {
   void begin_together() { has_thrown_together_ = false; }
   [[nodiscard]] bool has_thrown_together() const { return has_thrown_together_; }
 
-  /// One number to another rank.
+  /// Sends one number to another rank.
   void send(std::int64_t number, int to, int tag);
   struct Message {
     int from = 0;

@@ -17,7 +17,7 @@ namespace meshbound::mpi {
 namespace {
 
 enum Tag { Request = 1, Reply = 2 };
-/// Requests say whether the rank goes on; a reply without a job is the last one.
+/// A request says whether its rank goes on; a reply with `no_job` is the last one to a rank.
 constexpr std::int64_t has_failed = -1, wants_job = 0, no_job = -1;
 
 /// The jobs that a rank has been given, between the thread that asks for them and those that work.

@@ -25,7 +25,7 @@ void put(std::vector<std::uint8_t>& bytes, std::size_t at, const verify::MeshIde
   put(bytes, at + 16, mesh.checksum);
 }
 
-/// Made out to these meshes, with sizes and checksum that fit: what is left to reject it for is the proof itself.
+/// Makes the header, sizes and checksum of a certificate fit these meshes: only its proof can be a reason to reject it.
 void seal(std::vector<std::uint8_t>& bytes, const CertificatePair& pair) {
   if (bytes.size() < header_size + trailer_size) bytes.resize(header_size + trailer_size);
   const std::string_view magic = "MESHCERT";

@@ -17,7 +17,7 @@ namespace {
 using reference::CellSolid;
 using reference::ExactPart;
 
-/// Coordinates are at most some dozens; what is rounded is off by far less.
+/// Model units. Coordinates are at most some dozens, so that the roundings of the results are far below it.
 constexpr double slack = 1e-9;
 
 /// Takes a byte for each choice; zeros once they have run out.
@@ -35,7 +35,7 @@ class ByteChoices {
   Bytes bytes_;
 };
 
-/// Mostly none, or a shift by halves; sometimes a turn by any angle.
+/// Mostly the identity or a shift by multiples of 1/2, sometimes a rotation by any angle.
 Eigen::Isometry3d chosen_pose(const Choose& choose) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const unsigned kind = choose(8);

@@ -115,7 +115,7 @@ void check_distance_of(const HausdorffDistance& found, const TriangleMesh& a, co
   check_bounds(found.b_to_a.bounds, backward);
 }
 
-/// What holds of a level that is within its tolerances.
+/// Checks what a level must keep whose verdict is `Within`.
 void check_within(const SimplifiedLevel& level, const TriangleMesh& original, const std::vector<Edge>& lines,
                   const SimplifyOptions& options) {
   if (level.verdict != Verdict::Within) return;

@@ -35,7 +35,7 @@ class ExactDistances {
   std::map<std::array<double, 3>, std::vector<ExactLength>> known_;
 };
 
-/// Where it is a point of doubles.
+/// The middle between two points; absent where its coordinates are no doubles.
 std::optional<Eigen::Vector3d> exact_midpoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   Eigen::Vector3d middle;
   for (int axis = 0; axis < 3; ++axis) {

@@ -12,7 +12,7 @@ namespace meshbound::bench {
 /// A pair of Surface_mesh. Conversion is not part of what is timed.
 class CgalPair {
  public:
-  /// Nothing when one of them is not a 2-manifold: CGAL's functions do not take it.
+  /// Absent when one of the meshes is not a 2-manifold: CGAL's functions do not take it.
   static std::optional<CgalPair> make(const TriangleMesh& a, const TriangleMesh& b);
 
   /// `bounded_error_symmetric_Hausdorff_distance`.

@@ -68,7 +68,7 @@ void curve(const Options& options, Report& report, Report::Section& section, con
   }
 }
 
-/// Nothing where it is not on this machine.
+/// One of `named_meshes`; absent where its file is not on this machine.
 std::optional<TriangleMesh> named_mesh(std::string_view name) {
   for (const NamedMesh& m : named_meshes) {
     if (m.name != name) continue;

@@ -22,7 +22,7 @@ bool is_level_or_copy(const std::string& name) {
                      [&](const char* mark) { return name.find(mark) != std::string::npos; });
 }
 
-/// 0 for what is no mesh.
+/// The number of triangles of a file, 0 where it is no mesh.
 std::size_t triangles_in(const fs::path& path) {
   try {
     return read_mesh(path).mesh.triangles.size();

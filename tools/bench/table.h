@@ -14,14 +14,13 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 
-  /// One line for the machine, starting with '#', then the table separated by commas, where "-" is an
-  /// empty cell. Throws
-  /// `std::runtime_error` when it cannot be written.
+  /// Writes one line about the machine, starting with '#', then the table separated by commas, where a cell "-" is
+  /// empty. Throws `std::runtime_error` when the file cannot be written.
   void write_csv(const std::filesystem::path& path, const std::string& machine) const;
   [[nodiscard]] std::string markdown() const;
 };
 
-/// Throws `std::runtime_error` when it cannot be written.
+/// Throws `std::runtime_error` when the file cannot be written.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace meshbound::bench

@@ -66,7 +66,7 @@ class CellWalker : public ProvenBounds {
     }
   }
 
-  /// A piece that so many cuts have not bounded, within the root of `upper_squared` of B.
+  /// A piece that the walk has given up after too many cuts. It is within the root of `upper_squared` of B.
   struct Unfinished {
     Piece piece;
     double upper_squared;

@@ -25,7 +25,7 @@ constexpr double max_block_radius = 0.2;
 /// are up to a third more queries, with 4 at most an eighth.
 constexpr std::size_t opened_at_once = 4;
 
-/// Each is a query of a few microseconds, or far less.
+/// A question costs at most a query, a few microseconds: a task of two costs more than handing it to a thread.
 constexpr std::size_t questions_per_task = 2;
 
 struct NodeOfA {
@@ -185,7 +185,7 @@ class NodeCulling {
     }
   }
 
-  /// Each by itself, whatever thread answers it.
+  /// Answers all questions. No answer depends on another one, nor on the thread that finds it.
   void answer() {
     const double accepted_squared = kernel_.accepted_squared();
     const NodeTest test(a_, search_.map(), accepted_squared);

@@ -40,12 +40,13 @@ Mapping mapping_of(const OneSidedTask& task) {
   return mapping_between(task.a.bvh->data().frame, task.a.pose, task.b.bvh->data().frame, task.b.pose);
 }
 
-/// How many times further a few vertices of B must be for its direction to come first: below it they tell too little.
+/// The direction from B comes first where a few vertices of B are so many times further from A than those of A from B:
+/// smaller ratios of so few points tell too little.
 constexpr double clearly_further = 2;
 
 bool fits_frame(const Mapping& map) { return map.magnitude <= max_magnitude; }
 
-/// B is a point, or tiny beside A or its distance from it.
+/// Measures the distance to a B that is a point, or tiny beside A or its distance from A.
 OneSidedDistance search_point_like(const OneSidedTask& task) {
   OneSidedDistance result = distance_to_point_like(task.a, task.b);
   const auto [lower, upper] = result.bounds;

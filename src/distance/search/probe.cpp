@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint32_t max_vertices = 64, centroids = 16;
 constexpr std::uint32_t vertices_per_chunk = 16;
 
-/// The furthest point of the search before is often still the furthest. It is constructed with less than 21 u M of
-/// rounding; a lower bound uses 32 of the 128 u M in the slack, so that is allowed for.
-/// Whether it lies on B.
+/// Offers the furthest point of the earlier search, which often is the furthest one still, and returns whether it lies
+/// on B. The point is constructed with less than 21 u M of rounding; a lower bound uses 32 of the 128 u M in the slack,
+/// so that is allowed for.
 bool probe_start(OneSidedSearch& search) {
   const SearchMemory* memory = search.task().memory;
   if (memory == nullptr || !memory->start) return false;
