@@ -53,6 +53,15 @@ std::size_t open_edges(const TriangleMesh& mesh) {
       std::count_if(triangles.begin(), triangles.end(), [](const auto& edge) { return edge.second != 2; }));
 }
 
+/// `mesh` and, at the origin, a flat square of 2 * 20 * 20 triangles.
+TriangleMesh flat_sheet_beside(TriangleMesh mesh) {
+  TriangleMesh sheet = datasets::terrain(1, 20, 5);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (Eigen::Vector3d& p : sheet.vertices) mesh.vertices.emplace_back(p.x(), p.y(), 0);
+  for (const Triangle& t : sheet.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return mesh;
+}
+
 TriangleMesh unwelded(const TriangleMesh& mesh) {
   TriangleMesh soup;
   for (const Triangle& t : mesh.triangles) {
@@ -276,6 +285,24 @@ TEST(SimplifyInTiles, EndsWithAMeshThatHoldsWhenItIsCancelled) {
   EXPECT_EQ(level.ended_by, EndedBy::Cancelled);
   EXPECT_EQ(check_tolerance(terrain, level.mesh, options.tolerance).verdict, Verdict::Within);
   EXPECT_LT(level.faces(), terrain.triangles.size());
+}
+
+/// At 1e10 doubles are 2e-6 apart: too far for the tolerance there, but not where the other tiles are.
+TEST(SimplifyInTiles, EndsByRoundingOnlyWhereNoTileCanCollapse) {
+  const TriangleMesh near_origin = datasets::terrain(1, 20, 5);
+  TriangleMesh far_away = near_origin;
+  for (Eigen::Vector3d& p : far_away.vertices) p.x() += 1e10;
+  SimplifyOptions options = share_of_diagonal(near_origin, 0.01);
+  options.tolerance = std::min(options.tolerance, 1e-6);
+  const auto ended = [&](const TriangleMesh& mesh) { return simplify_in_tiles(mesh, options, {100}); };
+  EXPECT_EQ(ended(far_away).last().ended_by, EndedBy::Rounding);
+  EXPECT_TRUE(ended(far_away).tolerance_below_rounding);
+
+  TriangleMesh both = flat_sheet_beside(far_away);
+  const SimplifyResult result = ended(both);
+  EXPECT_EQ(result.last().ended_by, EndedBy::NothingFits);
+  EXPECT_FALSE(result.tolerance_below_rounding);
+  EXPECT_LT(result.last().faces(), both.triangles.size());
 }
 
 TEST(SimplifyInTiles, RefusesWhatTilesCannotDo) {

@@ -10,6 +10,7 @@
 #include "mesh/scene_layout.h"
 #include "meshbound/mesh_view.h"
 #include "numeric/no_index.h"
+#include "simplify/ended_by.h"
 
 namespace meshbound {
 namespace {
@@ -78,14 +79,6 @@ std::size_t target(const TriangleMesh& original, const SimplifyOptions& options)
     faces = std::max(faces, static_cast<std::size_t>(std::floor(share)));
   }
   return faces;
-}
-
-/// Why all groups together ended: of two reasons, the one that comes first in this list.
-EndedBy ended_by(EndedBy a, EndedBy b) {
-  for (const EndedBy reason :
-       {EndedBy::Cancelled, EndedBy::TimeLimit, EndedBy::Tolerance, EndedBy::Target, EndedBy::NothingFits})
-    if (a == reason || b == reason) return reason;
-  return EndedBy::Rounding;
 }
 
 }  // namespace
@@ -238,7 +231,7 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
     SimplifiedLevel part;
     timed(group, [&] { part = group.run->next(tolerance, static_cast<std::size_t>(std::floor(share * faces))); });
     append(group, part, level);
-    level.ended_by = ended_by(level.ended_by, part.ended_by);
+    level.ended_by = joint_reason(level.ended_by, part.ended_by);
     level.collapses_performed += part.collapses_performed;
     level.collapses_refused += part.collapses_refused;
   }

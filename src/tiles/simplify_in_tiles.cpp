@@ -9,6 +9,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
+#include "simplify/ended_by.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
 #include "tiles/tiled_mesh.h"
@@ -90,7 +91,7 @@ class TiledRun {
     if (options_.progress) how.progress = [&](double share) { options_.progress(progress_at(k, share)); };
     const TiledMesh::PassFacts facts = mesh_.pass(how, runner_);
     counts_ += facts.counts;
-    ended_by_ = std::max(ended_by_, facts.ended_by);  // the later in the enumeration, the more it says about the run
+    ended_by_ = joint_reason(ended_by_, facts.ended_by);
     if (k == 0) {
       dropped_ = facts.dropped_triangles;
       split_ = facts.split;
@@ -111,7 +112,7 @@ class TiledRun {
   SimplifyOptions of_tile_ = options_;
   TiledMesh mesh_;
   std::size_t dropped_ = 0;
-  EndedBy ended_by_ = EndedBy::NothingFits;
+  EndedBy ended_by_ = EndedBy::Rounding;
   CollapseCounts counts_;
   bool split_ = false;
 };

@@ -10,6 +10,7 @@
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "simplify/ended_by.h"
 
 namespace meshbound {
 namespace {
@@ -109,7 +110,7 @@ TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
   PassFacts facts;
   facts.tiles = jobs.size();
   for (const Tile& tile : jobs.tiles()) {
-    facts.ended_by = std::max(facts.ended_by, tile.output.ended_by);
+    facts.ended_by = joint_reason(facts.ended_by, tile.output.ended_by);
     facts.counts += tile.output.counts;
     facts.dropped_triangles += tile.output.dropped_triangles;
     facts.split = facts.split || tile.output.split;

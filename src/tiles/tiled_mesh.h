@@ -32,7 +32,7 @@ class TiledMesh {
   /// What came of the tiles of a pass, beside the mesh.
   struct PassFacts {
     std::size_t tiles = 0;
-    EndedBy ended_by = EndedBy::NothingFits;  ///< the strongest one of all tiles
+    EndedBy ended_by = EndedBy::Rounding;  ///< of all tiles (simplify/ended_by.h)
     CollapseCounts counts;
     std::size_t dropped_triangles = 0;  ///< as in `SimplifyResult`
     bool split = false;                 ///< as in `SimplifyResult`
