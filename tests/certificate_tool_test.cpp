@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -70,6 +71,48 @@ TEST_F(CertificateTools, SimplifierAndVerifierAgreeOnEveryFormat) {
     EXPECT_NE(run.out.find("proven"), std::string::npos) << run.out;
     EXPECT_EQ(run.err, "");
   }
+}
+
+/// A square of n x n squares with texture coordinates, its height a wave.
+void write_textured_wave(const std::string& path, int n) {
+  std::ofstream file(path);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+      file << "v " << x << ' ' << y << ' ' << 0.03 * std::sin(5 * x + 3 * y) << "\nvt " << x << ' ' << y << '\n';
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 1; i <= n; ++i) {
+      const int a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+      file << "f " << a << '/' << a << ' ' << b << '/' << b << ' ' << d << '/' << d << '\n';
+      file << "f " << a << '/' << a << ' ' << d << '/' << d << ' ' << c << '/' << c << '\n';
+    }
+}
+
+TEST_F(CertificateTools, ProveTheTextureWithinItsTolerance) {
+  write_textured_wave(in("wave.obj"), 24);
+  ASSERT_EQ(simplify("wave.obj", "small.obj",
+                     {"--tolerance", "0.02", "--texture-tolerance", "0.01", "--certificate", in("c")})
+                .exit_code,
+            0);
+  const ToolRun run = verify("wave.obj", "small.obj", "c");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("texture     moves by at most 0.01; "), std::string::npos) << run.out;
+  const Json json = checked_document(verify("wave.obj", "small.obj", "c", {"--json"}).out);
+  EXPECT_EQ(json["texture"]["tolerance"], 0.01);
+  EXPECT_GE(json["texture"]["original_to_simplified"]["pieces"], 2 * 24 * 24);
+
+  const auto distance = [&](const std::string& texture_tolerance) {
+    return run_tool(HAUSDORFF_DISTANCE, {in("wave.obj"), in("small.obj"), "--tolerance", "0.02", "--texture",
+                                         "--texture-tolerance", texture_tolerance, "--certificate", in("d")});
+  };
+  EXPECT_EQ(distance("1e-6").exit_code, 1) << "the texture moves further than that";
+  EXPECT_FALSE(fs::exists(in("d")));
+  EXPECT_EQ(distance("0.015").exit_code, 0);
+  EXPECT_EQ(checked_document(verify("wave.obj", "small.obj", "d", {"--json"}).out)["texture"]["tolerance"], 0.015);
+  // The mesh without its texture is no longer what was certified.
+  write_mesh(in("bare.obj"), read_mesh(in("small.obj")).mesh);
+  EXPECT_EQ(verify("wave.obj", "bare.obj", "d").exit_code, 1);
 }
 
 TEST_F(CertificateTools, VerifierTellsInJson) {

@@ -41,7 +41,8 @@ struct Options {
 
 struct Inputs {
   TriangleMesh original, simplified;
-  std::string original_sha256, simplified_sha256;  ///< empty: not computed
+  MeshAttributes original_attributes, simplified_attributes;  ///< empty unless the certificate speaks of textures
+  std::string original_sha256, simplified_sha256;             ///< empty: not computed
   std::vector<std::uint8_t> certificate;
 };
 
@@ -91,6 +92,19 @@ Json to_json(const verify::Proof::Lines& lines) {
           {"simplified_to_original", to_json(lines.simplified_to_original)}};
 }
 
+Json to_json(const verify::TextureProof& proof) {
+  return {{"pieces", proof.pieces},
+          {"cuts", proof.cuts},
+          {"bytes", proof.bytes},
+          {"uncovered_percent", 100 * proof.uncovered_share}};
+}
+
+Json to_json(const verify::Proof::Texture& texture) {
+  return {{"tolerance", texture.tolerance},
+          {"original_to_simplified", to_json(texture.original_to_simplified)},
+          {"simplified_to_original", to_json(texture.simplified_to_original)}};
+}
+
 struct Outcome {
   std::optional<verify::Proof> proof;
   std::string reason;  ///< why it was rejected
@@ -118,6 +132,7 @@ void write_json(const Options& options, const Inputs& inputs, const Outcome& out
     json["original_to_simplified"] = to_json(outcome.proof->original_to_simplified);
     json["simplified_to_original"] = to_json(outcome.proof->simplified_to_original);
     if (outcome.proof->lines) json["lines"] = to_json(*outcome.proof->lines);
+    if (outcome.proof->texture) json["texture"] = to_json(*outcome.proof->texture);
   }
   json["seconds"] = {{"read", outcome.read_seconds}, {"verify", outcome.verify_seconds}};
   write_text(options.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -136,6 +151,12 @@ void print(const Options& options, const Inputs& inputs, const Outcome& outcome)
                             std::to_string(lines->simplified_edges) + " of the simplified mesh are within " +
                             exact_number(lines->tolerance) + " of each other; " +
                             (lines->has_all_borders ? "all" : "not all") + " borders are among them");
+  if (const auto& texture = outcome.proof->texture)
+    print_line("texture",
+               "moves by at most " + exact_number(texture->tolerance) + "; not covered by the other mesh are " +
+                   short_number(100 * texture->original_to_simplified.uncovered_share) +
+                   "% of the original's area and " +
+                   short_number(100 * texture->simplified_to_original.uncovered_share) + "% of the simplified mesh's");
   print_line("bytes", std::to_string(inputs.certificate.size()) + ", " +
                           short_number(static_cast<double>(inputs.certificate.size()) /
                                        static_cast<double>(inputs.original.triangles.size())) +
@@ -155,16 +176,20 @@ int run(const Options& options) {
   const StopToken stop{.cancel = &interrupted()};
   inputs.certificate = certificate_of(options.certificate, stop);
   const bool with_checksums = !options.json.empty();
-  InputFile original = read_file(options.original, with_checksums, stop);
-  InputFile simplified = read_file(options.simplified, with_checksums, stop);
+  const bool with_texture = verify::speaks_of_texture(inputs.certificate);
+  InputFile original = read_file(options.original, with_checksums, stop, with_texture);
+  InputFile simplified = read_file(options.simplified, with_checksums, stop, with_texture);
   inputs.original = std::move(original.content.mesh);
+  inputs.original_attributes = std::move(original.content.attributes);
   inputs.original_sha256 = original.sha256;
   inputs.simplified = std::move(simplified.content.mesh);
+  inputs.simplified_attributes = std::move(simplified.content.attributes);
   inputs.simplified_sha256 = simplified.sha256;
   outcome.read_seconds = seconds_since(start);
   start = Clock::now();
   try {
-    outcome.proof = verify::check_certificate(inputs.original, inputs.simplified, inputs.certificate);
+    outcome.proof = verify::check_certificate(inputs.original, inputs.simplified, inputs.certificate,
+                                              &inputs.original_attributes, &inputs.simplified_attributes);
     require_tolerance(*outcome.proof, options, inputs.original);
   } catch (const verify::Rejected& rejected) {
     outcome.proof.reset();

@@ -27,6 +27,7 @@
 #include "meshbound/similarity.h"
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
+#include "meshbound/texture_certificate.h"
 #include "meshbound/texture_deviation.h"
 #include "meshbound/tiles.h"
 #include "meshbound/transform.h"

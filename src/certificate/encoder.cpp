@@ -5,31 +5,15 @@
 #include <bit>
 #include <string_view>
 
+#include "certificate/bytes.h"
 #include "certificate/checksum.h"
 
 namespace meshbound {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 enum TokenKind : std::uint64_t { NearToken = 0, CutToken = 1, ParityToken = 2, RecallToken = 3 };
 
-void put(Bytes& bytes, std::uint64_t value, int size) {
-  for (int i = 0; i < size; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-/// Appends an unsigned number as LEB128.
-void put_variable(Bytes& bytes, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(0x80 | (value & 0x7f)));
-  bytes.push_back(static_cast<std::uint8_t>(value));
-}
-
 void put_token(Bytes& bytes, TokenKind kind, std::uint64_t payload) { put_variable(bytes, payload << 2 | kind); }
-
-/// Zigzag: 0, -1, 1, -2, 2, ... become 0, 1, 2, 3, 4, ...
-std::uint64_t zigzag(std::int64_t value) {
-  return value < 0 ? static_cast<std::uint64_t>(-(value + 1)) * 2 + 1 : static_cast<std::uint64_t>(value) * 2;
-}
 
 void put_cut(Bytes& bytes, const Chord& chord) {
   const std::uint64_t size_class = chord.bits == 8 ? 0 : chord.bits == 16 ? 1 : chord.bits == 32 ? 2 : 3;

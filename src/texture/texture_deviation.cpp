@@ -13,7 +13,7 @@
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
-#include "simplify/cover/box_tree.h"
+#include "texture/charts.h"
 #include "texture/surface_area.h"
 #include "texture/triangle_deviation.h"
 
@@ -24,102 +24,6 @@ constexpr double default_share = 1e-6;    ///< of the diagonal: the error bound 
 constexpr double reach_share = 1.0 / 64;  ///< of the diagonal: the reach of the first look where no tolerance is given
 constexpr double precision_share = 1.0 / 16;  ///< of the error bound: the precision of a single distance
 constexpr std::size_t grain = 32;             ///< triangles that a thread takes at once
-
-/// Whether no edge of `a` seems to have all of `b` beyond it in the texture. Rounding may decide.
-bool seems_to_overlap(const ChartTriangle& a, const ChartTriangle& b) {
-  const auto& uv = a.source->coordinates;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector2d &from = uv[k], way = uv[(k + 1) % 3] - from;
-    const auto is_beyond = [&](const Eigen::Vector2d& p) {
-      const double area = way.x() * (p.y() - from.y()) - way.y() * (p.x() - from.x());
-      return a.turned ? area >= 0 : area <= 0;
-    };
-    if (std::all_of(b.source->coordinates.begin(), b.source->coordinates.end(), is_beyond)) return false;
-  }
-  return true;
-}
-
-bool seem_to_share_area(const ChartTriangle& a, const ChartTriangle& b) {
-  return b.chart == Chart::Area && seems_to_overlap(a, b) && seems_to_overlap(b, a);
-}
-
-/// The largest squared distance between corners with the same texture coordinates; infinite where these differ.
-double squared_distance_at_corners(const TexturedTriangle& a, const TexturedTriangle& b) {
-  double worst = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto same = std::find(b.coordinates.begin(), b.coordinates.end(), a.coordinates[i]);
-    if (same == b.coordinates.end()) return HUGE_VAL;
-    const auto k = static_cast<std::size_t>(same - b.coordinates.begin());
-    worst = std::max(worst, (a.corners[i] - b.corners[k]).squaredNorm());
-  }
-  return worst;
-}
-
-/// The triangles of a mesh with a search tree over their texture coordinates.
-class Charts {
- public:
-  Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) {
-    for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units));
-    std::vector<Eigen::AlignedBox3d> boxes;
-    for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_of(t)), places_.push_back(place_of(t));
-    tree_.emplace(std::move(boxes));
-  }
-  [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
-  [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
-
-  /// Adds the triangles that may overlap `a` in the texture as candidates of the overlay.
-  void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
-    found.clear();
-    tree_->find(box_of(*a.source), found);
-    for (const std::uint32_t b : found) overlay.add(triangles_[b]);
-  }
-
-  /// Makes those of them its candidates that seem to share more than an edge with `a` in the texture and to be within
-  /// `reach` of it in space; only the nearest one of those that have the same texture coordinates, if there are any.
-  /// Rounding decides about some.
-  void add_near_candidates(const ChartTriangle& a, double reach, Overlay& overlay,
-                           std::vector<std::uint32_t>& found) const {
-    found.clear();
-    tree_->find(box_of(*a.source), found);
-    const Eigen::AlignedBox3d place = place_of(*a.source);
-    std::erase_if(found, [&](std::uint32_t b) {
-      return places_[b].squaredExteriorDistance(place) > reach * reach || !seem_to_share_area(a, triangles_[b]);
-    });
-    if (const auto same = nearest_copy(a, reach, found)) found.assign(1, *same);
-    for (const std::uint32_t b : found) overlay.add(triangles_[b]);
-  }
-
- private:
-  static Eigen::AlignedBox3d place_of(const TexturedTriangle& t) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& p : t.corners) box.extend(p);
-    return box;
-  }
-
-  /// The box of the texture coordinates; the third side keeps materials apart.
-  static Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector2d& uv : t.coordinates) box.extend(Eigen::Vector3d(uv.x(), uv.y(), t.material));
-    return box;
-  }
-
-  /// The nearest one with the texture coordinates of `a`, if it is within `reach`.
-  [[nodiscard]] std::optional<std::uint32_t> nearest_copy(const ChartTriangle& a, double reach,
-                                                          std::span<const std::uint32_t> among) const {
-    std::optional<std::uint32_t> nearest;
-    double least = reach * reach;
-    for (const std::uint32_t b : among) {
-      const double squared = squared_distance_at_corners(*a.source, *triangles_[b].source);
-      if (squared <= least) least = squared, nearest = b;
-    }
-    return nearest;
-  }
-
-  const TexturedMesh& mesh_;
-  std::vector<ChartTriangle> triangles_;
-  std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
-  std::optional<BoxTree> tree_;
-};
 
 /// Computes the one-sided texture deviation from A to B.
 class Direction {
@@ -312,17 +216,6 @@ void check(const TexturedMesh& mesh) {
       if (!t.corners[k].allFinite() || !t.coordinates[k].allFinite())
         throw InvalidInput("triangle " + std::to_string(t.triangle) +
                            ": a coordinate or texture coordinate is not finite; repair the mesh");
-}
-
-ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b) {
-  ExactUnits units{no_bit, no_bit};
-  for (const TexturedMesh* mesh : {&a, &b})
-    for (const TexturedTriangle& t : mesh->triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (const double x : t.coordinates[k]) units.texture = std::min(units.texture, lowest_bit(x));
-        for (const double x : t.corners[k]) units.position = std::min(units.position, lowest_bit(x));
-      }
-  return units;
 }
 
 double diagonal_of(const TexturedMesh& mesh) {

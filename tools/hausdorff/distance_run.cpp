@@ -36,6 +36,7 @@
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/report.h"
+#include "meshbound/texture_certificate.h"
 #include "meshbound/texture_deviation.h"
 #include "meshbound/transform.h"
 
@@ -104,17 +105,35 @@ void check_paths(const Arguments& arguments) {
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
 }
 
-/// Writes the proof of a tolerance that was found to hold. False if there was no time for it.
-bool write_certificate(AtomicFile& file, const Arguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
-                       double tolerance, const Stopwatch& watch) {
+/// What is compared, as read.
+struct Meshes {
+  TriangleMesh a, b;
+  MeshAttributes attributes_of_a, attributes_of_b;  ///< empty unless textures are compared
+  double displacement = 0;                          ///< how far rounding has moved the image of B at most, model units
+
+  [[nodiscard]] std::array<TexturedMesh, 2> textured() const {
+    return textured_meshes(a, attributes_of_a, b, attributes_of_b);
+  }
+};
+
+/// Writes the proof of tolerances that were found to hold, that of the texture where there is one. False if there was
+/// no time for it.
+bool write_certificate(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
+                       const std::optional<double>& texture_tolerance, const Stopwatch& watch) {
   ProgressBar bar("proving", arguments.common.quiet);
   CertificateOptions options;
   options.threads = arguments.common.threads;
   options.cancel = &interrupted();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   options.seconds = seconds_left(arguments.common, watch);
-  const auto certificate = build_certificate(a, b, tolerance, options);
+  auto certificate = build_certificate(meshes.a, meshes.b, tolerance, options);
   if (!certificate) return false;
+  if (texture_tolerance) {
+    options.seconds = seconds_left(arguments.common, watch);
+    auto with_texture = with_texture_proof(*certificate, meshes.textured(), *texture_tolerance, options);
+    if (!with_texture) return false;
+    certificate = std::move(with_texture->certificate);
+  }
   file.write({reinterpret_cast<const char*>(certificate->bytes.data()), certificate->bytes.size()});
   file.commit();
   return true;
@@ -233,13 +252,6 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
   report.texture = texture;
 }
 
-/// What is compared, as read.
-struct Meshes {
-  TriangleMesh a, b;
-  MeshAttributes attributes_of_a, attributes_of_b;  ///< empty unless textures are compared
-  double displacement = 0;                          ///< how far rounding has moved the image of B at most, model units
-};
-
 Meshes read_meshes(const Arguments& arguments, const Stopwatch& watch, DistanceReport& report) {
   std::optional<Eigen::Affine3d> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
@@ -274,8 +286,9 @@ Answer answer_to(const Question& question, const Meshes& meshes, const Arguments
 
 /// Writes the certificate of a tolerance that was found to hold; the answer is undecided if there was no time for it.
 void certify(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
-             const Stopwatch& watch, Answer& answer) {
-  if (answer.exit_code != ExitDone || write_certificate(file, arguments, meshes.a, meshes.b, tolerance, watch)) return;
+             const std::optional<double>& texture_tolerance, const Stopwatch& watch, Answer& answer) {
+  if (answer.exit_code != ExitDone || write_certificate(file, arguments, meshes, tolerance, texture_tolerance, watch))
+    return;
   if (interrupted()) throw Error("interrupted before the certificate was complete; it was not written");
   std::fprintf(stderr, "%s: no time was left for the certificate; it was not written\n", provenance().tool.c_str());
   answer.exit_code = ExitUndecided;
@@ -305,12 +318,14 @@ int run_distance(const Arguments& arguments) {
   report.seconds.read = watch.lap();
   Answer answer = answer_to(question, meshes, arguments, watch, report.seconds.build);
   report.seconds.query = watch.lap();
-  if (certificate) certify(*certificate, arguments, meshes, *question.tolerance, watch, answer);
   if (arguments.texture) {
     require_texture(arguments.a, meshes.attributes_of_a);
     require_texture(arguments.b, meshes.attributes_of_b);
-    measure_texture(report, arguments, lengths,
-                    textured_meshes(meshes.a, meshes.attributes_of_a, meshes.b, meshes.attributes_of_b), watch, answer);
+    measure_texture(report, arguments, lengths, meshes.textured(), watch, answer);
+  }
+  if (certificate) {
+    const auto texture_tolerance = report.texture ? report.texture->tolerance : std::nullopt;
+    certify(*certificate, arguments, meshes, *question.tolerance, texture_tolerance, watch, answer);
   }
   if (deviation && measure_deviation(*deviation, answer, question, meshes.a, meshes.b, arguments, watch)) {
     report.deviation = deviation->report();

@@ -66,7 +66,8 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
                  "of A as well")
       ->check(CLI::PositiveNumber);
   app.add_option("--certificate", arguments.certificate,
-                 "With --tolerance: write the proof that the distance is within it, for verify_certificate");
+                 "With --tolerance: write the proof that the distance is within it, for verify_certificate; with "
+                 "--texture-tolerance also that of the texture");
   app.add_option_function<std::string>(
          "--method",
          [&arguments](const std::string& name) {

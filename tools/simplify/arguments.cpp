@@ -62,7 +62,8 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   app.add_option("--output-dir", arguments.output_dir,
                  "Folder for the levels (default: that of OUT), or for the results of --batch");
   app.add_option("--certificate", arguments.certificate,
-                 "Write the proof that OUT is within the tolerance, for verify_certificate; of levels beside it, as "
+                 "Write the proof that OUT is within the tolerance, and the texture within its own, for "
+                 "verify_certificate; of levels beside it, as "
                  "FILE_level_0 and so on");
   app.add_option("--effort", arguments.effort,
                  "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")

@@ -30,6 +30,7 @@
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
+#include "meshbound/texture_certificate.h"
 #include "simplify/estimate.h"
 #include "simplify/reproducer.h"
 
@@ -331,13 +332,27 @@ void Run::end_if_interrupted() const {
   if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
 }
 
-/// Also of the lines if there are any. Absent if the time ended.
+/// Also of the lines and the texture if there are any with a tolerance. Absent if the time ended.
 std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double tolerance,
                                                CertificateOptions options) const {
-  const TriangleMesh written = output.written_mesh();
+  MeshFile file;
+  if (original_texture_)
+    file = output.written_with_attributes();
+  else
+    file.mesh = output.written_mesh();
+  const TriangleMesh& written = file.mesh;
   if (original_lines_)
     options.lines = CertifiedLines{lines_, output.lines_of(written), std::min(tolerance, original_lines_->tolerance)};
+  const Stopwatch watch;
   auto certificate = build_certificate(original_, written, tolerance, options);
+  if (certificate && original_texture_) {
+    options.seconds -= watch.seconds();
+    auto with_texture =
+        with_texture_proof(*certificate, textured_meshes(original_, attributes_, written, file.attributes),
+                           original_texture_->tolerance, options);
+    certificate.reset();
+    if (with_texture) certificate = std::move(with_texture->certificate);
+  }
   end_if_interrupted();
   return certificate;
 }

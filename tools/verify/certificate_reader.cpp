@@ -11,8 +11,8 @@
 namespace meshbound::verify {
 namespace {
 
-constexpr std::uint64_t version_without_lines = 1, version_with_lines = 2;
-constexpr std::size_t header_size = 104, trailer_size = 8, line_header_size = 56;
+constexpr std::uint64_t version_without_lines = 1, version_with_lines = 2, version_with_texture = 3;
+constexpr std::size_t header_size = 104, trailer_size = 8, line_header_size = 56, texture_header_size = 56;
 
 std::uint64_t load(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size) {
   std::uint64_t value = 0;
@@ -44,7 +44,7 @@ EdgeList take_edges(std::span<const std::uint8_t>& rest, std::uint64_t count) {
   return EdgeList(take(rest, EdgeList::bytes_per_edge * count));
 }
 
-LinePart line_part(std::span<const std::uint8_t> rest) {
+LinePart take_lines(std::span<const std::uint8_t>& rest) {
   const auto header = take(rest, line_header_size);
   LinePart lines;
   lines.tolerance = length_at(header, 0);
@@ -52,8 +52,15 @@ LinePart line_part(std::span<const std::uint8_t> rest) {
   lines.simplified = take_edges(rest, load(header, 16, 8));
   lines.original_to_simplified = {take(rest, load(header, 24, 8)), load(header, 32, 8)};
   lines.simplified_to_original = {take(rest, load(header, 40, 8)), load(header, 48, 8)};
-  if (!rest.empty()) throw Rejected("the sizes in the header do not add up");
   return lines;
+}
+
+TexturePart take_texture(std::span<const std::uint8_t>& rest) {
+  const auto header = take(rest, texture_header_size);
+  TexturePart texture{length_at(header, 0), load(header, 8, 8), load(header, 16, 8), {}, {}};
+  texture.original_to_simplified = {take(rest, load(header, 24, 8)), load(header, 32, 8)};
+  texture.simplified_to_original = {take(rest, load(header, 40, 8)), load(header, 48, 8)};
+  return texture;
 }
 
 }  // namespace
@@ -63,18 +70,23 @@ std::array<std::uint32_t, 2> EdgeList::edge(std::size_t i) const {
           static_cast<std::uint32_t>(load(bytes_, bytes_per_edge * i + 4, 4))};
 }
 
+bool speaks_of_texture(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= header_size && load(bytes, 8, 4) == version_with_texture;
+}
+
 Certificate parse_certificate(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < magic.size() || !std::equal(magic.begin(), magic.end(), bytes.begin()))
     throw Rejected("not a meshbound certificate");
   if (bytes.size() < header_size + trailer_size) throw Rejected("the certificate is truncated");
   const std::uint64_t version = load(bytes, 8, 4);
-  if (version != version_without_lines && version != version_with_lines)
+  if (version < version_without_lines || version > version_with_texture)
     throw Rejected("version " + std::to_string(version) + " of the format is not known here");
   Checksum checksum;
   checksum.add(bytes.first(bytes.size() - trailer_size));
   if (checksum.value() != load(bytes, bytes.size() - trailer_size, 8))
     throw Rejected("the certificate is damaged: its checksum does not fit");
-  if (load(bytes, 12, 4) != 0) throw Rejected("a reserved field of the header is not 0");
+  const std::uint64_t flag = load(bytes, 12, 4);
+  if (flag > (version == version_with_texture ? 1U : 0U)) throw Rejected("a reserved field of the header is not 0");
 
   Certificate certificate;
   certificate.tolerance = length_at(bytes, 16);
@@ -83,10 +95,9 @@ Certificate parse_certificate(std::span<const std::uint8_t> bytes) {
   auto rest = bytes.subspan(header_size, bytes.size() - header_size - trailer_size);
   certificate.original_to_simplified = {take(rest, load(bytes, 72, 8)), load(bytes, 80, 8)};
   certificate.simplified_to_original = {take(rest, load(bytes, 88, 8)), load(bytes, 96, 8)};
-  if (version == version_with_lines)
-    certificate.lines = line_part(rest);
-  else if (!rest.empty())
-    throw Rejected("the sizes in the header do not add up");
+  if (version == version_with_lines || flag == 1) certificate.lines = take_lines(rest);
+  if (version == version_with_texture) certificate.texture = take_texture(rest);
+  if (!rest.empty()) throw Rejected("the sizes in the header do not add up");
   return certificate;
 }
 
@@ -118,7 +129,7 @@ Token TokenReader::next() {
   switch (token.kind) {
     case Token::Kind::Near:
     case Token::Kind::Parity:
-      token.step = static_cast<std::int64_t>(payload >> 1) ^ -static_cast<std::int64_t>(payload & 1);
+      token.step = unfolded(payload);
       break;
     case Token::Kind::Recall:
       if (payload > 2) throw Rejected("a token recalls a corner that a triangle does not have");

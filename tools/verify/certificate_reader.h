@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Reads the bytes of a certificate (tools/schema/certificate-1.md, certificate-2.md). Knows nothing of meshes;
+/// Reads the bytes of a certificate (tools/schema/certificate-1.md and what follows it). Knows nothing of meshes;
 /// whatever the bytes are, it allocates nothing and reads each byte once.
 #pragma once
 #include <array>
@@ -49,15 +49,26 @@ struct LinePart {
   Section original_to_simplified, simplified_to_original;
 };
 
+/// What a certificate says about textures.
+struct TexturePart {
+  double tolerance = 0;  ///< model units, finite, not negative
+  std::uint64_t original_checksum = 0, simplified_checksum = 0;
+  Section original_to_simplified, simplified_to_original;
+};
+
 struct Certificate {
   double tolerance = 0;  ///< model units, finite, not negative
   MeshIdentity original, simplified;
   Section original_to_simplified, simplified_to_original;
-  std::optional<LinePart> lines;  ///< version 2 only
+  std::optional<LinePart> lines;       ///< versions 2 and 3 only
+  std::optional<TexturePart> texture;  ///< version 3 only
 };
 
 /// What every certificate begins with.
 inline constexpr std::string_view magic = "MESHCERT";
+
+/// Whether these bytes claim to be a certificate that speaks of textures, whatever else is wrong with them. O(1).
+[[nodiscard]] bool speaks_of_texture(std::span<const std::uint8_t> bytes);
 
 /// Checks magic, version, sizes, tolerance and checksum. The sections point into `bytes`. Throws `Rejected`. O(size).
 [[nodiscard]] Certificate parse_certificate(std::span<const std::uint8_t> bytes);
@@ -92,6 +103,12 @@ class TokenReader {
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   /// Throws `Rejected` when the bytes end early or are none of a token.
   [[nodiscard]] Token next();
+  /// A bare number, as proofs about textures consist of. Throws as `next`.
+  [[nodiscard]] std::uint64_t number() { return variable_length(); }
+  /// The signed number that an unsigned one stands for: 0, -1, 1, -2, 2 ... for 0, 1, 2, 3, 4 ...
+  [[nodiscard]] static std::int64_t unfolded(std::uint64_t number) {
+    return static_cast<std::int64_t>(number >> 1) ^ -static_cast<std::int64_t>(number & 1);
+  }
 
  private:
   std::uint64_t little_endian(std::size_t size);

@@ -18,6 +18,10 @@ class Interval {
  public:
   Interval(double exact = 0) : lo_(exact), hi_(exact) {}  // NOLINT(google-explicit-constructor): a double is a number
 
+  /// GMP rounds to doubles towards zero, so less than a unit in the last place is cut off: see `rounded`. The rational
+  /// must be within the range of doubles.
+  static Interval around(const Exact& x) { return rounded(x.get_d(), x.get_d()); }
+
   [[nodiscard]] double lower() const { return lo_; }
   [[nodiscard]] double upper() const { return hi_; }
   [[nodiscard]] double middle() const { return 0.5 * lo_ + 0.5 * hi_; }

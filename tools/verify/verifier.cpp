@@ -169,6 +169,18 @@ Proof::Lines check_lines(const TriangleMesh& original, const TriangleMesh& simpl
   return proof;
 }
 
+Proof::Texture check_texture_part(const TexturedFile& original, const TexturedFile& simplified,
+                                  const TexturePart& part) {
+  if (original.attributes == nullptr || simplified.attributes == nullptr)
+    throw Rejected("the certificate speaks of texture, but no texture coordinates were given");
+  const auto surfaces = texture_surfaces(original, simplified);
+  if (checksum_of(surfaces[0]) != part.original_checksum || checksum_of(surfaces[1]) != part.simplified_checksum)
+    throw Rejected("the texture coordinates are not those that the certificate was made for");
+  return {part.tolerance,
+          check_texture(surfaces[0], surfaces[1], part.tolerance, part.original_to_simplified, "original"),
+          check_texture(surfaces[1], surfaces[0], part.tolerance, part.simplified_to_original, "simplified")};
+}
+
 }  // namespace
 
 MeshIdentity identity_of(const TriangleMesh& mesh) {
@@ -181,7 +193,8 @@ MeshIdentity identity_of(const TriangleMesh& mesh) {
 }
 
 Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
-                        std::span<const std::uint8_t> bytes) {
+                        std::span<const std::uint8_t> bytes, const MeshAttributes* original_attributes,
+                        const MeshAttributes* simplified_attributes) {
   require_ieee_doubles();
   const Certificate certificate = parse_certificate(bytes);
   require_mesh(original, "original");
@@ -195,6 +208,9 @@ Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simpli
   proof.simplified_to_original =
       DirectionCheck(simplified, original, proof.tolerance, certificate.simplified_to_original, "simplified").run();
   if (certificate.lines) proof.lines = check_lines(original, simplified, *certificate.lines);
+  if (certificate.texture)
+    proof.texture = check_texture_part({&original, original_attributes}, {&simplified, simplified_attributes},
+                                       *certificate.texture);
   return proof;
 }
 

@@ -7,8 +7,10 @@
 #include <optional>
 #include <span>
 
+#include "meshbound/attributes.h"
 #include "meshbound/triangle_mesh.h"
 #include "verify/certificate_reader.h"
+#include "verify/texture_check.h"
 
 namespace meshbound::verify {
 
@@ -29,6 +31,12 @@ struct Proof {
     Direction original_to_simplified, simplified_to_original;
   };
   std::optional<Lines> lines;  ///< absent: the certificate does not speak of lines
+  /// What was proven of texture deviation.
+  struct Texture {
+    double tolerance = 0;  ///< model units
+    TextureProof original_to_simplified, simplified_to_original;
+  };
+  std::optional<Texture> texture;  ///< absent: the certificate does not speak of textures
 };
 
 /// Counts, and a checksum of all coordinates and indices in the order of the file. O(n).
@@ -36,8 +44,11 @@ struct Proof {
 
 /// Returns what the certificate proves of these two meshes; throws `Rejected`, with one line that says why, when it
 /// proves nothing. O(certificate + meshes): proofs by parity cost the triangles
-/// they use, and too many of them are refused. Deterministic.
+/// they use, and too many of them are refused. Deterministic. Attributes are needed where the certificate speaks of
+/// textures; without them it is rejected then.
 [[nodiscard]] Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
-                                      std::span<const std::uint8_t> certificate);
+                                      std::span<const std::uint8_t> certificate,
+                                      const MeshAttributes* original_attributes = nullptr,
+                                      const MeshAttributes* simplified_attributes = nullptr);
 
 }  // namespace meshbound::verify

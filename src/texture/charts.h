@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simplify/cover/box_tree.h"
+#include "texture/overlay.h"
+
+namespace meshbound {
+
+/// The units of all texture coordinates and positions of both meshes.
+[[nodiscard]] ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b);
+
+/// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
+class Charts {
+ public:
+  /// `mesh` must outlive this.
+  Charts(const TexturedMesh& mesh, const ExactUnits& units);
+
+  [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
+
+  /// Adds the triangles that may overlap `a` in the texture as candidates of the overlay. `found` is set to the indices
+  /// of those whose boxes of texture coordinates meet.
+  void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const;
+
+  /// Makes those of them its candidates that seem to share more than an edge with `a` in the texture and to be within
+  /// `reach` of it in space; only the nearest one of those that have the same texture coordinates, if there are any.
+  /// Rounding decides about some.
+  void add_near_candidates(const ChartTriangle& a, double reach, Overlay& overlay,
+                           std::vector<std::uint32_t>& found) const;
+
+ private:
+  [[nodiscard]] std::optional<std::uint32_t> nearest_copy(const ChartTriangle& a, double reach,
+                                                          std::span<const std::uint32_t> among) const;
+
+  const TexturedMesh& mesh_;
+  std::vector<ChartTriangle> triangles_;
+  std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
+  std::optional<BoxTree> tree_;
+};
+
+}  // namespace meshbound

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "texture_proof/texture_search.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meshbound {
+namespace {
+
+using Polygon = Overlay::Polygon;
+
+constexpr std::int64_t whole = std::int64_t{1} << 40U;
+constexpr int max_depth = 36;             ///< twelve halvings of the weight of each corner
+constexpr double first_precision = 1e-6;  ///< of the tolerance; what that cannot decide is computed exactly
+
+/// Pieces into which what is not covered may fall; a verifier refuses more.
+constexpr std::size_t max_rest = 256;
+
+/// Nodes of the tree of a triangle, after which the search ends: where the deviation exceeds the tolerance, cuts go on
+/// without end.
+constexpr std::size_t max_nodes = 4096;
+
+}  // namespace
+
+/// Clips to the inside of a line, the line included; with `flip` to what lies strictly outside, with its border. False,
+/// the polygon then being of no use, where nothing but a part of the polygon's border lies there. A triangle without area
+/// in the texture may lie on a line as a whole: inside.
+bool TextureSearch::clip(Polygon& polygon, Overlay::Line line, bool flip) {
+  bool has_inside = false, has_outside = false;
+  for (const Overlay::PolygonCorner& corner : polygon) {
+    const int side = overlay_.side(line, corner.node);
+    has_inside = has_inside || side > 0;
+    has_outside = has_outside || side < 0;
+  }
+  if (flip ? !has_outside : has_outside && !has_inside) return false;
+  overlay_.clip(polygon, line, flip, clipped_);
+  std::swap(polygon, clipped_);
+  return true;
+}
+
+/// Clips to what a candidate covers. False where that has no area.
+bool TextureSearch::clip(Polygon& polygon, std::uint32_t candidate) {
+  const auto lines = overlay_.lines_of(candidate);
+  return std::all_of(lines.begin(), lines.end(), [&](Overlay::Line line) { return clip(polygon, line, false); });
+}
+
+/// Takes what a candidate covers away from each polygon. Returns whether that was anything.
+bool TextureSearch::subtract(std::vector<Polygon>& rest, std::uint32_t candidate) {
+  std::vector<Polygon> left;
+  bool is_changed = false;
+  for (Polygon& polygon : rest) {
+    Polygon covered = polygon;
+    if (!clip(covered, candidate)) {
+      left.push_back(std::move(polygon));
+      continue;
+    }
+    is_changed = true;
+    for (const Overlay::Line line : overlay_.lines_of(candidate)) {
+      Polygon beyond = polygon;
+      if (clip(beyond, line, true)) left.push_back(std::move(beyond));
+      (void)clip(polygon, line, false);
+    }
+  }
+  rest = std::move(left);
+  return is_changed;
+}
+
+bool TextureSearch::cell_is_near(const Polygon& cell, std::uint32_t candidate) {
+  return std::all_of(cell.begin(), cell.end(), [&](const Overlay::PolygonCorner& corner) {
+    for (const double precision : {first_precision * tolerance_, 0.0})
+      if (overlay_.distance(candidate, corner.node, precision).upper <= tolerance_) return true;
+    return false;
+  });
+}
+
+/// Whether no triangle of the target has a point with the texture coordinate of a point of the piece.
+bool TextureSearch::is_untouched(const Polygon& piece) {
+  if (meets_degenerate_) return false;
+  for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
+    Polygon covered = piece;
+    overlay_.clip(covered, c);
+    if (!covered.empty()) return false;
+  }
+  return true;
+}
+
+bool TextureSearch::prove_leaf(const Polygon& piece, std::vector<std::uint32_t>& chosen) {
+  std::vector<Polygon> rest = {piece};
+  std::vector<std::uint32_t> far;
+  for (std::uint32_t c = 0; c < overlay_.candidates() && !rest.empty(); ++c) {
+    if (overlay_.candidate(c).chart != Chart::Area) continue;
+    Polygon cell = piece;
+    if (!clip(cell, c)) continue;
+    if (!cell_is_near(cell, c))
+      far.push_back(c);
+    else if (subtract(rest, c))
+      chosen.push_back(overlay_.candidate(c).source->triangle);
+    if (rest.size() > max_rest) return false;
+  }
+  if (rest.empty()) return true;
+  if (overlay_.triangle().chart != Chart::Area) return chosen.empty() && is_untouched(piece);
+  return std::none_of(far.begin(), far.end(), [&](std::uint32_t c) {
+    return std::any_of(rest.begin(), rest.end(), [&](Polygon polygon) { return clip(polygon, c); });
+  });
+}
+
+bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, std::vector<Node>& nodes) {
+  Node leaf;
+  if (prove_leaf(piece, leaf.triangles)) {
+    nodes.push_back(std::move(leaf));
+    return true;
+  }
+  if (depth == max_depth || nodes.size() - first_node_ > max_nodes) return false;
+  nodes.push_back({true, {}});
+  const auto corner = static_cast<std::size_t>(depth % 3);
+  const std::int64_t half = range.size[corner] / 2;
+  const Overlay::Line line = overlay_.add_level(corner, range.low[corner] + half);
+  for (const bool is_upper : {false, true}) {
+    Range part = range;
+    part.size[corner] = half;
+    if (is_upper) part.low[corner] += half;
+    Polygon polygon = piece;
+    if (!clip(polygon, line, !is_upper))
+      nodes.emplace_back();
+    else if (!prove(polygon, part, depth + 1, nodes))
+      return false;
+  }
+  return true;
+}
+
+bool TextureSearch::prove(const ChartTriangle& source, std::vector<Node>& nodes) {
+  first_node_ = nodes.size();
+  overlay_.begin(source);
+  target_.add_candidates(source, overlay_, found_);
+  meets_degenerate_ = std::any_of(found_.begin(), found_.end(),
+                                  [&](std::uint32_t b) { return target_.triangles()[b].chart != Chart::Area; });
+  return prove(overlay_.whole(), {{0, 0, 0}, {whole, whole, whole}}, 0, nodes);
+}
+
+}  // namespace meshbound

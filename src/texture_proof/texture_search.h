@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "texture/charts.h"
+
+namespace meshbound {
+
+/// Searches for the proof that a triangle's texture moves at most a tolerance: a tree of cuts by lines of constant
+/// weight, whose leaves name triangles of the other mesh. What these cover of a leaf is within the tolerance, and what
+/// they do not cover of it no triangle of the other mesh covers (tools/schema/certificate-3.md).
+class TextureSearch {
+ public:
+  /// `target` must outlive this. `tolerance` in model units.
+  TextureSearch(const Charts& target, const ExactUnits& units, double tolerance)
+      : target_(target), tolerance_(tolerance), overlay_(units) {}
+
+  /// A node of a tree in preorder: an inner one, or a leaf with these triangles by their index in the target's mesh.
+  struct Node {
+    bool is_cut = false;
+    std::vector<std::uint32_t> triangles;
+  };
+
+  /// Appends the tree of a triangle of the other mesh to `nodes`. False if there is none within the limits of the
+  /// format; `nodes` are then incomplete.
+  [[nodiscard]] bool prove(const ChartTriangle& source, std::vector<Node>& nodes);
+
+ private:
+  /// The weights of corner k that a piece has: from low[k] / 2^40 to (low[k] + size[k]) / 2^40.
+  struct Range {
+    std::array<std::int64_t, 3> low, size;
+  };
+
+  [[nodiscard]] bool prove(const Overlay::Polygon& piece, const Range& range, int depth, std::vector<Node>& nodes);
+  [[nodiscard]] bool prove_leaf(const Overlay::Polygon& piece, std::vector<std::uint32_t>& chosen);
+  [[nodiscard]] bool is_untouched(const Overlay::Polygon& piece);
+  [[nodiscard]] bool cell_is_near(const Overlay::Polygon& cell, std::uint32_t candidate);
+  [[nodiscard]] bool clip(Overlay::Polygon& polygon, Overlay::Line line, bool flip);
+  [[nodiscard]] bool clip(Overlay::Polygon& polygon, std::uint32_t candidate);
+  [[nodiscard]] bool subtract(std::vector<Overlay::Polygon>& rest, std::uint32_t candidate);
+
+  const Charts& target_;
+  double tolerance_;
+  Overlay overlay_;
+  std::vector<std::uint32_t> found_;
+  bool meets_degenerate_ = false;  ///< the box of the source meets one of a triangle without area in the texture
+  std::size_t first_node_ = 0;     ///< of the tree at hand
+  Overlay::Polygon clipped_;
+};
+
+}  // namespace meshbound

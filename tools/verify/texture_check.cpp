@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "verify/texture_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace meshbound::verify {
+namespace {
+
+constexpr int deepest_cut = 36;         ///< twelve halvings of the weight of each corner
+constexpr int weight_bits = 40;         ///< levels are multiples of 2^-40
+constexpr std::size_t max_rest = 256;   ///< pieces of what is not covered
+constexpr std::size_t block_size = 32;  ///< triangles of a block of the index
+
+/// Clips that a proof may cost: few bytes could ask for many. Real proofs need some ten for each byte.
+constexpr std::uint64_t min_work = 65536, work_per_unit = 1024;
+
+/// The area of a polygon in the plane of the first two weights, of which the whole triangle has 1/2; rounded.
+double rough_area(const DomainPolygon& polygon) {
+  double doubled = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &p = polygon[i].rough, &q = polygon[(i + 1) % polygon.size()].rough;
+    doubled += p[0].middle() * q[1].middle() - p[1].middle() * q[0].middle();
+  }
+  return std::fabs(doubled) / 2;
+}
+
+class TextureCheck {
+ public:
+  TextureCheck(const TextureSurface& source, const TextureSurface& target, double tolerance, const Section& section,
+               const std::string& name)
+      : source_(source),
+        target_(target),
+        tolerance_(tolerance),
+        section_(section),
+        name_(name),
+        tokens_(section.tokens),
+        index_(target) {}
+
+  TextureProof run() {
+    result_.bytes = section_.tokens.size();
+    for (const TextureSurface::Triangle& triangle : source_.triangles) {
+      at_ = &triangle;
+      TextureDomain domain(triangle);
+      domain_ = &domain;
+      is_flat_ = domain.covering(triangle).turn == 0;
+      near_.reset();
+      check(TextureDomain::whole(), {}, 0);
+      work_ += domain.work();
+      require_work();
+    }
+    if (!tokens_.at_end()) throw Rejected("the proof about the texture goes on after its last triangle");
+    if (result_.pieces != section_.pieces)
+      throw Rejected("the number of pieces in the header is not that of the proof about the texture");
+    if (source_.area > 0) result_.uncovered_share = std::min(1.0, (uncovered_area_ + source_.bare_area) / source_.area);
+    return result_;
+  }
+
+ private:
+  using Levels = std::array<std::int64_t, 3>;  ///< the least weights of a piece, in units of 2^-40
+
+  void check(const DomainPolygon& piece, const Levels& low, int depth) {
+    const std::uint64_t word = tokens_.number();
+    if (word > 0) {
+      ++result_.pieces;
+      check_leaf(piece, word - 1);
+      return;
+    }
+    if (depth == deepest_cut) fail("is cut too often");
+    ++result_.cuts;
+    const auto corner = static_cast<std::size_t>(depth % 3);
+    const std::int64_t middle = low[corner] + (std::int64_t{1} << (weight_bits - 1 - depth / 3));
+    DomainLine line = TextureDomain::level(corner, middle, weight_bits);
+    for (const int side : {-1, 1}) {
+      bool has_area = false;
+      DomainPolygon part = domain_->clipped(piece, line, side, has_area);
+      if (!has_area) part.clear();
+      Levels part_low = low;
+      if (side > 0) part_low[corner] = middle;
+      check(part, part_low, depth + 1);
+    }
+  }
+
+  /// What the named triangles cover of the piece must be near; what they do not cover, no triangle may cover.
+  void check_leaf(const DomainPolygon& piece, std::uint64_t count) {
+    std::vector<DomainPolygon> rest;
+    if (!piece.empty()) rest.push_back(piece);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      CoveringTriangle b = domain_->covering(next_target());
+      if (b.turn == 0) fail("names a triangle without area in the texture");
+      const DomainPolygon cell = covered(piece, b);
+      if (cell.empty()) continue;
+      for (const DomainPoint& corner : cell)
+        if (!domain_->is_near(corner, b, tolerance_))
+          fail("has a piece whose texture moves by more than the tolerance");
+      rest = without(rest, b);
+      if (rest.size() > max_rest) fail("is covered by too many pieces");
+      require_work();
+    }
+    if (!rest.empty()) check_uncovered(piece, rest);
+  }
+
+  /// What of a polygon with an area a triangle covers; empty where that has no area.
+  [[nodiscard]] DomainPolygon covered(DomainPolygon polygon, CoveringTriangle& b) const {
+    for (DomainLine& line : b.lines) {
+      bool has_area = false;
+      polygon = domain_->clipped(polygon, line, 1, has_area);
+      if (!has_area) return {};
+    }
+    return polygon;
+  }
+
+  [[nodiscard]] std::vector<DomainPolygon> without(const std::vector<DomainPolygon>& polygons,
+                                                   CoveringTriangle& b) const {
+    std::vector<DomainPolygon> left;
+    for (DomainPolygon polygon : polygons) {
+      if (covered(polygon, b).empty()) {
+        left.push_back(std::move(polygon));
+        continue;
+      }
+      for (DomainLine& line : b.lines) {
+        bool has_area = false;
+        DomainPolygon beyond = domain_->clipped(polygon, line, -1, has_area);
+        if (has_area) left.push_back(std::move(beyond));
+        polygon = domain_->clipped(polygon, line, 1, has_area);
+      }
+    }
+    return left;
+  }
+
+  void check_uncovered(const DomainPolygon& piece, const std::vector<DomainPolygon>& rest) {
+    if (!near_) near_ = index_.near(*at_);
+    for (const TextureSurface::Triangle* const triangle : *near_) {
+      CoveringTriangle b = domain_->covering(*triangle);
+      const bool touches =
+          is_flat_ ? b.turn == 0 || touches_piece(piece, b)
+                   : b.turn != 0 && std::any_of(rest.begin(), rest.end(), [&](const DomainPolygon& polygon) {
+                       return !covered(polygon, b).empty();
+                     });
+      if (touches)
+        fail(("is not shown to be near triangle " + std::to_string(triangle->index) + ", which covers a part of it")
+                 .c_str());
+    }
+    const auto& p = at_->corners;
+    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * area * rough_area(polygon);
+  }
+
+  /// Whether a triangle covers any point of the piece, its border included.
+  [[nodiscard]] bool touches_piece(DomainPolygon piece, CoveringTriangle& b) const {
+    bool has_area = false;
+    for (DomainLine& line : b.lines) piece = domain_->clipped(piece, line, 1, has_area);
+    return !piece.empty();
+  }
+
+  const TextureSurface::Triangle& next_target() {
+    last_ += TokenReader::unfolded(tokens_.number());
+    if (last_ < 0 || last_ >= static_cast<std::int64_t>(target_.of_index.size()))
+      fail("names a triangle that the other mesh does not have");
+    const std::int64_t place = target_.of_index[static_cast<std::size_t>(last_)];
+    if (place < 0) fail("names a triangle without texture coordinates");
+    const TextureSurface::Triangle& target = target_.triangles[static_cast<std::size_t>(place)];
+    if (target.material != at_->material) fail("names a triangle of another material");
+    return target;
+  }
+
+  void require_work() const {
+    if (work_ + domain_->work() >
+        min_work + work_per_unit * (section_.tokens.size() + source_.triangles.size() + target_.triangles.size()))
+      throw Rejected("the proof about the texture costs too much to check");
+  }
+
+  [[noreturn]] void fail(const char* why) const {
+    throw Rejected("the texture of triangle " + std::to_string(at_->index) + " of the " + name_ + " mesh " + why);
+  }
+
+  const TextureSurface& source_;
+  const TextureSurface& target_;
+  double tolerance_;
+  Section section_;
+  std::string name_;
+  TokenReader tokens_;
+  TextureIndex index_;
+  const TextureSurface::Triangle* at_ = nullptr;
+  const TextureDomain* domain_ = nullptr;
+  bool is_flat_ = false;  ///< the triangle at hand has no area in the texture
+  std::optional<std::vector<const TextureSurface::Triangle*>> near_;  ///< of the triangle at hand
+  std::int64_t last_ = 0;                                             ///< the target named before
+  std::uint64_t work_ = 0;
+  double uncovered_area_ = 0;
+  TextureProof result_;
+};
+
+}  // namespace
+
+TextureIndex::Box TextureIndex::box_of(const TextureSurface::Triangle& triangle) {
+  const auto& uv = triangle.coordinates;
+  const Eigen::Vector2d low = uv[0].cwiseMin(uv[1]).cwiseMin(uv[2]), high = uv[0].cwiseMax(uv[1]).cwiseMax(uv[2]);
+  return {low.x(), low.y(), high.x(), high.y()};
+}
+
+bool TextureIndex::meet(const Box& a, const Box& b) {
+  return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+}
+
+/// Strips of the texture, as many as blocks in each, so that the triangles of a block are close to each other.
+TextureIndex::TextureIndex(const TextureSurface& surface) {
+  for (const TextureSurface::Triangle& triangle : surface.triangles) order_.push_back(&triangle);
+  const auto by_u = [](const auto* a, const auto* b) { return box_of(*a)[0] < box_of(*b)[0]; };
+  const auto by_v = [](const auto* a, const auto* b) { return box_of(*a)[1] < box_of(*b)[1]; };
+  std::stable_sort(order_.begin(), order_.end(), by_u);
+  const auto strip =
+      static_cast<std::ptrdiff_t>(std::ceil(std::sqrt(static_cast<double>(order_.size()) / block_size)) * block_size);
+  for (auto begin = order_.begin(); begin != order_.end();) {
+    const auto end = begin + std::min(strip, order_.end() - begin);
+    std::stable_sort(begin, end, by_v);
+    begin = end;
+  }
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Box box = box_of(*order_[i]);
+    if (i % block_size == 0) blocks_.push_back(box);
+    Box& block = blocks_.back();
+    block = {std::min(block[0], box[0]), std::min(block[1], box[1]), std::max(block[2], box[2]),
+             std::max(block[3], box[3])};
+  }
+}
+
+std::vector<const TextureSurface::Triangle*> TextureIndex::near(const TextureSurface::Triangle& triangle) const {
+  std::vector<const TextureSurface::Triangle*> found;
+  const Box box = box_of(triangle);
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    if (!meet(box, blocks_[block])) continue;
+    for (std::size_t i = block * block_size; i < std::min(order_.size(), (block + 1) * block_size); ++i)
+      if (order_[i]->material == triangle.material && meet(box, box_of(*order_[i]))) found.push_back(order_[i]);
+  }
+  return found;
+}
+
+TextureProof check_texture(const TextureSurface& source, const TextureSurface& target, double tolerance,
+                           const Section& section, const std::string& name) {
+  return TextureCheck(source, target, tolerance, section, name).run();
+}
+
+}  // namespace meshbound::verify

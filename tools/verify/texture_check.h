@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "verify/certificate_reader.h"
+#include "verify/texture_domain.h"
+#include "verify/texture_surface.h"
+
+namespace meshbound::verify {
+
+/// What a proof about the texture of one direction consists of.
+struct TextureProof {
+  std::uint64_t pieces = 0, cuts = 0, bytes = 0;
+  double uncovered_share = 0;  ///< of the area of the source: what the target does not cover in the texture; rounded
+};
+
+/// Finds the triangles whose texture coordinates may meet those of a triangle: blocks of triangles with their boxes.
+class TextureIndex {
+ public:
+  explicit TextureIndex(const TextureSurface& surface);
+  /// Those of the same material whose boxes of texture coordinates meet. O(n / 32 + found).
+  [[nodiscard]] std::vector<const TextureSurface::Triangle*> near(const TextureSurface::Triangle& triangle) const;
+
+ private:
+  using Box = std::array<double, 4>;  ///< lowest u and v, highest u and v
+  [[nodiscard]] static Box box_of(const TextureSurface::Triangle& triangle);
+  [[nodiscard]] static bool meet(const Box& a, const Box& b);
+  std::vector<const TextureSurface::Triangle*> order_;
+  std::vector<Box> blocks_;
+};
+
+/// Checks the proof that each point of the source whose texture coordinate lies inside what the target covers has a
+/// point of the target with the same texture coordinate at most the tolerance away. `name` is what messages call the
+/// source. Throws `Rejected`. Work beyond what real proofs of this size need is refused. Deterministic.
+[[nodiscard]] TextureProof check_texture(const TextureSurface& source, const TextureSurface& target, double tolerance,
+                                         const Section& section, const std::string& name);
+
+}  // namespace meshbound::verify

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "verify/texture_surface.h"
+
+#include <Eigen/Geometry>
+#include <bit>
+#include <map>
+#include <string>
+
+#include "verify/certificate_reader.h"
+#include "verify/checksum.h"
+
+namespace meshbound::verify {
+namespace {
+
+std::string material_of(const MeshAttributes& attributes, std::size_t triangle) {
+  const std::uint32_t label = attributes.materials.index[triangle];
+  return label < attributes.materials.names.size() ? attributes.materials.names[label] : std::string();
+}
+
+TextureSurface surface_of(const TexturedFile& file, const char* name) {
+  const auto& indices = file.attributes->texture_coordinates.index;
+  const auto& values = file.attributes->texture_coordinates.values;
+  const std::size_t count = file.mesh->triangles.size();
+  if (indices.size() != count)
+    throw Rejected(std::string("the certificate speaks of texture, but the ") + name +
+                   " mesh has no texture coordinates");
+  TextureSurface surface;
+  surface.of_index.assign(count, -1);
+  for (std::size_t t = 0; t < count; ++t) {
+    TextureSurface::Triangle triangle;
+    triangle.index = static_cast<std::uint32_t>(t);
+    bool is_textured = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.corners[k] = file.mesh->vertices[file.mesh->triangles[t][k]];
+      if (indices[t][k] >= values.size())
+        is_textured = false;
+      else
+        triangle.coordinates[k] = values[indices[t][k]].head<2>();
+    }
+    const auto& p = triangle.corners;
+    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    surface.area += area;
+    if (!is_textured) {
+      surface.bare_area += area;
+      continue;
+    }
+    for (const Eigen::Vector2d& uv : triangle.coordinates)
+      if (!uv.allFinite())
+        throw Rejected(std::string("the ") + name + " mesh has a texture coordinate that is not finite");
+    surface.of_index[t] = static_cast<std::int64_t>(surface.triangles.size());
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+}  // namespace
+
+std::array<TextureSurface, 2> texture_surfaces(const TexturedFile& original, const TexturedFile& simplified) {
+  std::array surfaces = {surface_of(original, "original"), surface_of(simplified, "simplified")};
+  if (original.attributes->materials.index.empty() || simplified.attributes->materials.index.empty()) return surfaces;
+  std::map<std::string, std::uint32_t> number_of;
+  const std::array files = {&original, &simplified};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (TextureSurface::Triangle& triangle : surfaces[i].triangles)
+      triangle.material =
+          number_of.try_emplace(material_of(*files[i]->attributes, triangle.index), number_of.size()).first->second;
+  return surfaces;
+}
+
+std::uint64_t checksum_of(const TextureSurface& surface) {
+  Checksum checksum;
+  for (const TextureSurface::Triangle& triangle : surface.triangles) {
+    checksum.add_little_endian(triangle.index, 4);
+    for (const Eigen::Vector2d& uv : triangle.coordinates)
+      for (const double x : uv) checksum.add_little_endian(std::bit_cast<std::uint64_t>(x), 8);
+  }
+  return checksum.value();
+}
+
+}  // namespace meshbound::verify
