@@ -47,6 +47,8 @@ TriangleMesh local_mesh(PlacedPair& pair, const CrossingCurves& curves, std::uin
   index_of[1].clear(curves.nodes.size());
   index_of[2].clear(curves.flush_corners.size());
   TriangleMesh mesh;
+  mesh.triangles.reserve(patch.triangles.size());
+  mesh.vertices.reserve(patch.triangles.size() + 2);  // of a disc; shells with more handles or parts need less
   for (const PatchTriangle& t : patch.triangles) {
     Triangle& triangle = mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {

@@ -61,10 +61,24 @@ enum class EarQuality {
   Any
 };
 
+/// Memory that a thread keeps from polygon to polygon.
+struct EarMemory {
+  Ring ring;
+  std::vector<std::size_t> next, previous;
+  std::vector<int> turns;
+};
+
 class EarCutter {
  public:
-  EarCutter(const PiecePlane& plane, const Ring& ring) : plane_(plane), ring_(ring), left_(ring.size()) {
-    const std::size_t n = ring.size();
+  /// Cuts the ring of `memory`.
+  EarCutter(const PiecePlane& plane, EarMemory& memory)
+      : plane_(plane),
+        ring_(memory.ring),
+        next_(memory.next),
+        previous_(memory.previous),
+        turns_(memory.turns),
+        left_(memory.ring.size()) {
+    const std::size_t n = left_;
     next_.resize(n);
     previous_.resize(n);
     turns_.resize(n);
@@ -135,8 +149,8 @@ class EarCutter {
 
   const PiecePlane& plane_;
   const Ring& ring_;
-  std::vector<std::size_t> next_, previous_;
-  std::vector<int> turns_;
+  std::vector<std::size_t>&next_, &previous_;
+  std::vector<int>& turns_;
   std::size_t left_;
   double excess_ = 0;
 };
@@ -149,13 +163,16 @@ double triangulate(const PiecePlane& plane, std::span<const PieceCorner> outer,
     triangles.push_back({outer[0], outer[1], outer[2]});
     return 0;
   }
-  Ring ring(outer.begin(), outer.end());
+  thread_local EarMemory memory;
+  memory.ring.assign(outer.begin(), outer.end());
   std::vector<std::span<const PieceCorner>> from_right = holes;
-  std::stable_sort(from_right.begin(), from_right.end(), [&](const auto& a, const auto& b) {
-    return plane.x(a[rightmost(plane, a)]) > plane.x(b[rightmost(plane, b)]);
-  });
-  for (const std::span<const PieceCorner>& hole : from_right) join_hole(plane, ring, hole);
-  return EarCutter(plane, ring).cut(triangles);
+  if (!holes.empty()) {
+    std::stable_sort(from_right.begin(), from_right.end(), [&](const auto& a, const auto& b) {
+      return plane.x(a[rightmost(plane, a)]) > plane.x(b[rightmost(plane, b)]);
+    });
+  }
+  for (const std::span<const PieceCorner>& hole : from_right) join_hole(plane, memory.ring, hole);
+  return EarCutter(plane, memory).cut(triangles);
 }
 
 }  // namespace meshbound

@@ -75,6 +75,7 @@ std::vector<IntersectionVolume> VolumeFinder::find(PlacedPair& pair, CrossingCur
     if (shell.sign == 0) continue;
     for (std::uint32_t side = 0; side < 2; ++side) {
       Patch& patch = volumes[shell.volume].patches[side];
+      patch.triangles.reserve(patch.triangles.size() + shell.triangles[side].size());
       // Triangles without area enclose nothing: they come from a touch that the perturbation made an overlap.
       std::copy_if(shell.triangles[side].begin(), shell.triangles[side].end(), std::back_inserter(patch.triangles),
                    [](const PatchTriangle& t) { return !t.is_flat; });
