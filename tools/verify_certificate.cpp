@@ -96,7 +96,8 @@ Json to_json(const verify::TextureProof& proof) {
   return {{"pieces", proof.pieces},
           {"cuts", proof.cuts},
           {"bytes", proof.bytes},
-          {"uncovered_percent", 100 * proof.uncovered_share}};
+          {"uncovered_percent", 100 * proof.uncovered_share},
+          {"left_out_percent", 100 * proof.left_out_share}};
 }
 
 Json to_json(const verify::Proof::Texture& texture) {
@@ -138,6 +139,15 @@ void write_json(const Options& options, const Inputs& inputs, const Outcome& out
   write_text(options.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+/// What a proof about the texture says nothing of; empty where there is no such triangle.
+std::string left_out(const verify::Proof::Texture& texture) {
+  const double original = texture.original_to_simplified.left_out_share,
+               simplified = texture.simplified_to_original.left_out_share;
+  if (original == 0 && simplified == 0) return "";
+  return "; it says nothing of triangles without area in the texture that are " + short_number(100 * original) +
+         "% and " + short_number(100 * simplified) + "%";
+}
+
 void print(const Options& options, const Inputs& inputs, const Outcome& outcome) {
   const verify::Proof::Direction &forward = outcome.proof->original_to_simplified,
                                  &backward = outcome.proof->simplified_to_original;
@@ -152,11 +162,12 @@ void print(const Options& options, const Inputs& inputs, const Outcome& outcome)
                             exact_number(lines->tolerance) + " of each other; " +
                             (lines->has_all_borders ? "all" : "not all") + " borders are among them");
   if (const auto& texture = outcome.proof->texture)
-    print_line("texture",
-               "moves by at most " + exact_number(texture->tolerance) + "; not covered by the other mesh are " +
-                   short_number(100 * texture->original_to_simplified.uncovered_share) +
-                   "% of the original's area and " +
-                   short_number(100 * texture->simplified_to_original.uncovered_share) + "% of the simplified mesh's");
+    print_line("texture", "moves by at most " + exact_number(texture->tolerance) +
+                              "; not covered by the other mesh are " +
+                              short_number(100 * texture->original_to_simplified.uncovered_share) +
+                              "% of the original's area and " +
+                              short_number(100 * texture->simplified_to_original.uncovered_share) +
+                              "% of the simplified mesh's" + left_out(*texture));
   print_line("bytes", std::to_string(inputs.certificate.size()) + ", " +
                           short_number(static_cast<double>(inputs.certificate.size()) /
                                        static_cast<double>(inputs.original.triangles.size())) +

@@ -25,7 +25,8 @@ constexpr std::uint8_t version_with_texture = 3;
 
 using Trees = std::vector<std::vector<TextureSearch::Node>>;
 
-/// The tree of each triangle of the source, in their order. Throws `Stopped`, and `Error` where there is none.
+/// The tree of each triangle of the source, in their order; no node for one without area in the texture where there is
+/// no proof. Throws `Stopped`, and `Error` where another triangle has none.
 Trees prove(const Charts& source, const Charts& target, const ExactUnits& units, double tolerance, int threads,
             const StopToken& stop, const std::string& name) {
   Trees trees(source.triangles().size());
@@ -34,7 +35,13 @@ Trees prove(const Charts& source, const Charts& target, const ExactUnits& units,
     for_each_range(trees.size(), grain, [&](std::size_t begin, std::size_t end) {
       stop.check();
       TextureSearch search(target, units, tolerance);
-      for (std::size_t i = begin; i < end; ++i) is_proven[i] = search.prove(source.triangles()[i], trees[i]) ? 1 : 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        is_proven[i] = search.prove(source.triangles()[i], trees[i]) ? 1 : 0;
+        if (is_proven[i] == 0 && source.triangles()[i].chart != Chart::Area) {
+          trees[i].clear();
+          is_proven[i] = 1;
+        }
+      }
     });
   });
   const auto missing = std::find(is_proven.begin(), is_proven.end(), 0);
@@ -45,13 +52,15 @@ Trees prove(const Charts& source, const Charts& target, const ExactUnits& units,
               "format allows; give a larger --texture-tolerance");
 }
 
-/// A number of triangles plus 1 and their indices, each as the difference to the one before; 0 for a cut.
-std::pair<Bytes, Certificate::Direction> encoded(const Trees& trees) {
+/// Before the tree of a triangle without area in the texture: 1, or 0 and no tree. For a node: a number of triangles
+/// plus 1 and their indices, each as the difference to the one before; 0 for a cut.
+std::pair<Bytes, Certificate::Direction> encoded(const Charts& source, const Trees& trees) {
   Bytes bytes;
   Certificate::Direction counts;
   std::int64_t last = 0;
-  for (const auto& tree : trees) {
-    for (const TextureSearch::Node& node : tree) {
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    if (source.triangles()[i].chart != Chart::Area) put_variable(bytes, trees[i].empty() ? 0 : 1);
+    for (const TextureSearch::Node& node : trees[i]) {
       ++(node.is_cut ? counts.cuts : counts.pieces);
       put_variable(bytes, node.is_cut ? 0 : node.triangles.size() + 1);
       for (const std::uint32_t triangle : node.triangles) {
@@ -118,8 +127,8 @@ std::optional<TextureCertificate> with_texture_proof(const Certificate& certific
   const Charts original(meshes[0], units), simplified(meshes[1], units);
   try {
     const std::array proofs = {
-        encoded(prove(original, simplified, units, tolerance, options.threads, stop, "original")),
-        encoded(prove(simplified, original, units, tolerance, options.threads, stop, "simplified"))};
+        encoded(original, prove(original, simplified, units, tolerance, options.threads, stop, "original")),
+        encoded(simplified, prove(simplified, original, units, tolerance, options.threads, stop, "simplified"))};
     TextureCertificate result{certificate, proofs[0].second, proofs[1].second};
     result.certificate.bytes = extended(certificate.bytes, meshes, tolerance, proofs);
     return result;

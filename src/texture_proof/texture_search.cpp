@@ -23,8 +23,8 @@ constexpr std::size_t max_nodes = 4096;
 }  // namespace
 
 /// Clips to the inside of a line, the line included; with `flip` to what lies strictly outside, with its border. False,
-/// the polygon then being of no use, where nothing but a part of the polygon's border lies there. A triangle without area
-/// in the texture may lie on a line as a whole: inside.
+/// the polygon then being of no use, where nothing but a part of the polygon's border lies there. A triangle without
+/// area in the texture may lie on a line as a whole: inside.
 bool TextureSearch::clip(Polygon& polygon, Overlay::Line line, bool flip) {
   bool has_inside = false, has_outside = false;
   for (const Overlay::PolygonCorner& corner : polygon) {

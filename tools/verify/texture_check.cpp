@@ -48,6 +48,10 @@ class TextureCheck {
       domain_ = &domain;
       is_flat_ = domain.covering(triangle).turn == 0;
       near_.reset();
+      if (is_flat_ && !has_proof()) {
+        left_out_area_ += area_of(triangle);
+        continue;
+      }
       check(TextureDomain::whole(), {}, 0);
       work_ += domain.work();
       require_work();
@@ -55,12 +59,27 @@ class TextureCheck {
     if (!tokens_.at_end()) throw Rejected("the proof about the texture goes on after its last triangle");
     if (result_.pieces != section_.pieces)
       throw Rejected("the number of pieces in the header is not that of the proof about the texture");
-    if (source_.area > 0) result_.uncovered_share = std::min(1.0, (uncovered_area_ + source_.bare_area) / source_.area);
+    if (source_.area > 0) {
+      result_.uncovered_share = std::min(1.0, (uncovered_area_ + source_.bare_area) / source_.area);
+      result_.left_out_share = std::min(1.0, left_out_area_ / source_.area);
+    }
     return result_;
   }
 
  private:
   using Levels = std::array<std::int64_t, 3>;  ///< the least weights of a piece, in units of 2^-40
+
+  [[nodiscard]] static double area_of(const TextureSurface::Triangle& triangle) {
+    const auto& p = triangle.corners;
+    return (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+  }
+
+  /// Whether the proof says something of the triangle at hand, which has no area in the texture.
+  bool has_proof() {
+    const std::uint64_t word = tokens_.number();
+    if (word > 1) fail("has no area in the texture, and neither a proof nor none");
+    return word == 1;
+  }
 
   void check(const DomainPolygon& piece, const Levels& low, int depth) {
     const std::uint64_t word = tokens_.number();
@@ -134,6 +153,7 @@ class TextureCheck {
   void check_uncovered(const DomainPolygon& piece, const std::vector<DomainPolygon>& rest) {
     if (!near_) near_ = index_.near(*at_);
     for (const TextureSurface::Triangle* const triangle : *near_) {
+      require_work();
       CoveringTriangle b = domain_->covering(*triangle);
       const bool touches =
           is_flat_ ? b.turn == 0 || touches_piece(piece, b)
@@ -144,9 +164,7 @@ class TextureCheck {
         fail(("is not shown to be near triangle " + std::to_string(triangle->index) + ", which covers a part of it")
                  .c_str());
     }
-    const auto& p = at_->corners;
-    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-    for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * area * rough_area(polygon);
+    for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * area_of(*at_) * rough_area(polygon);
   }
 
   /// Whether a triangle covers any point of the piece, its border included.
@@ -190,7 +208,7 @@ class TextureCheck {
   std::optional<std::vector<const TextureSurface::Triangle*>> near_;  ///< of the triangle at hand
   std::int64_t last_ = 0;                                             ///< the target named before
   std::uint64_t work_ = 0;
-  double uncovered_area_ = 0;
+  double uncovered_area_ = 0, left_out_area_ = 0;
   TextureProof result_;
 };
 

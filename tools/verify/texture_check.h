@@ -16,6 +16,7 @@ namespace meshbound::verify {
 struct TextureProof {
   std::uint64_t pieces = 0, cuts = 0, bytes = 0;
   double uncovered_share = 0;  ///< of the area of the source: what the target does not cover in the texture; rounded
+  double left_out_share = 0;   ///< of that area: triangles without area in the texture that have no proof; rounded
 };
 
 /// Finds the triangles whose texture coordinates may meet those of a triangle: blocks of triangles with their boxes.
