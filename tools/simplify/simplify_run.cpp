@@ -11,8 +11,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/distance_text.h"
-#include "common/distinct_files.h"
 #include "common/length.h"
 #include "common/memory.h"
 #include "common/output.h"
@@ -21,7 +19,6 @@
 #include "common/signals.h"
 #include "common/standard_streams.h"
 #include "common/texture_length.h"
-#include "common/texture_text.h"
 #include "common/tile_workers.h"
 #include "decimation/decimation_run.h"
 #include "decimation/kept_vertices.h"
@@ -32,7 +29,9 @@
 #include "meshbound/error.h"
 #include "meshbound/texture_certificate.h"
 #include "simplify/estimate.h"
+#include "simplify/output_paths.h"
 #include "simplify/reproducer.h"
+#include "simplify/summary.h"
 
 namespace meshbound::tools {
 namespace {
@@ -45,9 +44,6 @@ class Run : DecimationRun {
 
  private:
   void parse_target();
-  void check_paths() const;
-  [[nodiscard]] std::filesystem::path level_path(std::size_t index) const;
-  [[nodiscard]] std::filesystem::path certificate_path(std::size_t index) const;
   void read();
   void plan_memory();
   [[nodiscard]] SimplifyResult decimated(const SimplifyOptions& options) const;
@@ -67,8 +63,6 @@ class Run : DecimationRun {
   void end_if_interrupted() const;
   void publish();
   void report();
-  void print_summary() const;
-  [[nodiscard]] std::string end_reason() const;
 
   const SimplifyArguments& options_;
   std::optional<OutputFolder> folder_;  ///< of the levels
@@ -96,7 +90,7 @@ class Run : DecimationRun {
 
 int Run::operator()() {
   parse_target();
-  check_paths();
+  check_paths(options_);
   read();
   choose_tolerances();
   choose_appearance();
@@ -177,41 +171,13 @@ void Run::choose_appearance() {
   original_texture_ = OriginalTexture{&original_, &attributes_, tolerance};
 }
 
-/// `index` 0 is that of the smallest tolerance.
-std::filesystem::path Run::level_path(std::size_t index) const {
-  const std::filesystem::path out = options_.output;
-  const std::filesystem::path folder =
-      options_.output_dir.empty() ? out.parent_path() : std::filesystem::path(options_.output_dir);
-  return folder / (out.stem().string() + "_level_" + std::to_string(index) + out.extension().string());
-}
-
-std::filesystem::path Run::certificate_path(std::size_t index) const {
-  const std::filesystem::path certificate = options_.certificate;
-  return certificate.parent_path() /
-         (certificate.stem().string() + "_level_" + std::to_string(index) + certificate.extension().string());
-}
-
-/// Checks, before any work, that no output replaces an input or another output.
-void Run::check_paths() const {
-  std::vector<NamedPath> outputs = options_.deviation.outputs();
-  outputs.insert(outputs.end(),
-                 {{"OUT", options_.output}, {"--json", options_.common.json}, {"--certificate", options_.certificate}});
-  for (std::size_t i = 0; i < options_.levels.size(); ++i) {
-    outputs.push_back({"--levels", level_path(i)});
-    if (!options_.certificate.empty()) outputs.push_back({"--certificate", certificate_path(i)});
-  }
-  require_distinct_files({{"IN", options_.input}}, outputs);
-  options_.deviation.check();
-  if (!options_.common.json.empty()) check_writable(options_.common.json);
-}
-
 /// Opens an output for each level, if levels are asked for, and then OUT.
 void Run::open_outputs() {
   if (!options_.levels.empty()) {
     if (!options_.output_dir.empty()) folder_.emplace(options_.output_dir);
     for (std::size_t i = 0; i < tolerances_.size(); ++i) {
       const bool is_level = i + 1 < tolerances_.size() || options_.tolerance.empty();
-      if (is_level) outputs_.emplace_back(level_path(i), stop(), options_.write);
+      if (is_level) outputs_.emplace_back(level_path(options_, i), stop(), options_.write);
     }
   }
   outputs_.emplace_back(options_.output, stop(), options_.write);
@@ -219,7 +185,7 @@ void Run::open_outputs() {
   if (options_.certificate.empty()) return;
   const StopToken signals{.cancel = &interrupted_};
   for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
-    certificates_.emplace_back(certificate_path(i), AtomicFile::Stream::Staged, signals);
+    certificates_.emplace_back(level_certificate_path(options_, i), AtomicFile::Stream::Staged, signals);
   certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
 }
 
@@ -452,7 +418,8 @@ void Run::report() {
   if (!options_.common.json.empty()) write_text(options_.common.json, to_json(report_));
   if (report_.deviation) deviation_->write(to_json(report_));
   const bool is_stdout_taken = options_.common.json == "-" || is_stream_path(options_.output);
-  if (!is_stdout_taken && !options_.common.quiet) print_summary();
+  if (!is_stdout_taken && !options_.common.quiet)
+    print_summary({options_, report_, result_, outputs_, decided_by_, ended_by_time(), diagonal_});
   if (verdict_ == Verdict::Within && ended_by_time())
     std::fprintf(stderr, "%s: the time limit came first: %s is the best mesh that was proven by then\n",
                  provenance().tool.c_str(), as_typed(options_.output).c_str());
@@ -470,63 +437,6 @@ bool Run::ended_by_time() const {
     return how == DecidedBy::SmallerLevel || how == DecidedBy::Original;
   });
   return result_.last().ended_by == EndedBy::TimeLimit || (was_late && remaining(1) == 0);
-}
-
-std::string Run::end_reason() const {
-  const auto ended = result_.last().ended_by;
-  const bool had_target = options_.target_faces || target_ratio_;
-  if (result_.tolerance_below_rounding)
-    return "the tolerance is below the rounding of the coordinates: nothing collapsed";
-  if (ended_by_time() && ended != EndedBy::TimeLimit) return "the time limit came before a smaller mesh was proven";
-  if (ended == EndedBy::Target) return "the target was reached first, within the tolerance";
-  if (ended == EndedBy::TimeLimit) return "the time limit came first";
-  const std::string tolerance = ended == EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
-                                                            : "no further collapse fits the tolerance";
-  return had_target ? tolerance + ": it came before the target" : tolerance;
-}
-
-void Run::print_summary() const {
-  const GatedOutput& out = outputs_.back();
-  const HausdorffDistance& distance = out.distance();
-  const std::size_t faces = out.summary().faces, before = report_.original.summary.faces;
-  print_line("faces", std::to_string(before) + " -> " + std::to_string(faces) + " (" +
-                          short_number(100.0 * static_cast<double>(faces) / static_cast<double>(before)) +
-                          "%): " + end_reason());
-  print_line("tolerance", both_units(report_.tolerance, diagonal_));
-  print_distance(distance.bounds, distance.a_to_b, &distance.b_to_a,
-                 {"original to simplified", "simplified to original"}, diagonal_);
-  print_line("verdict", to_string(verdict_));
-  for (std::size_t i = 0; i < decided_by_.size(); ++i) {
-    if (const std::string how = explanation(decided_by_[i]); !how.empty())
-      print_line("decided", outputs_[i].path().string() + ": " + how);
-  }
-  print_lines(report_.lines, diagonal_);
-  if (report_.normals) print_normals(*report_.normals);
-  if (report_.texture) print_texture(*report_.texture, {"original to simplified", "simplified to original"}, diagonal_);
-  if (report_.deviation) print_deviation(*report_.deviation, "original to simplified", "simplified to original");
-  print_locked(result_.locked_vertices, report_.original.summary);
-  if (options_.prune)
-    print_line("pruned", std::to_string(result_.pruned_components) + " components of " +
-                             std::to_string(result_.pruned_faces) + " faces");
-  if (result_.split)
-    print_line("input", "not an oriented 2-manifold: simplified as one, with edges and vertices doubled where needed");
-  if (result_.dropped_triangles + result_.kept_triangles > 0)
-    print_line("input", std::to_string(result_.dropped_triangles) + " duplicate or degenerate triangles dropped, " +
-                            std::to_string(result_.kept_triangles) + " kept as they are");
-  print_dropped(report_.original);
-  print_seconds(report_.seconds, report_.threads);
-  if (options_.resume)
-    print_line("resumed",
-               std::to_string(options_.workers->reused_tiles()) + " finished tiles came from " + options_.scratch);
-  if (!options_.memory.empty())
-    print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + options_.memory);
-  if (verdict_ != Verdict::Within) return;
-  for (const GatedOutput& output : outputs_)
-    print_line("wrote", output.path().string() + ", " + std::to_string(output.summary().faces) + " faces, " +
-                            interval(output.distance().bounds));
-  for (const CertificateReport& certificate : report_.certificates)
-    print_line("wrote",
-               certificate.path + ", " + std::to_string(certificate.bytes) + " bytes: a proof for verify_certificate");
 }
 
 }  // namespace
