@@ -254,6 +254,23 @@ TEST(ManifoldSoup, HasNoFacesWhereNoTriangleHasThreeCorners) {
   EXPECT_EQ(result.dropped_triangles, 2U);
 }
 
+/// A square of two triangles, and once more: as a decal that looks different, and as a mere repetition.
+TEST(ManifoldSoup, KeepsRepetitionsThatLookDifferentOnSheetsOfTheirOwn) {
+  const TriangleMesh soup = mesh_of({{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}});
+  const std::vector<std::uint32_t> decal = {0, 0, 7, 7}, repeated = {4, 5, 4, 5};
+  const ManifoldSoup both = manifold_soup(soup, decal);
+  EXPECT_EQ(both.dropped_triangles, 0U);
+  EXPECT_EQ(both.triangle_of, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(both.vertex_of.size(), 8U);
+  for (std::uint32_t f = 0; f < 4; ++f)
+    for (const std::uint32_t twin : both.twin[f])
+      EXPECT_TRUE(twin == no_twin || twin / 3 / 2 == f / 2) << "faces of two sheets are joined";
+  EXPECT_EQ(std::count(both.twin[2].begin(), both.twin[2].end(), no_twin), 2);
+  const ManifoldSoup one = manifold_soup(soup, repeated);
+  EXPECT_EQ(one.dropped_triangles, 2U);
+  EXPECT_EQ(one.vertex_of.size(), 4U);
+}
+
 TEST(ManifoldSoup, RefusesTooManyTriangles) {
   const double position[3] = {0, 0, 0};
   const std::uint32_t indices[3] = {0, 0, 0};

@@ -129,6 +129,19 @@ TEST(TextureGuard, GivesSamplesBackWhateverTheScaleOfTheTexture) {
   EXPECT_EQ(result.last().verdict, Verdict::Within);
 }
 
+/// Triangles at the places of others are no repetitions where their texture coordinates differ.
+TEST(TextureGuard, KeepsADecalThatLiesOnItsSurface) {
+  Textured square = sheet(8, flat, even);
+  const Textured decal = sheet(8, flat, [](double x, double y, bool) { return Eigen::Vector2d(5 + x, y); });
+  for (std::size_t t = 20; t < 60; ++t) {
+    square.mesh.triangles.push_back(decal.mesh.triangles[t]);
+    square.coordinates.push_back(decal.coordinates[t]);
+  }
+  const TextureDeviation deviation = deviation_of(square, simplified(square, 0.01, 0.01));
+  EXPECT_LE(deviation.bounds.upper, 0.01);
+  EXPECT_LE(deviation.a_to_b.uncovered.upper, 1e-9);
+}
+
 /// The two halves have charts that do not touch. At the line between them each side keeps its own coordinates.
 TEST(TextureGuard, KeepsTheSidesOfASeamApart) {
   const Textured halves = sheet(16, flat, [](double x, double y, bool is_right) {

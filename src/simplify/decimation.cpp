@@ -4,10 +4,14 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "geometry/eigen_vec3.h"
@@ -79,11 +83,36 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
   make_state(stop);
 }
 
+namespace {
+
+/// A number for each triangle, taken in this order: equal where the material and the texture coordinates of the
+/// corners, in any order, are. Empty where there are no texture coordinates.
+std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<const std::uint32_t> order) {
+  using Look = std::tuple<std::uint32_t, std::array<std::array<double, 2>, 3>>;
+  std::map<Look, std::uint32_t> number_of;
+  std::vector<std::uint32_t> looks;
+  if (options.texture_coordinates.size() != order.size()) return looks;
+  for (const std::uint32_t t : order) {
+    Look look{options.materials.size() == order.size() ? options.materials[t] : 0, {}};
+    auto& corners = std::get<1>(look);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector2d& uv = options.texture_coordinates[t][k];
+      if (uv.allFinite()) corners[k] = {uv.x(), uv.y()};  // missing ones are not a number, which has no order
+    }
+    std::sort(corners.begin(), corners.end());
+    looks.push_back(number_of.try_emplace(look, static_cast<std::uint32_t>(number_of.size())).first->second);
+  }
+  return looks;
+}
+
+}  // namespace
+
 void Decimation::make_state(const StopToken& stop) {
   TriangleMesh framed;
   framed.triangles = start_mesh().triangles;
   for (const Vec3 p : start_points()) framed.vertices.emplace_back(p.x, p.y, p.z);
-  ManifoldSoup soup = manifold_soup(framed);
+  ManifoldSoup soup =
+      manifold_soup(framed, start_ == nullptr ? looks_of(options_, order_.triangle) : std::vector<std::uint32_t>());
   stop.check();
   dropped_triangles_ = soup.dropped_triangles;
   split_ = soup.split;

@@ -55,7 +55,8 @@ std::vector<std::uint32_t> first_of_equal(const MeshView& soup) {
 
 class ManifoldBuilder {
  public:
-  explicit ManifoldBuilder(const MeshView& soup) : soup_(soup), first_(first_of_equal(soup)) {}
+  ManifoldBuilder(const MeshView& soup, std::span<const std::uint32_t> look)
+      : soup_(soup), look_(look), first_(first_of_equal(soup)) {}
 
   ManifoldSoup build() && {
     take_distinct_triangles();
@@ -105,12 +106,35 @@ class ManifoldBuilder {
   }
   [[nodiscard]] std::uint32_t across_entering(std::uint32_t corner) const { return at(result_.twin, previous(corner)); }
 
+  /// Marks repetitions among triangles with the same corners in `dropped`, and sets the sheets of the others.
+  void sort_out(std::span<const Repetition> same, std::vector<std::uint8_t>& dropped);
+  [[nodiscard]] std::uint32_t sheet_of(std::uint32_t corner) const {
+    return sheet_.empty() ? 0 : sheet_[result_.triangle_of[corner / 3]];
+  }
+
   MeshView soup_;
+  std::span<const std::uint32_t> look_;
+  std::vector<std::uint32_t> sheet_;  ///< by triangle of the soup; empty: all are on the first one
   std::vector<std::uint32_t> first_;  ///< by vertex of the soup: the first one with its coordinates
   ManifoldSoup result_;               ///< until `split_vertices`, corners are vertices of the soup
 };
 
-/// Triangles with three different corners, the first one of each set of corners.
+void ManifoldBuilder::sort_out(std::span<const Repetition> same, std::vector<std::uint8_t>& dropped) {
+  if (same.size() == 1) return;
+  std::vector<std::uint32_t> looks;  // by sheet
+  for (const Repetition& repetition : same) {
+    const std::uint32_t t = repetition.triangle, look = look_.empty() ? 0 : look_[t];
+    if (std::find(looks.begin(), looks.end(), look) != looks.end()) {
+      dropped[t] = 1;
+      continue;
+    }
+    if (!looks.empty() && sheet_.empty()) sheet_.assign(soup_.triangle_count(), 0);
+    if (!looks.empty()) sheet_[t] = static_cast<std::uint32_t>(looks.size());
+    looks.push_back(look);
+  }
+}
+
+/// Triangles with three different corners, the first one of each set of corners and look.
 void ManifoldBuilder::take_distinct_triangles() {
   const auto triangles = static_cast<std::uint32_t>(soup_.triangle_count());
   std::vector<std::uint8_t> dropped(triangles, 0);
@@ -131,8 +155,10 @@ void ManifoldBuilder::take_distinct_triangles() {
     std::sort(here.begin(), here.end(), [&](const Repetition& a, const Repetition& b) {
       return std::tuple(corners(a), a.triangle) < std::tuple(corners(b), b.triangle);
     });
-    for (std::size_t i = 1; i < here.size(); ++i)
-      if (corners(here[i]) == corners(here[i - 1])) dropped[here[i].triangle] = 1;
+    for (std::size_t i = 0, end = 0; i < here.size(); i = end) {
+      while (end < here.size() && corners(here[end]) == corners(here[i])) ++end;
+      sort_out(here.subspan(i, end - i), dropped);
+    }
   });
   result_.dropped_triangles = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), 1));
   result_.triangle_of.reserve(triangles - result_.dropped_triangles);
@@ -156,10 +182,12 @@ bool ManifoldBuilder::join_edges() {
   };
   bool oriented = true;
   for_each_vertex<Side>(first_.size(), for_each_side, [&](std::span<Side> here) {
-    std::sort(here.begin(), here.end(),
-              [](const Side& a, const Side& b) { return std::tuple(a.high, a.corner) < std::tuple(b.high, b.corner); });
+    const auto edge = [&](const Side& side) { return std::tuple(side.high, sheet_of(side.corner)); };
+    std::sort(here.begin(), here.end(), [&](const Side& a, const Side& b) {
+      return std::tuple(edge(a), a.corner) < std::tuple(edge(b), b.corner);
+    });
     for (std::size_t i = 0, end = 0; i < here.size(); i = end) {
-      while (end < here.size() && here[end].high == here[i].high) ++end;
+      while (end < here.size() && edge(here[end]) == edge(here[i])) ++end;
       if (end - i != 2) continue;
       join(here[i].corner, here[i + 1].corner);
       oriented = oriented && runs_upward(here[i].corner) != runs_upward(here[i + 1].corner);
@@ -251,11 +279,11 @@ void ManifoldBuilder::close_slits() {
 
 }  // namespace
 
-ManifoldSoup manifold_soup(const MeshView& soup) {
+ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> look) {
   if (soup.triangle_count() > max_triangles)
     throw InvalidInput("the mesh has " + std::to_string(soup.triangle_count()) +
                        " triangles; decimation takes 2^32 / 3 of them at most, simplify it in pieces");
-  return ManifoldBuilder(soup).build();
+  return ManifoldBuilder(soup, look).build();
 }
 
 }  // namespace meshbound
