@@ -50,6 +50,11 @@ PiecePlane::PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint
 double PiecePlane::x(PieceCorner corner) const { return coordinate(position(corner), first_); }
 double PiecePlane::y(PieceCorner corner) const { return coordinate(position(corner), second_); }
 
+PiecePlane::Projected PiecePlane::projected(PieceCorner corner) const {
+  const Vec3& p = position(corner);
+  return {coordinate(p, first_), coordinate(p, second_), error(corner)};
+}
+
 PiecePlane::Flat PiecePlane::exact(PieceCorner corner) const {
   const ExactNode node = exact_position_of(*pair_, *curves_, side_, corner);
   return {coordinate(node.numerator, first_), coordinate(node.numerator, second_), node.denominator};
@@ -93,9 +98,10 @@ bool PiecePlane::are_in_line(PieceCorner p, PieceCorner q, PieceCorner r) const 
 }
 
 int PiecePlane::turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
-  const double ax = x(q) - x(p), ay = y(q) - y(p), bx = x(r) - x(p), by = y(r) - y(p);
+  const Projected at_p = projected(p), at_q = projected(q), at_r = projected(r);
+  const double ax = at_q.x - at_p.x, ay = at_q.y - at_p.y, bx = at_r.x - at_p.x, by = at_r.y - at_p.y;
   // As in `orientation`: h is the error of a difference.
-  const double h = error(p) + std::max(error(q), error(r));
+  const double h = at_p.error + std::max(at_q.error, at_r.error);
   const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
   const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
   const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;

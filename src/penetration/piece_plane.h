@@ -56,7 +56,11 @@ class PiecePlane {
   struct Flat {
     mpz_class x, y, w;
   };
+  struct Projected {
+    double x, y, error;
+  };
   [[nodiscard]] Flat exact(PieceCorner corner) const;
+  [[nodiscard]] Projected projected(PieceCorner corner) const;
   [[nodiscard]] bool are_in_line(PieceCorner p, PieceCorner q, PieceCorner r) const;
   [[nodiscard]] std::uint32_t edge_with(PieceCorner node) const;
   [[nodiscard]] bool is_on_edge(PieceCorner corner, std::uint32_t edge) const;
