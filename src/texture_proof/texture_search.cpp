@@ -20,6 +20,15 @@ constexpr std::size_t max_rest = 256;
 /// without end.
 constexpr std::size_t max_nodes = 4096;
 
+/// In space, by the tolerance times this, triangles are far apart whatever rounding does.
+constexpr double reach_growth = 1 + 1e-9;
+
+Eigen::AlignedBox3d box_of(const ChartTriangle& triangle) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : triangle.source->corners) box.extend(p);
+  return box;
+}
+
 }  // namespace
 
 /// Clips to the inside of a line, the line included; with `flip` to what lies strictly outside, with its border. False,
@@ -67,9 +76,9 @@ bool TextureSearch::subtract(std::vector<Polygon>& rest, std::uint32_t candidate
 
 bool TextureSearch::cell_is_near(const Polygon& cell, std::uint32_t candidate) {
   return std::all_of(cell.begin(), cell.end(), [&](const Overlay::PolygonCorner& corner) {
-    for (const double precision : {first_precision * tolerance_, 0.0})
-      if (overlay_.distance(candidate, corner.node, precision).upper <= tolerance_) return true;
-    return false;
+    const Bounds rough = overlay_.distance(candidate, corner.node, first_precision * tolerance_);
+    if (rough.upper <= tolerance_ || rough.lower > tolerance_) return rough.upper <= tolerance_;
+    return overlay_.distance(candidate, corner.node, 0).upper <= tolerance_;
   });
 }
 
@@ -89,6 +98,10 @@ bool TextureSearch::prove_leaf(const Polygon& piece, std::vector<std::uint32_t>&
   std::vector<std::uint32_t> far;
   for (std::uint32_t c = 0; c < overlay_.candidates() && !rest.empty(); ++c) {
     if (overlay_.candidate(c).chart != Chart::Area) continue;
+    if (is_far_[c] != 0) {
+      far.push_back(c);
+      continue;
+    }
     Polygon cell = piece;
     if (!clip(cell, c)) continue;
     if (!cell_is_near(cell, c))
@@ -134,6 +147,11 @@ bool TextureSearch::prove(const ChartTriangle& source, std::vector<Node>& nodes)
   target_.add_candidates(source, overlay_, found_);
   meets_degenerate_ = std::any_of(found_.begin(), found_.end(),
                                   [&](std::uint32_t b) { return target_.triangles()[b].chart != Chart::Area; });
+  is_far_.clear();
+  const Eigen::AlignedBox3d box = box_of(source);
+  const double reach = tolerance_ * reach_growth;
+  for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
+    is_far_.push_back(box.exteriorDistance(box_of(overlay_.candidate(c))) > reach ? 1 : 0);
   return prove(overlay_.whole(), {{0, 0, 0}, {whole, whole, whole}}, 0, nodes);
 }
 

@@ -45,8 +45,9 @@ class TextureSearch {
   double tolerance_;
   Overlay overlay_;
   std::vector<std::uint32_t> found_;
-  bool meets_degenerate_ = false;  ///< the box of the source meets one of a triangle without area in the texture
-  std::size_t first_node_ = 0;     ///< of the tree at hand
+  std::vector<std::uint8_t> is_far_;  ///< by candidate: no point of it is within the tolerance of the source
+  bool meets_degenerate_ = false;     ///< the box of the source meets one of a triangle without area in the texture
+  std::size_t first_node_ = 0;        ///< of the tree at hand
   Overlay::Polygon clipped_;
 };
 
