@@ -4,9 +4,10 @@
 ///
 /// All functions are collective: every rank of the communicator calls them with the same arguments, from the thread
 /// that initialised MPI (`MPI_THREAD_FUNNELED` is enough), and leaves with the same result, to the bit that of the
-/// functions of "meshbound/tiles.h", whatever the number of ranks and threads. Every rank holds the whole original;
-/// tiles are worked on by one rank each. What one of the functions throws, it throws on all ranks; an exception from
-/// anywhere else on a single rank leaves the others waiting, so end such a run with `MPI_Abort`.
+/// functions of "meshbound/tiles.h", whatever the number of ranks and threads. Every rank holds the whole original in
+/// memory (the tools keep it on disk); tiles are worked on by one rank each. What one of the functions throws, it
+/// throws on all ranks; an exception from anywhere else on a single rank leaves the others waiting, so end such a run
+/// with `MPI_Abort`.
 #pragma once
 #include <mpi.h>
 

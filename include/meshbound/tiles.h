@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Meshes whose trees and proofs would not fit into memory: simplified and measured tile by tile. Only the triangles
-/// themselves stay in memory.
+/// Meshes whose trees and proofs would not fit into memory: simplified and measured tile by tile. The mesh itself is in
+/// memory here; the tools keep it on disk.
 #pragma once
 #include <cstddef>
 
@@ -25,7 +25,7 @@ struct TileOptions {
 /// Results are the same to the bit for any number of threads, but for `time_limit` and `cancel`. Takes one tolerance:
 /// throws `InvalidInput` for levels, targets, `OnExceed::Stop`, `prune`, feature lines and angles, tolerances of faces,
 /// texture coordinates and certificates; as `simplify_with_bound` otherwise. `Effort::High` refines inside the first
-/// tiles only. Memory: about 60 bytes for each triangle of the original, the original included, and the tiles under
+/// tiles only. Memory: about 80 bytes for each triangle of the original, the original included, and the tiles under
 /// work. Expected O(n log n) time.
 [[nodiscard]] SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,
                                                const TileOptions& tiles = {});
@@ -33,7 +33,7 @@ struct TileOptions {
 /// As `hausdorff_distance`, tile by tile, with the same guarantee: a tile of one mesh is compared with the parts of the
 /// other one that are near enough to matter, more of them where the first ones were not. Statistics are sums over the
 /// tiles; a budget of subdivisions is that of a tile. Throws and takes threads as `hausdorff_distance`. Memory: both
-/// meshes, 4 bytes for each triangle, and the trees of the tiles under work.
+/// meshes, 64 bytes for each triangle of the larger one, and the trees of the tiles under work.
 [[nodiscard]] HausdorffDistance hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
                                                             const DistanceOptions& options = {},
                                                             const TileOptions& tiles = {});

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "mesh/file_stop.h"
 #include "meshbound/error.h"
@@ -18,46 +19,65 @@ namespace {
 
 constexpr std::size_t max_read = std::size_t{1} << 24;  // bytes between two looks at the token: some milliseconds
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw IoError(path.string() + ": cannot read: " + reason);
 }
 
 }  // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& path, const StopToken& stop, std::size_t limit, std::size_t first) {
+RegularFile::RegularFile(std::filesystem::path path, const StopToken& stop) : path_(std::move(path)), stop_(stop) {
   // O_NONBLOCK: opening a fifo must not wait for somebody to write into it.
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.get() < 0) refuse(path, std::strerror(errno));
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0) refuse(path, std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder, not a file");
-  if (!S_ISREG(status.st_mode)) refuse(path, "it is not a regular file; copy the data into one first");
-  const auto whole = static_cast<std::size_t>(status.st_size);
-  const std::size_t size = std::min(whole - std::min(whole, first), limit);
-  data_ = std::make_unique_for_overwrite<char[]>(size);
-  while (size_ < size) {
-    end_if_stopped(stop, path, "read");
-    const ssize_t count =
-        ::pread(file.get(), data_.get() + size_, std::min(size - size_, max_read), static_cast<off_t>(first + size_));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) refuse(path, std::strerror(errno));
-    if (count == 0) refuse(path, "it became shorter while it was read; wait until it is complete");
-    size_ += static_cast<std::size_t>(count);
+  fd_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd_ < 0) refuse(path_, std::strerror(errno));
+  try {
+    struct stat status {};
+    if (::fstat(fd_, &status) != 0) refuse(path_, std::strerror(errno));
+    if (S_ISDIR(status.st_mode)) refuse(path_, "it is a folder, not a file");
+    if (!S_ISREG(status.st_mode)) refuse(path_, "it is not a regular file; copy the data into one first");
+    size_ = static_cast<std::size_t>(status.st_size);
+  } catch (...) {
+    ::close(fd_);
+    throw;
   }
+}
+
+RegularFile::~RegularFile() { ::close(fd_); }
+
+void RegularFile::read(std::size_t first, char* to, std::size_t size) const {
+  for (std::size_t done = 0; done < size;) {
+    end_if_stopped(stop_, path_, "read");
+    const ssize_t count = ::pread(fd_, to + done, std::min(size - done, max_read), static_cast<off_t>(first + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse(path_, std::strerror(errno));
+    if (count == 0) refuse(path_, "it became shorter while it was read; wait until it is complete");
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+FileBytes::FileBytes(const std::filesystem::path& path, const StopToken& stop, std::size_t limit, std::size_t first) {
+  const RegularFile file(path, stop);
+  size_ = std::min(file.size() - std::min(file.size(), first), limit);
+  data_ = std::make_unique_for_overwrite<char[]>(size_);
+  file.read(first, data_.get(), size_);
+}
+
+FileWindow::FileWindow(const std::filesystem::path& path, const StopToken& stop, Reader reader)
+    : file_(path, stop), reader_(std::move(reader)) {}
+
+std::string_view FileWindow::at(std::size_t offset, std::size_t count) {
+  constexpr std::size_t room = std::size_t{1} << 22;
+  while (first_ + bytes_.size() < std::min(offset + count, size())) {
+    const std::size_t end = first_ + bytes_.size();
+    const std::size_t gone = std::min(offset - first_, bytes_.size());
+    bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(gone));
+    first_ += gone;
+    const std::size_t kept = bytes_.size();
+    bytes_.resize(kept + std::min(std::max(room, count), size() - end));
+    file_.read(end, bytes_.data() + kept, bytes_.size() - kept);
+    if (reader_) reader_({bytes_.data() + kept, bytes_.size() - kept});
+  }
+  const std::size_t from = std::min(offset - first_, bytes_.size());
+  return {bytes_.data() + from, bytes_.size() - from};
 }
 
 }  // namespace meshbound

@@ -6,14 +6,29 @@
 #include <string>
 #include <utility>
 
-#include "mesh/mesh_arrays.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound {
 
 void MeshAssembler::reserve(std::size_t vertices, std::size_t triangles) {
+  if (source_.sink != nullptr) return;
   file_.mesh.vertices.reserve(vertices);
   file_.mesh.triangles.reserve(triangles);
+}
+
+void MeshAssembler::look() {
+  source_.end_if_stopped();
+  give();
+}
+
+void MeshAssembler::give() {
+  if (source_.sink == nullptr) return;
+  TriangleMesh& mesh = file_.mesh;
+  source_.sink->append(mesh.vertices);
+  source_.sink->append(mesh.triangles);
+  vertices_given_ += mesh.vertices.size();
+  mesh.vertices.clear();
+  mesh.triangles.clear();
 }
 
 bool MeshAssembler::usable(const Eigen::Vector3d& p) {
@@ -24,7 +39,7 @@ bool MeshAssembler::usable(const Eigen::Vector3d& p) {
 
 void MeshAssembler::add_polygon(std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) return ignore_element();
-  if (file_.mesh.triangles.size() % look_interval == 0) source_.end_if_stopped();
+  if (file_.mesh.triangles.size() % look_interval == 0) look();
   for (std::size_t i = 2; i < corners.size(); ++i)
     file_.mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
   if (corners.size() > 3) ++file_.triangulated_polygons;
@@ -51,11 +66,15 @@ void MeshAssembler::add_strip(std::span<const std::int64_t> corners) {
   }
 }
 
+std::vector<bool> MeshAssembler::used() const {
+  return source_.sink != nullptr ? used_vertices(*source_.sink) : used_vertices(MeshInMemory(file_.mesh));
+}
+
 void MeshAssembler::refuse_used_suspects() const {
   if (suspects_.empty()) return;
-  const std::vector<std::uint8_t> used = used_vertices(file_.mesh);
+  const std::vector<bool> used = this->used();
   for (const Suspect& s : suspects_) {
-    if (used[s.vertex] != 0)
+    if (used[s.vertex])
       fail(s.offset, "vertex " + std::to_string(s.vertex) +
                          " (counted from 0) is used by a face but has a coordinate that is not finite or beyond "
                          "2^1000; repair or rescale the mesh");
@@ -68,9 +87,10 @@ void MeshAssembler::fail(std::size_t offset, const std::string& defect) const {
 }
 
 MeshFile MeshAssembler::finish() {
-  if (file_.mesh.triangles.empty()) {
+  give();
+  if (file_.mesh.triangles.empty() && (source_.sink == nullptr || source_.sink->triangle_count() == 0)) {
     const std::string found = vertex_count() == 0 ? "no vertices and no faces" : "vertices but no faces";
-    fail(source_.bytes.size(), "the file holds " + found + "; a mesh needs at least one triangle");
+    fail(source_.size(), "the file holds " + found + "; a mesh needs at least one triangle");
   }
   refuse_used_suspects();
   return std::move(file_);

@@ -23,8 +23,8 @@ class MeshAssembler {
 
   /// `offset` is the byte of the file where the vertex starts.
   void add_vertex(const Eigen::Vector3d& p, std::size_t offset) {
-    if (file_.mesh.vertices.size() % look_interval == 0) source_.end_if_stopped();
-    if (!usable(p)) suspects_.push_back({file_.mesh.vertices.size(), offset});
+    if (file_.mesh.vertices.size() % look_interval == 0) look();
+    if (!usable(p)) suspects_.push_back({vertex_count(), offset});
     file_.mesh.vertices.push_back(p);
   }
 
@@ -40,10 +40,10 @@ class MeshAssembler {
   /// Counts of the attributes that the reader skips, for the reader to increase.
   [[nodiscard]] DroppedAttributes& dropped() { return file_.dropped; }
 
-  [[nodiscard]] std::size_t vertex_count() const { return file_.mesh.vertices.size(); }
+  [[nodiscard]] std::size_t vertex_count() const { return vertices_given_ + file_.mesh.vertices.size(); }
 
-  /// Returns the mesh and leaves the assembler empty. Throws `InvalidInput` when there are no triangles or one uses a
-  /// coordinate that is not finite or beyond `largest_coordinate`.
+  /// Returns the mesh, without what the source's sink has taken, and leaves the assembler empty. Throws `InvalidInput`
+  /// when there are no triangles or one uses a coordinate that is not finite or beyond `largest_coordinate`.
   [[nodiscard]] MeshFile finish();
 
  private:
@@ -54,6 +54,9 @@ class MeshAssembler {
     std::size_t offset;
   };
 
+  void look();
+  void give();
+  [[nodiscard]] std::vector<bool> used() const;
   static bool usable(const Eigen::Vector3d& p);
   void add_strip(std::span<const std::int64_t> corners);
   void refuse_used_suspects() const;
@@ -62,7 +65,8 @@ class MeshAssembler {
   const MeshSource& source_;
   Position position_;
   MeshFile file_;
-  std::vector<Suspect> suspects_;  // vertices with an unusable coordinate: harmless until a triangle uses them
+  std::size_t vertices_given_ = 0;  // to the sink of the source, if there is one
+  std::vector<Suspect> suspects_;   // vertices with an unusable coordinate: harmless until a triangle uses them
 };
 
 }  // namespace meshbound

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "mesh/file_bytes.h"
+#include "mesh/stored_mesh.h"
 #include "meshbound/stop_token.h"
 
 namespace meshbound {
@@ -16,6 +18,15 @@ struct MeshSource {
   std::size_t begin = 0;  ///< where the content starts: after a byte order mark
   StopToken stop;         ///< when the reading is to end
   bool with_attributes = false;
+  FileWindow* window = nullptr;  ///< where the rest is read; null: `bytes` are the whole file, otherwise its start
+  MeshInSpace* sink = nullptr;   ///< what takes the mesh; null: the `MeshFile` that is returned
+
+  /// Bytes of the file.
+  [[nodiscard]] std::size_t size() const { return window != nullptr ? window->size() : bytes.size(); }
+  /// The bytes from `offset` on, at least `count` of them or all that are left; from a window as `FileWindow::at`.
+  [[nodiscard]] std::string_view at(std::size_t offset, std::size_t count) const {
+    return window != nullptr ? window->at(offset, count) : bytes.substr(offset);
+  }
 
   /// Throws `Interrupted` or `Stopped` as `stop` says.
   void end_if_stopped() const;

@@ -70,13 +70,12 @@ class BinaryPlyValues {
   static constexpr bool is_text = false;
 
   BinaryPlyValues(const MeshSource& source, std::size_t begin, std::endian order)
-      : source_(source),
-        at_(source.bytes.data() + begin),
-        end_(source.bytes.data() + source.bytes.size()),
-        swap_(order != std::endian::native) {}
+      : source_(source), swap_(order != std::endian::native) {
+    look_at(begin);
+  }
 
-  [[nodiscard]] std::size_t offset() const { return static_cast<std::size_t>(at_ - source_.bytes.data()); }
-  [[nodiscard]] std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
+  [[nodiscard]] std::size_t offset() const { return behind_ - static_cast<std::size_t>(end_ - at_); }
+  [[nodiscard]] std::size_t remaining() const { return source_.size() - offset(); }
   static std::size_t smallest(PlyType type) { return size_of(type); }
 
   double real(PlyType type) {
@@ -114,14 +113,20 @@ class BinaryPlyValues {
 
   void skip(PlyType type, std::uint64_t count) {
     if (count > remaining() / size_of(type)) fail_truncated();
-    at_ += count * size_of(type);
+    const std::size_t size = count * size_of(type);
+    if (size <= static_cast<std::size_t>(end_ - at_))
+      at_ += size;
+    else
+      look_at(offset() + size);
   }
 
   void end_element() {}
 
   /// Whether the data ends here; line ends after it, which text tools add, are allowed.
-  [[nodiscard]] bool at_end() const {
-    return std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r'; });
+  [[nodiscard]] bool at_end() {
+    for (; remaining() > 0; look_at(behind_))
+      if (!std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r'; })) return false;
+    return true;
   }
 
   [[noreturn]] void fail(const std::string& defect) const { source_.fail_at_byte(offset(), defect); }
@@ -129,7 +134,10 @@ class BinaryPlyValues {
  private:
   template <class T>
   T load() {
-    if (remaining() < sizeof(T)) fail_truncated();
+    if (static_cast<std::size_t>(end_ - at_) < sizeof(T)) {
+      if (remaining() < sizeof(T)) fail_truncated();
+      look_at(offset());
+    }
     char bytes[sizeof(T)];
     std::memcpy(bytes, at_, sizeof(T));
     if (swap_) std::reverse(bytes, bytes + sizeof(T));
@@ -139,11 +147,20 @@ class BinaryPlyValues {
     return value;
   }
 
+  /// Goes on with the bytes from `offset` on; enough of them for a value, if there are.
+  void look_at(std::size_t offset) {
+    const std::string_view bytes = source_.at(offset, sizeof(double));
+    at_ = bytes.data();
+    end_ = at_ + bytes.size();
+    behind_ = offset + bytes.size();
+  }
+
   [[noreturn]] void fail_truncated() const { fail("the file ends before the last element that its header declares"); }
 
   const MeshSource& source_;
-  const char* at_;
-  const char* end_;
+  const char* at_ = nullptr;
+  const char* end_ = nullptr;
+  std::size_t behind_ = 0;  ///< offset of `end_` in the file
   bool swap_;
 };
 

@@ -4,16 +4,21 @@
 #include "meshbound/io.h"
 
 namespace meshbound {
+namespace {
 
-MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-  (void)format_of(path);  // an unknown extension is the better message where both are wrong
-  const FileBytes file(path, {options.deadline, options.cancel});
-  return parse_mesh(path, file.bytes(), options);
+/// Bytes that the header of a binary PLY is looked for in.
+constexpr std::size_t start_of_file = std::size_t{1} << 16;
+
+/// Whether the reader of such a file takes it from start to end, by ranges.
+bool is_read_by_ranges(const std::filesystem::path& path, std::string_view start, std::size_t size) {
+  const FileFormat format = format_of(path);
+  if (format == FileFormat::Stl) return is_binary_stl(start, size);
+  return format == FileFormat::Ply && start.starts_with("ply") && start.find("\nformat binary") != start.npos &&
+         start.find("\nend_header") != start.npos;
 }
 
-MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, const ReadOptions& options) {
-  const FileFormat format = format_of(path);
-  MeshSource source{path, bytes, 0, {options.deadline, options.cancel}, options.attributes};
+MeshFile parsed(MeshSource source) {
+  const FileFormat format = format_of(source.path);
   if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
   // The header of a binary STL may hold any bytes; its reader recognises text for itself.
   if (format == FileFormat::Stl) return read_stl(source);
@@ -33,6 +38,42 @@ MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, c
     default:
       return read_ply(source);
   }
+}
+
+}  // namespace
+
+MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+  (void)format_of(path);  // an unknown extension is the better message where both are wrong
+  const FileBytes file(path, {options.deadline, options.cancel});
+  return parse_mesh(path, file.bytes(), options);
+}
+
+MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, const ReadOptions& options) {
+  return parsed({path, bytes, 0, {options.deadline, options.cancel}, options.attributes});
+}
+
+MeshFile parse_mesh_into(const std::filesystem::path& path, std::string_view bytes, const StopToken& stop,
+                         MeshInSpace& into) {
+  MeshFile file = parsed({path, bytes, 0, stop, false, nullptr, &into});
+  into.append(file.mesh.vertices);  // of a format that is not read piece by piece
+  into.append(file.mesh.triangles);
+  file.mesh = {};
+  return file;
+}
+
+MeshFile read_mesh_into(const std::filesystem::path& path, const StopToken& stop, MeshInSpace& into,
+                        const FileWindow::Reader& reader) {
+  (void)format_of(path);
+  const FileBytes start(path, stop, start_of_file);
+  FileWindow window(path, stop, reader);
+  if (is_read_by_ranges(path, start.bytes(), window.size())) {
+    MeshFile file = parsed({path, start.bytes(), 0, stop, false, &window, &into});
+    (void)window.at(window.size(), 0);  // what follows the mesh
+    return file;
+  }
+  const FileBytes all(path, stop);
+  if (reader) reader(all.bytes());
+  return parse_mesh_into(path, all.bytes(), stop, into);
 }
 
 }  // namespace meshbound

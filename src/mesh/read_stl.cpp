@@ -120,27 +120,22 @@ T load_little_endian(const char* from) {
   return std::bit_cast<T>(bytes);
 }
 
-std::size_t declared_triangles(const MeshSource& source) {
-  return load_little_endian<std::uint32_t>(source.bytes.data() + count_offset);
-}
-
-/// Whether the size is what the count asks for. Fewer bytes than a record may follow, as they cannot hold a triangle.
-/// In a text file the four bytes of the count are characters, which would ask for 25 GB at least.
-bool is_binary(const MeshSource& source) {
-  if (source.bytes.size() < records_offset) return false;
-  return (source.bytes.size() - records_offset) / record_size == declared_triangles(source);
+std::size_t declared_triangles(std::string_view start) {
+  return load_little_endian<std::uint32_t>(start.data() + count_offset);
 }
 
 MeshFile read_binary(const MeshSource& source) {
   MeshAssembler assembler(source, Position::Byte);
   WeldedCorners corners(assembler);
-  const std::size_t count = declared_triangles(source);
+  const std::size_t count = declared_triangles(source.bytes);
   assembler.reserve(count / 2, count);  // a closed surface has half as many vertices as triangles
   for (std::size_t i = 0; i < count; ++i) {
     std::array<std::uint32_t, 3> triangle;
+    const char* const record = source.at(records_offset + i * record_size, record_size).data();
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t offset = records_offset + i * record_size + corners_offset + k * 3 * sizeof(float);
-      const char* const at = source.bytes.data() + offset;
+      const std::size_t offset_in_record = corners_offset + k * 3 * sizeof(float);
+      const std::size_t offset = records_offset + i * record_size + offset_in_record;
+      const char* const at = record + offset_in_record;
       const Eigen::Vector3d p(load_little_endian<float>(at), load_little_endian<float>(at + sizeof(float)),
                               load_little_endian<float>(at + 2 * sizeof(float)));
       if (assembler.vertex_count() == std::numeric_limits<std::uint32_t>::max())
@@ -148,8 +143,7 @@ MeshFile read_binary(const MeshSource& source) {
       triangle[k] = corners.add(p, offset);
     }
     assembler.add_polygon(triangle);
-    const char* const attribute = source.bytes.data() + records_offset + i * record_size + attribute_offset;
-    if (load_little_endian<std::uint16_t>(attribute) != 0) ++assembler.dropped().facet_attributes;
+    if (load_little_endian<std::uint16_t>(record + attribute_offset) != 0) ++assembler.dropped().facet_attributes;
   }
   return assembler.finish();
 }
@@ -161,8 +155,15 @@ bool starts_with_solid(const MeshSource& source) {
 
 }  // namespace
 
+/// The size must be what the count asks for. Fewer bytes than a record may follow, as they cannot hold a triangle. In a
+/// text file the four bytes of the count are characters, which would ask for 25 GB at least.
+bool is_binary_stl(std::string_view start, std::size_t size) {
+  if (size < records_offset) return false;
+  return (size - records_offset) / record_size == declared_triangles(start);
+}
+
 MeshFile read_stl(const MeshSource& source) {
-  if (is_binary(source)) return read_binary(source);
+  if (is_binary_stl(source.bytes, source.size())) return read_binary(source);
   if (is_utf16(source.bytes)) source.fail_at_byte(0, "the text is UTF-16; save it as ASCII or UTF-8");
   MeshSource text = source;
   if (text.bytes.starts_with("\xEF\xBB\xBF")) text.begin = 3;
@@ -172,7 +173,7 @@ MeshFile read_stl(const MeshSource& source) {
     source.fail_at_byte(source.bytes.size(),
                         "the file is neither text that starts with 'solid' nor long enough for the " +
                             std::to_string(records_offset) + " bytes that a binary STL starts with");
-  const std::size_t count = declared_triangles(source);
+  const std::size_t count = declared_triangles(source.bytes);
   source.fail_at_byte(count_offset, "the header declares " + std::to_string(count) + " triangles, which take " +
                                         std::to_string(records_offset + count * record_size) +
                                         " bytes, but the file has " + std::to_string(source.bytes.size()));

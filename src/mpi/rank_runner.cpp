@@ -20,6 +20,9 @@ enum Tag { Request = 1, Reply = 2 };
 /// A request says whether its rank goes on; a reply with `no_job` is the last one to a rank.
 constexpr std::int64_t has_failed = -1, wants_job = 0, no_job = -1;
 
+/// A job and its result.
+using Done = std::pair<std::size_t, std::string>;
+
 /// The jobs that a rank has been given, between the thread that asks for them and those that work.
 class LocalQueue {
  public:
@@ -58,7 +61,8 @@ class LocalQueue {
     const std::lock_guard lock(mutex_);
     return under_work_;
   }
-  [[nodiscard]] std::vector<std::size_t> take_done() {
+  /// The jobs that this rank has done, with their results.
+  [[nodiscard]] std::vector<Done> take_done() {
     const std::lock_guard lock(mutex_);
     return std::move(done_);
   }
@@ -74,17 +78,18 @@ class LocalQueue {
     return job;
   }
   void do_job(std::size_t job) {
-    if (!error_.has_error()) error_.guard([&] { jobs_.run(job); });
+    std::string bytes;
+    if (!error_.has_error()) error_.guard([&] { bytes = jobs_.run_packed(job); });
     const std::lock_guard lock(mutex_);
     --under_work_;
-    if (!error_.has_error()) done_.push_back(job);
+    if (!error_.has_error()) done_.emplace_back(job, std::move(bytes));
   }
 
   TileJobs& jobs_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::size_t> waiting_;
-  std::vector<std::size_t> done_;
+  std::vector<Done> done_;
   std::size_t under_work_ = 0;
   bool is_closed_ = false;
   FirstError error_;
@@ -203,12 +208,12 @@ void RankRunner::run(TileJobs& jobs) {
   exchange(jobs, queue.take_done());
 }
 
-void RankRunner::exchange(TileJobs& jobs, const std::vector<std::size_t>& done) {
+void RankRunner::exchange(TileJobs& jobs, const std::vector<Done>& done) {
   CompactWriter own;
   own.number(done.size());
-  for (const std::size_t job : done) {
+  for (const auto& [job, bytes] : done) {
     own.number(job);
-    own.text(jobs.packed(job));
+    own.text(bytes);
   }
   const std::vector<std::string> all = ranks_.all_gather(own.take());
   struct Result {

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "mpi/communicator.h"
 #include "tiles/tile_jobs.h"
 
@@ -17,7 +21,7 @@ class RankRunner : public JobRunner {
   [[nodiscard]] bool any(bool here) override { return ranks_.any(here); }
 
  private:
-  void exchange(TileJobs& jobs, const std::vector<std::size_t>& done);
+  void exchange(TileJobs& jobs, const std::vector<std::pair<std::size_t, std::string>>& done);
 
   Communicator& ranks_;
   int threads_;

@@ -13,6 +13,8 @@
 
 #include "distance/distance_stats.h"
 #include "distance/search/one_sided.h"
+#include "mesh/stored_lists.h"
+#include "mesh/stored_mesh.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
@@ -41,26 +43,49 @@ constexpr double first_reach = 1e-2, min_reach = 1e-5;
 /// work for many.
 constexpr std::size_t tiles_of_first_batch = 8;
 
-NumberLists cut(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles, std::uint64_t max_triangles) {
-  return cut_into_tiles(
-      std::move(triangles), [&](std::uint32_t t) { return sum_of_corners(mesh, t); }, {}, max_triangles);
+/// Calls use(triangles) for tiles of some triangles of a mesh.
+void cut(const TriangleMesh& part, std::span<const std::uint32_t> triangles, std::uint64_t max_triangles,
+         const UseTile& use) {
+  const NumberLists tiles = cut_into_tiles(
+      numbers_below(triangles.size()), [&](std::uint32_t t) { return sum_of_corners(part, t); }, {}, max_triangles);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    std::vector<std::uint32_t> tile;
+    for (const std::uint32_t t : tiles[k]) tile.push_back(triangles[t]);
+    use(tile);
+  }
 }
 
-Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+/// The same for all triangles of a mesh.
+void cut(const StoredMesh& mesh, std::uint64_t max_triangles, const UseTile& use) {
+  constexpr std::size_t triangles_of_block = std::size_t{1} << 18;
+  ItemStore<CutItem> items(mesh.space());
+  for (std::size_t first = 0; first < mesh.triangle_count(); first += triangles_of_block) {
+    std::vector<std::uint32_t> block = numbers_below(std::min(triangles_of_block, mesh.triangle_count() - first));
+    for (std::uint32_t& t : block) t += static_cast<std::uint32_t>(first);
+    const MeshPart part = part_of(mesh, block);
+    for (std::uint32_t t = 0; t < block.size(); ++t) items.append({to_vec3(sum_of_corners(part.mesh, t)), block[t]});
+  }
+  cut_into_tiles(std::move(items), max_triangles, {}, mesh.space(), use);
+}
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& part) {
   Eigen::AlignedBox3d box;
-  for (const std::uint32_t t : triangles)
-    for (const std::uint32_t v : mesh.triangles[t]) box.extend(mesh.vertices[v]);
+  for (const Eigen::Vector3d& p : part.vertices) box.extend(p);
   return box;
 }
 
 /// A mesh in clusters, with their boxes.
 struct Clusters {
-  explicit Clusters(const TriangleMesh& whole)
-      : mesh(whole), triangles(cut(whole, numbers_below(whole.triangles.size()), triangles_of_cluster)) {
-    for (std::size_t k = 0; k < triangles.size(); ++k) boxes.push_back(box_of(mesh, triangles[k]));
+  explicit Clusters(const StoredMesh& whole) : mesh(whole), triangles(whole.space()) {
+    cut(mesh, triangles_of_cluster, [&](std::span<const std::uint32_t> cluster) {
+      triangles.append(cluster);
+      sizes.push_back(cluster.size());
+      boxes.push_back(box_of(part_of(mesh, cluster).mesh));
+    });
   }
-  const TriangleMesh& mesh;
-  NumberLists triangles;
+  const StoredMesh& mesh;
+  StoredLists triangles;
+  std::vector<std::size_t> sizes;
   std::vector<Eigen::AlignedBox3d> boxes;
 };
 
@@ -81,33 +106,29 @@ Near near_to(const Clusters& b, const Eigen::AlignedBox3d& box, double reach) {
   Near near;
   for (std::size_t k = 0; k < b.boxes.size(); ++k) {
     const double apart = separation(box, b.boxes[k]);
-    if (apart <= reach)
-      near.triangles.insert(near.triangles.end(), b.triangles[k].begin(), b.triangles[k].end());
-    else
+    if (apart > reach) {
       near.rest = std::min(near.rest, apart);
+      continue;
+    }
+    const std::vector<std::uint32_t> cluster = b.triangles[k];
+    near.triangles.insert(near.triangles.end(), cluster.begin(), cluster.end());
   }
   near.part = part_of(b.mesh, near.triangles);
   return near;
 }
 
-/// Adds tiles of the given triangles of A: at most `max_size` in each, halved further while more than `max_near`
-/// triangles of B are near, since a few large triangles may run along all of B.
-void add_tiles(NumberLists& tiles, const TriangleMesh& a, std::vector<std::uint32_t> triangles, std::size_t max_size,
-               const Clusters& b, double reach, std::size_t max_near) {
-  const NumberLists parts = cut(a, std::move(triangles), max_size);
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const std::span<const std::uint32_t> part = parts[k];
-    const Eigen::AlignedBox3d box = box_of(a, part);
-    std::size_t near = 0;
-    for (std::size_t i = 0; i < b.boxes.size(); ++i)
-      if (separation(box, b.boxes[i]) <= reach) near += b.triangles[i].size();
-    if (part.size() > 1 && near > max_near) {
-      add_tiles(tiles, a, {part.begin(), part.end()}, (part.size() + 1) / 2, b, reach, max_near);
-      continue;
-    }
-    tiles.numbers.insert(tiles.numbers.end(), part.begin(), part.end());
-    tiles.end_list();
-  }
+/// Adds a tile of these triangles of A. It is halved while more than `max_near` triangles of B are near, since a few
+/// large triangles may run along all of B.
+void add_tile(StoredLists& tiles, const StoredMesh& a, std::span<const std::uint32_t> triangles, const Clusters& b,
+              double reach, std::size_t max_near) {
+  const MeshPart part = part_of(a, triangles);
+  const Eigen::AlignedBox3d box = box_of(part.mesh);
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < b.boxes.size(); ++i)
+    if (separation(box, b.boxes[i]) <= reach) near += b.sizes[i];
+  if (triangles.size() == 1 || near <= max_near) return tiles.append(triangles);
+  cut(part.mesh, triangles, (triangles.size() + 1) / 2,
+      [&](std::span<const std::uint32_t> half) { add_tile(tiles, a, half, b, reach, max_near); });
 }
 
 /// How far around a tile B is searched: the first reach, and the smallest one after it. Model units.
@@ -118,11 +139,12 @@ struct Reach {
 /// Measures one direction, h(A, B).
 class TiledSearch {
  public:
-  TiledSearch(const TriangleMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
+  TiledSearch(const StoredMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
               const Reach& reach, StopToken::Clock::time_point start)
-      : a_(a), b_(b), options_(options), reach_(reach), start_(start) {
-    add_tiles(tiles_, a, numbers_below(a.triangles.size()), max_triangles, b, reach.first,
-              2 * max_triangles + clusters_beside * triangles_of_cluster);
+      : a_(a), b_(b), options_(options), reach_(reach), start_(start), tiles_(a.space()) {
+    const std::size_t max_near = 2 * max_triangles + clusters_beside * triangles_of_cluster;
+    cut(a, max_triangles,
+        [&](std::span<const std::uint32_t> tile) { add_tile(tiles_, a, tile, b, reach.first, max_near); });
     options_.threads = 1;
     options_.progress = {};
   }
@@ -149,9 +171,12 @@ class TiledSearch {
         : search_(search), first_(first), known_lower_(known_lower), found_(size) {}
 
     [[nodiscard]] std::size_t size() const override { return found_.size(); }
-    [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return search_.tiles_[first_ + job].size(); }
+    [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return search_.tiles_.size_of(first_ + job); }
     void run(std::size_t job) override { found_[job] = search_.search(search_.tiles_[first_ + job], known_lower_); }
-    [[nodiscard]] std::string packed(std::size_t job) const override { return packed_distance(found_[job]); }
+    [[nodiscard]] std::string run_packed(std::size_t job) override {
+      run(job);
+      return packed_distance(found_[job]);
+    }
     void unpack(std::size_t job, std::string_view bytes) override { found_[job] = unpacked_distance(bytes); }
     [[nodiscard]] bool is_complete(std::size_t job) const override {
       return found_[job].outcome != Outcome::BudgetExhausted;
@@ -168,7 +193,7 @@ class TiledSearch {
 
   OneSidedDistance search(std::span<const std::uint32_t> tile, double known_lower) const {
     const MeshPart part = part_of(a_, tile);
-    const Eigen::AlignedBox3d box = used_bounding_box(part.mesh);
+    const Eigen::AlignedBox3d box = box_of(part.mesh);
     const Bvh tree(part.mesh, BvhOptions{1});
     DistanceStats stats;
     for (double reach = reach_.first;;) {
@@ -212,33 +237,32 @@ class TiledSearch {
     add(all.stats, tile.stats);
   }
 
-  const TriangleMesh& a_;
+  const StoredMesh& a_;
   const Clusters& b_;
   DistanceOptions options_;
   Reach reach_;
   StopToken::Clock::time_point start_;
-  NumberLists tiles_;
+  StoredLists tiles_;
 };
 
 /// What both directions share.
 class TiledMeasurement {
  public:
-  TiledMeasurement(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
-                   const TileOptions& tiles, JobRunner& runner)
+  TiledMeasurement(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options, const TileOptions& tiles,
+                   JobRunner& runner)
       : options_(options), tiles_(tiles), runner_(runner) {
-    validate(a);
-    validate(b);
     const auto is_length = [](double length) { return length >= 0; };
     if (!is_length(options.error_bound.value_or(0)))
       throw InvalidInput("the error bound must be a length of 0 or more");
     if (!is_length(options.tolerance.value_or(0))) throw InvalidInput("the tolerance must be a length of 0 or more");
-    if (!options.error_bound) options_.error_bound = default_error_bound(a, b, bounding_box_diagonal(a));
-    const double diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
+    const Eigen::AlignedBox3d box_of_a = used_bounding_box(a);
+    const double diagonal = diagonal_of(box_of_a.merged(used_bounding_box(b)));
+    if (!options.error_bound) options_.error_bound = default_error_bound(a, b, diagonal_of(box_of_a));
     reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal),
               std::max(min_reach * diagonal, std::numeric_limits<double>::denorm_min())};  // grows by doubling
   }
 
-  [[nodiscard]] OneSidedDistance search(const TriangleMesh& from, const TriangleMesh& to, double known_lower) const {
+  [[nodiscard]] OneSidedDistance search(const StoredMesh& from, const StoredMesh& to, double known_lower) const {
     const Clusters clusters(to);
     return TiledSearch(from, clusters, options_, tiles_.max_triangles, reach_, start_).run(known_lower, runner_);
   }
@@ -253,12 +277,17 @@ class TiledMeasurement {
 
 }  // namespace
 
-OneSidedDistance measure_one_side_in_tiles(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+double default_error_bound(const StoredMesh& a, const StoredMesh& b, double diagonal) {
+  if (!(diagonal > 0)) diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
+  return default_error_bound(TriangleMesh(), TriangleMesh(), diagonal);
+}
+
+OneSidedDistance measure_one_side_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
                                            const TileOptions& tiles, JobRunner& runner) {
   return TiledMeasurement(a, b, options, tiles, runner).search(a, b, 0);
 }
 
-HausdorffDistance measure_in_tiles(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+HausdorffDistance measure_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
                                    const TileOptions& tiles, JobRunner& runner) {
   const TiledMeasurement measurement(a, b, options, tiles, runner);
   HausdorffDistance result;
@@ -267,6 +296,20 @@ HausdorffDistance measure_in_tiles(const TriangleMesh& a, const TriangleMesh& b,
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
                    std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
   return result;
+}
+
+OneSidedDistance measure_one_side_in_tiles(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+                                           const TileOptions& tiles, JobRunner& runner) {
+  validate(a);
+  validate(b);
+  return measure_one_side_in_tiles(MeshInMemory(a), MeshInMemory(b), options, tiles, runner);
+}
+
+HausdorffDistance measure_in_tiles(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options,
+                                   const TileOptions& tiles, JobRunner& runner) {
+  validate(a);
+  validate(b);
+  return measure_in_tiles(MeshInMemory(a), MeshInMemory(b), options, tiles, runner);
 }
 
 OneSidedDistance one_sided_hausdorff_distance_in_tiles(const TriangleMesh& a, const TriangleMesh& b,

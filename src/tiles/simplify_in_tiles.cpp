@@ -46,7 +46,7 @@ constexpr double share_of_first_pass = 0.6;
 /// All passes over one mesh.
 class TiledRun {
  public:
-  TiledRun(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles, JobRunner& runner)
+  TiledRun(const StoredMesh& original, const SimplifyOptions& options, const TileOptions& tiles, JobRunner& runner)
       : options_(options),
         tiles_(tiles),
         runner_(runner),
@@ -119,18 +119,18 @@ class TiledRun {
 
 }  // namespace
 
-SimplifyResult decimate_in_tiles(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
+SimplifyResult decimate_in_tiles(const StoredMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
                                  JobRunner& runner) {
   check_for_tiles(options);
-  validate(original);
-  if (!options.locked_vertices.empty() && options.locked_vertices.size() != original.vertices.size())
+  if (!options.locked_vertices.empty() && options.locked_vertices.size() != original.vertex_count())
     throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
   return TiledRun(original, options, tiles, runner).run();
 }
 
 SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
                                  JobRunner& runner) {
-  SimplifyResult result = decimate_in_tiles(original, options, tiles, runner);
+  validate(original);
+  SimplifyResult result = decimate_in_tiles(MeshInMemory(original), options, tiles, runner);
   const auto measuring = StopToken::Clock::now();
   SimplifiedLevel& level = result.levels.back();
   DistanceOptions distance;

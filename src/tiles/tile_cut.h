@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/vec3.h"
+#include "mesh/item_store.h"
 #include "mesh/number_lists.h"
 #include "meshbound/triangle_mesh.h"
 
@@ -27,19 +29,27 @@ using PositionOf = std::function<Eigen::Vector3d(std::uint32_t)>;
                                          std::span<const std::uint32_t> weights, std::uint64_t max_weight,
                                          const TileCut& cut = {});
 
+/// An item where the items are in a store, in the order of their numbers.
+struct CutItem {
+  Vec3 position;
+  std::uint32_t number = 0, weight = 1;
+};
+
+/// Takes the tiles one after the other, as the numbers of their items, which ascend.
+using UseTile = std::function<void(std::span<const std::uint32_t>)>;
+
+/// Items of a store that are cut in memory: 80 MB.
+inline constexpr std::size_t max_cut_in_memory = std::size_t{1} << 20;
+
+/// As above for items of a store, of which at most `max_in_memory` are in memory at once: gives the same tiles for any
+/// such number from 256 on. Expected O(n log n); reads each item some five times for each halving. Throws `IoError`.
+void cut_into_tiles(ItemStore<CutItem> items, std::uint64_t max_weight, const TileCut& cut, const StoreSpace& space,
+                    const UseTile& use, std::size_t max_in_memory = max_cut_in_memory);
+
 /// Three times the centroid of a triangle.
 [[nodiscard]] inline Eigen::Vector3d sum_of_corners(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c];
 }
-
-/// Some triangles of a mesh as a mesh of their own.
-struct MeshPart {
-  TriangleMesh mesh;                    ///< the triangles in the order that they were asked for
-  std::vector<std::uint32_t> vertices;  ///< by vertex of the part: its number in the whole, ascending
-};
-
-/// O(n log n) for n triangles.
-[[nodiscard]] MeshPart part_of(const TriangleMesh& whole, std::span<const std::uint32_t> triangles);
 
 }  // namespace meshbound

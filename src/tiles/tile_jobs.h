@@ -10,7 +10,7 @@ namespace meshbound {
 
 /// Jobs that do not depend on one another: 0, 1, ... below `size`. Each leaves a result here, and whoever continues
 /// needs all results. A result may come from another process as bytes: what `run` leaves behind and what `unpack` makes
-/// of `packed` is the same to the bit.
+/// of the bytes of `run_packed` is the same to the bit.
 class TileJobs {
  public:
   TileJobs() = default;
@@ -23,8 +23,8 @@ class TileJobs {
   [[nodiscard]] virtual std::uint64_t weight(std::size_t job) const = 0;
   /// Does a job. Several threads may run different jobs at once.
   virtual void run(std::size_t job) = 0;
-  /// The result of a job that has been run, in a compact form that is the same on every machine of one byte order.
-  [[nodiscard]] virtual std::string packed(std::size_t job) const = 0;
+  /// As `run`; returns the result in a compact form that is the same on every machine of one byte order.
+  [[nodiscard]] virtual std::string run_packed(std::size_t job) = 0;
   /// Takes a result over instead of `run`. Throws `InvalidInput` where the bytes are none. Several threads may unpack
   /// different jobs at once.
   virtual void unpack(std::size_t job, std::string_view bytes) = 0;

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
-#include "mesh/weld.h"
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "simplify/ended_by.h"
+#include "tiles/equal_positions.h"
 
 namespace meshbound {
 namespace {
@@ -19,34 +18,8 @@ namespace {
 /// simplified as far as possible.
 constexpr int rings_around_seam = 4;
 
-/// By vertex: the first one at its position.
-std::vector<std::uint32_t> first_at_positions(const TriangleMesh& mesh) {
-  Welder welder;
-  std::vector<std::uint32_t> first, by_vertex;
-  by_vertex.reserve(mesh.vertices.size());
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    const std::uint32_t position = welder.index_of(mesh.vertices[v]);
-    if (position == first.size()) first.push_back(v);
-    by_vertex.push_back(first[position]);
-  }
-  return by_vertex;
-}
-
 std::uint32_t index_in(std::span<const std::uint32_t> ascending, std::uint32_t number) {
   return static_cast<std::uint32_t>(std::lower_bound(ascending.begin(), ascending.end(), number) - ascending.begin());
-}
-
-/// The lists that `for_each(add)` makes by calling add(list, number), with numbers in the order of the calls.
-template <class ForEach>
-NumberLists lists_of(std::size_t lists, const ForEach& for_each) {
-  NumberLists result;
-  result.begin.assign(lists + 1, 0);
-  for_each([&](std::uint32_t list, std::uint32_t) { ++result.begin[list + 1]; });
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  result.numbers.resize(result.begin.back());
-  std::vector<std::uint32_t> next(result.begin.begin(), result.begin.end() - 1);
-  for_each([&](std::uint32_t list, std::uint32_t number) { result.numbers[next[list]++] = number; });
-  return result;
 }
 
 template <class T>
@@ -56,29 +29,25 @@ void release(std::vector<T>& v) {
 
 }  // namespace
 
-TiledMesh::TiledMesh(const TriangleMesh& original, const std::vector<bool>& locked)
-    : original_(original), locked_(locked) {}
+TiledMesh::TiledMesh(const StoredMesh& original, const std::vector<bool>& locked)
+    : original_(original), locked_(locked), cover_(original.space()) {}
 
 /// The tiles of a pass as jobs.
 class TiledMesh::Jobs : public TileJobs {
  public:
-  Jobs(const TiledMesh& mesh, const Pass& how) : mesh_(mesh), how_(how), tiles_(mesh.triangles_.size()) {}
+  Jobs(TiledMesh& mesh, const Pass& how) : mesh_(mesh), how_(how), tiles_(mesh.triangles_->size()) {}
 
   [[nodiscard]] std::size_t size() const override { return tiles_.size(); }
   [[nodiscard]] std::uint64_t weight(std::size_t job) const override {
-    const auto triangles = mesh_.triangles_[job].size();
-    return mesh_.is_original_ ? triangles : std::max(triangles, mesh_.originals_[job].size());
+    const std::size_t triangles = mesh_.triangles_->size_of(job);
+    return mesh_.is_original_ ? triangles : std::max(triangles, mesh_.originals_->size_of(job));
   }
-  void run(std::size_t job) override {
-    tiles_[job].output = how_.simplify(mesh_.input_of(static_cast<std::uint32_t>(job), tiles_[job]));
-  }
-  [[nodiscard]] std::string packed(std::size_t job) const override {
-    const Tile& tile = tiles_[job];
-    return packed_tile(tile.output, start_of(job, part_of(mesh_.mesh(), tile.triangles)));
-  }
+  void run(std::size_t job) override { (void)run(job, false); }
+  [[nodiscard]] std::string run_packed(std::size_t job) override { return run(job, true); }
   void unpack(std::size_t job, std::string_view bytes) override {
-    MeshPart part = mesh_.find_numbers(static_cast<std::uint32_t>(job), tiles_[job]);
-    tiles_[job].output = unpacked_tile(bytes, start_of(job, std::move(part)));
+    TileNumbers numbers;
+    MeshPart part = mesh_.find_numbers(static_cast<std::uint32_t>(job), numbers);
+    tiles_[job] = mesh_.take(numbers, unpacked_tile(bytes, start_of(std::move(part), numbers)));
   }
   [[nodiscard]] bool is_complete(std::size_t job) const override {
     const EndedBy ended_by = tiles_[job].output.ended_by;
@@ -88,16 +57,25 @@ class TiledMesh::Jobs : public TileJobs {
     if (how_.progress) how_.progress(share);
   }
 
-  [[nodiscard]] std::vector<Tile>& tiles() { return tiles_; }
+  [[nodiscard]] std::vector<TileResult>& tiles() { return tiles_; }
 
  private:
-  [[nodiscard]] TileStart start_of(std::size_t job, MeshPart part) const {
-    return {std::move(part.mesh), mesh_.cover_of(static_cast<std::uint32_t>(job), tiles_[job]), mesh_.is_original_};
+  std::string run(std::size_t job, bool packs) {
+    TileNumbers numbers;
+    MeshPart part = mesh_.find_numbers(static_cast<std::uint32_t>(job), numbers);
+    TileOutput output = how_.simplify(mesh_.input_of(part, numbers));
+    std::string bytes;
+    if (packs) bytes = packed_tile(output, start_of(std::move(part), numbers));
+    tiles_[job] = mesh_.take(numbers, std::move(output));
+    return bytes;
+  }
+  [[nodiscard]] TileStart start_of(MeshPart part, const TileNumbers& numbers) const {
+    return {std::move(part.mesh), numbers.cover, mesh_.is_original_};
   }
 
-  const TiledMesh& mesh_;
+  TiledMesh& mesh_;
   const Pass& how_;
-  std::vector<Tile> tiles_;
+  std::vector<TileResult> tiles_;
 };
 
 TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
@@ -105,11 +83,12 @@ TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
   find_triangles();
   find_what_stays();
   if (!is_original_) find_originals();
+  new_covers_.emplace(original_.space());
   Jobs jobs(*this, how);
   runner.run(jobs);
   PassFacts facts;
   facts.tiles = jobs.size();
-  for (const Tile& tile : jobs.tiles()) {
+  for (const TileResult& tile : jobs.tiles()) {
     facts.ended_by = joint_reason(facts.ended_by, tile.output.ended_by);
     facts.counts += tile.output.counts;
     facts.dropped_triangles += tile.output.dropped_triangles;
@@ -119,21 +98,21 @@ TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
   return facts;
 }
 
-std::uint32_t TiledMesh::tile_of(std::uint32_t triangle) const {
-  const auto& [a, b, c] = mesh().triangles[triangle];
+std::uint32_t TiledMesh::tile_of(const Triangle& corners) const {
+  const auto& [a, b, c] = corners;
   return owner_[a] == owner_[b] && owner_[b] == owner_[c] ? owner_[a] : no_index;
 }
 
-/// Whether a tile has the triangle, as its own or as one that stays.
+/// Whether a tile of a mesh that is not the original has the triangle, as its own or as one that stays.
 bool TiledMesh::is_in(std::uint32_t tile, std::uint32_t triangle) const {
-  const auto& corners = mesh().triangles[triangle];
+  const Triangle& corners = proven_.mesh.triangles[triangle];
   return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return owner_[v] == tile; });
 }
 
 /// The tile that may cover an original anew: it has all triangles of the cover, and some are its own.
 std::uint32_t TiledMesh::tile_of_cover(std::span<const std::uint32_t> cover) const {
   for (const std::uint32_t f : cover) {
-    const std::uint32_t tile = tile_of(f);
+    const std::uint32_t tile = tile_of(proven_.mesh.triangles[f]);
     if (tile == no_index) continue;
     const bool has_all = std::all_of(cover.begin(), cover.end(), [&](std::uint32_t g) { return is_in(tile, g); });
     return has_all ? tile : no_index;
@@ -141,14 +120,11 @@ std::uint32_t TiledMesh::tile_of_cover(std::span<const std::uint32_t> cover) con
   return no_index;
 }
 
-/// Calls use(original, its cover).
+/// Calls use(original, its cover) for the originals of a mesh that is not the original itself.
 template <class Use>
 void TiledMesh::for_each_cover(const Use& use) const {
-  if (is_original_) {
-    for (std::uint32_t t = 0; t < original_.triangles.size(); ++t) use(t, std::span(&t, 1));
-  } else {
-    for (std::uint32_t t = 0; t < proven_.cover.size(); ++t) use(t, proven_.cover[t]);
-  }
+  ListReader covers(cover_);
+  for (std::uint32_t t = 0; t < original_.triangle_count(); ++t) use(t, covers.next());
 }
 
 /// Marks the vertices around those that stayed in the pass before.
@@ -156,7 +132,7 @@ std::vector<std::uint8_t> TiledMesh::vertices_near_seams() const {
   std::vector<std::uint8_t> is_near = at_seam_;
   for (int ring = 0; ring < rings_around_seam; ++ring) {
     const std::vector<std::uint8_t> inside = is_near;
-    for (const Triangle& corners : mesh().triangles) {
+    for (const Triangle& corners : proven_.mesh.triangles) {
       if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return inside[v] != 0; })) continue;
       for (const std::uint32_t v : corners) is_near[v] = 1;
     }
@@ -166,50 +142,68 @@ std::vector<std::uint8_t> TiledMesh::vertices_near_seams() const {
 
 /// By vertex, how many originals it stands for, and 1 for itself.
 std::vector<std::uint32_t> TiledMesh::weights() const {
-  std::vector<std::uint32_t> weights(mesh().vertices.size(), is_original_ ? 0 : 1);
-  for_each_cover([&](std::uint32_t, std::span<const std::uint32_t> cover) {
-    if (!cover.empty()) ++weights[joined(mesh().triangles[cover[0]][0])];
-  });
+  std::vector<std::uint32_t> weights(now_->vertex_count(), is_original_ ? 0 : 1);
+  if (is_original_) {
+    original_.for_each_triangle([&](std::uint32_t, const Triangle& corners) { ++weights[joined(corners[0])]; });
+  } else {
+    for_each_cover([&](std::uint32_t, std::span<const std::uint32_t> cover) {
+      if (!cover.empty()) ++weights[proven_.mesh.triangles[cover[0]][0]];
+    });
+  }
   return weights;
+}
+
+/// The tiles of the original: of the first vertex at each position.
+void TiledMesh::cut_original(const TileCut& cut, std::size_t max_triangles, const UseTile& use) const {
+  const std::vector<std::uint32_t> weights = this->weights();
+  ItemStore<CutItem> items(original_.space());
+  original_.for_each_vertex([&](std::uint32_t v, const Eigen::Vector3d& p) {
+    if (joined(v) == v) items.append({to_vec3(p), v, weights[v]});
+  });
+  cut_into_tiles(std::move(items), max_triangles, cut, original_.space(), use);
+}
+
+void TiledMesh::cut_near_seams(const TileCut& cut, std::size_t max_triangles, const UseTile& use) const {
+  const std::vector<std::uint8_t> is_near = vertices_near_seams();
+  const std::vector<std::uint32_t> weights = this->weights();
+  ItemStore<CutItem> items(original_.space());
+  for (std::uint32_t v = 0; v < is_near.size(); ++v)
+    if (is_near[v] != 0) items.append({to_vec3(proven_.mesh.vertices[v]), v, weights[v]});
+  cut_into_tiles(std::move(items), max_triangles, cut, original_.space(), use);
 }
 
 void TiledMesh::find_owners(const TileCut& cut, std::size_t max_triangles) {
   if (is_original_) position_ = first_at_positions(original_);
-  const std::size_t count = mesh().vertices.size();
-  std::vector<std::uint32_t> items;
-  if (is_original_) {
-    for (std::uint32_t v = 0; v < count; ++v)
-      if (position_[v] == v) items.push_back(v);
-  } else {
-    const std::vector<std::uint8_t> is_near = vertices_near_seams();
-    for (std::uint32_t v = 0; v < count; ++v)
-      if (is_near[v] != 0) items.push_back(v);
-  }
-  const auto position = [&](std::uint32_t v) { return mesh().vertices[v]; };
-  const NumberLists tiles = cut_into_tiles(std::move(items), position, weights(), max_triangles, cut);
-  owner_.assign(count, no_index);
-  for (std::uint32_t tile = 0; tile < tiles.size(); ++tile)
-    for (const std::uint32_t v : tiles[tile]) owner_[v] = tile;
+  std::vector<std::uint32_t> owner;
+  std::uint32_t tiles = 0;
+  const auto own = [&](std::span<const std::uint32_t> vertices) {
+    owner.resize(now_->vertex_count(), no_index);
+    for (const std::uint32_t v : vertices) owner[v] = tiles;
+    ++tiles;
+  };
   if (is_original_)
-    for (std::uint32_t v = 0; v < count; ++v) owner_[v] = owner_[position_[v]];
-  triangles_.begin.assign(tiles.size() + 1, 0);
+    cut_original(cut, max_triangles, own);
+  else
+    cut_near_seams(cut, max_triangles, own);
+  owner.resize(now_->vertex_count(), no_index);
+  owner_ = std::move(owner);
+  for (std::uint32_t v = 0; v < position_.size(); ++v) owner_[v] = owner_[position_[v]];
+  triangles_.emplace(original_.space(), tiles);
 }
 
 void TiledMesh::find_triangles() {
-  triangles_ = lists_of(triangles_.size(), [&](const auto& add) {
-    for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh().triangles[t];
-      const std::uint32_t i = owner_[a], j = owner_[b], k = owner_[c];
-      if (i != no_index) add(i, t);
-      if (j != no_index && j != i) add(j, t);
-      if (k != no_index && k != i && k != j) add(k, t);
-    }
+  now_->for_each_triangle([&](std::uint32_t t, const Triangle& corners) {
+    const auto& [a, b, c] = corners;
+    const std::uint32_t i = owner_[a], j = owner_[b], k = owner_[c];
+    if (i != no_index) triangles_->append(i, t);
+    if (j != no_index && j != i) triangles_->append(j, t);
+    if (k != no_index && k != i && k != j) triangles_->append(k, t);
   });
 }
 
 /// Makes the vertices of a triangle stay where they are. `is_seam`: because another tile has them, too.
-void TiledMesh::stay(std::uint32_t triangle, bool is_seam) {
-  for (const std::uint32_t v : mesh().triangles[triangle]) {
+void TiledMesh::stay(const Triangle& corners, bool is_seam) {
+  for (const std::uint32_t v : corners) {
     stays_[joined(v)] = 1;
     if (is_seam) at_seam_[joined(v)] = 1;
   }
@@ -218,23 +212,23 @@ void TiledMesh::stay(std::uint32_t triangle, bool is_seam) {
 /// Triangles that are no tile's own stay, and so does what covers an original together with triangles that the tile
 /// does not have: so the cover holds. Where several tiles meet is the seam that later passes go over.
 void TiledMesh::find_what_stays() {
-  stays_.assign(mesh().vertices.size(), 0);
-  at_seam_.assign(mesh().vertices.size(), 0);
-  for (std::uint32_t t = 0; t < mesh().triangles.size(); ++t) {
-    if (tile_of(t) != no_index) continue;
-    const auto& corners = mesh().triangles[t];
-    stay(t, std::none_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return owner_[v] == no_index; }));
-  }
-  for_each_cover([&](std::uint32_t, std::span<const std::uint32_t> cover) {
-    if (cover.size() < 2 || tile_of_cover(cover) != no_index) return;
-    const bool is_seam = std::none_of(cover.begin(), cover.end(), [&](std::uint32_t f) {
-      const auto& corners = mesh().triangles[f];
-      return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return owner_[v] == no_index; });
-    });
-    for (const std::uint32_t f : cover) stay(f, is_seam);
+  const auto is_without_owner = [&](std::uint32_t v) { return owner_[v] == no_index; };
+  stays_.assign(now_->vertex_count(), 0);
+  at_seam_.assign(now_->vertex_count(), 0);
+  now_->for_each_triangle([&](std::uint32_t, const Triangle& corners) {
+    if (tile_of(corners) == no_index) stay(corners, std::none_of(corners.begin(), corners.end(), is_without_owner));
   });
-  if (!is_original_) return;
-  for (std::uint32_t v = 0; v < stays_.size(); ++v) {
+  if (!is_original_) {
+    for_each_cover([&](std::uint32_t, std::span<const std::uint32_t> cover) {
+      if (cover.size() < 2 || tile_of_cover(cover) != no_index) return;
+      const bool is_seam = std::none_of(cover.begin(), cover.end(), [&](std::uint32_t f) {
+        const Triangle& corners = proven_.mesh.triangles[f];
+        return std::any_of(corners.begin(), corners.end(), is_without_owner);
+      });
+      for (const std::uint32_t f : cover) stay(proven_.mesh.triangles[f], is_seam);
+    });
+  }
+  for (std::uint32_t v = 0; v < position_.size(); ++v) {
     stays_[v] = stays_[position_[v]];
     at_seam_[v] = at_seam_[position_[v]];
   }
@@ -242,14 +236,13 @@ void TiledMesh::find_what_stays() {
 
 /// The originals of a tile: those that its own triangles cover, also in part, and those that its triangles are near.
 void TiledMesh::find_originals() {
-  originals_ = lists_of(triangles_.size(), [&](const auto& add) {
-    for_each_cover([&](std::uint32_t t, std::span<const std::uint32_t> cover) {
-      for (const std::uint32_t f : cover)
-        if (const std::uint32_t tile = tile_of(f); tile != no_index) add(tile, t);
-    });
-    for (std::uint32_t tile = 0; tile < triangles_.size(); ++tile)
-      for (const std::uint32_t f : triangles_[tile]) add(tile, proven_.near[f]);
+  originals_.emplace(original_.space(), triangles_->size());
+  for_each_cover([&](std::uint32_t t, std::span<const std::uint32_t> cover) {
+    for (const std::uint32_t f : cover)
+      if (const std::uint32_t tile = tile_of(proven_.mesh.triangles[f]); tile != no_index) originals_->append(tile, t);
   });
+  for (std::uint32_t tile = 0; tile < triangles_->size(); ++tile)
+    for (const std::uint32_t f : (*triangles_)[tile]) originals_->append(tile, proven_.near[f]);
 }
 
 std::vector<bool> TiledMesh::locked(const std::vector<std::uint32_t>& vertices) const {
@@ -260,48 +253,87 @@ std::vector<bool> TiledMesh::locked(const std::vector<std::uint32_t>& vertices) 
 }
 
 /// Finds which vertices, triangles and originals a tile has; returns the tile as a mesh.
-MeshPart TiledMesh::find_numbers(std::uint32_t tile, Tile& numbers) const {
-  const auto own = triangles_[tile];
-  numbers.triangles.assign(own.begin(), own.end());
-  MeshPart part = part_of(mesh(), numbers.triangles);
+MeshPart TiledMesh::find_numbers(std::uint32_t tile, TileNumbers& numbers) const {
+  numbers.triangles = (*triangles_)[tile];
+  MeshPart part = part_of(*now_, numbers.triangles);
   numbers.vertices = std::move(part.vertices);
+  for (const auto& [a, b, c] : part.mesh.triangles)
+    numbers.is_own.push_back(tile_of({numbers.vertices[a], numbers.vertices[b], numbers.vertices[c]}) != no_index);
   if (is_original_) {
     numbers.originals = numbers.triangles;
-    return part;
+  } else {
+    numbers.originals = (*originals_)[tile];
+    std::sort(numbers.originals.begin(), numbers.originals.end());
+    numbers.originals.erase(std::unique(numbers.originals.begin(), numbers.originals.end()), numbers.originals.end());
   }
-  numbers.originals.assign(originals_[tile].begin(), originals_[tile].end());
-  std::sort(numbers.originals.begin(), numbers.originals.end());
-  numbers.originals.erase(std::unique(numbers.originals.begin(), numbers.originals.end()), numbers.originals.end());
+  numbers.cover = cover_of(tile, numbers);
   return part;
-}
-
-TileInput TiledMesh::input_of(std::uint32_t tile, Tile& numbers) const {
-  MeshPart part = find_numbers(tile, numbers);
-  if (is_original_) return {std::move(part.mesh), std::nullopt, locked(numbers.vertices)};
-  TileInput input{part_of(original_, numbers.originals).mesh, ProvenMesh(), locked(numbers.vertices)};
-  ProvenMesh& start = *input.start;
-  start.mesh = std::move(part.mesh);
-  start.cover = cover_of(tile, numbers);
-  for (const std::uint32_t f : numbers.triangles) start.near.push_back(index_in(numbers.originals, proven_.near[f]));
-  for (std::size_t k = 0; k < numbers.originals.size(); ++k)
-    start.is_covered.push_back(tile_of_cover(proven_.cover[numbers.originals[k]]) != tile);
-  return input;
 }
 
 /// By original of a tile: the triangles of the tile that cover it, where the tile may cover it anew. All numbers are
 /// those of the tile.
-NumberLists TiledMesh::cover_of(std::uint32_t tile, const Tile& numbers) const {
-  NumberLists lists;
+NumberLists TiledMesh::cover_of(std::uint32_t tile, const TileNumbers& numbers) const {
+  NumberLists lists, covers;
+  if (!is_original_) covers = cover_.at(numbers.originals);
   for (std::uint32_t k = 0; k < numbers.originals.size(); ++k) {
-    const std::uint32_t t = numbers.originals[k];
     if (is_original_) {
-      if (tile_of(t) == tile) lists.numbers.push_back(k);
-    } else if (tile_of_cover(proven_.cover[t]) == tile) {
-      for (const std::uint32_t f : proven_.cover[t]) lists.numbers.push_back(index_in(numbers.triangles, f));
+      if (numbers.is_own[k]) lists.numbers.push_back(k);
+    } else if (tile_of_cover(covers[k]) == tile) {
+      for (const std::uint32_t f : covers[k]) lists.numbers.push_back(index_in(numbers.triangles, f));
     }
     lists.end_list();
   }
   return lists;
+}
+
+TileInput TiledMesh::input_of(const MeshPart& part, const TileNumbers& numbers) const {
+  if (is_original_) return {part.mesh, std::nullopt, locked(numbers.vertices)};
+  TileInput input{part_of(original_, numbers.originals).mesh, ProvenMesh(), locked(numbers.vertices)};
+  ProvenMesh& start = *input.start;
+  start.mesh = part.mesh;
+  start.cover = numbers.cover;
+  for (const std::uint32_t f : numbers.triangles) start.near.push_back(index_in(numbers.originals, proven_.near[f]));
+  for (std::size_t k = 0; k < numbers.originals.size(); ++k) start.is_covered.push_back(numbers.cover[k].empty());
+  return input;
+}
+
+/// Stores the covers of a tile's output and leaves out what stays, which is in the mesh already. Several threads may
+/// call this at once.
+TiledMesh::TileResult TiledMesh::take(const TileNumbers& numbers, TileOutput output) {
+  TileResult result;
+  const auto with_numbers_of = [](const std::vector<std::uint32_t>& whole, std::vector<std::uint32_t>& of_tile) {
+    for (std::uint32_t& n : of_tile) n = whole[n];
+  };
+  {
+    const NumberLists& cover = output.proven.cover;
+    std::vector<std::uint32_t> before;
+    const std::lock_guard lock(taking_);
+    result.first_cover = new_covers_->size();
+    for (std::size_t k = 0; k < numbers.cover.size(); ++k) {
+      if (numbers.cover[k].empty()) continue;
+      before.clear();
+      for (const std::uint32_t f : cover[k]) before.push_back(numbers.triangles[output.source_triangle[f]]);
+      new_covers_->append(before);
+    }
+  }
+  output.proven.cover = {};
+  if (is_original_) std::erase_if(output.kept, [&](std::uint32_t t) { return !numbers.is_own[t]; });
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < output.source_triangle.size(); ++i) {
+    if (!numbers.is_own[output.source_triangle[i]]) continue;
+    output.proven.mesh.triangles[own] = output.proven.mesh.triangles[i];
+    output.proven.near[own] = output.proven.near[i];
+    output.source_triangle[own++] = output.source_triangle[i];
+  }
+  output.proven.mesh.triangles.resize(own);
+  output.proven.near.resize(own);
+  output.source_triangle.resize(own);
+  with_numbers_of(numbers.originals, output.kept);
+  with_numbers_of(numbers.originals, output.proven.near);
+  with_numbers_of(numbers.triangles, output.source_triangle);
+  with_numbers_of(numbers.vertices, output.source_vertex);
+  result.output = std::move(output);
+  return result;
 }
 
 /// The mesh that tiles are joined into.
@@ -309,14 +341,37 @@ struct TiledMesh::Joined {
   ProvenMesh whole;
   std::vector<std::uint32_t> source_vertex, source_triangle;
   std::vector<std::uint8_t> at_seam;
-  std::vector<std::uint32_t> vertex_now;    ///< by vertex before that stays; `no_index` until it is met
-  std::vector<std::uint32_t> triangle_now;  ///< by triangle before; `no_index` where it has gone
+  std::vector<std::uint32_t> staying;      ///< vertices before that stay, ascending
+  std::vector<std::uint32_t> staying_now;  ///< by these: the number now; `no_index` until it is met
+  std::vector<std::uint32_t> before;       ///< by triangle now: its number before
+  std::vector<std::uint32_t> by_before;    ///< triangles now, in the order of `before`
+
+  void sort() {
+    by_before = numbers_below(before.size());
+    std::sort(by_before.begin(), by_before.end(),
+              [&](std::uint32_t i, std::uint32_t j) { return before[i] < before[j]; });
+  }
+  [[nodiscard]] std::uint32_t triangle_now(std::uint32_t f) const {
+    const auto at = std::lower_bound(by_before.begin(), by_before.end(), f,
+                                     [&](std::uint32_t i, std::uint32_t number) { return before[i] < number; });
+    if (at == by_before.end() || before[*at] != f)
+      throw Error("internal error: a tile changed a triangle that another tile relies on");
+    return *at;
+  }
 };
+
+TiledMesh::Joined TiledMesh::begin_join() const {
+  Joined into;
+  for (std::uint32_t v = 0; v < stays_.size(); ++v)
+    if (stays_[v] != 0 && joined(v) == v) into.staying.push_back(v);
+  into.staying_now.assign(into.staying.size(), no_index);
+  return into;
+}
 
 /// The number in the joined mesh of a vertex that comes from vertex `before` and stands at `position`. A vertex that
 /// stays is one vertex for all tiles.
 std::uint32_t TiledMesh::join_vertex(Joined& into, std::uint32_t before, const Eigen::Vector3d& position) const {
-  std::uint32_t* const now = stays_[before] != 0 ? &into.vertex_now[joined(before)] : nullptr;
+  std::uint32_t* const now = stays_[before] != 0 ? &into.staying_now[index_in(into.staying, joined(before))] : nullptr;
   if (now != nullptr && *now != no_index) return *now;
   const auto number = static_cast<std::uint32_t>(into.whole.mesh.vertices.size());
   into.whole.mesh.vertices.push_back(position);
@@ -327,74 +382,78 @@ std::uint32_t TiledMesh::join_vertex(Joined& into, std::uint32_t before, const E
 }
 
 void TiledMesh::join_triangle(Joined& into, std::uint32_t before, const Triangle& corners, std::uint32_t near) const {
-  into.triangle_now[before] = static_cast<std::uint32_t>(into.whole.mesh.triangles.size());
+  into.before.push_back(before);
   into.whole.mesh.triangles.push_back(corners);
   into.source_triangle.push_back(is_original_ ? before : source_triangle_[before]);
   into.whole.near.push_back(near);
 }
 
-/// Adds the triangles of a tile, except those that stay, which are there already.
-void TiledMesh::join_tile(Joined& into, Tile& tile) {
-  TileOutput& output = tile.output;
-  std::vector<std::uint32_t> number;
-  for (std::size_t v = 0; v < output.source_vertex.size(); ++v)
-    number.push_back(join_vertex(into, tile.vertices[output.source_vertex[v]], output.proven.mesh.vertices[v]));
-  for (std::size_t i = 0; i < output.source_triangle.size(); ++i) {
-    const std::uint32_t before = tile.triangles[output.source_triangle[i]];
-    if (tile_of(before) != no_index) {
-      const auto& [a, b, c] = output.proven.mesh.triangles[i];
-      join_triangle(into, before, {number[a], number[b], number[c]}, tile.originals[output.proven.near[i]]);
-    }
-    tile.now.push_back(into.triangle_now[before]);
+/// Adds the triangles that are no tile's own.
+void TiledMesh::join_what_stays(Joined& into) const {
+  std::vector<std::uint32_t> staying;
+  now_->for_each_triangle([&](std::uint32_t f, const Triangle& corners) {
+    if (tile_of(corners) == no_index) staying.push_back(f);
+  });
+  const MeshPart part = part_of(*now_, staying);
+  for (std::size_t i = 0; i < staying.size(); ++i) {
+    Triangle corners = part.mesh.triangles[i];
+    for (std::uint32_t& v : corners) v = join_vertex(into, part.vertices[v], part.mesh.vertices[v]);
+    join_triangle(into, staying[i], corners, is_original_ ? staying[i] : proven_.near[staying[i]]);
   }
-  for (const std::uint32_t t : output.kept)
-    if (!is_original_ || tile_of(tile.originals[t]) != no_index) kept_.push_back(tile.originals[t]);
-  output.proven.mesh = {};
-  release(output.proven.near);
 }
 
-void TiledMesh::join(std::vector<Tile>& tiles) {
-  Joined into;
-  into.vertex_now.assign(mesh().vertices.size(), no_index);
-  into.triangle_now.assign(mesh().triangles.size(), no_index);
-  for (std::uint32_t f = 0; f < mesh().triangles.size(); ++f) {
-    if (tile_of(f) != no_index) continue;
-    Triangle corners = mesh().triangles[f];
-    for (std::uint32_t& v : corners) v = join_vertex(into, v, mesh().vertices[v]);
-    join_triangle(into, f, corners, is_original_ ? f : proven_.near[f]);
+/// Adds the triangles of a tile.
+void TiledMesh::join_tile(Joined& into, TileResult& tile) {
+  const TileOutput& output = tile.output;
+  std::vector<std::uint32_t> number;
+  for (std::size_t v = 0; v < output.source_vertex.size(); ++v)
+    number.push_back(join_vertex(into, output.source_vertex[v], output.proven.mesh.vertices[v]));
+  for (std::size_t i = 0; i < output.source_triangle.size(); ++i) {
+    const auto& [a, b, c] = output.proven.mesh.triangles[i];
+    join_triangle(into, output.source_triangle[i], {number[a], number[b], number[c]}, output.proven.near[i]);
   }
-  for (Tile& tile : tiles) join_tile(into, tile);
-  join_covers(tiles, into);
+  kept_.insert(kept_.end(), output.kept.begin(), output.kept.end());
+  tile.output = {};
+}
+
+void TiledMesh::join(std::vector<TileResult>& tiles) {
+  Joined into = begin_join();
+  join_what_stays(into);
+  for (TileResult& tile : tiles) join_tile(into, tile);
+  into.sort();
+  cover_ = join_covers(tiles, into);
   proven_ = std::move(into.whole);
+  now_ = &proven_mesh_;
   source_vertex_ = std::move(into.source_vertex);
   source_triangle_ = std::move(into.source_triangle);
   at_seam_ = std::move(into.at_seam);
   is_original_ = false;
-  triangles_ = originals_ = {};
+  triangles_.reset(), originals_.reset(), new_covers_.reset();
   release(owner_), release(stays_), release(position_);
 }
 
-void TiledMesh::join_covers(const std::vector<Tile>& tiles, Joined& into) const {
-  const auto for_each = [&](const auto& add) {
-    for_each_cover([&](std::uint32_t t, std::span<const std::uint32_t> cover) {
-      if (tile_of_cover(cover) != no_index) return;
-      for (const std::uint32_t f : cover) {
-        if (into.triangle_now[f] == no_index)
-          throw Error("internal error: a tile changed a triangle that another tile relies on");
-        add(t, into.triangle_now[f]);
-      }
-    });
-    for (std::uint32_t i = 0; i < tiles.size(); ++i) {
-      const Tile& tile = tiles[i];
-      for (std::uint32_t k = 0; k < tile.originals.size(); ++k) {
-        const std::uint32_t t = tile.originals[k];
-        const std::uint32_t owner = is_original_ ? tile_of(t) : tile_of_cover(proven_.cover[t]);
-        if (owner == i)
-          for (const std::uint32_t f : tile.output.proven.cover[k]) add(t, tile.now[f]);
-      }
-    }
+/// The covers of all originals by triangles of the joined mesh: from the tile that covers an original anew, or as
+/// before.
+StoredLists TiledMesh::join_covers(const std::vector<TileResult>& tiles, const Joined& into) const {
+  std::vector<ListReader> of_tile;
+  for (const TileResult& tile : tiles) of_tile.emplace_back(*new_covers_, tile.first_cover);
+  StoredLists covers(original_.space());
+  std::vector<std::uint32_t> now;
+  const auto add = [&](std::span<const std::uint32_t> before) {
+    now.clear();
+    for (const std::uint32_t f : before) now.push_back(into.triangle_now(f));
+    covers.append(now);
   };
-  into.whole.cover = lists_of(original_.triangles.size(), for_each);
+  const auto add_cover = [&](std::uint32_t tile, std::span<const std::uint32_t> before) {
+    add(tile == no_index ? before : of_tile[tile].next());
+  };
+  if (is_original_)
+    original_.for_each_triangle(
+        [&](std::uint32_t t, const Triangle& corners) { add_cover(tile_of(corners), std::span(&t, 1)); });
+  else
+    for_each_cover(
+        [&](std::uint32_t, std::span<const std::uint32_t> cover) { add_cover(tile_of_cover(cover), cover); });
+  return covers;
 }
 
 void TiledMesh::current_mesh(SimplifiedLevel& into) const {
@@ -407,22 +466,23 @@ void TiledMesh::current_mesh(SimplifiedLevel& into) const {
   std::vector<std::uint32_t> number(source_vertex_.size());
   for (const std::uint32_t v : ordered_by(source_vertex_)) {
     number[v] = static_cast<std::uint32_t>(into.mesh.vertices.size());
-    into.mesh.vertices.push_back(mesh().vertices[v]);
+    into.mesh.vertices.push_back(proven_.mesh.vertices[v]);
     into.source_vertex.push_back(source_vertex_[v]);
   }
   for (const std::uint32_t t : ordered_by(source_triangle_)) {
-    const auto& [a, b, c] = mesh().triangles[t];
+    const auto& [a, b, c] = proven_.mesh.triangles[t];
     into.mesh.triangles.push_back({number[a], number[b], number[c]});
     into.source_triangle.push_back(source_triangle_[t]);
   }
-  for (const std::uint32_t t : kept_) {
+  const MeshPart kept = part_of(original_, kept_);
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
     const auto first = static_cast<std::uint32_t>(into.mesh.vertices.size());
-    for (const std::uint32_t v : original_.triangles[t]) {
-      into.mesh.vertices.push_back(original_.vertices[v]);
-      into.source_vertex.push_back(v);
+    for (const std::uint32_t v : kept.mesh.triangles[i]) {
+      into.mesh.vertices.push_back(kept.mesh.vertices[v]);
+      into.source_vertex.push_back(kept.vertices[v]);
     }
     into.mesh.triangles.push_back({first, first + 1, first + 2});
-    into.source_triangle.push_back(t);
+    into.source_triangle.push_back(kept_[i]);
   }
 }
 

@@ -2,9 +2,13 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "mesh/stored_lists.h"
+#include "mesh/stored_mesh.h"
 #include "meshbound/simplify.h"
 #include "simplify/proven_mesh.h"
 #include "tiles/tile_bytes.h"
@@ -26,8 +30,8 @@ class TiledMesh {
   /// Simplifies the tile. Called from several threads at once.
   using Simplify = std::function<TileOutput(const TileInput&)>;
 
-  /// `original` must outlive this. `locked`: by vertex of it, or empty.
-  TiledMesh(const TriangleMesh& original, const std::vector<bool>& locked);
+  /// `original` must outlive this; arrays of its size are kept in its space. `locked`: by vertex of it, or empty.
+  TiledMesh(const StoredMesh& original, const std::vector<bool>& locked);
 
   /// What came of the tiles of a pass, beside the mesh.
   struct PassFacts {
@@ -51,65 +55,82 @@ class TiledMesh {
 
   /// The mesh as it is now, in the order of the triangles that its faces come from.
   void current_mesh(SimplifiedLevel& into) const;
-  [[nodiscard]] std::size_t faces() const { return mesh().triangles.size(); }
+  [[nodiscard]] std::size_t faces() const { return now_->triangle_count(); }
   [[nodiscard]] std::size_t kept_triangles() const { return kept_.size(); }
 
  private:
-  /// All numbers are those of the whole mesh.
-  struct Tile {
+  /// What a tile starts from. All numbers are those of the whole mesh, but for `cover`.
+  struct TileNumbers {
     std::vector<std::uint32_t> originals;  ///< by triangle of the tile's original
     std::vector<std::uint32_t> vertices;   ///< by vertex of the tile's start
     std::vector<std::uint32_t> triangles;  ///< by triangle of the tile's start
-    std::vector<std::uint32_t> now;        ///< by triangle of the output: its number in the mesh of all tiles
+    std::vector<bool> is_own;              ///< by triangle of the tile's start: it does not stay
+    NumberLists cover;  ///< by original: triangles of the tile that cover it, where the tile may cover it anew
+  };
+  /// What is left of a tile, without covers and triangles that stay. All numbers but corners are those of the whole
+  /// mesh before the pass.
+  struct TileResult {
     TileOutput output;
+    std::size_t first_cover = 0;  ///< where its covers begin in `new_covers_`: one for each original covered anew
   };
   struct Joined;
   class Jobs;
 
-  [[nodiscard]] const TriangleMesh& mesh() const { return is_original_ ? original_ : proven_.mesh; }
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const {
     return is_original_ ? vertex : source_vertex_[vertex];
   }
   /// Vertices of the original at one position are one.
-  [[nodiscard]] std::uint32_t joined(std::uint32_t vertex) const { return is_original_ ? position_[vertex] : vertex; }
+  [[nodiscard]] std::uint32_t joined(std::uint32_t vertex) const {
+    return position_.empty() ? vertex : position_[vertex];
+  }
   /// The tile of a triangle, or `no_index` where it stays as it is.
-  [[nodiscard]] std::uint32_t tile_of(std::uint32_t triangle) const;
+  [[nodiscard]] std::uint32_t tile_of(const Triangle& corners) const;
   [[nodiscard]] bool is_in(std::uint32_t tile, std::uint32_t triangle) const;
   [[nodiscard]] std::uint32_t tile_of_cover(std::span<const std::uint32_t> cover) const;
   [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams() const;
   [[nodiscard]] std::vector<std::uint32_t> weights() const;
   void find_owners(const TileCut& cut, std::size_t max_triangles);
+  void cut_original(const TileCut& cut, std::size_t max_triangles, const UseTile& use) const;
+  void cut_near_seams(const TileCut& cut, std::size_t max_triangles, const UseTile& use) const;
   void find_triangles();
   void find_originals();
   void find_what_stays();
-  void stay(std::uint32_t triangle, bool is_seam);
-  MeshPart find_numbers(std::uint32_t tile, Tile& numbers) const;
-  [[nodiscard]] TileInput input_of(std::uint32_t tile, Tile& numbers) const;
-  [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const Tile& numbers) const;
+  void stay(const Triangle& corners, bool is_seam);
+  MeshPart find_numbers(std::uint32_t tile, TileNumbers& numbers) const;
+  [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const TileNumbers& numbers) const;
+  [[nodiscard]] TileInput input_of(const MeshPart& part, const TileNumbers& numbers) const;
   [[nodiscard]] std::vector<bool> locked(const std::vector<std::uint32_t>& vertices) const;
-  void join(std::vector<Tile>& tiles);
-  void join_tile(Joined& into, Tile& tile);
+  [[nodiscard]] TileResult take(const TileNumbers& numbers, TileOutput output);
+  void join(std::vector<TileResult>& tiles);
+  [[nodiscard]] Joined begin_join() const;
+  void join_what_stays(Joined& into) const;
+  void join_tile(Joined& into, TileResult& tile);
   std::uint32_t join_vertex(Joined& into, std::uint32_t before, const Eigen::Vector3d& position) const;
   void join_triangle(Joined& into, std::uint32_t before, const Triangle& corners, std::uint32_t near) const;
-  void join_covers(const std::vector<Tile>& tiles, Joined& into) const;
+  [[nodiscard]] StoredLists join_covers(const std::vector<TileResult>& tiles, const Joined& into) const;
   template <class Use>
   void for_each_cover(const Use& use) const;
 
-  const TriangleMesh& original_;
+  const StoredMesh& original_;
   const std::vector<bool>& locked_;
-  bool is_original_ = true;                     ///< nothing has been simplified: the members below are empty
-  ProvenMesh proven_;                           ///< against the whole original
+  bool is_original_ = true;  ///< nothing has been simplified: the members below are empty
+  ProvenMesh proven_;        ///< against the whole original, without its cover
+  const MeshInMemory proven_mesh_{proven_.mesh};
+  const StoredMesh* now_ = &original_;          ///< the mesh as it is
+  StoredLists cover_;                           ///< of `proven_`
   std::vector<std::uint32_t> source_vertex_;    ///< of the original, by vertex of `proven_.mesh`
   std::vector<std::uint32_t> source_triangle_;  ///< of the original, by triangle of `proven_.mesh`
   std::vector<std::uint32_t> kept_;             ///< originals that are part of the result as they are
   std::vector<std::uint8_t> at_seam_;           ///< by vertex: it stayed in the last pass, for the sake of other tiles
 
   // What the pass under way has found.
-  std::vector<std::uint32_t> position_;  ///< by vertex of the original: the first one at its position
-  std::vector<std::uint32_t> owner_;     ///< by vertex: its tile, or `no_index`
-  NumberLists triangles_;                ///< by tile: those with a vertex that it owns, ascending
-  NumberLists originals_;                ///< by tile of a mesh that is not the original, ascending
-  std::vector<std::uint8_t> stays_;      ///< by vertex
+  std::vector<std::uint32_t> position_;    ///< by vertex: the first one at its position; empty where all are different
+  std::vector<std::uint32_t> owner_;       ///< by vertex: its tile, or `no_index`
+  std::optional<GrowingLists> triangles_;  ///< by tile: those with a vertex that it owns, ascending
+  std::optional<GrowingLists> originals_;  ///< by tile of a mesh that is not the original
+  std::vector<std::uint8_t> stays_;        ///< by vertex
+  std::optional<StoredLists> new_covers_;  ///< of the tiles, as triangles before the pass that have stayed
+  std::mutex taking_;                      ///< for `new_covers_`
 };
 
 }  // namespace meshbound

@@ -20,13 +20,15 @@ namespace {
 /// Measured without any tree if the meshes are equal but for the rounding of coordinates.
 HausdorffDistance distance_between(MeshWithTree& original, const TriangleMesh& mesh, DistanceOptions options,
                                    const StopToken& stop) {
-  if (options.method == Method::CellWalking) {
+  const StoredMesh* const stored = original.stored();
+  const bool may_be_equal = stored == nullptr || stored->triangle_count() == mesh.triangles.size();
+  if (options.method == Method::CellWalking && may_be_equal) {
     const double limit = std::min(*options.tolerance, options.error_bound.value_or(*options.tolerance));
     if (const auto distance = distance_without_trees(original.mesh(), mesh, limit)) return *distance;
   }
-  if (original.workers() != nullptr) {
+  if (stored != nullptr) {
     options.budget.seconds = std::min(options.budget.seconds, stop.seconds_left());
-    return original.workers()->measure(original.mesh(), mesh, options);
+    return original.workers().measure(*stored, MeshInMemory(mesh), options);
   }
   const Bvh& original_tree = original.tree(stop);
   const Bvh mesh_tree(mesh, BvhOptions{options.threads, stop});

@@ -20,14 +20,15 @@ void limit_memory(std::uint64_t bytes);
 /// "1234 MiB", rounded up.
 [[nodiscard]] std::string in_mebibytes(double bytes);
 
-/// Bytes for each triangle in work tile by tile: `whole` of all meshes, `tile` of a tile in work.
+/// Bytes for each triangle in work tile by tile: `whole` of all meshes, which are on disk, `tile` of a tile in work.
 struct TileCost {
   double whole, tile;
 };
-/// Simplifying: the original, its tiles and the covers of the proof; a tile at 0.02% of the diagonal (docs/scale.md).
-inline constexpr TileCost cost_of_simplifying{100, 1100};
-/// Measuring: two meshes and their tiles; the trees of a tile and of what is near it.
-inline constexpr TileCost cost_of_measuring{50, 400};
+/// Simplifying: the tiles of vertices, 6 bytes for each triangle where vertices are shared, and room for the result; a
+/// tile at 0.02% of the diagonal (docs/scale.md).
+inline constexpr TileCost cost_of_simplifying{16, 1100};
+/// Measuring: the boxes of clusters and the summary of each mesh; the trees of a tile and of what is near it.
+inline constexpr TileCost cost_of_measuring{8, 400};
 
 /// How many of the wanted threads (0: as many as OpenMP has) may work on tiles of this many triangles within a limit in
 /// bytes. Throws `InvalidInput` that names `option` if not even one may.

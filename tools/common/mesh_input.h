@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "common/tile_workers.h"
@@ -18,13 +19,17 @@ struct InputFile {
 /// Whether the extension is one of those that `format_of` knows.
 [[nodiscard]] bool has_mesh_extension(const std::filesystem::path& path);
 
-/// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says. `workers`: who reads; null: this process.
+/// `read_mesh` for a tool. Throws `Interrupted` or `Stopped` as `stop` says.
 [[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop,
-                                  bool with_attributes = false, TileWorkers* workers = nullptr);
+                                  bool with_attributes = false);
 
 /// The mesh of `read_file`; `report` says what was read, `attributes` (null: not wanted) what goes with it.
 [[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report,
-                                      const StopToken& stop, MeshAttributes* attributes = nullptr,
-                                      TileWorkers* workers = nullptr);
+                                      const StopToken& stop, MeshAttributes* attributes = nullptr);
+
+/// As `read_input` for a mesh that workers are to keep, in their space.
+[[nodiscard]] std::unique_ptr<StoredMesh> read_stored_input(const std::string& path, bool with_checksum,
+                                                            MeshReport& report, const StopToken& stop,
+                                                            TileWorkers& workers);
 
 }  // namespace meshbound::tools

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "common/tile_workers.h"
+#include "mesh/stored_mesh.h"
 #include "meshbound/bvh.h"
 #include "meshbound/triangle_mesh.h"
 
@@ -15,12 +16,21 @@ class MeshWithTree {
   /// `mesh` must outlive this. `threads` as in `BvhOptions`.
   MeshWithTree(const TriangleMesh& mesh, int threads) : mesh_(mesh), threads_(threads) {}
 
-  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+  /// Loads a stored mesh when first called.
+  [[nodiscard]] const TriangleMesh& mesh() {
+    if (stored_ == nullptr) return mesh_;
+    if (!loaded_) loaded_ = loaded(*stored_);
+    return *loaded_;
+  }
 
-  /// Makes measurements run tile by tile from here on, as the whole tree may not fit into memory. `workers` must
+  /// Makes this stand for a stored mesh, which is measured tile by tile, as its tree may not fit into memory. Both must
   /// outlive this.
-  void measure_in_tiles(TileWorkers& workers) { workers_ = &workers; }
-  [[nodiscard]] TileWorkers* workers() const { return workers_; }  ///< null: it is measured by its tree
+  void measure_in_tiles(const StoredMesh& mesh, TileWorkers& workers) {
+    stored_ = &mesh;
+    workers_ = &workers;
+  }
+  [[nodiscard]] const StoredMesh* stored() const { return stored_; }  ///< null: it is measured by its tree
+  [[nodiscard]] TileWorkers& workers() const { return *workers_; }    ///< where there is a stored mesh
 
   /// Throws `Stopped` as `stop` says; the next call starts again.
   [[nodiscard]] const Bvh& tree(const StopToken& stop) {
@@ -32,7 +42,9 @@ class MeshWithTree {
   const TriangleMesh& mesh_;
   int threads_;
   std::optional<Bvh> tree_;
+  const StoredMesh* stored_ = nullptr;
   TileWorkers* workers_ = nullptr;
+  std::optional<TriangleMesh> loaded_;
 };
 
 }  // namespace meshbound::tools

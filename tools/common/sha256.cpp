@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/sha256.h"
 
-#include <array>
+#include <algorithm>
 #include <bit>
-#include <cstdint>
 
 namespace meshbound::tools {
 namespace {
@@ -62,20 +61,41 @@ std::string padded(std::string_view rest, std::uint64_t message_bytes) {
 
 }  // namespace
 
-std::string sha256(std::string_view bytes, const std::function<void()>& look) {
-  std::array<std::uint32_t, 8> hash = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,  // [5.3.3]
-                                       0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  const std::size_t whole = bytes.size() - bytes.size() % block_size;
-  for (std::size_t at = 0; at < whole; at += block_size) {
-    if (look && at % look_interval == 0) look();
-    add_block(hash, bytes.data() + at);
+Sha256::Sha256()
+    : hash_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,  // [5.3.3]
+            0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19} {}
+
+void Sha256::add(std::string_view bytes) {
+  size_ += bytes.size();
+  if (!rest_.empty()) {
+    const std::size_t missing = std::min(block_size - rest_.size(), bytes.size());
+    rest_ += bytes.substr(0, missing);
+    bytes.remove_prefix(missing);
+    if (rest_.size() < block_size) return;
+    add_block(hash_, rest_.data());
+    rest_.clear();
   }
-  const std::string tail = padded(bytes.substr(whole), bytes.size());
+  for (; bytes.size() >= block_size; bytes.remove_prefix(block_size)) add_block(hash_, bytes.data());
+  rest_ = bytes;
+}
+
+std::string Sha256::digits() const {
+  std::array<std::uint32_t, 8> hash = hash_;
+  const std::string tail = padded(rest_, size_);
   for (std::size_t at = 0; at < tail.size(); at += block_size) add_block(hash, tail.data() + at);
   std::string digits;
   for (const std::uint32_t word : hash)
     for (int shift = 28; shift >= 0; shift -= 4) digits += "0123456789abcdef"[word >> shift & 15];
   return digits;
+}
+
+std::string sha256(std::string_view bytes, const std::function<void()>& look) {
+  Sha256 sum;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), look_interval))) {
+    if (look) look();
+    sum.add(bytes.substr(0, look_interval));
+  }
+  return sum.digits();
 }
 
 }  // namespace meshbound::tools

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "common/tile_scratch.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "common/sha256.h"
 #include "mesh/atomic_file.h"
@@ -12,11 +15,18 @@ namespace meshbound::tools {
 namespace {
 
 /// Version of the files in the folder; it must change whenever their bytes, or the results of tiles, change.
-constexpr std::string_view format = "meshbound tiles 1 " MESHBOUND_VERSION;
+constexpr std::string_view format = "meshbound tiles 2 " MESHBOUND_VERSION;
 
-template <class T>
-std::string_view bytes_of(const std::vector<T>& items) {
-  return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
+/// Appends the checksums of blocks of `size` items, which read(first, items) reads.
+template <class T, class Read>
+void add_checksums(CompactWriter& to, std::size_t size, const Read& read) {
+  constexpr std::size_t block_size = std::size_t{1} << 18;
+  std::vector<T> block;
+  for (std::size_t first = 0; first < size; first += block.size()) {
+    block.resize(std::min(block_size, size - first));
+    read(first, std::span<T>(block));
+    to.text(sha256({reinterpret_cast<const char*>(block.data()), block.size() * sizeof(T)}));
+  }
 }
 
 }  // namespace
@@ -29,15 +39,17 @@ void pack_tile_options(CompactWriter& to, const SimplifyOptions& options) {
   to.raw(options.preserve_boundary);
 }
 
-std::string decimation_key(const TriangleMesh& original, const SimplifyOptions& options, const std::string& driver,
+std::string decimation_key(const StoredMesh& original, const SimplifyOptions& options, const std::string& driver,
                            const TileOptions& tiles) {
   CompactWriter bytes;
   bytes.text(format);
   bytes.text(driver);
   bytes.number(tiles.max_triangles);
   pack_tile_options(bytes, options);
-  bytes.text(sha256(bytes_of(original.vertices)));
-  bytes.text(sha256(bytes_of(original.triangles)));
+  add_checksums<Vec3>(bytes, original.vertex_count(),
+                      [&](std::size_t first, std::span<Vec3> to) { original.read_vertices(first, to); });
+  add_checksums<Triangle>(bytes, original.triangle_count(),
+                          [&](std::size_t first, std::span<Triangle> to) { original.read_triangles(first, to); });
   return sha256(bytes.take());
 }
 
@@ -94,29 +106,31 @@ class ScratchRunner::Jobs : public TileJobs {
 
   [[nodiscard]] std::size_t size() const override { return jobs_.size(); }
   [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return jobs_.weight(job); }
-  void run(std::size_t job) override {
-    if (is_taken_over(job)) {
+  void run(std::size_t job) override { (void)run_packed(job); }
+  [[nodiscard]] std::string run_packed(std::size_t job) override {
+    if (std::optional<std::string> bytes = taken_over(job)) {
       ++runner_.reused_;
-      return;
+      return *std::move(bytes);
     }
-    jobs_.run(job);
-    if (jobs_.is_complete(job)) runner_.scratch_.store(stage_, job, jobs_.packed(job));
+    std::string bytes = jobs_.run_packed(job);
+    if (jobs_.is_complete(job)) runner_.scratch_.store(stage_, job, bytes);
+    return bytes;
   }
-  [[nodiscard]] std::string packed(std::size_t job) const override { return jobs_.packed(job); }
   void unpack(std::size_t job, std::string_view bytes) override { jobs_.unpack(job, bytes); }
   [[nodiscard]] bool is_complete(std::size_t job) const override { return jobs_.is_complete(job); }
   void progress(double share) override { jobs_.progress(share); }
 
  private:
-  bool is_taken_over(std::size_t job) {
-    const std::optional<std::string> bytes = runner_.scratch_.load(stage_, job);
-    if (!bytes) return false;
+  /// The result of the folder, unpacked, if there is one.
+  std::optional<std::string> taken_over(std::size_t job) {
+    std::optional<std::string> bytes = runner_.scratch_.load(stage_, job);
+    if (!bytes) return std::nullopt;
     try {
       jobs_.unpack(job, *bytes);
     } catch (const InvalidInput&) {
-      return false;
+      return std::nullopt;
     }
-    return true;
+    return bytes;
   }
 
   TileJobs& jobs_;

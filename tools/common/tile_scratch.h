@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "mesh/stored_mesh.h"
 #include "mesh/temporary_files.h"
 #include "meshbound/simplify.h"
 #include "meshbound/tiles.h"
@@ -21,7 +22,7 @@ void pack_tile_options(CompactWriter& to, const SimplifyOptions& options);
 
 /// What the results of all tiles of a decimation follow from, as a word: a hash of the original, the options, and the
 /// version of the program and of the files.
-[[nodiscard]] std::string decimation_key(const TriangleMesh& original, const SimplifyOptions& options,
+[[nodiscard]] std::string decimation_key(const StoredMesh& original, const SimplifyOptions& options,
                                          const std::string& driver, const TileOptions& tiles);
 
 /// Results of finished tiles in a folder, from which a run that was killed is resumed. Each file stands for one tile,

@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "common/tile_workers.h"
 
+#include <cstdlib>
+
 #include "common/tile_scratch.h"
+#include "meshbound/error.h"
 #include "tiles/decimate_in_tiles.h"
+#include "tiles/measure_in_tiles.h"
 
 namespace meshbound::tools {
 
-SimplifyResult LocalTileWorkers::decimate(const TriangleMesh& original, const SimplifyOptions& options) {
+StoreSpace space_of(const TileSetting& setting) {
+  if (!setting.scratch.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(setting.scratch, error);
+    if (error) throw IoError("--scratch: cannot make " + setting.scratch + ": " + error.message());
+    return {setting.scratch};
+  }
+  const char* const folder = std::getenv("TMPDIR");
+  return {folder != nullptr && *folder != '\0' ? folder : "/var/tmp"};
+}
+
+MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, MeshInSpace& into,
+                                const FileWindow::Reader& reader) {
+  return read_mesh_into(path, stop, into, reader);
+}
+
+SimplifyResult LocalTileWorkers::decimate(const StoredMesh& original, const SimplifyOptions& options) {
   ThreadRunner threads(options.threads);
   if (setting_.scratch.empty()) return decimate_in_tiles(original, options, setting_.tiles, threads);
   TileScratch scratch(setting_.scratch,
@@ -18,14 +38,15 @@ SimplifyResult LocalTileWorkers::decimate(const TriangleMesh& original, const Si
   return result;
 }
 
-HausdorffDistance LocalTileWorkers::measure(const TriangleMesh& a, const TriangleMesh& b,
-                                            const DistanceOptions& options) {
-  return hausdorff_distance_in_tiles(a, b, options, setting_.tiles);
+HausdorffDistance LocalTileWorkers::measure(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options) {
+  ThreadRunner threads(options.threads);
+  return measure_in_tiles(a, b, options, setting_.tiles, threads);
 }
 
-OneSidedDistance LocalTileWorkers::measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+OneSidedDistance LocalTileWorkers::measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                     const DistanceOptions& options) {
-  return one_sided_hausdorff_distance_in_tiles(a, b, options, setting_.tiles);
+  ThreadRunner threads(options.threads);
+  return measure_one_side_in_tiles(a, b, options, setting_.tiles, threads);
 }
 
 }  // namespace meshbound::tools

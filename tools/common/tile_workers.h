@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "mesh/readers.h"
+#include "mesh/stored_mesh.h"
 #include "meshbound/distance.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
@@ -19,26 +21,31 @@ struct TileSetting {
   bool resumes = false;      ///< goes on from what an earlier run left there
 };
 
+/// Where meshes are kept beside the tiles in work: the folder of `scratch`, or the one for temporary files ($TMPDIR,
+/// else /var/tmp). Throws `IoError` where there is no such folder and none can be made.
+[[nodiscard]] StoreSpace space_of(const TileSetting& setting);
+
 /// Who works on the tiles of meshes: this process alone, or all ranks of a parallel run. Called from one thread.
 class TileWorkers {
  public:
-  TileWorkers() = default;
+  explicit TileWorkers(const StoreSpace& space) : space_(space) {}
   TileWorkers(const TileWorkers&) = delete;
   TileWorkers& operator=(const TileWorkers&) = delete;
   virtual ~TileWorkers() = default;
 
-  /// The bytes of a mesh file where it is these workers who read it; absent: read it here. Throws as `FileBytes`.
-  [[nodiscard]] virtual std::optional<std::string> read(const std::string& path, const StopToken& stop) = 0;
-  /// The mesh of the file that was read last stands here from now on, as it was read.
-  virtual void keep(const TriangleMesh& mesh) = 0;
+  /// As `read_mesh_into`; `into` must outlive this.
+  [[nodiscard]] virtual MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
+                                      const FileWindow::Reader& reader) = 0;
+  /// Where meshes are to be kept for these workers.
+  [[nodiscard]] const StoreSpace& space() const { return space_; }
 
-  /// As `decimate_in_tiles`; `original` has been given to `keep`.
-  [[nodiscard]] virtual SimplifyResult decimate(const TriangleMesh& original, const SimplifyOptions& options) = 0;
+  /// As `decimate_in_tiles`.
+  [[nodiscard]] virtual SimplifyResult decimate(const StoredMesh& original, const SimplifyOptions& options) = 0;
   /// As `hausdorff_distance_in_tiles`.
-  [[nodiscard]] virtual HausdorffDistance measure(const TriangleMesh& a, const TriangleMesh& b,
+  [[nodiscard]] virtual HausdorffDistance measure(const StoredMesh& a, const StoredMesh& b,
                                                   const DistanceOptions& options) = 0;
   /// As `one_sided_hausdorff_distance_in_tiles`.
-  [[nodiscard]] virtual OneSidedDistance measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+  [[nodiscard]] virtual OneSidedDistance measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                           const DistanceOptions& options) = 0;
 
   /// Tiles whose results the decimations so far took from the scratch folder.
@@ -49,18 +56,21 @@ class TileWorkers {
 
  protected:
   std::size_t reused_tiles_ = 0;
+
+ private:
+  StoreSpace space_;
 };
 
 /// The threads of this process.
 class LocalTileWorkers : public TileWorkers {
  public:
-  explicit LocalTileWorkers(const TileSetting& setting) : setting_(setting) {}
-  [[nodiscard]] std::optional<std::string> read(const std::string&, const StopToken&) override { return std::nullopt; }
-  void keep(const TriangleMesh&) override {}
-  [[nodiscard]] SimplifyResult decimate(const TriangleMesh& original, const SimplifyOptions& options) override;
-  [[nodiscard]] HausdorffDistance measure(const TriangleMesh& a, const TriangleMesh& b,
+  explicit LocalTileWorkers(const TileSetting& setting) : TileWorkers(space_of(setting)), setting_(setting) {}
+  [[nodiscard]] MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
+                              const FileWindow::Reader& reader) override;
+  [[nodiscard]] SimplifyResult decimate(const StoredMesh& original, const SimplifyOptions& options) override;
+  [[nodiscard]] HausdorffDistance measure(const StoredMesh& a, const StoredMesh& b,
                                           const DistanceOptions& options) override;
-  [[nodiscard]] OneSidedDistance measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+  [[nodiscard]] OneSidedDistance measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                   const DistanceOptions& options) override;
   [[nodiscard]] std::optional<CommunicationReport> communication() override { return std::nullopt; }
 

@@ -48,13 +48,14 @@ DecimationRun::DecimationRun(const DecimationOptions& options)
 void DecimationRun::read_original(MeshReport& report, bool with_checksum, const std::filesystem::path& output) {
   const FileFormat format = format_of(output);
   const bool carries = !shared_.drop_attributes && carries_attributes(format);
-  original_ = read_input(shared_.input, with_checksum, report, stop_of_reading(shared_.common, watch_),
-                         carries ? &attributes_ : nullptr, shared_.workers);
+  const StopToken stop = stop_of_reading(shared_.common, watch_);
   if (shared_.workers != nullptr) {
-    shared_.workers->keep(original_);
-    measured_original_.measure_in_tiles(*shared_.workers);
+    stored_original_ = read_stored_input(shared_.input, with_checksum, report, stop, *shared_.workers);
+    measured_original_.measure_in_tiles(*stored_original_, *shared_.workers);
+  } else {
+    original_ = read_input(shared_.input, with_checksum, report, stop, carries ? &attributes_ : nullptr);
+    validate(original_);
   }
-  validate(original_);
   if (carries) attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
   if (shared_.strict && *report.dropped != DroppedAttributes{})
     throw InvalidInput(shared_.input + ": " + output.string() + " would not carry " + listed(*report.dropped) +

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,8 @@ class DecimationRun {
 
   const std::atomic<bool>& interrupted_;
   Stopwatch watch_;
-  TriangleMesh original_;
+  TriangleMesh original_;                        ///< empty where there are workers on tiles
+  std::unique_ptr<StoredMesh> stored_original_;  ///< for these
   double diagonal_ = 0;
   std::vector<double> tolerances_;
   MeshAttributes attributes_;  ///< of the original, where outputs carry them

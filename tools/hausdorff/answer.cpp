@@ -133,8 +133,8 @@ Answer answer_by_trees(const Question& question, const Bvh& a, const Bvh& b, con
   return question.error_bound ? measure(a, b, question, options) : decide(a, b, question, options);
 }
 
-Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
-                       const DistanceOptions& from, TileWorkers& workers) {
+Answer answer_in_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b, const DistanceOptions& from,
+                       TileWorkers& workers) {
   DistanceOptions options = from;
   if (question.error_bound) options.error_bound = question.error_bound_of_image();
   if (question.tolerance) options.tolerance = question.tolerance_of_image();

@@ -33,7 +33,7 @@ struct Answer {
                                      const DistanceOptions& options);
 
 /// Answers tile by tile as `answer_by_trees` does, without trees of whole meshes.
-[[nodiscard]] Answer answer_in_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
+[[nodiscard]] Answer answer_in_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b,
                                      const DistanceOptions& options, TileWorkers& workers);
 
 /// Allows for the rounding of B's image and derives verdict, outcome, reason and exit code. A measurement is "done"

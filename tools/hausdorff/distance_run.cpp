@@ -39,15 +39,15 @@
 #include "meshbound/texture_certificate.h"
 #include "meshbound/texture_deviation.h"
 #include "meshbound/transform.h"
+#include "tiles/measure_in_tiles.h"
 
 namespace meshbound::tools {
 namespace {
 
 /// Reads a mesh and, if there is a map, maps it. Returns a bound of how far rounding has moved its vertices.
 double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
-            const StopToken& stop, TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes,
-            TileWorkers* workers) {
-  mesh = read_input(path, with_checksum, report, stop, attributes, workers);
+            const StopToken& stop, TriangleMesh& mesh, MeshReport& report, MeshAttributes* attributes) {
+  mesh = read_input(path, with_checksum, report, stop, attributes);
   report.dropped.reset();  // nothing is written again
   double displacement = 0;
   if (map) {
@@ -55,8 +55,6 @@ double load(const std::string& path, const std::optional<Eigen::Affine3d>& map, 
     mesh = std::move(image.mesh);
     displacement = image.displacement_bound;
     report.summary = summarise(mesh);
-  } else if (workers != nullptr) {
-    workers->keep(mesh);
   }
   return displacement;
 }
@@ -84,13 +82,13 @@ Answer searched_answer(const Question& question, const TriangleMesh& a, const Tr
 }
 
 /// As `searched_answer`, tile by tile.
-Answer answer_by_tiles(const Question& question, const TriangleMesh& a, const TriangleMesh& b,
-                       const Arguments& arguments, const Stopwatch& watch) {
+Answer answer_by_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b, const Arguments& arguments,
+                       const Stopwatch& watch) {
   ProgressBar bar("measuring", arguments.common.quiet);
   DistanceOptions options = engine_options(arguments, watch, bar);
   if (!arguments.memory.empty())
     options.threads = threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
-                                     a.triangles.size() + b.triangles.size(), TileOptions{arguments.tile_triangles},
+                                     a.triangle_count() + b.triangle_count(), TileOptions{arguments.tile_triangles},
                                      cost_of_measuring, options.threads);
   return answer_in_tiles(question, a, b, options, *arguments.workers);
 }
@@ -107,7 +105,8 @@ void check_paths(const Arguments& arguments) {
 
 /// What is compared, as read.
 struct Meshes {
-  TriangleMesh a, b;
+  TriangleMesh a, b;                                ///< empty where there are workers on tiles
+  std::unique_ptr<StoredMesh> stored_a, stored_b;   ///< for these
   MeshAttributes attributes_of_a, attributes_of_b;  ///< empty unless textures are compared
   double displacement = 0;                          ///< how far rounding has moved the image of B at most, model units
 
@@ -252,33 +251,64 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
   report.texture = texture;
 }
 
+/// Reads B for workers on tiles. As `load`.
+double load_for_tiles(const Arguments& arguments, const std::optional<Eigen::Affine3d>& map, bool with_checksum,
+                      const StopToken& stop, Meshes& meshes, MeshReport& report) {
+  if (!map) {
+    meshes.stored_b = read_stored_input(arguments.b, with_checksum, report, stop, *arguments.workers);
+    return 0;
+  }
+  TriangleMesh image;
+  const double displacement = load(arguments.b, map, with_checksum, stop, image, report, nullptr);
+  meshes.stored_b = std::make_unique<MeshInSpace>(arguments.workers->space(), image);
+  return displacement;
+}
+
 Meshes read_meshes(const Arguments& arguments, const Stopwatch& watch, DistanceReport& report) {
   std::optional<Eigen::Affine3d> map;
   if (!arguments.transform_b.empty()) map = parse_affine("--transform-b", arguments.transform_b);
   const bool with_checksums = !arguments.common.json.empty() || !arguments.deviation.report.empty();
   const StopToken stop = stop_of_reading(arguments.common, watch);
   Meshes meshes;
-  run_both(
-      arguments.workers == nullptr ? arguments.common.threads : 1,  // workers read one file after the other
-      [&] {
-        load(arguments.a, std::nullopt, with_checksums, stop, meshes.a, report.a,
-             arguments.texture ? &meshes.attributes_of_a : nullptr, arguments.workers);
-      },
-      [&] {
-        meshes.displacement = load(arguments.b, map, with_checksums, stop, meshes.b, report.b,
-                                   arguments.texture ? &meshes.attributes_of_b : nullptr, arguments.workers);
-      });
+  if (arguments.workers != nullptr) {
+    meshes.stored_a = read_stored_input(arguments.a, with_checksums, report.a, stop, *arguments.workers);
+    meshes.displacement = load_for_tiles(arguments, map, with_checksums, stop, meshes, report.b);
+    report.a.dropped.reset();  // nothing is written again
+    report.b.dropped.reset();
+  } else {
+    run_both(
+        arguments.common.threads,
+        [&] {
+          load(arguments.a, std::nullopt, with_checksums, stop, meshes.a, report.a,
+               arguments.texture ? &meshes.attributes_of_a : nullptr);
+        },
+        [&] {
+          meshes.displacement = load(arguments.b, map, with_checksums, stop, meshes.b, report.b,
+                                     arguments.texture ? &meshes.attributes_of_b : nullptr);
+        });
+  }
   if (map) report.transform_displacement = meshes.displacement;
   return meshes;
 }
 
+/// The width of the interval where no other is asked for.
+double default_width(const Meshes& meshes, double diagonal) {
+  return meshes.stored_a ? default_error_bound(*meshes.stored_a, *meshes.stored_b, diagonal)
+                         : default_error_bound(meshes.a, meshes.b, diagonal);
+}
+
 Answer answer_to(const Question& question, const Meshes& meshes, const Arguments& arguments, Stopwatch& watch,
                  double& build_seconds) {
-  std::optional<Answer> found = answer_without_trees(question, meshes.a, meshes.b, arguments.method);
-  if (!found)
-    found = arguments.workers == nullptr
-                ? searched_answer(question, meshes.a, meshes.b, arguments, watch, build_seconds)
-                : answer_by_tiles(question, meshes.a, meshes.b, arguments, watch);
+  std::optional<Answer> found;
+  if (arguments.workers == nullptr) {
+    found = answer_without_trees(question, meshes.a, meshes.b, arguments.method);
+    if (!found) found = searched_answer(question, meshes.a, meshes.b, arguments, watch, build_seconds);
+  } else {
+    const StoredMesh &a = *meshes.stored_a, &b = *meshes.stored_b;
+    if (a.triangle_count() == b.triangle_count())
+      found = answer_without_trees(question, loaded(a), loaded(b), arguments.method);
+    if (!found) found = answer_by_tiles(question, a, b, arguments, watch);
+  }
   conclude(*found, question);
   if (interrupted() && found->exit_code == ExitUndecided) throw_interrupted(found->bounds);
   return std::move(*found);
@@ -313,8 +343,8 @@ int run_distance(const Arguments& arguments) {
 
   DistanceReport report;
   const Meshes meshes = read_meshes(arguments, watch, report);
-  const Question question =
-      question_about(meshes.a, meshes.b, arguments, lengths, report.a.summary.bbox_diagonal, meshes.displacement);
+  const Question question = question_about(default_width(meshes, report.a.summary.bbox_diagonal), arguments, lengths,
+                                           report.a.summary.bbox_diagonal, meshes.displacement);
   report.seconds.read = watch.lap();
   Answer answer = answer_to(question, meshes, arguments, watch, report.seconds.build);
   report.seconds.query = watch.lap();

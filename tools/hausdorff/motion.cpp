@@ -146,7 +146,8 @@ ExitCode run_motion(const Arguments& arguments) {
   const TriangleMesh b = read_input(arguments.b, with_checksums, motion.b, stop);
   motion.a.dropped.reset();  // nothing is written again
   motion.b.dropped.reset();
-  motion.question = question_about(a, b, arguments, lengths, motion.a.summary.bbox_diagonal, 0);
+  const double diagonal = motion.a.summary.bbox_diagonal;
+  motion.question = question_about(default_error_bound(a, b, diagonal), arguments, lengths, diagonal, 0);
   motion.poses = poses.size();
   const auto [tree_a, tree_b] =
       build_trees(a, b, {arguments.common.threads, stop_of_run(arguments.common, watch, patience)});

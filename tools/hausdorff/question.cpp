@@ -77,7 +77,8 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
       ->check(CLI::IsMember({"cell-walking", "cross-culling"}));
   auto* const memory =
       app.add_option("--memory", arguments.memory,
-                     "Work tile by tile within this memory, such as 4G, where the trees of whole meshes would not fit");
+                     "Work tile by tile within this memory, such as 4G, where the trees of whole meshes would not fit; "
+                     "the meshes stand in files without names in $TMPDIR, else in /var/tmp");
   add_deviation_options(app, arguments.deviation, "A", "B");
   auto* const tile = app.add_option("--tile-triangles", arguments.tile_triangles,
                                     "Triangles of a tile; the interval may depend on them")
@@ -152,8 +153,8 @@ double Question::error_bound_of_image() const {
   return std::max(0.0, *error_bound - 4 * displacement);
 }
 
-Question question_about(const TriangleMesh& a, const TriangleMesh& b, const Arguments& arguments,
-                        const TypedLengths& lengths, double diagonal, double displacement) {
+Question question_about(double default_error_bound, const Arguments& arguments, const TypedLengths& lengths,
+                        double diagonal, double displacement) {
   Question question;
   question.one_sided = arguments.one_sided;
   question.displacement = displacement;
@@ -161,7 +162,7 @@ Question question_about(const TriangleMesh& a, const TriangleMesh& b, const Argu
   if (lengths.error_bound) question.error_bound = lengths.error_bound->in_model_units(diagonal);
   question.decide_first = arguments.worst && question.tolerance;
   const bool decision_only = question.tolerance && !arguments.worst;
-  if (!question.error_bound && !decision_only) question.error_bound = default_error_bound(a, b, diagonal);
+  if (!question.error_bound && !decision_only) question.error_bound = default_error_bound;
   return question;
 }
 

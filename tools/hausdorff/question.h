@@ -76,7 +76,7 @@ struct Question {
 };
 
 /// The question about these meshes; `diagonal` is that of A.
-[[nodiscard]] Question question_about(const TriangleMesh& a, const TriangleMesh& b, const Arguments& arguments,
+[[nodiscard]] Question question_about(double default_error_bound, const Arguments& arguments,
                                       const TypedLengths& lengths, double diagonal, double displacement);
 
 }  // namespace meshbound::tools

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/rank_workers.h"
 
+#include <algorithm>
+#include <exception>
+#include <functional>
 #include <utility>
 
 #include "common/memory.h"
@@ -10,7 +13,6 @@
 #include "mesh/readers.h"
 #include "meshbound/error.h"
 #include "mpi/rank_runner.h"
-#include "mpi/read_ranges.h"
 #include "tiles/compact_bytes.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
@@ -104,7 +106,8 @@ DistanceOptions unpack_distance(CompactReader& from) {
   return options;
 }
 
-void pack(CompactWriter& to, const TriangleMesh& mesh) {
+void pack(CompactWriter& to, const StoredMesh& stored) {
+  const TriangleMesh mesh = loaded(stored);
   to.number(mesh.vertices.size());
   for (const Eigen::Vector3d& p : mesh.vertices)
     for (int k = 0; k < 3; ++k) to.raw(p[k]);
@@ -120,12 +123,34 @@ TriangleMesh unpack_mesh(CompactReader& from) {
   return mesh;
 }
 
+/// Each rank reads the file; all throw what one of them throws, and where they do not find the same mesh.
+MeshFile read_together(Communicator& ranks, const std::string& path, const StopToken& stop, MeshInSpace& into,
+                       const FileWindow::Reader& reader) {
+  return together(ranks, [&] {
+    MeshFile file;
+    std::exception_ptr error;
+    try {
+      file = read_mesh_into(path, stop, into, reader);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    ranks.throw_together(error);
+    CompactWriter found;
+    found.number(into.vertex_count());
+    found.number(into.triangle_count());
+    const std::vector<std::string> all = ranks.all_gather(found.take());
+    if (std::adjacent_find(all.begin(), all.end(), std::not_equal_to<>()) != all.end())
+      throw InvalidInput(path + ": the ranks do not find the same mesh; use a folder that all ranks see alike");
+    return file;
+  });
+}
+
 struct Decimated {
   SimplifyResult result;
   std::size_t reused = 0;  ///< tiles of all ranks that came from the scratch folder
 };
 
-Decimated decimate_together(Communicator& ranks, const TriangleMesh& original, const SimplifyOptions& options,
+Decimated decimate_together(Communicator& ranks, const StoredMesh& original, const SimplifyOptions& options,
                             const TileOptions& tiles, RankRunner& runner, std::optional<TileScratch>& scratch) {
   if (!scratch) return {decimate_in_tiles(original, options, tiles, runner), 0};
   ScratchRunner with_scratch(runner, *scratch);
@@ -162,18 +187,16 @@ class Follower {
       case Command::LimitMemory:
         return limit_memory(from.number());
       case Command::Read:
-        return read(std::string(from.text()));
+        return read(from);
       case Command::Take:
-        meshes_.push_back(unpack_mesh(from));
-        return;
+        return take(from);
       case Command::Decimate:
         return decimate(from);
       case Command::Measure:
       case Command::MeasureOneSide:
         return measure(which, from);
       case Command::Count:
-        (void)ranks_.sum(input_bytes_);
-        (void)ranks_.sum(ranks_.bytes_sent() - input_bytes_);
+        (void)ranks_.sum(ranks_.bytes_sent());
         return;
       case Command::End:
         return;
@@ -181,19 +204,27 @@ class Follower {
   }
 
   /// A file that is no mesh leaves no mesh here and ends rank 0.
-  void read(const std::string& path) {
-    const std::uint64_t before = ranks_.bytes_sent();
-    const std::string bytes = mpi::read_ranges(ranks_, path, {});
-    input_bytes_ += ranks_.bytes_sent() - before;
-    meshes_.push_back(parse_mesh(path, bytes).mesh);
+  void read(CompactReader& from) {
+    const std::string path(from.text());
+    auto mesh = std::make_unique<MeshInSpace>(space(from));
+    (void)read_together(ranks_, path, {}, *mesh, {});
+    meshes_.push_back(std::move(mesh));
   }
+
+  void take(CompactReader& from) {
+    const StoreSpace space = this->space(from);
+    meshes_.push_back(std::make_unique<MeshInSpace>(space, unpack_mesh(from)));
+  }
+
+  /// Where this rank keeps meshes: in the folder of --scratch, or in one of its own.
+  [[nodiscard]] static StoreSpace space(CompactReader& from) { return space_of({.scratch = std::string(from.text())}); }
 
   void decimate(CompactReader& from) {
     SimplifyOptions options = unpack_simplify(from);
     const std::string driver(from.text()), cost(from.text());
     options.driver = collapse_driver(driver, cost);
     const TileOptions tiles{static_cast<std::size_t>(from.number())};
-    const TriangleMesh& original = mesh(from);
+    const StoredMesh& original = mesh(from);
     const std::string folder(from.text()), key(from.text());
     std::optional<TileScratch> scratch;
     if (!key.empty()) scratch.emplace(folder, key, true, false);
@@ -204,8 +235,8 @@ class Follower {
   void measure(Command which, CompactReader& from) {
     const DistanceOptions options = unpack_distance(from);
     const TileOptions tiles{static_cast<std::size_t>(from.number())};
-    const TriangleMesh& a = mesh(from);
-    const TriangleMesh& b = mesh(from);
+    const StoredMesh& a = mesh(from);
+    const StoredMesh& b = mesh(from);
     RankRunner runner(ranks_, options.threads);
     if (which == Command::Measure)
       (void)measure_in_tiles(a, b, options, tiles, runner);
@@ -213,16 +244,16 @@ class Follower {
       (void)measure_one_side_in_tiles(a, b, options, tiles, runner);
   }
 
-  [[nodiscard]] const TriangleMesh& mesh(CompactReader& from) const { return meshes_.at(from.number()); }
+  [[nodiscard]] const StoredMesh& mesh(CompactReader& from) const { return *meshes_.at(from.number()); }
 
   Communicator& ranks_;
-  std::vector<TriangleMesh> meshes_;
-  std::uint64_t input_bytes_ = 0;
+  std::vector<std::unique_ptr<MeshInSpace>> meshes_;
 };
 
 }  // namespace
 
-RankWorkers::RankWorkers(Communicator& ranks, const TileSetting& setting) : ranks_(ranks), setting_(setting) {}
+RankWorkers::RankWorkers(Communicator& ranks, const TileSetting& setting)
+    : TileWorkers(space_of(setting)), ranks_(ranks), setting_(setting) {}
 
 void RankWorkers::limit_memory(std::uint64_t bytes) {
   CompactWriter message = command(Command::LimitMemory);
@@ -230,41 +261,38 @@ void RankWorkers::limit_memory(std::uint64_t bytes) {
   tell(ranks_, message);
 }
 
-std::optional<std::string> RankWorkers::read(const std::string& path, const StopToken& stop) {
-  last_read_.reset();
-  if (is_stream_path(path)) return std::nullopt;
+MeshFile RankWorkers::read(const std::string& path, const StopToken& stop, MeshInSpace& into,
+                           const FileWindow::Reader& reader) {
   CompactWriter message = command(Command::Read);
   message.text(path);
+  message.text(setting_.scratch);
   tell(ranks_, message);
-  const std::uint64_t before = ranks_.bytes_sent();
-  std::string bytes = together(ranks_, [&] { return mpi::read_ranges(ranks_, path, stop); });
-  input_bytes_ += ranks_.bytes_sent() - before;
-  last_read_ = shared_++;
-  return bytes;
+  MeshFile file = read_together(ranks_, path, stop, into, reader);
+  kept_[&into] = shared_++;
+  return file;
 }
 
-void RankWorkers::keep(const TriangleMesh& mesh) { kept_[&mesh] = last_read_ ? *last_read_ : share(mesh); }
-
 /// Sends a mesh that the others have not read. They keep it until the end.
-std::uint64_t RankWorkers::share(const TriangleMesh& mesh) {
+std::uint64_t RankWorkers::share(const StoredMesh& mesh) {
   CompactWriter message = command(Command::Take);
+  message.text(setting_.scratch);
   pack(message, mesh);
   tell(ranks_, message);
   return shared_++;
 }
 
-std::uint64_t RankWorkers::number_of(const TriangleMesh& mesh) {
+std::uint64_t RankWorkers::number_of(const StoredMesh& mesh) {
   const auto kept = kept_.find(&mesh);
   return kept != kept_.end() ? kept->second : share(mesh);
 }
 
-SimplifyResult RankWorkers::decimate(const TriangleMesh& original, const SimplifyOptions& options) {
+SimplifyResult RankWorkers::decimate(const StoredMesh& original, const SimplifyOptions& options) {
   CompactWriter message = command(Command::Decimate);
   pack(message, options);
   message.text(setting_.driver);
   message.text(setting_.cost);
   message.number(setting_.tiles.max_triangles);
-  message.number(kept_.at(&original));
+  message.number(number_of(original));
   const std::string key =
       setting_.scratch.empty()
           ? ""
@@ -282,20 +310,20 @@ SimplifyResult RankWorkers::decimate(const TriangleMesh& original, const Simplif
   });
 }
 
-HausdorffDistance RankWorkers::measure(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options) {
+HausdorffDistance RankWorkers::measure(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options) {
   tell_measurement(Command::Measure, a, b, options);
   RankRunner runner(ranks_, options.threads);
   return together(ranks_, [&] { return measure_in_tiles(a, b, options, setting_.tiles, runner); });
 }
 
-OneSidedDistance RankWorkers::measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+OneSidedDistance RankWorkers::measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                const DistanceOptions& options) {
   tell_measurement(Command::MeasureOneSide, a, b, options);
   RankRunner runner(ranks_, options.threads);
   return together(ranks_, [&] { return measure_one_side_in_tiles(a, b, options, setting_.tiles, runner); });
 }
 
-void RankWorkers::tell_measurement(Command which, const TriangleMesh& a, const TriangleMesh& b,
+void RankWorkers::tell_measurement(Command which, const StoredMesh& a, const StoredMesh& b,
                                    const DistanceOptions& options) {
   const std::uint64_t number_of_a = number_of(a), number_of_b = number_of(b);
   CompactWriter message = command(which);
@@ -309,11 +337,7 @@ void RankWorkers::tell_measurement(Command which, const TriangleMesh& a, const T
 std::optional<CommunicationReport> RankWorkers::communication() {
   CompactWriter message = command(Command::Count);
   tell(ranks_, message);
-  return together(ranks_, [&] {
-    CommunicationReport report{ranks_.size(), ranks_.sum(input_bytes_), 0};
-    report.bytes = ranks_.sum(ranks_.bytes_sent() - input_bytes_);
-    return report;
-  });
+  return together(ranks_, [&] { return CommunicationReport{ranks_.size(), 0, ranks_.sum(ranks_.bytes_sent())}; });
 }
 
 int serve(Communicator& ranks) { return Follower(ranks).run(); }

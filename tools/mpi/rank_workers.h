@@ -17,28 +17,26 @@ class RankWorkers : public TileWorkers {
   /// Limits the memory of the others as `tools::limit_memory` does.
   void limit_memory(std::uint64_t bytes);
 
-  [[nodiscard]] std::optional<std::string> read(const std::string& path, const StopToken& stop) override;
-  void keep(const TriangleMesh& mesh) override;
-  [[nodiscard]] SimplifyResult decimate(const TriangleMesh& original, const SimplifyOptions& options) override;
-  [[nodiscard]] HausdorffDistance measure(const TriangleMesh& a, const TriangleMesh& b,
+  [[nodiscard]] MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
+                              const FileWindow::Reader& reader) override;
+  [[nodiscard]] SimplifyResult decimate(const StoredMesh& original, const SimplifyOptions& options) override;
+  [[nodiscard]] HausdorffDistance measure(const StoredMesh& a, const StoredMesh& b,
                                           const DistanceOptions& options) override;
-  [[nodiscard]] OneSidedDistance measure_one_side(const TriangleMesh& a, const TriangleMesh& b,
+  [[nodiscard]] OneSidedDistance measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                   const DistanceOptions& options) override;
   [[nodiscard]] std::optional<CommunicationReport> communication() override;
 
   enum class Command : std::uint8_t;
 
  private:
-  [[nodiscard]] std::uint64_t share(const TriangleMesh& mesh);
-  [[nodiscard]] std::uint64_t number_of(const TriangleMesh& mesh);
-  void tell_measurement(Command which, const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options);
+  [[nodiscard]] std::uint64_t share(const StoredMesh& mesh);
+  [[nodiscard]] std::uint64_t number_of(const StoredMesh& mesh);
+  void tell_measurement(Command which, const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options);
 
   mpi::Communicator& ranks_;
   TileSetting setting_;
-  std::map<const TriangleMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
-  std::uint64_t shared_ = 0;                           ///< meshes that the others have
-  std::optional<std::uint64_t> last_read_;             ///< number of the file that came through `read` last
-  std::uint64_t input_bytes_ = 0;                      ///< that this rank sent
+  std::map<const StoredMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
+  std::uint64_t shared_ = 0;                         ///< meshes that the others have
 };
 
 /// The other ranks: do what rank 0 says until it calls `dismiss`, and return the exit code that it gives.

@@ -86,7 +86,7 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   auto* const memory = app.add_option(
       "--memory", arguments.memory,
       "Work tile by tile within this memory, such as 4G; the result is the same for every limit. Bare triangles, "
-      "without attributes");
+      "without attributes, which stand in files without names in the folder of --scratch, else in $TMPDIR or /var/tmp");
   add_deviation_options(app, arguments.deviation, "IN", "OUT");
   add_decimation_options(app, arguments);
   auto* const tile = app.add_option("--tile-triangles", arguments.tile_triangles,

@@ -130,12 +130,12 @@ void Run::read() {
 void Run::plan_memory() {
   const TileOptions tiles{options_.tile_triangles};
   use_threads(threads_within(parse_memory("--memory", options_.memory), "--memory " + options_.memory,
-                             original_.triangles.size(), tiles, cost_of_simplifying, options_.common.threads));
+                             stored_original_->triangle_count(), tiles, cost_of_simplifying, options_.common.threads));
 }
 
 SimplifyResult Run::decimated(const SimplifyOptions& options) const {
   return options_.workers == nullptr ? decimate_levels(original_, options, attributes_)
-                                     : options_.workers->decimate(original_, options);
+                                     : options_.workers->decimate(*stored_original_, options);
 }
 
 /// Fills `tolerances_`, the last being that of OUT.

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace meshbound {
+
+/// Where the large arrays of a run are kept.
+struct StoreSpace {
+  std::filesystem::path folder;  ///< for files that have no name there, so that no ending leaves any; empty: in memory
+};
+
+/// Bytes that are appended and read by ranges. Any number of threads may read while none appends.
+class ByteStore {
+ public:
+  /// Throws `IoError` where the folder takes no files.
+  explicit ByteStore(const StoreSpace& space);
+  ~ByteStore();
+  ByteStore(ByteStore&& other) noexcept;
+  ByteStore& operator=(ByteStore&& other) noexcept;
+
+  /// Throws `IoError`, such as for a full disk.
+  void append(const void* bytes, std::size_t size);
+  /// The range must have been appended. Throws `IoError`.
+  void read(std::uint64_t first, void* to, std::size_t size) const;
+  [[nodiscard]] std::uint64_t size() const { return written_ + filled_; }
+
+ private:
+  void write_chunk();
+  void read_written(std::uint64_t first, char* to, std::size_t size) const;
+  [[noreturn]] void fail(const char* action, int error) const;
+
+  StoreSpace space_;
+  int fd_ = -1;                                  ///< of the file, if there is one
+  std::vector<std::unique_ptr<char[]>> chunks_;  ///< what has been written where there is no file
+  std::unique_ptr<char[]> last_;                 ///< the chunk that is being filled
+  std::size_t filled_ = 0;                       ///< bytes of it
+  std::uint64_t written_ = 0;                    ///< bytes before it
+};
+
+}  // namespace meshbound

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/stored_mesh.h"
+
+#include <algorithm>
+
+namespace meshbound {
+
+void MeshInMemory::read_vertices(std::size_t first, std::span<Vec3> to) const {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = to_vec3(mesh_.vertices[first + i]);
+}
+
+void MeshInMemory::read_triangles(std::size_t first, std::span<Triangle> to) const {
+  std::copy_n(mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(first), to.size(), to.begin());
+}
+
+void MeshInSpace::append(std::span<const Eigen::Vector3d> vertices) {
+  for (const Eigen::Vector3d& p : vertices) vertices_.append(to_vec3(p));
+}
+
+MeshPart part_of(const StoredMesh& whole, std::span<const std::uint32_t> triangles) {
+  MeshPart part;
+  part.mesh.triangles =
+      gathered<Triangle>(triangles, whole.triangle_count(),
+                         [&](std::size_t first, std::span<Triangle> to) { whole.read_triangles(first, to); });
+  part.vertices.reserve(3 * triangles.size());
+  for (const Triangle& corners : part.mesh.triangles)
+    part.vertices.insert(part.vertices.end(), corners.begin(), corners.end());
+  std::sort(part.vertices.begin(), part.vertices.end());
+  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+  part.vertices.shrink_to_fit();
+  const std::vector<Vec3> positions =
+      gathered<Vec3>(part.vertices, whole.vertex_count(),
+                     [&](std::size_t first, std::span<Vec3> to) { whole.read_vertices(first, to); });
+  part.mesh.vertices.reserve(positions.size());
+  for (const Vec3& p : positions) part.mesh.vertices.push_back(to_eigen(p));
+  for (Triangle& corners : part.mesh.triangles)
+    for (std::uint32_t& v : corners)
+      v = static_cast<std::uint32_t>(std::lower_bound(part.vertices.begin(), part.vertices.end(), v) -
+                                     part.vertices.begin());
+  return part;
+}
+
+TriangleMesh loaded(const StoredMesh& mesh) {
+  TriangleMesh all;
+  all.vertices.reserve(mesh.vertex_count());
+  mesh.for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) { all.vertices.push_back(p); });
+  all.triangles.resize(mesh.triangle_count());
+  mesh.read_triangles(0, all.triangles);
+  return all;
+}
+
+std::vector<bool> used_vertices(const StoredMesh& mesh) {
+  std::vector<bool> used(mesh.vertex_count());
+  mesh.for_each_triangle([&](std::uint32_t, const Triangle& corners) {
+    for (const std::uint32_t v : corners) used[v] = true;
+  });
+  return used;
+}
+
+Eigen::AlignedBox3d used_bounding_box(const StoredMesh& mesh) {
+  const std::vector<bool> used = used_vertices(mesh);
+  Eigen::AlignedBox3d box;
+  mesh.for_each_vertex([&](std::uint32_t v, const Eigen::Vector3d& p) {
+    if (used[v]) box.extend(p);
+  });
+  return box;
+}
+
+}  // namespace meshbound
