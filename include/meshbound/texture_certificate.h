@@ -10,8 +10,9 @@ namespace meshbound {
 
 /// A certificate that speaks of texture deviation as well.
 struct TextureCertificate {
-  Certificate certificate;  ///< version 3 of the format, tools/schema/certificate-3.md
-  Certificate::Direction original_to_simplified, simplified_to_original;  ///< of the proof about the texture
+  Certificate certificate;                        ///< version 3 of the format, tools/schema/certificate-3.md
+  Certificate::Direction original_to_simplified;  ///< the proof about the texture of the original
+  Certificate::Direction simplified_to_original;  ///< and the reverse
 };
 
 /// Adds to a certificate the proof that texture deviation (meshbound/texture_deviation.h) is at most `tolerance`, in
