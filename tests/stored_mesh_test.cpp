@@ -151,7 +151,7 @@ TEST_F(Stored, SummariesAreThoseOfTheMeshInMemory) {
   TriangleMesh thick = two;
   for (int k = 0; k < 4; ++k) thick.triangles.push_back(two.triangles[11000]);
   for (const TriangleMesh& mesh : {two, open, thick}) {
-    const MeshSummary expected = summarise(mesh), found = summarise(stored(mesh));
+    const MeshSummary expected = summarise(mesh), found = summarise(stored(mesh), 1000);
     EXPECT_EQ(found.vertices, expected.vertices);
     EXPECT_EQ(found.faces, expected.faces);
     EXPECT_EQ(found.components, 2u);
@@ -159,7 +159,9 @@ TEST_F(Stored, SummariesAreThoseOfTheMeshInMemory) {
     EXPECT_EQ(found.closed, expected.closed);
     EXPECT_EQ(found.bbox_diagonal, expected.bbox_diagonal);
   }
-  EXPECT_TRUE(summarise(stored(two)).closed);
+  EXPECT_TRUE(summarise(stored(two), 1000).closed);
+  EXPECT_FALSE(summarise(stored(open), 1000).closed);
+  EXPECT_FALSE(summarise(stored(thick), 1000).closed);
 }
 
 TEST_F(Stored, FilesAreReadAsIntoMemory) {

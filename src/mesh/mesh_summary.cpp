@@ -133,11 +133,6 @@ bool is_closed(const Mesh& mesh, std::size_t max_edges) {
   return true;
 }
 
-/// Edges of a stored mesh that are looked at in one go: 64 MB, or a byte for each triangle.
-std::size_t edges_in_memory(const StoredMesh& mesh) {
-  return std::max(std::size_t{1} << 24, mesh.triangle_count() / 4);
-}
-
 }  // namespace
 
 MeshSummary summarise(const MeshView& mesh) {
@@ -150,9 +145,9 @@ MeshSummary summarise(const MeshView& mesh) {
   return summary;
 }
 
-MeshSummary summarise(const StoredMesh& mesh) {
-  return {mesh.vertex_count(), mesh.triangle_count(), count_components(mesh), is_closed(mesh, edges_in_memory(mesh)),
-          diagonal_of(used_bounding_box(mesh))};
+MeshSummary summarise(const StoredMesh& mesh, std::size_t max_edges) {
+  return {mesh.vertex_count(), mesh.triangle_count(), count_components(mesh),
+          is_closed(mesh, std::max(max_edges, mesh.triangle_count() / 4)), diagonal_of(used_bounding_box(mesh))};
 }
 
 Eigen::AlignedBox3d used_bounding_box(const MeshView& mesh) {

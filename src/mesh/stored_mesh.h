@@ -103,9 +103,9 @@ struct MeshPart {
 /// By vertex: whether a triangle uses it.
 [[nodiscard]] std::vector<bool> used_vertices(const StoredMesh& mesh);
 
-/// As those of "meshbound/mesh_summary.h". A summary takes 8 bytes for each vertex and up to 1 byte for each triangle
-/// in memory, and goes over the triangles a dozen times.
-[[nodiscard]] MeshSummary summarise(const StoredMesh& mesh);
+/// As those of "meshbound/mesh_summary.h". A summary takes 8 bytes for each vertex in memory, and 4 for each of the
+/// edges that it looks at in one go over the triangles: `max_edges`, or a quarter of the triangles if that is more.
+[[nodiscard]] MeshSummary summarise(const StoredMesh& mesh, std::size_t max_edges = std::size_t{1} << 24);
 [[nodiscard]] Eigen::AlignedBox3d used_bounding_box(const StoredMesh& mesh);
 
 }  // namespace meshbound
