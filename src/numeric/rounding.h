@@ -29,6 +29,9 @@
 /// down; the distance to a mesh is 1-Lipschitz, so that is what the bounds lose.
 ///
 /// Changing frames. Mapping a point by scale 2^k, rotation and translation costs at most `Mapping::error`.
+///
+/// Where these errors enter the bounds: `Goal::proven_upper` and `Goal::proven_lower` (proof/goal.h), with the slacks that
+/// `set_slack` (distance/kernel/search_kernel.h) makes of the constants below.
 #pragma once
 #include <cmath>
 #include <limits>
