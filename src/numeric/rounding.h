@@ -30,8 +30,8 @@
 ///
 /// Changing frames. Mapping a point by scale 2^k, rotation and translation costs at most `Mapping::error`.
 ///
-/// Where these errors enter the bounds: `Goal::proven_upper` and `Goal::proven_lower` (proof/goal.h), with the slacks that
-/// `set_slack` (distance/kernel/search_kernel.h) makes of the constants below.
+/// Where these errors enter the bounds: `Goal::proven_upper` and `Goal::proven_lower` (proof/goal.h), with the slacks
+/// that `set_slack` (distance/kernel/search_kernel.h) makes of the constants below.
 #pragma once
 #include <cmath>
 #include <limits>
