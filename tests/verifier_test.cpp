@@ -328,8 +328,8 @@ TEST(Forgery, IsACertificateWhereItDoesNotLie) {
 
 TEST(Forgery, OfTheHeaderIsRejected) {
   Forgery f;
-  f.version = 3;
-  EXPECT_EQ(f.rejection(), "version 3 of the format is not known here");
+  f.version = 4;
+  EXPECT_EQ(f.rejection(), "version 4 of the format is not known here");
   f = {};
   f.reserved = 1;
   EXPECT_EQ(f.rejection(), "a reserved field of the header is not 0");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -23,6 +24,25 @@
 
 namespace meshbound::tools {
 namespace {
+
+std::terminate_handler default_terminate = nullptr;
+
+/// Memory may run out where nothing catches it: before `tool_main`, and in functions of the parser of the command line
+/// that allocate although they are `noexcept`.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s: out of memory\n", program_invocation_short_name);
+    std::_Exit(ExitBadInput);
+  } catch (...) {
+  }
+  default_terminate();
+  std::abort();
+}
+
+/// Sets the handler when the program is loaded.
+[[maybe_unused]] const bool has_handler = (default_terminate = std::set_terminate(end_without_memory), true);
 
 int complain(const CLI::App& app, std::string message, ExitCode code = ExitBadInput) {
   std::replace(message.begin(), message.end(), '\n', ' ');

@@ -145,10 +145,12 @@ RepeatedMeasurement repeated(const Answer& answer, const Question& question, con
   repeated.error_bound = question.error_bound;
   repeated.tolerance = question.tolerance;
   repeated.one_sided = question.one_sided;
-  const std::string cannot = "The engine of this page cannot repeat how this was measured: ";
-  if (question.displacement > 0) repeated.obstacle = cannot + "--transform-b moved B.";
-  if (arguments.method != Method::CellWalking) repeated.obstacle = cannot + "by another --method.";
-  if (answer.outcome == Outcome::BudgetExhausted) repeated.obstacle = cannot + "a limit of time ended it.";
+  const char* reason = nullptr;
+  if (question.displacement > 0) reason = "--transform-b moved B.";
+  if (arguments.method != Method::CellWalking) reason = "by another --method.";
+  if (answer.outcome == Outcome::BudgetExhausted) reason = "a limit of time ended it.";
+  if (reason != nullptr)
+    repeated.obstacle = std::string("The engine of this page cannot repeat how this was measured: ") + reason;
   return repeated;
 }
 

@@ -217,7 +217,11 @@ class Follower {
   }
 
   /// Where this rank keeps meshes: in the folder of --scratch, or in one of its own.
-  [[nodiscard]] static StoreSpace space(CompactReader& from) { return space_of({.scratch = std::string(from.text())}); }
+  [[nodiscard]] static StoreSpace space(CompactReader& from) {
+    TileSetting setting;
+    setting.scratch = from.text();
+    return space_of(setting);
+  }
 
   void decimate(CompactReader& from) {
     SimplifyOptions options = unpack_simplify(from);
