@@ -194,7 +194,7 @@ class MeshoptGltf : public testing::Test {
     file.json["nodes"] = {{{"mesh", 0}}};
   }
 
-  /// The same sheet: every view is compressed, the uncompressed buffer a placeholder.
+  /// The sheet of `plain()` with every view compressed; the uncompressed buffer is a placeholder.
   [[nodiscard]] GltfFile compressed() const {
     GltfFile file = plain();
     file.bytes.clear();

@@ -16,7 +16,7 @@ namespace meshbound {
 /// with little in memory (of STL the positions of all vertices), of other files all bytes. `reader` gets all bytes.
 [[nodiscard]] MeshFile read_mesh_into(const std::filesystem::path& path, const StopToken& stop, MeshInSpace& into,
                                       const FileWindow::Reader& reader = {});
-/// The same for the bytes of a file, as `parse_mesh`.
+/// Reads the bytes of a file as `parse_mesh` does, without attributes, into `into`.
 [[nodiscard]] MeshFile parse_mesh_into(const std::filesystem::path& path, std::string_view bytes, const StopToken& stop,
                                        MeshInSpace& into);
 

@@ -73,7 +73,7 @@ std::pair<Bytes, Certificate::Direction> encoded(const Charts& source, const Tre
   return {std::move(bytes), counts};
 }
 
-/// Of the texture coordinates of all triangles that have them.
+/// The checksum of the texture coordinates of all triangles that have them (tools/schema/certificate-3.md).
 std::uint64_t checksum_of(const TexturedMesh& mesh) {
   Bytes bytes;
   for (const TexturedTriangle& t : mesh.triangles) {

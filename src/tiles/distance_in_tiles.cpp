@@ -55,7 +55,7 @@ void cut(const TriangleMesh& part, std::span<const std::uint32_t> triangles, std
   }
 }
 
-/// The same for all triangles of a mesh.
+/// Calls use(triangles) for tiles of all triangles of a mesh.
 void cut(const StoredMesh& mesh, std::uint64_t max_triangles, const UseTile& use) {
   constexpr std::size_t triangles_of_block = std::size_t{1} << 18;
   ItemStore<CutItem> items(mesh.space());

@@ -13,7 +13,7 @@ class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// Of all bytes so far, in 64 hexadecimal digits.
+  /// The checksum of all bytes so far, in 64 hexadecimal digits.
   [[nodiscard]] std::string digits() const;
 
  private:
