@@ -64,16 +64,14 @@ class AccessorReader {
   [[nodiscard]] Elements elements(const GltfValue& of, std::size_t count, std::size_t size) const {
     const std::size_t number = of.at("bufferView").index(root_.count("bufferViews"), "buffer views");
     const GltfValue view = root_.at("bufferViews").item(number);
-    const std::string& buffer = document_.buffers[view.at("buffer").index(document_.buffers.size(), "buffers")];
-    const std::size_t begin = view.integer_or("byteOffset", 0), length = view.at("byteLength").integer();
-    if (begin > buffer.size() || length > buffer.size() - begin)
-      view.fail("reaches beyond the " + std::to_string(buffer.size()) + " bytes of its buffer");
+    const std::string_view bytes = bytes_of(view, document_.buffers);
+    const std::size_t length = bytes.size();
     const std::size_t offset = of.integer_or("byteOffset", 0), stride = view.integer_or("byteStride", size);
     if (stride < size) view.fail("a stride of " + std::to_string(stride) + " bytes is too short for an element");
     if (count > 0 && (offset > length || size > length - offset || (count - 1) > (length - offset - size) / stride))
       of.fail("its " + std::to_string(count) + " elements reach beyond the " + std::to_string(length) +
               " bytes of their buffer view");
-    return {std::string_view(buffer).substr(begin + std::min(offset, length)), stride};
+    return {bytes.substr(std::min(offset, length)), stride};
   }
 
   static void load(const Elements& from, std::size_t i, const GltfNumbers& numbers, double* to) {
@@ -131,6 +129,14 @@ class AccessorReader {
 };
 
 }  // namespace
+
+std::string_view bytes_of(const GltfValue& located, const std::vector<std::string>& buffers) {
+  const std::string& buffer = buffers[located.at("buffer").index(buffers.size(), "buffers")];
+  const std::size_t begin = located.integer_or("byteOffset", 0), length = located.at("byteLength").integer();
+  if (begin > buffer.size() || length > buffer.size() - begin)
+    located.fail("reaches beyond the " + std::to_string(buffer.size()) + " bytes of its buffer");
+  return std::string_view(buffer).substr(begin, length);
+}
 
 GltfNumbers numbers_of(const GltfValue& accessor) {
   return {component_of(accessor), accessor.flag_or("normalized", false), width_of(accessor)};

@@ -45,11 +45,7 @@ class CompressedView {
         mode_(extension.at("mode").text()) {
     if (const auto filter = extension.find("filter")) filter_ = filter->text();
     check_layout(view);
-    const std::string& buffer = buffers[extension.at("buffer").index(buffers.size(), "buffers")];
-    const std::size_t begin = extension.integer_or("byteOffset", 0), length = extension.at("byteLength").integer();
-    if (begin > buffer.size() || length > buffer.size() - begin)
-      extension.fail("reaches beyond the " + std::to_string(buffer.size()) + " bytes of its buffer");
-    stream_ = std::string_view(buffer).substr(begin, length);
+    stream_ = bytes_of(extension, buffers);
   }
 
   [[nodiscard]] std::string decode() const {
@@ -210,17 +206,12 @@ class Decompression {
     if (found != meshes_.end()) return found->second;
     if (!can_decode_draco())
       extension.fail("this build does not read data compressed by Draco; convert the file to one without it");
-    auto mesh = DracoMesh::decode(bytes_of(root_.at("bufferViews").item(view)));
+    const GltfValue at = root_.at("bufferViews").item(view);
+    const std::string_view bytes = bytes_of(at, document_.buffers);
+    if (bytes.empty()) at.fail("is empty");
+    auto mesh = DracoMesh::decode(bytes);
     if (!mesh) extension.fail("the compressed mesh is malformed");
     return meshes_.emplace(view, *std::move(mesh)).first->second;
-  }
-
-  [[nodiscard]] std::string_view bytes_of(const GltfValue& view) const {
-    const std::string& buffer = document_.buffers[view.at("buffer").index(document_.buffers.size(), "buffers")];
-    const std::size_t begin = view.integer_or("byteOffset", 0), length = view.at("byteLength").integer();
-    if (length == 0 || begin > buffer.size() || length > buffer.size() - begin)
-      view.fail("is empty or reaches beyond the " + std::to_string(buffer.size()) + " bytes of its buffer");
-    return std::string_view(buffer).substr(begin, length);
   }
 
   /// Puts `count` elements into the accessor that `reference` names and returns its number; that of a copy where it

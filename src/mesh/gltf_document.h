@@ -33,6 +33,10 @@ struct GltfDocument : SceneLayout {
 /// else all nodes that are no children. Throws `InvalidInput`, also where a node has two parents.
 [[nodiscard]] std::vector<PlacedMesh> placed_meshes(const MeshSource& source, const GltfDocument& document);
 
+/// The bytes that "buffer", "byteOffset" and "byteLength" of a value locate. Throws `InvalidInput` where they reach
+/// beyond their buffer. `buffers` must outlive them.
+[[nodiscard]] std::string_view bytes_of(const GltfValue& located, const std::vector<std::string>& buffers);
+
 /// Properties of the vertices of a primitive, "POSITION" and the like.
 enum class GltfComponent { Int8 = 5120, UInt8 = 5121, Int16 = 5122, UInt16 = 5123, UInt32 = 5125, Float = 5126 };
 
