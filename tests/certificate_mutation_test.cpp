@@ -11,11 +11,11 @@
 
 #include "certificate/encoder.h"
 #include "datasets/analytic_meshes.h"
+#include "forged_bytes.h"
 #include "meshbound/certificate.h"
 #include "meshbound/distance.h"
 #include "reference/exact_distance.h"
 #include "reference/small_meshes.h"
-#include "verify/checksum.h"
 #include "verify/pieces.h"
 #include "verify/verifier.h"
 
@@ -23,6 +23,8 @@ namespace meshbound {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+using test::put;
+using test::sealed;
 using Nodes = std::vector<ProofNode>;
 using Random = std::mt19937;
 
@@ -58,18 +60,6 @@ const std::vector<Case>& cases() {
       make_case(datasets::cube(1, 5), datasets::cube(1.03, 1)),
       make_case(reference::random_soup(3, 30, 0.4), bent(reference::random_soup(3, 30, 0.4), 0.1))};
   return all;
-}
-
-void put(Bytes& bytes, std::size_t at, std::uint64_t value, std::size_t size = 8) {
-  for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-}
-
-/// With the checksum that these bytes should have.
-Bytes sealed(Bytes bytes) {
-  verify::Checksum checksum;
-  checksum.add(std::span(bytes).first(bytes.size() - 8));
-  put(bytes, bytes.size() - 8, checksum.value());
-  return bytes;
 }
 
 /// For these meshes, whatever it was made for.

@@ -11,12 +11,9 @@
 #include <fstream>
 #include <random>
 
-#include "gltf_file.h"
 #include "gltf_validator.h"
 #include "mesh/draco_decoder.h"
-#include "meshbound/error.h"
-#include "meshbound/io.h"
-#include "temporary_folder.h"
+#include "read_gltf_file.h"
 
 namespace meshbound {
 namespace {
@@ -65,7 +62,7 @@ std::string compressed_sheet(int method, float lift = 0) {
   return {buffer.data(), buffer.size()};
 }
 
-class DracoGltf : public testing::TestWithParam<int> {
+class DracoGltf : public testing::TestWithParam<int>, protected test::GltfReading {
  protected:
   static constexpr std::size_t vertices = (n + 1) * (n + 1);
 
@@ -92,23 +89,6 @@ class DracoGltf : public testing::TestWithParam<int> {
   }
   [[nodiscard]] GltfFile compressed() const { return file_of(stream_); }
 
-  MeshFile read(const GltfFile& file, const std::string& name = "m.glb") {
-    file.write(folder_ / name);
-    ReadOptions options;
-    options.attributes = true;
-    return read_mesh(folder_ / name, options);
-  }
-
-  std::string refusal(const GltfFile& file) {
-    try {
-      (void)read(file);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "not refused";
-  }
-
-  test::TemporaryFolder folder_;
   std::string stream_;
 };
 

@@ -8,15 +8,17 @@
 #include <random>
 
 #include "datasets/analytic_meshes.h"
+#include "forged_bytes.h"
 #include "meshbound/certificate.h"
 #include "meshbound/distance.h"
-#include "verify/checksum.h"
 #include "verify/verifier.h"
 
 namespace meshbound {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+using test::sealed;
+using test::with;
 
 /// Edges that one triangle has.
 std::vector<Edge> borders(const TriangleMesh& mesh) {
@@ -57,29 +59,10 @@ struct Case {
     options.lines = about;
     return *build_certificate(a, b, 0.02, options);
   }
-  [[nodiscard]] std::size_t lines_at() const {  // where the part about lines begins
-    std::uint64_t forward = 0, backward = 0;
-    for (int i = 7; i >= 0; --i) {
-      forward = forward << 8 | bytes[72 + static_cast<std::size_t>(i)];
-      backward = backward << 8 | bytes[88 + static_cast<std::size_t>(i)];
-    }
-    return 104 + forward + backward;
-  }
+  [[nodiscard]] std::size_t lines_at() const {
+    return test::end_of_proofs(bytes);
+  }  // where the part about lines begins
 };
-
-/// With the checksum that these bytes should have.
-Bytes sealed(Bytes bytes) {
-  verify::Checksum checksum;
-  checksum.add(std::span(bytes).first(bytes.size() - 8));
-  for (std::size_t i = 0; i < 8; ++i)
-    bytes[bytes.size() - 8 + i] = static_cast<std::uint8_t>(checksum.value() >> (8 * i));
-  return bytes;
-}
-
-Bytes with(Bytes bytes, std::size_t at, std::uint64_t value, std::size_t size = 8) {
-  for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-  return sealed(bytes);
-}
 
 /// Why it is rejected; empty when it is not.
 std::string rejection(const Case& of, const Bytes& bytes) {

@@ -9,12 +9,9 @@
 #include <fstream>
 #include <random>
 
-#include "gltf_file.h"
 #include "gltf_validator.h"
 #include "mesh/meshopt_decoder.h"
-#include "meshbound/error.h"
-#include "meshbound/io.h"
-#include "temporary_folder.h"
+#include "read_gltf_file.h"
 
 namespace meshbound {
 namespace {
@@ -167,7 +164,7 @@ TEST(MeshoptDecoder, RefusesStreamsOfAnotherLengthAndSurvivesAnyByte) {
 }
 
 /// A wavy sheet of 12 x 12 squares with normals and texture coordinates.
-class MeshoptGltf : public testing::Test {
+class MeshoptGltf : public testing::Test, protected test::GltfReading {
  protected:
   static constexpr std::uint32_t n = 12, vertices = (n + 1) * (n + 1);
 
@@ -226,23 +223,6 @@ class MeshoptGltf : public testing::Test {
     return file;
   }
 
-  MeshFile read(const GltfFile& file) {
-    file.write(folder_ / "m.glb");
-    ReadOptions options;
-    options.attributes = true;
-    return read_mesh(folder_ / "m.glb", options);
-  }
-
-  std::string refusal(const GltfFile& file) {
-    try {
-      (void)read(file);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "not refused";
-  }
-
-  test::TemporaryFolder folder_;
   std::vector<float> positions_, coordinates_;
   std::vector<std::uint32_t> indices_;
 };

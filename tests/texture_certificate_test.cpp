@@ -9,14 +9,16 @@
 #include <functional>
 #include <random>
 
+#include "forged_bytes.h"
 #include "meshbound/error.h"
-#include "verify/checksum.h"
 #include "verify/verifier.h"
 
 namespace meshbound {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+using test::sealed;
+using test::with;
 
 /// A mesh with texture coordinates.
 struct Textured {
@@ -101,29 +103,8 @@ struct Case {
 /// Two squares whose textures are 1/64 apart everywhere.
 Case two_squares() { return {grid(7, lifted(0)), grid(3, lifted(0x1p-6)), 0.1, 0x1p-6}; }
 
-/// With the checksum that these bytes should have.
-Bytes sealed(Bytes bytes) {
-  verify::Checksum checksum;
-  checksum.add(std::span(bytes).first(bytes.size() - 8));
-  for (std::size_t i = 0; i < 8; ++i)
-    bytes[bytes.size() - 8 + i] = static_cast<std::uint8_t>(checksum.value() >> (8 * i));
-  return bytes;
-}
-
-Bytes with(Bytes bytes, std::size_t at, std::uint64_t value, std::size_t size = 8) {
-  for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-  return sealed(bytes);
-}
-
 /// Where the part about the texture begins, in a certificate that does not speak of lines.
-std::size_t texture_at(const Bytes& bytes) {
-  std::uint64_t forward = 0, backward = 0;
-  for (std::size_t i = 8; i-- > 0;) {
-    forward = forward << 8 | bytes[72 + i];
-    backward = backward << 8 | bytes[88 + i];
-  }
-  return 104 + forward + backward;
-}
+std::size_t texture_at(const Bytes& bytes) { return test::end_of_proofs(bytes); }
 
 constexpr std::size_t header = 56;  // of the part about the texture
 
