@@ -37,12 +37,6 @@ double squared_distance_at_corners(const TexturedTriangle& a, const TexturedTria
   return worst;
 }
 
-Eigen::AlignedBox3d place_of(const TexturedTriangle& t) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : t.corners) box.extend(p);
-  return box;
-}
-
 /// The box of the texture coordinates; the third side keeps materials apart.
 Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
   Eigen::AlignedBox3d box;
@@ -51,6 +45,12 @@ Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : triangle.corners) box.extend(p);
+  return box;
+}
 
 ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b) {
   ExactUnits units{no_bit, no_bit};

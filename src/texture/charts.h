@@ -14,6 +14,9 @@ namespace meshbound {
 /// The units of all texture coordinates and positions of both meshes.
 [[nodiscard]] ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b);
 
+/// The box of a triangle in space.
+[[nodiscard]] Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle);
+
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
 class Charts {
  public:

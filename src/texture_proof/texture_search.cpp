@@ -23,12 +23,6 @@ constexpr std::size_t max_nodes = 4096;
 /// In space, by the tolerance times this, triangles are far apart whatever rounding does.
 constexpr double reach_growth = 1 + 1e-9;
 
-Eigen::AlignedBox3d box_of(const ChartTriangle& triangle) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : triangle.source->corners) box.extend(p);
-  return box;
-}
-
 }  // namespace
 
 /// Clips to the inside of a line, the line included; with `flip` to what lies strictly outside, with its border. False,
@@ -148,10 +142,10 @@ bool TextureSearch::prove(const ChartTriangle& source, std::vector<Node>& nodes)
   meets_degenerate_ = std::any_of(found_.begin(), found_.end(),
                                   [&](std::uint32_t b) { return target_.triangles()[b].chart != Chart::Area; });
   is_far_.clear();
-  const Eigen::AlignedBox3d box = box_of(source);
+  const Eigen::AlignedBox3d place = place_of(*source.source);
   const double reach = tolerance_ * reach_growth;
   for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
-    is_far_.push_back(box.exteriorDistance(box_of(overlay_.candidate(c))) > reach ? 1 : 0);
+    is_far_.push_back(place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > reach ? 1 : 0);
   return prove(overlay_.whole(), {{0, 0, 0}, {whole, whole, whole}}, 0, nodes);
 }
 
