@@ -97,6 +97,26 @@ TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
   }
 }
 
+/// Numbers below the smallest normal one make every later operation slow.
+TEST(DeviationKernel, LeavesOutWeightsThatNoSumWouldShow) {
+  for (const DeviationKernel& kernel : {portable_simplify_kernels().deviations, simplify_kernels().deviations}) {
+    for (int doublings = 1; doublings <= 5; ++doublings) {
+      const double exponent = (2 << doublings) - 2;  // of the weight |h|^(p - 2)
+      for (const double weight : {-59.9, -60.1}) {
+        LinearDeviations deviations;
+        deviations.add(1, 1, 0, 0);
+        deviations.add(static_cast<float>(std::exp2(weight / exponent)), 0, 1, 0);
+        const WeightedSums sums = kernel.weighted_sums(deviations, {}, 1, doublings);
+        EXPECT_EQ(sums.matrix[0], 1);
+        if (weight > -60)
+          EXPECT_NEAR(std::log2(sums.matrix[1]), weight, 0.01) << doublings;
+        else
+          EXPECT_EQ(sums.matrix[1], 0) << doublings;
+      }
+    }
+  }
+}
+
 TEST(CoverAssignment, KeepsBothSidesOfTheRelationThroughCoversOfAnySize) {
   constexpr std::uint32_t originals = 20, faces = 12;
   CoverAssignment cover(originals);

@@ -49,13 +49,20 @@ inline float sum_of_lanes(Float8 eight) {
   return sum;
 }
 
+/// Weights below 2^-60 of the largest one are left out: sums in single precision would lose them, and arithmetic with
+/// numbers below 2^-126 takes some hundred times as long. By doublings k, the square whose power 2^k - 1 is 2^-60.
+constexpr float min_squares[] = {1, 0x1p-60F, 0x1p-20F, 0.002629F, 0x1p-4F, 0.2614F};
+
 inline WeightedSums weighted_sums(const LinearDeviations& deviations, const DeviationKernel::Move& move, float scale,
                                   int doublings) {
   Float8 weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+  const Float8 min_square = broadcast8(min_squares[doublings]);
   for (const LinearDeviations::Block& block : deviations.blocks) {
     const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
     const Float8 h = load8(block.deviation) - x * move[0] - y * move[1] - z * move[2];
-    Float8 power = (h * scale) * (h * scale), w = power;  // to the power of 2^k - 1 after k rounds
+    Float8 power = (h * scale) * (h * scale);
+    power = power < min_square ? Float8{} : power;
+    Float8 w = power;  // to the power of 2^k - 1 after k rounds
     for (int k = 1; k < doublings; ++k) power = power * power, w = w * power;
     const Float8 wx = w * x, wy = w * y, wz = w * z;
     weight += w, square += w * h * h;
