@@ -70,9 +70,11 @@ TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
                                          SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
                                          SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   const DeviationKernel one = portable_simplify_kernels().deviations, two = simplify_kernels().deviations;
+  std::vector<SampleOffsets> offsets;
   LinearDeviations a, b;
-  one.linearise(points, faces, 2, a);
-  two.linearise(points, faces, 2, b);
+  portable_simplify_kernels().samples.offsets(points, faces, offsets);
+  one.linearise(points, faces, offsets, 2, a);
+  two.linearise(points, faces, offsets, 2, b);
   EXPECT_EQ(a.blocks.size(), 5U);
   EXPECT_TRUE(a.blocks == b.blocks);
   const DeviationKernel::Move move = {0.1F, 0.2F, -0.1F}, step = {0.3F, -0.1F, 0.2F};

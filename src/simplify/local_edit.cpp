@@ -206,7 +206,8 @@ bool LocalEdit::is_edge_near(Vec3 from, Vec3 to, double limit, std::uint32_t& hi
 
 bool LocalEdit::fits(double share) {
   const double limit = share * state_.limit;
-  if (!samples_.hold(faces_, beside_, limit)) return false;
+  samples_.compare(faces_);
+  if (!samples_.hold(beside_, limit)) return false;
   std::uint32_t hint = hints_.empty() ? state_.nearest[numbers_[0]] : hints_[0];
   const std::size_t edges = kind_ == Edit::Kind::Flip ? 1 : corners_.size();
   return std::all_of(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(edges),
@@ -232,7 +233,10 @@ void LocalEdit::make() {
 
 void LocalEdit::assign_samples() {
   // The faces of a group share no samples with others, so that these can be given back.
-  if (grouped_) (void)samples_.hold(faces_, {}, HUGE_VAL);
+  if (grouped_) {
+    samples_.compare(faces_);
+    (void)samples_.hold({}, HUGE_VAL);
+  }
   for (const std::uint32_t face : taken_) state_.samples.clear(face);
   samples_.give(numbers_);
   if (!grouped_) touch(numbers_);
@@ -272,7 +276,8 @@ bool LocalEdit::group_fits(double share) {
     samples_.begin(a);
     samples_.add_face(face);
     const SampleFace alone({0, 0, 0}, b - a, c - a);
-    if (!samples_.hold({&alone, 1}, {}, limit)) return false;
+    samples_.compare({&alone, 1});
+    if (!samples_.hold({}, limit)) return false;
   }
   for (const std::uint32_t face : group_) {
     if (mesh.is_removed(face)) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/position_table.h"
 #include "simplify/faults.h"
 #include "simplify/minimax_step.h"
 #include "simplify/repair.h"
@@ -119,6 +120,9 @@ void Proposer::gather_samples() {
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
 bool Proposer::set_faces(Vec3 point) {
+  if (placed_ && same_position(*placed_, point)) return true;
+  placed_.reset();
+  compared_ = false;
   faces_.clear();
   for (std::size_t i = 0; i < star_.moved.size(); ++i) {
     const Corner c = star_.moved[i];
@@ -126,7 +130,15 @@ bool Proposer::set_faces(Vec3 point) {
     if (!before_[i].allows({point, q, r})) return false;
     faces_.emplace_back(point - origin_, q - origin_, r - origin_);
   }
+  placed_ = point;
   return true;
+}
+
+/// Compares the samples around with the faces that stay.
+void Proposer::compare() {
+  if (!gathered_) gather_samples();
+  if (!compared_) samples_.compare(faces_);
+  compared_ = true;
 }
 
 /// What must be found in doubles around the star.
@@ -144,9 +156,9 @@ bool Proposer::owns(std::uint32_t face) const { return split_->owns_face(region_
 
 bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) return false;
-  if (!gathered_) gather_samples();
   by_bound_ = true;
-  return samples_.hold(faces_, beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point) &&
+  compare();
+  return samples_.hold(beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point) &&
          keeps_texture(point);
 }
 
@@ -262,6 +274,7 @@ void Proposer::begin_star(double share) {
   full_limit_ = limit_around() * internal::sample_fault;
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
   lowered_ = gathered_ = false;
+  placed_.reset();
   find_borders();
   is_together_ = share < 1;
 }
@@ -293,7 +306,8 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   const float max_height = hopeless_deviation * static_cast<float>(limit_ / full_limit_);
   if (points.size() > 2 * few_samples) {
     take_few();
-    deviation_kernel_.linearise(few_, faces_, by_limit, deviations_);
+    sample_kernel_.offsets(few_, faces_, few_offsets_);
+    deviation_kernel_.linearise(few_, faces_, few_offsets_, by_limit, deviations_);
     const MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     hope_ = hope_of(step.there);
     if (step.there > max_height) return std::nullopt;
@@ -306,7 +320,8 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   bool is_stray = false;
   const int max_steps = is_together_ ? max_minimax_steps_together : max_minimax_steps;
   for (int k = 0; k < max_steps; ++k) {
-    deviation_kernel_.linearise(points, faces_, by_limit, deviations_);
+    compare();
+    deviation_kernel_.linearise(points, faces_, samples_.offsets(), by_limit, deviations_);
     if (is_stray) add_vertex(point);
     MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     if (full_limit_ * step.here <= limit_) {

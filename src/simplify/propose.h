@@ -74,6 +74,7 @@ class Proposer {
 
  private:
   void gather_samples();
+  void compare();
   [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
   /// Where the vertex of a collapse may stand.
   struct AllowedEnds {
@@ -99,6 +100,7 @@ class Proposer {
   std::uint32_t region_ = 0;
   StarSamples samples_;
   std::optional<TextureGuard> texture_;
+  SampleKernel sample_kernel_ = simplify_kernels().samples;
   DeviationKernel deviation_kernel_ = simplify_kernels().deviations;
   EdgeStar star_;
   std::vector<GuardedFace> before_;    ///< the faces that move
@@ -106,12 +108,15 @@ class Proposer {
   bool is_together_ = false;           ///< proofs are still to come
   bool lowered_ = false;               ///< the last placement already has the smallest largest distance
   bool gathered_ = false;              ///< samples of the star are in `samples_`
+  std::optional<Vec3> placed_;         ///< where the vertex is in `faces_`
+  bool compared_ = false;              ///< samples have been compared with `faces_`
   Hope hope_ = Hope::WithMoreTolerance;
   bool by_bound_ = false;  ///< samples decided the refusal
   Vec3 tried_;             ///< the first placement
   Vec3 origin_;
   std::vector<Vec3> borders_;  ///< other ends of border edges
   SamplePoints few_;
+  std::vector<SampleOffsets> few_offsets_;
   std::vector<SampleFace> faces_;       ///< that stay, as they would be
   std::vector<std::uint32_t> numbers_;  ///< numbers of `faces_` in the mesh
   std::vector<std::uint32_t> taken_;    ///< all faces of the star

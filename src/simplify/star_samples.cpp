@@ -55,8 +55,7 @@ void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
   }
 }
 
-bool StarSamples::hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit) {
-  kernel_.offsets(points_, faces, offsets_);
+bool StarSamples::hold(std::span<const std::uint32_t> beside, double limit) {
   outside_.clear();
   const auto squared_limit = static_cast<float>(limit * limit);
   for (std::size_t b = 0; b < offsets_.size(); ++b) {

@@ -22,9 +22,11 @@ class StarSamples {
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] const SamplePoints& points() const { return points_; }
 
-  /// Whether each sample is within `limit` of one of the changed faces, whose coordinates are relative to the origin,
-  /// or of a face beside them.
-  [[nodiscard]] bool hold(std::span<const SampleFace> faces, std::span<const std::uint32_t> beside, double limit);
+  /// Compares the samples with the changed faces, whose coordinates are relative to the origin.
+  void compare(std::span<const SampleFace> faces) { kernel_.offsets(points_, faces, offsets_); }
+  [[nodiscard]] std::span<const SampleOffsets> offsets() const { return offsets_; }
+  /// Whether each sample is within `limit` of one of the faces that it was compared with, or of a face beside them.
+  [[nodiscard]] bool hold(std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
   /// Whether `points` points between that vertex and `end`, in equal steps, are within `limit` of the original.

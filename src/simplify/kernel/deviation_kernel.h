@@ -40,8 +40,8 @@ struct DeviationKernel {
 
   /// The deviation of each point from the face nearest to it, linear in the motion of corner a of every face. Lengths
   /// are multiplied by `by_tolerance`.
-  void (*linearise)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
-                    LinearDeviations& deviations);
+  void (*linearise)(const SamplePoints& points, std::span<const SampleFace> faces,
+                    std::span<const SampleOffsets> offsets, float by_tolerance, LinearDeviations& deviations);
   /// Sums after the move, for p = 2^(doublings + 1). `scale` times the largest deviation must be about 1 or less.
   WeightedSums (*weighted_sums)(const LinearDeviations& deviations, const Move& move, float scale, int doublings);
   /// The largest deviation after the move and each of eight shares of a step beyond.

@@ -19,22 +19,22 @@ inline Vec<float> unit_normal(const SampleFace& face) {
   return squared > 0 ? (1 / std::sqrt(squared)) * n : n;
 }
 
-inline void linearise(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
-                      LinearDeviations& deviations) {
-  deviations.blocks.resize(points.blocks.size());
-  for (std::size_t i = 0; i < points.blocks.size(); ++i) {
-    const auto [at, face] = closest_of(points.blocks[i], faces);
-    const Float8 x = at.x * by_tolerance, y = at.y * by_tolerance, z = at.z * by_tolerance;
+inline void linearise(const SamplePoints& points, std::span<const SampleFace> faces,
+                      std::span<const SampleOffsets> offsets, float by_tolerance, LinearDeviations& deviations) {
+  deviations.blocks.resize(offsets.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const SampleOffsets& at = offsets[i];
+    const Float8 x = load8(at.x) * by_tolerance, y = load8(at.y) * by_tolerance, z = load8(at.z) * by_tolerance;
     Float8 deviation = square_root(x * x + y * y + z * z);
     const Float8 by_deviation = 1.0F / deviation;
     Float8 way_x = by_deviation * x, way_y = by_deviation * y, way_z = by_deviation * z;
     for (unsigned on_face = lane_bits(~(deviation > min_way)); on_face != 0; on_face &= on_face - 1) {
       const int k = std::countr_zero(on_face);
-      const Vec<float> normal = unit_normal(faces[static_cast<std::size_t>(face[k])]);
+      const Vec<float> normal = unit_normal(faces[static_cast<std::size_t>(at.face[k])]);
       way_x[k] = normal.x, way_y[k] = normal.y, way_z[k] = normal.z;
       deviation[k] = dot(normal, {x[k], y[k], z[k]});
     }
-    const Float8 weight = load8(points.blocks[i].weight), share = weight * at.share;
+    const Float8 weight = load8(points.blocks[i].weight), share = weight * load8(at.share);
     LinearDeviations::Block& block = deviations.blocks[i];
     store8(block.deviation, weight * deviation);
     store8(block.x, share * way_x);

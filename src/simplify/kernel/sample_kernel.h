@@ -56,9 +56,10 @@ struct DeviationSums {
   void add(Vec3 offset, double share);
 };
 
-/// Vectors to eight points from the closest point that some faces have to each, and which face has it.
+/// Vectors to eight points from the closest point that some faces have to each, the share that corner a has of that
+/// point, and which face it lies on.
 struct alignas(32) SampleOffsets {
-  float x[8], y[8], z[8], squared[8], face[8];
+  float x[8], y[8], z[8], squared[8], share[8], face[8];
   bool operator==(const SampleOffsets&) const = default;
 };
 

@@ -79,6 +79,7 @@ inline void offsets(const SamplePoints& points, std::span<const SampleFace> face
     store8(offsets[i].y, at.y);
     store8(offsets[i].z, at.z);
     store8(offsets[i].squared, at.squared);
+    store8(offsets[i].share, at.share);
     store8(offsets[i].face, face);
   }
 }
