@@ -46,10 +46,10 @@ TEST(SampleKernel, IsTheSameOnEveryProcessor) {
   const std::vector<SampleFace> triangles = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
                                              SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
                                              SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
-  std::vector<SampleOffsets> portable, fastest;
-  portable_simplify_kernels().samples.offsets(points, triangles, portable);
-  simplify_kernels().samples.offsets(points, triangles, fastest);
-  EXPECT_EQ(portable.size(), 5U);
+  ASSERT_EQ(points.blocks.size(), 5U);
+  std::vector<SampleOffsets> portable(5), fastest(5);
+  portable_simplify_kernels().samples.offsets(points.blocks, triangles, portable);
+  simplify_kernels().samples.offsets(points.blocks, triangles, fastest);
   EXPECT_TRUE(portable == fastest);
   DeviationSums one, two;
   portable_simplify_kernels().samples.add_deviations(points, triangles, 2, one);
@@ -61,6 +61,32 @@ TEST(SampleKernel, IsTheSameOnEveryProcessor) {
   for (int k = 0; k < 6; ++k) EXPECT_EQ(one.curvature[k], two.curvature[k]);
 }
 
+/// A shared side is looked at once, and no distance is lost by that.
+TEST(SampleKernel, LooksAtSharedSidesOfAFanOnce) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  SamplePoints points;
+  for (int i = 0; i < 400; ++i) points.add({1.5 * unit(random), 1.5 * unit(random), 0.5 * unit(random)});
+  constexpr int spokes = 7;
+  std::vector<Vec3> rim;
+  for (int i = 0; i < spokes; ++i)
+    rim.push_back({std::cos(2 * M_PI * i / spokes), std::sin(2 * M_PI * i / spokes), 0.3 * unit(random)});
+  for (const int count : {spokes, spokes - 1}) {  // closed, and with a border
+    std::vector<SampleFace> faces;
+    for (int i = 0; i < count; ++i)
+      faces.emplace_back(Vec3{0.1, 0, 0.2}, rim[static_cast<std::size_t>(i)],
+                         rim[static_cast<std::size_t>((i + 1) % spokes)]);
+    std::vector<SampleOffsets> before(points.blocks.size()), after(points.blocks.size());
+    simplify_kernels().samples.offsets(points.blocks, faces, before);
+    note_shared_sides(faces);
+    simplify_kernels().samples.offsets(points.blocks, faces, after);
+    const auto shared = std::count_if(faces.begin(), faces.end(), [](const SampleFace& f) { return f.shares_ac; });
+    EXPECT_EQ(shared, count == spokes ? spokes : count - 1);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      for (int k = 0; k < 8; ++k) EXPECT_NEAR(after[i].squared[k], before[i].squared[k], 1e-6);
+  }
+}
+
 TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
   SamplePoints points;
   std::mt19937 random(3);
@@ -70,9 +96,9 @@ TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
                                          SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
                                          SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   const DeviationKernel one = portable_simplify_kernels().deviations, two = simplify_kernels().deviations;
-  std::vector<SampleOffsets> offsets;
   LinearDeviations a, b;
-  portable_simplify_kernels().samples.offsets(points, faces, offsets);
+  std::vector<SampleOffsets> offsets(points.blocks.size());
+  portable_simplify_kernels().samples.offsets(points.blocks, faces, offsets);
   one.linearise(points, faces, offsets, 2, a);
   two.linearise(points, faces, offsets, 2, b);
   EXPECT_EQ(a.blocks.size(), 5U);

@@ -136,6 +136,7 @@ bool LocalEdit::gather_collapse(Corner edge) {
 void LocalEdit::set_faces() {
   faces_.clear();
   for (const Corners& c : corners_) faces_.emplace_back(c[0] - origin_, c[1] - origin_, c[2] - origin_);
+  note_shared_sides(faces_);
 }
 
 bool LocalEdit::place(Vec3 point) {

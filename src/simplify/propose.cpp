@@ -130,6 +130,7 @@ bool Proposer::set_faces(Vec3 point) {
     if (!before_[i].allows({point, q, r})) return false;
     faces_.emplace_back(point - origin_, q - origin_, r - origin_);
   }
+  note_shared_sides(faces_);
   placed_ = point;
   return true;
 }
@@ -306,7 +307,8 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   const float max_height = hopeless_deviation * static_cast<float>(limit_ / full_limit_);
   if (points.size() > 2 * few_samples) {
     take_few();
-    sample_kernel_.offsets(few_, faces_, few_offsets_);
+    few_offsets_.resize(few_.blocks.size());
+    sample_kernel_.offsets(few_.blocks, faces_, few_offsets_);
     deviation_kernel_.linearise(few_, faces_, few_offsets_, by_limit, deviations_);
     const MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     hope_ = hope_of(step.there);

@@ -24,6 +24,9 @@ constexpr int curve_bits = 12;
 
 constexpr std::size_t lanes = 8;
 
+/// Blocks of samples that are compared before it is looked whether they hold.
+constexpr std::size_t blocks_at_a_time = 4;
+
 }  // namespace
 
 void StarSamples::begin(Vec3 origin) {
@@ -55,10 +58,30 @@ void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
   }
 }
 
+void StarSamples::compare(std::span<const SampleFace> faces) {
+  faces_ = faces;
+  compared_ = 0;
+  offsets_.resize(points_.blocks.size());
+}
+
+void StarSamples::compare_blocks(std::size_t end) {
+  const std::size_t count = end - compared_;
+  kernel_.offsets(std::span(points_.blocks).subspan(compared_, count), faces_,
+                  std::span(offsets_).subspan(compared_, count));
+  compared_ = end;
+}
+
+std::span<const SampleOffsets> StarSamples::offsets() {
+  compare_blocks(offsets_.size());
+  return offsets_;
+}
+
+/// Most trials that fail do so at one of the first samples.
 bool StarSamples::hold(std::span<const std::uint32_t> beside, double limit) {
   outside_.clear();
   const auto squared_limit = static_cast<float>(limit * limit);
   for (std::size_t b = 0; b < offsets_.size(); ++b) {
+    if (b == compared_) compare_blocks(std::min(b + blocks_at_a_time, offsets_.size()));
     float largest = 0;
     for (std::size_t k = 0; k < lanes; ++k) {
       const float squared = points_.blocks[b].weight[k] * offsets_[b].squared[k];

@@ -22,10 +22,11 @@ class StarSamples {
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] const SamplePoints& points() const { return points_; }
 
-  /// Compares the samples with the changed faces, whose coordinates are relative to the origin.
-  void compare(std::span<const SampleFace> faces) { kernel_.offsets(points_, faces, offsets_); }
-  [[nodiscard]] std::span<const SampleOffsets> offsets() const { return offsets_; }
-  /// Whether each sample is within `limit` of one of the faces that it was compared with, or of a face beside them.
+  /// Takes the changed faces that samples are compared with, in coordinates relative to the origin. They must stay
+  /// where they are until others are taken.
+  void compare(std::span<const SampleFace> faces);
+  [[nodiscard]] std::span<const SampleOffsets> offsets();
+  /// Whether each sample is within `limit` of one of these faces, or of a face beside them.
   [[nodiscard]] bool hold(std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
@@ -38,6 +39,7 @@ class StarSamples {
   void give(std::span<const std::uint32_t> numbers);
 
  private:
+  void compare_blocks(std::size_t end);
   [[nodiscard]] std::uint32_t triangle_near(Vec3 point) const;
   [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
                                           float squared_limit) const;
@@ -54,6 +56,8 @@ class StarSamples {
   std::vector<std::uint32_t> next_;  ///< samples of each face that is being added
   std::vector<std::uint32_t> ids_;   ///< by point
   SamplePoints points_;
+  std::span<const SampleFace> faces_;
+  std::size_t compared_ = 0;                                    ///< blocks whose offsets are known
   std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces
   std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< points that only a face beside is near
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  ///< along a curve: point

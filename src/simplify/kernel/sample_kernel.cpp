@@ -20,6 +20,17 @@ SampleFace::SampleFace(Vec3 corner, Vec3 second, Vec3 third)
   by_bc = reciprocal(ab_ab - 2 * ab_ac + ac_ac);
 }
 
+void note_shared_sides(std::span<SampleFace> faces) {
+  const auto same = [](const Vec<float>& u, const Vec<float>& v) { return u.x == v.x && u.y == v.y && u.z == v.z; };
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    SampleFace& face = faces[i];
+    for (std::size_t k = 1; k < faces.size() && !face.shares_ac; ++k) {
+      const SampleFace& other = faces[(i + k) % faces.size()];
+      face.shares_ac = same(face.ac, other.ab) && same(face.a, other.a);
+    }
+  }
+}
+
 void DeviationSums::add(Vec3 offset, double share) {
   const double squared = squared_length(offset), fourth = squared * squared;
   const double o[3] = {offset.x, offset.y, offset.z};

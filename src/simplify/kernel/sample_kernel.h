@@ -41,9 +41,13 @@ struct SampleFace {
   Vec<float> a, ab, ac;
   float ab_ab = 0, ab_ac = 0, ac_ac = 0;
   float by_area = 0, by_ab = 0, by_ac = 0, by_bc = 0;  ///< reciprocals of squares, 0 where these are
+  bool shares_ac = false;                              ///< with another face, whose ab it is
 
   SampleFace(Vec3 corner, Vec3 second, Vec3 third);
 };
+
+/// Notes which faces share their side ac: in the fan around a vertex all do but those at a border.
+void note_shared_sides(std::span<SampleFace> faces);
 
 /// The sum over points of (distance / tolerance)^6, with its slope when corner a of every face is moved: for Newton's
 /// method, distances as to a plane through the closest point.
@@ -66,7 +70,8 @@ struct alignas(32) SampleOffsets {
 /// The inner loops over sample points, see `SimplifyKernels`.
 struct SampleKernel {
   /// Offsets of all points, by block; there must be a face.
-  void (*offsets)(const SamplePoints& points, std::span<const SampleFace> faces, std::vector<SampleOffsets>& offsets);
+  void (*offsets)(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
+                  std::span<SampleOffsets> offsets);
   /// Adds the points, each against the face nearest to it. `by_tolerance` is 1 / tolerance.
   void (*add_deviations)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
                          DeviationSums& sums);

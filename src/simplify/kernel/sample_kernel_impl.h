@@ -33,7 +33,7 @@ struct Offset8 {
 };
 
 /// For any w the nearest point of the line through w on ac and parallel to ab is found first: with the best w, that is
-/// the closest point unless it lies on ac or bc.
+/// the closest point unless it lies on ac or bc. A shared side ac is left to the other face.
 inline Offset8 offset_from(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
   const Float8 one = broadcast8(1);
   const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
@@ -43,11 +43,12 @@ inline Offset8 offset_from(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
   const Float8 v = clamped((on_ab - w * f.ab_ac) * f.by_ab, one - w);
   const Offset8 inside(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
                        one - v - w);
-  const Float8 on = clamped(on_ac * f.by_ac, one);
-  const Offset8 from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
   const Float8 along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
   const Offset8 from_bc(px - back * f.ab.x - along * f.ac.x, py - back * f.ab.y - along * f.ac.y,
                         pz - back * f.ab.z - along * f.ac.z, Float8{});
+  if (f.shares_ac) return inside.or_nearer(from_bc);
+  const Float8 on = clamped(on_ac * f.by_ac, one);
+  const Offset8 from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
   return inside.or_nearer(from_ac).or_nearer(from_bc);
 }
 
@@ -70,11 +71,10 @@ inline Closest8 closest_of(const SamplePoints::Block& points, std::span<const Sa
   return at;
 }
 
-inline void offsets(const SamplePoints& points, std::span<const SampleFace> faces,
-                    std::vector<SampleOffsets>& offsets) {
-  offsets.resize(points.blocks.size());
-  for (std::size_t i = 0; i < points.blocks.size(); ++i) {
-    const auto [at, face] = closest_of(points.blocks[i], faces);
+inline void offsets(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
+                    std::span<SampleOffsets> offsets) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [at, face] = closest_of(points[i], faces);
     store8(offsets[i].x, at.x);
     store8(offsets[i].y, at.y);
     store8(offsets[i].z, at.z);
