@@ -110,7 +110,7 @@ TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
   EXPECT_EQ(sums.square, same.square);
   EXPECT_EQ(sums.right, same.right);
   EXPECT_EQ(sums.matrix, same.matrix);
-  const std::array<float, 8> shares = {0, 0.1F, 0.2F, 0.3F, 0.5F, 0.7F, 0.9F, 1};
+  const std::array<float, DeviationKernel::shares> shares = {0, 0.2F, 0.5F, 1};
   const auto largest = one.largest_along(a, move, step, shares);
   EXPECT_EQ(largest, two.largest_along(a, move, step, shares));
   for (std::size_t k = 0; k < shares.size(); ++k) {

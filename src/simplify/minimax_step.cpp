@@ -13,24 +13,26 @@ constexpr int max_steps = 12;
 constexpr int max_doublings = 5;
 /// Where all slopes are parallel nothing is known across them; this share of the mean curvature is added to all.
 constexpr float damping = 1e-3F;
-/// Sixth roots of p - 1 for the p above: Newton's step on the p-norm is 1 / (p - 1) of the one that solves the weighted
-/// equations, and shares between the two are tried in equal ratios.
-constexpr std::array<float, max_doublings> sixth_roots = {1.20094F, 1.38309F, 1.57042F, 1.77250F, 1.99477F};
+/// Cube roots of p - 1 for the p above: Newton's step on the p-norm is 1 / (p - 1) of the one that solves the weighted
+/// equations, and four shares from the one to the other are tried in equal ratios.
+constexpr std::array<float, max_doublings> cube_roots = {1.44225F, 1.91293F, 2.46621F, 3.14138F, 3.97906F};
 
 std::array<float, DeviationKernel::shares> shares_of_step(int doublings) {
-  const float ratio = sixth_roots[static_cast<std::size_t>(doublings - 1)];
+  const float ratio = cube_roots[static_cast<std::size_t>(doublings - 1)];
   std::array<float, DeviationKernel::shares> shares = {};
-  shares[0] = 1 / (static_cast<float>((2 << doublings) - 1) * ratio);
+  shares[0] = 1 / static_cast<float>((2 << doublings) - 1);
   for (std::size_t k = 1; k < shares.size(); ++k) shares[k] = shares[k - 1] * ratio;
   return shares;
 }
 
+/// By cofactors: after damping the condition is at most some thousands.
 DeviationKernel::Move solve(const WeightedSums& sums, float mean_curvature) {
   const auto& m = sums.matrix;
-  Eigen::Matrix3f matrix;
+  Eigen::Matrix3d matrix;
   matrix << m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2];
   matrix.diagonal().array() += damping * mean_curvature;
-  const Eigen::Vector3f step = matrix.ldlt().solve(Eigen::Vector3f(sums.right[0], sums.right[1], sums.right[2]));
+  const Eigen::Vector3f step =
+      (matrix.inverse() * Eigen::Vector3d(sums.right[0], sums.right[1], sums.right[2])).cast<float>();
   return {step[0], step[1], step[2]};
 }
 

@@ -35,7 +35,7 @@ struct WeightedSums {
 
 /// The inner loops over linear deviations, see `SimplifyKernels`.
 struct DeviationKernel {
-  static constexpr std::size_t shares = 8;
+  static constexpr std::size_t shares = 4;
   using Move = std::array<float, 3>;
 
   /// The deviation of each point from the face nearest to it, linear in the motion of corner a of every face. Lengths
@@ -44,7 +44,7 @@ struct DeviationKernel {
                     std::span<const SampleOffsets> offsets, float by_tolerance, LinearDeviations& deviations);
   /// Sums after the move, for p = 2^(doublings + 1). `scale` times the largest deviation must be about 1 or less.
   WeightedSums (*weighted_sums)(const LinearDeviations& deviations, const Move& move, float scale, int doublings);
-  /// The largest deviation after the move and each of eight shares of a step beyond.
+  /// The largest deviation after the move and each of some shares of a step beyond.
   std::array<float, shares> (*largest_along)(const LinearDeviations& deviations, const Move& move, const Move& step,
                                              const std::array<float, shares>& share);
 };
