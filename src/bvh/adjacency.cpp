@@ -199,22 +199,40 @@ class HalfEdgeMatching {
     });
   }
 
-  /// Compares each half-edge with all others, without branches that depend on which one is its match.
+  /// Compares the first half-edge of each edge with all others: a word of bits holds those that are left.
   void match_by_comparing(std::size_t from, std::uint32_t count) {
-    const std::uint32_t *const far = far_.data() + from, *const id = id_.data() + from;
-    const std::uint8_t* const upward = upward_.data() + from;
-    const std::uint64_t all = ~std::uint64_t{0} >> (max_compared - count) % max_compared;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      std::uint64_t like = 0;
+    const std::uint32_t* const far = far_.data() + from;
+    std::uint64_t left = count == 0 ? 0 : ~std::uint64_t{0} >> (max_compared - count);
+    while (left != 0) {
+      const int first = std::countr_zero(left);
+      std::uint64_t equal = 0;
       for (std::uint32_t begin = 0; begin < count; begin += compared_at_once)
-        like |= equal_bits(far + begin, far[i]) << begin;
-      like &= all & ~(std::uint64_t{1} << i);
-      const std::uint64_t later = like >> i << i;
-      const int other = std::countr_zero(later != 0 ? later : like) % static_cast<int>(max_compared);
-      const bool same_way = upward[i] == upward[other];
-      Neighbour& across = data_.neighbours[id[i] / 4][id[i] % 4];
-      across = {like != 0 ? id[other] / 4 & no_slot : no_slot, like != 0 && same_way ? 1U : 0U};
+        equal |= equal_bits(far + begin, far[first]) << begin;
+      std::uint64_t others = equal & left & (left - 1);
+      left &= ~equal;
+      link_ring(from, first, others);
     }
+  }
+
+  /// Links the half-edges of an edge: `first` and the later ones whose bits are set, of the bucket that begins at
+  /// `from`.
+  void link_ring(std::size_t from, int first, std::uint64_t others) {
+    const auto edge = [&](int i) { return from + static_cast<std::size_t>(i); };
+    if (others == 0) {
+      data_.neighbours[id_[edge(first)] / 4][id_[edge(first)] % 4] = {};
+      return;
+    }
+    int last = first;
+    for (; others != 0; others &= others - 1) {
+      const int next = std::countr_zero(others);
+      link(edge(last), edge(next));
+      last = next;
+    }
+    link(edge(last), edge(first));
+  }
+
+  void link(std::size_t from, std::size_t to) {
+    data_.neighbours[id_[from] / 4][id_[from] % 4] = {id_[to] / 4 & no_slot, upward_[from] == upward_[to] ? 1U : 0U};
   }
 
   void match_by_sorting(std::size_t from, std::uint32_t count) {

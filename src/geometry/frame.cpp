@@ -2,7 +2,9 @@
 #include "geometry/frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "numeric/rounding.h"
 
@@ -32,9 +34,9 @@ double difference_residual(double x, double c) {
 /// at most 2^-1075. sqrt(3) 2^-1075 < 2^-1074.
 double underflow(const Vec3& d, int exponent) {
   if (exponent <= 0) return 0;
-  const double least = std::ldexp(1.0, exponent - 1022);
-  const auto is_lost = [least](double x) { return x != 0 && std::fabs(x) < least; };
-  return is_lost(d.x) || is_lost(d.y) || is_lost(d.z) ? 0x1p-1074 : 0;
+  const auto least = std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1) << 52);  // 2^(exponent - 1022)
+  const auto is_lost = [least](double x) { return (x != 0) & (std::fabs(x) < least); };
+  return is_lost(d.x) | is_lost(d.y) | is_lost(d.z) ? 0x1p-1074 : 0;
 }
 
 /// Multiples of a power of two no smaller than the size: c has few bits, so x - c is exact for |x - c| <= |x|.
