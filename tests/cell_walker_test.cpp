@@ -144,6 +144,19 @@ TEST(CellWalking, ANeedleAcrossTheAxisOfACylinderIsSplitBetweenFarCells) {
   EXPECT_LT(measured(needle, cylinder(141, 70), 4.9e-6).closest_point_queries, 5000u);
 }
 
+/// Beside the axis half of the cylinder is near enough, and the other half, a little further away, has boxes as near.
+TEST(CellWalking, NeedlesBesideTheAxisOfACylinderFindItsNearHalf) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> beside(-1e-3, 1e-3);
+  std::vector<std::array<Vector3d, 3>> needles;
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d from(beside(random), beside(random), 0), to(beside(random), beside(random), 4);
+    needles.push_back({from, to, to + Vector3d(1e-3, 0, 0)});
+  }
+  const DistanceStats stats = measured(soup(needles), cylinder(141, 70), 4.9e-6);
+  EXPECT_LT(stats.triangles_tested, 1'200'000u);
+}
+
 /// Every interior point lies under hundreds of triangles that are equally far.
 TEST(CellWalking, OverlappingLayersDoNotLookAtAllThatOverlaps) {
   std::mt19937 random(5);
@@ -160,6 +173,7 @@ TEST(CellWalking, OverlappingLayersDoNotLookAtAllThatOverlaps) {
   }
   const DistanceStats stats = measured(soup(layer), soup(copy), 1e-6);
   EXPECT_LT(stats.triangles_tested, 60 * stats.closest_point_queries);
+  EXPECT_LT(stats.triangles_tested, 100'000u);
 }
 
 TEST(CellWalking, WhatTheWalkLeavesIsSubdivided) {

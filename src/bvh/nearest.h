@@ -2,6 +2,7 @@
 /// Closest-point queries. Compiled once per instruction set (numeric/isa.h).
 #pragma once
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -35,23 +36,49 @@ inline CornerTriangle<double> triangle_at(const Bvh::Data& data, std::uint32_t s
 
 inline Vec<Double4> broadcast4(const Vec3& v) { return {broadcast4(v.x), broadcast4(v.y), broadcast4(v.z)}; }
 
-inline Vec<Double4> gather4(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-  return {Double4{p.x, q.x, r.x, s.x}, Double4{p.y, q.y, r.y, s.y}, Double4{p.z, q.z, r.z, s.z}};
+/// x, y, z, 0.
+inline Double4 coordinates(const Vec3& v) {
+#if defined(__AVX2__)
+  return _mm256_maskload_pd(&v.x, _mm256_set_epi64x(0, -1, -1, -1));
+#else
+  return Double4{v.x, v.y, v.z, 0};
+#endif
 }
 
-/// The four triangles of a block, lane by lane; the last block repeats its last triangle in unused lanes. Their corners
-/// are gathered: storing a copy for each block made testing a leaf hardly faster and took 72 of 200 bytes a triangle,
-/// which building had to write.
-inline CornerTriangle<Double4> triangles_of_block(const Bvh::Data& data, std::uint32_t block) {
-  const std::uint32_t first = block * block_width, last = data.triangle_count() - 1;
-  const Triangle *const s = &data.corners[first], *const t = &data.corners[std::min(first + 1, last)],
-                        *const u = &data.corners[std::min(first + 2, last)],
-                        *const v = &data.corners[std::min(first + 3, last)];
+/// Four points, lane by lane.
+inline Vec<Double4> gather4(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+#if defined(__AVX2__)
+  const Double4 p4 = coordinates(p), q4 = coordinates(q), r4 = coordinates(r), s4 = coordinates(s);
+  const __m256d xz_pq = _mm256_unpacklo_pd(p4, q4), y_pq = _mm256_unpackhi_pd(p4, q4),
+                xz_rs = _mm256_unpacklo_pd(r4, s4), y_rs = _mm256_unpackhi_pd(r4, s4);
+  return {_mm256_permute2f128_pd(xz_pq, xz_rs, 0x20), _mm256_permute2f128_pd(y_pq, y_rs, 0x20),
+          _mm256_permute2f128_pd(xz_pq, xz_rs, 0x31)};
+#else
+  return {Double4{p.x, q.x, r.x, s.x}, Double4{p.y, q.y, r.y, s.y}, Double4{p.z, q.z, r.z, s.z}};
+#endif
+}
+
+/// Four triangles by their slots, lane by lane. Their corners are gathered: storing a copy for each block made testing
+/// a leaf hardly faster and took 72 of 200 bytes a triangle, which building had to write.
+inline CornerTriangle<Double4> triangles_at(const Bvh::Data& data,
+                                            const std::array<std::uint32_t, block_width>& slots) {
+  const Triangle *const s = &data.corners[slots[0]], *const t = &data.corners[slots[1]],
+                        *const u = &data.corners[slots[2]], *const v = &data.corners[slots[3]];
   const auto corner = [&](std::size_t k) {
     return gather4(data.vertices[(*s)[k]], data.vertices[(*t)[k]], data.vertices[(*u)[k]], data.vertices[(*v)[k]]);
   };
   const Vec<Double4> a = corner(0);
   return {a, corner(1) - a, corner(2) - a};
+}
+
+/// The slots of a block; the last block repeats its last triangle in unused lanes.
+inline std::array<std::uint32_t, block_width> slots_of_block(const Bvh::Data& data, std::uint32_t block) {
+  const std::uint32_t first = block * block_width, last = data.triangle_count() - 1;
+  return {first, std::min(first + 1, last), std::min(first + 2, last), std::min(first + 3, last)};
+}
+
+inline CornerTriangle<Double4> triangles_of_block(const Bvh::Data& data, std::uint32_t block) {
+  return triangles_at(data, slots_of_block(data, block));
 }
 
 /// A query point or box as intervals of floats, so that box distances never come out too large.
@@ -72,18 +99,27 @@ struct FloatQuery {
   static float step(float f) { return (f < 0 ? -f : f) * 0x1p-23F + std::numeric_limits<float>::min(); }
 };
 
-/// Lower bounds of the squared distances to the eight boxes, but for 8 roundings of 2^-24 each (`prune_limit` allows
-/// for them). Empty boxes are at infinity.
-inline Float8 squared_box_distances(const BvhNode& node, const FloatQuery& q) {
-  Float8 sum{};
+/// The eight boxes of a node, seen from a query.
+struct BoxDistances {
+  Float8 squared{};  ///< lower bounds but for 8 roundings of 2^-24 each (`prune_limit` allows for them); infinite for
+                     ///< empty boxes
+  Float8 centre{};   ///< squared distances of the centres, times 4; any numbers for empty boxes
+};
+
+inline BoxDistances box_distances(const BvhNode& node, const FloatQuery& q) {
+  BoxDistances distances;
   for (int axis = 0; axis < 3; ++axis) {
     const Float8 lo = *reinterpret_cast<const Float8*>(node.lo[axis]),
                  hi = *reinterpret_cast<const Float8*>(node.hi[axis]);
-    const Float8 d = maximum(maximum(lo - q.hi[axis], q.lo[axis] - hi), Float8{});
-    sum += d * d;
+    const Float8 below = lo - q.hi[axis], above = q.lo[axis] - hi;
+    const Float8 outside = maximum(maximum(below, above), Float8{}), from_centre = below - above;
+    distances.squared += outside * outside;
+    distances.centre += from_centre * from_centre;
   }
-  return sum;
+  return distances;
 }
+
+inline Float8 squared_box_distances(const BvhNode& node, const FloatQuery& q) { return box_distances(node, q).squared; }
 
 /// The limit for computed box distances: boxes at this squared distance or more hold no point within `squared`.
 inline float prune_limit(double squared) {
@@ -92,19 +128,22 @@ inline float prune_limit(double squared) {
                          : std::numeric_limits<float>::infinity();
 }
 
-/// Depth-first walk over the tree, nearest child first. `on_block(index)` tests a block of triangles and returns the
-/// limit from then on. The stack holds at most 7 siblings for each of at most 10 levels (8^10 > 2^30) and one root.
+/// Depth-first walk over the tree, the child with the nearest centre first: where many boxes are equally near, as from
+/// the axis of a cylinder or among coplanar layers, it mostly holds the nearer triangles. `on_block(index)` tests a
+/// block of triangles and returns the limit from then on. The stack holds at most 7 siblings for each of at most 10
+/// levels (8^10 > 2^30) and one root.
 template <class OnBlock>
 void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, QueryCounters& counters,
                 OnBlock&& on_block) {
   struct Entry {
+    float centre;
     float squared;
     std::uint32_t level;
     std::uint32_t index;
   };
   Entry stack[80];
   int size = 0;
-  stack[size++] = {0, data.levels() - 1, 0};
+  stack[size++] = {0, 0, data.levels() - 1, 0};
   while (size > 0) {
     const Entry entry = stack[--size];
     if (!(entry.squared < limit)) continue;
@@ -114,13 +153,14 @@ void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, Que
     }
     ++counters.nodes;
     const BvhNode& node = data.nodes[data.level_begin[entry.level] + entry.index];
-    const Float8 squared = squared_box_distances(node, query);
+    const auto [squared, centre] = box_distances(node, query);
     const int first = size;
     for (unsigned hits = lane_bits(squared < broadcast8(limit)); hits != 0; hits &= hits - 1) {
       const int lane = std::countr_zero(hits);
-      const Entry child{squared[lane], entry.level - 1, entry.index * node_width + static_cast<std::uint32_t>(lane)};
+      const Entry child{centre[lane], squared[lane], entry.level - 1,
+                        entry.index * node_width + static_cast<std::uint32_t>(lane)};
       int at = size++;
-      for (; at > first && stack[at - 1].squared < child.squared; --at) stack[at] = stack[at - 1];
+      for (; at > first && stack[at - 1].centre < child.centre; --at) stack[at] = stack[at - 1];
       stack[at] = child;
     }
   }
@@ -157,31 +197,35 @@ inline std::size_t edge_towards(const Bvh::Data& data, std::uint32_t slot, const
   return outside[edge] > 0 ? edge : 3;
 }
 
-/// Steps over the surface towards p before the tree is asked: queries in spatial order start a few triangles away.
-inline constexpr int steps_towards_point = 8;
+/// Steps of `descend`: from a triangle to the one on the other side of a surface of some thousand triangles.
+inline constexpr int max_descent = 64;
 
-/// Walks from `best.slot` across the edge that p is furthest outside of, until a triangle within `enough_squared` is
-/// found or p lies over a triangle. Costs a few point-triangle tests where a query costs a traversal.
-inline void step_towards(const Bvh::Data& data, const Vec3& p, double enough_squared, Nearest& best,
-                         QueryCounters& counters) {
-  std::uint32_t slot = best.slot;
-  for (int step = 0; step < steps_towards_point && best.squared > enough_squared; ++step) {
-    const CornerTriangle<double> t = triangle_at(data, slot);
-    const std::size_t edge = edge_towards(data, slot, t, p);
-    if (edge == 3) return;
-    const Neighbour across = data.neighbours[slot][edge];
-    if (across.slot == no_slot) return;
-    slot = across.slot;
-    ++counters.triangles;
-    const double squared = closest_on_triangle(triangle_at(data, slot), p).squared_distance;
-    if (squared < best.squared) best = {squared, slot};
+/// Walks from `best.slot` to the nearest of its neighbours while that is nearer to p, until a triangle within
+/// `enough_squared` is found. Where very many triangles are nearly equally near, as from the axis of a cylinder, this
+/// finds one where a traversal looks at most of them.
+inline void descend(const Bvh::Data& data, const Vec3& p, double enough_squared, Nearest& best,
+                    QueryCounters& counters) {
+  const Vec<Double4> p4 = broadcast4(p);
+  for (int step = 0; step < max_descent && best.squared > enough_squared; ++step) {
+    const std::uint32_t from = best.slot;
+    std::array<std::uint32_t, block_width> slots{from, from, from, from};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const Neighbour across = data.neighbours[from][k]; across.slot != no_slot) slots[k] = across.slot;
+    counters.triangles += 3;
+    const Double4 squared = closest_on_triangle(triangles_at(data, slots), p4).squared_distance;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (squared[k] < best.squared) best = {squared[k], slots[k]};
+    if (best.slot == from) return;
   }
 }
+
+/// Steps of `step_over`: queries in spatial order start a few triangles away.
+inline constexpr int max_steps_over = 8;
 
 /// Walks from `slot` across the edge that p is furthest outside of, until p lies over a triangle or the walk has taken
 /// its steps; returns the triangle where it ends. Looks at no distances.
 inline std::uint32_t step_over(const Bvh::Data& data, const Vec3& p, std::uint32_t slot) {
-  for (int step = 0; step < steps_towards_point; ++step) {
+  for (int step = 0; step < max_steps_over; ++step) {
     const std::size_t edge = edge_towards(data, slot, triangle_at(data, slot), p);
     if (edge == 3) return slot;
     const Neighbour across = data.neighbours[slot][edge];

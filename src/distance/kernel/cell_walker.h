@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "distance/kernel/choice.h"
@@ -220,6 +221,7 @@ class CellWalker : public ProvenBounds {
   void query_and_walk(const Piece& piece, const Farthest& farthest) {
     const Vec3 probe = probe_point(piece, farthest.corner);
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
+    descend(b_, probe, accepted_squared_, nearest, counters_.queries);
     find_nearest(b_, probe, accepted_squared_, nearest, counters_.queries);
     if (!accepts(nearest.squared)) offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
@@ -274,6 +276,7 @@ class CellWalker : public ProvenBounds {
   /// by that triangle, or split between it and the candidate.
   bool split_by_query(const Piece& piece, const Vec3& p, double& bound) {
     Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), p).squared_distance, piece.slot};
+    descend(b_, p, accepted_squared_, nearest, counters_.queries);
     find_nearest(b_, p, accepted_squared_, nearest, counters_.queries);
     if (!accepts(nearest.squared)) offer(p, nearest, piece.depth + 1);
     if (nearest.slot == piece.slot) return false;
@@ -291,7 +294,8 @@ class CellWalker : public ProvenBounds {
     const Choice choice{triangle_at(b_, piece.slot), triangle_at(b_, other),
                         std::sqrt(accepted_squared_) * (1 - 0x1p-50)};
     double excess[Piece::capacity] = {};
-    for (std::uint32_t i = 0; i < piece.count; ++i) excess[i] = choice.excess(piece.corner(i));
+    for (std::uint32_t i = 0; i < piece.count; i += 2)  // the lane behind an odd count is one of those that `pad` fills
+      std::tie(excess[i], excess[i + 1]) = choice.excess(piece.corner(i), piece.corner(i + 1));
     std::uint32_t changes = 0, leaves = 0, returns = 0;
     for (std::uint32_t i = 0; i < piece.count; ++i) {
       const std::uint32_t j = i + 1 == piece.count ? 0 : i + 1;
@@ -306,10 +310,12 @@ class CellWalker : public ProvenBounds {
     }
     if (changes != 2) return false;
     const auto after = [&](std::uint32_t i) { return i + 1 == piece.count ? 0 : i + 1; };
-    const BoundaryPoint leave{leaves, choice.last_served(piece.corner(leaves), excess[leaves],
-                                                         piece.corner(after(leaves)), excess[after(leaves)])};
-    const BoundaryPoint back{returns, 1 - choice.last_served(piece.corner(after(returns)), excess[after(returns)],
-                                                             piece.corner(returns), excess[returns])};
+    const auto search = [&](std::uint32_t served, std::uint32_t unserved) {
+      return LastServed(piece.corner(served), excess[served], piece.corner(unserved), excess[unserved]);
+    };
+    LastServed leaving = search(leaves, after(leaves)), returning = search(after(returns), returns);
+    run_both(choice, leaving, returning);
+    const BoundaryPoint leave{leaves, leaving.share()}, back{returns, 1 - returning.share()};
     Piece near, far;
     if (!cut_by_chord(piece, back, leave, near, far)) return false;
     count_cut();

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "bvh/nearest.h"
 #include "geometry/point_triangle.h"
 #include "proof/piece.h"
 
@@ -13,43 +15,81 @@ namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
 /// A triangle t serves a point that is within the target of it, or no further from it than from another triangle.
-struct Choice {
-  CornerTriangle<double> t, other;
-  double target;
+class Choice {
+ public:
+  Choice(const CornerTriangle<double>& t, const CornerTriangle<double>& other, double target)
+      : both_{gather4(t.a, other.a, t.a, other.a), gather4(t.ab, other.ab, t.ab, other.ab),
+              gather4(t.ac, other.ac, t.ac, other.ac)},
+        target_(target) {}
 
-  /// How much too far a point is from t: positive where t does not serve it.
-  [[nodiscard]] double excess(const Vec3& p) const {
-    const double to_other = std::sqrt(closest_on_triangle(other, p).squared_distance);
-    return std::sqrt(closest_on_triangle(t, p).squared_distance) - std::max(to_other, target);
+  /// How much too far two points are from t: positive where t does not serve them.
+  [[nodiscard]] std::pair<double, double> excess(const Vec3& p, const Vec3& q) const {
+    const Double4 length = square_root(closest_on_triangle(both_, gather4(p, p, q, q)).squared_distance);
+    return {length[0] - std::max(length[1], target_), length[2] - std::max(length[3], target_)};
   }
 
-  /// A share s of the way from `served` to `unserved` up to which t serves: served + s (unserved - served) is served,
-  /// and points little beyond it are not. By the rule of false position in its Illinois form. 0 <= s < 1.
-  [[nodiscard]] double last_served(const Vec3& served, double excess_there, const Vec3& unserved,
-                                   double excess_beyond) const {
-    constexpr int max_steps = 24;
-    constexpr double near_enough = 0x1p-48;  // of the target: far below any error bound that can be reached
-    double from = 0, to = 1;
-    int repeats = 0;  // steps in a row that moved the same end, positive for `from`
-    for (int step = 0; step < max_steps && excess_there < -near_enough * target; ++step) {
-      const double share = (from * excess_beyond - to * excess_there) / (excess_beyond - excess_there);
-      if (!(share > from && share < to)) break;
-      const double here = excess(served + share * (unserved - served));
-      if (here <= 0) {
-        from = share;
-        excess_there = here;
-        repeats = repeats > 0 ? repeats + 1 : 1;
-        if (repeats > 1) excess_beyond /= 2;
-      } else {
-        to = share;
-        excess_beyond = here;
-        repeats = repeats < 0 ? repeats - 1 : -1;
-        if (repeats < -1) excess_there /= 2;
-      }
-    }
-    return from;
-  }
+  [[nodiscard]] double target() const { return target_; }
+
+ private:
+  CornerTriangle<Double4> both_;  ///< t, other, t, other
+  double target_;
 };
+
+/// The search for a share s of the way from a point that t serves to one that it does not, up to which t serves:
+/// served + s (unserved - served) is served, and points little beyond it are not. By the rule of false position in its
+/// Illinois form. 0 <= s < 1.
+class LastServed {
+ public:
+  static constexpr int max_steps = 24;
+
+  LastServed(const Vec3& served, double excess_there, const Vec3& unserved, double excess_beyond)
+      : served_(served), way_(unserved - served), excess_there_(excess_there), excess_beyond_(excess_beyond) {}
+
+  [[nodiscard]] double share() const { return from_; }
+
+  /// Chooses the next point to look at; false when the search has ended.
+  bool aim(double target) {
+    constexpr double near_enough = 0x1p-48;  // of the target: far below any error bound that can be reached
+    share_ = (from_ * excess_beyond_ - to_ * excess_there_) / (excess_beyond_ - excess_there_);
+    open_ = open_ && excess_there_ < -near_enough * target && share_ > from_ && share_ < to_;
+    return open_;
+  }
+  [[nodiscard]] Vec3 point() const { return served_ + share_ * way_; }
+
+  /// Takes the excess at `point`, unless the search has ended.
+  void narrow(double here) {
+    if (!open_) return;
+    if (here <= 0) {
+      from_ = share_;
+      excess_there_ = here;
+      repeats_ = repeats_ > 0 ? repeats_ + 1 : 1;
+      if (repeats_ > 1) excess_beyond_ /= 2;
+    } else {
+      to_ = share_;
+      excess_beyond_ = here;
+      repeats_ = repeats_ < 0 ? repeats_ - 1 : -1;
+      if (repeats_ < -1) excess_there_ /= 2;
+    }
+  }
+
+ private:
+  Vec3 served_, way_;
+  double excess_there_, excess_beyond_;
+  double from_ = 0, to_ = 1, share_ = 0;
+  int repeats_ = 0;  ///< steps in a row that moved the same end, positive for `from_`
+  bool open_ = true;
+};
+
+/// Runs two searches side by side.
+inline void run_both(const Choice& choice, LastServed& first, LastServed& second) {
+  for (int step = 0; step < LastServed::max_steps; ++step) {
+    const bool first_goes_on = first.aim(choice.target()), second_goes_on = second.aim(choice.target());
+    if (!first_goes_on && !second_goes_on) return;
+    const auto [here, there] = choice.excess(first.point(), second.point());
+    first.narrow(here);
+    second.narrow(there);
+  }
+}
 
 /// How much nearer the triangle `other` is to a point than t, and the gradient of this function of the point.
 struct Lead {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// `MeasurePoint`. Compiled once per instruction set (numeric/isa.h).
 ///
-///     test the block of the hint: a first limit, which mostly is near its final value already
+///     walk over the surface from the hint, and test the block there: a first limit, mostly near its final value
 ///     level by level: keep the children whose boxes are within the limit, in no order and without branches
-///     test the nearest block, then the others within the new limit
+///     test the triangles of those blocks whose own boxes are within the limit too, about a third of them
 ///
 /// Where a level would hold too many nodes, the hint was a bad one: it begins again at the block that the nearest boxes
 /// lead to. Where that does not do either (far queries), the walk of bvh/nearest.h takes its place, whose limit falls
@@ -58,15 +58,33 @@ inline Mask8 lanes_of(unsigned bits) {
 #endif
 }
 
-/// Lane i of the result is lane lanes[i] of x.
-inline Float8 permuted(const Float8& x, const Mask8& lanes) {
+/// Lane i of the result is the sum of the lanes of d[i], whose last one is 0.
+inline Double4 sums_of_lanes(const std::array<Double4, 4>& d) {
 #if defined(__AVX2__)
-  return _mm256_permutevar8x32_ps(x, reinterpret_cast<__m256i>(lanes));
+  const __m256d low = _mm256_hadd_pd(d[0], d[1]), high = _mm256_hadd_pd(d[2], d[3]);
+  return _mm256_add_pd(_mm256_permute2f128_pd(low, high, 0x21), _mm256_blend_pd(low, high, 0b1100));
 #else
-  Float8 result;
-  for (std::size_t i = 0; i < node_width; ++i) result[i] = x[lanes[i]];
-  return result;
+  Double4 sums;
+  for (std::size_t i = 0; i < 4; ++i) sums[i] = (d[i][0] + d[i][1]) + d[i][2];
+  return sums;
 #endif
+}
+
+/// The squared distances from p (`coordinates`) to the boxes of the four triangles of a block, but for a relative error
+/// of 8 roundings of doubles. Costs a fraction of the distances to the triangles: it has no divisions, and the corners
+/// need not be put lane by lane.
+inline Double4 squared_triangle_box_distances(const Bvh::Data& data, std::uint32_t block, const Double4& p) {
+  const std::array<std::uint32_t, block_width> slots = slots_of_block(data, block);
+  std::array<Double4, block_width> squared;
+  for (std::size_t i = 0; i < block_width; ++i) {
+    const Triangle& t = data.corners[slots[i]];
+    const Double4 a = coordinates(data.vertices[t[0]]), b = coordinates(data.vertices[t[1]]),
+                  c = coordinates(data.vertices[t[2]]);
+    const Double4 lo = minimum(a, minimum(b, c)), hi = maximum(a, maximum(b, c));
+    const Double4 apart = maximum(maximum(lo - p, p - hi), Double4{});
+    squared[i] = apart * apart;
+  }
+  return sums_of_lanes(squared);
 }
 
 class PointSearch {
@@ -74,13 +92,14 @@ class PointSearch {
   PointSearch(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings)
       : data_(data),
         p_(p),
+        coordinates_(coordinates(p)),
         lanes_(broadcast4(p)),
         box_(p),
         roundings_(roundings),
         last_slot_(static_cast<std::int64_t>(data.triangle_count()) - 1) {}
 
   PointDistance run(std::uint32_t hint) {
-    first_block_ = hint == no_slot ? block_by_boxes() : hint / block_width;
+    first_block_ = hint == no_slot ? block_by_boxes() : step_over(data_, p_, hint) / block_width;
     test_block(first_block_);
     update_limit();
     if (!walk_by_levels()) {
@@ -129,12 +148,13 @@ class PointSearch {
     return select(along > 0.0, along * along / to.squared_distance, Double4{});
   }
 
-  void test_block(std::uint32_t block) {
-    const CornerTriangle<Double4> t = triangles_of_block(data_, block);
+  void test_block(std::uint32_t block) { test(slots_of_block(data_, block)); }
+
+  void test(const std::array<std::uint32_t, block_width>& triangles) {
+    const CornerTriangle<Double4> t = triangles_at(data_, triangles);
     const TriangleOffset<Double4> to = closest_on_triangle(t, lanes_);
     separated_squared_ = minimum(separated_squared_, separation_squared(t, to));
-    Mask4 slots = Mask4{0, 1, 2, 3} + std::int64_t{block} * block_width;
-    slots = slots < last_slot_ ? slots : Mask4{} + last_slot_;
+    const Mask4 slots{triangles[0], triangles[1], triangles[2], triangles[3]};
     const Mask4 nearer = (to.squared_distance < best_.squared_distance) |
                          ((to.squared_distance == best_.squared_distance) & (slots < slots_));
     best_.squared_distance = select(nearer, to.squared_distance, best_.squared_distance);
@@ -153,11 +173,10 @@ class PointSearch {
     return best;
   }
 
-  /// Nodes or blocks of one level, with the squared distances of their boxes; room for a whole node behind them.
+  /// Nodes or blocks of one level; room for a whole node behind them.
   struct Level {
     std::uint32_t count = 0;
     std::uint32_t index[capacity + node_width];
-    float squared[capacity + node_width];
   };
 
   /// The children of the members of a level of nodes that are within the limit. False when there are too many.
@@ -166,12 +185,9 @@ class PointSearch {
     const Float8 limit = broadcast8(limit_);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < from.count; ++i) {
-      const Float8 squared = squared_box_distances(nodes[from.index[i]], box_);
-      const unsigned hits = lane_bits(squared < limit);
-      const Mask8 lanes = lanes_of(hits), index = lanes + static_cast<std::int32_t>(from.index[i] * node_width);
-      const Float8 packed = permuted(squared, lanes);
+      const unsigned hits = lane_bits(squared_box_distances(nodes[from.index[i]], box_) < limit);
+      const Mask8 index = lanes_of(hits) + static_cast<std::int32_t>(from.index[i] * node_width);
       std::memcpy(&children.index[count], &index, sizeof index);
-      std::memcpy(&children.squared[count], &packed, sizeof packed);
       count += static_cast<std::uint32_t>(std::popcount(hits));
       if (count > capacity) return false;
     }
@@ -187,23 +203,28 @@ class PointSearch {
     for (std::uint32_t level = data_.levels() - 1; level > 0; --level, now = 1 - now)
       if (!open(level, levels[now], levels[1 - now])) return false;
     test_blocks(levels[now]);
+    update_limit();
     return true;
   }
 
-  void test_blocks(Level& blocks) {
-    constexpr float tested = std::numeric_limits<float>::infinity();
-    std::uint32_t nearest = 0;
+  /// The lanes of a block whose triangles have boxes within the limit.
+  [[nodiscard]] unsigned lanes_within_limit(std::uint32_t block) const {
+    return lane_bits(squared_triangle_box_distances(data_, block, coordinates_) < broadcast4(double{limit_}));
+  }
+
+  /// Tests the triangles whose boxes are within the limit, four at a time whatever their blocks.
+  void test_blocks(const Level& blocks) {
+    std::uint32_t slots[capacity * block_width + node_width];
+    std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < blocks.count; ++i) {
-      if (blocks.index[i] == first_block_) blocks.squared[i] = tested;
-      if (blocks.squared[i] < blocks.squared[nearest]) nearest = i;
+      const unsigned hits = lanes_within_limit(blocks.index[i]);
+      const Mask8 slot = lanes_of(hits) + static_cast<std::int32_t>(blocks.index[i] * block_width);
+      std::memcpy(&slots[count], &slot, sizeof slot);
+      if (blocks.index[i] != first_block_) count += static_cast<std::uint32_t>(std::popcount(hits));
     }
-    if (blocks.count == 0 || !(blocks.squared[nearest] < limit_)) return;
-    test_block(blocks.index[nearest]);
-    update_limit();
-    blocks.squared[nearest] = tested;
-    for (std::uint32_t i = 0; i < blocks.count; ++i)
-      if (blocks.squared[i] < limit_) test_block(blocks.index[i]);
-    update_limit();
+    const std::uint32_t last = count - 1, last_slot = data_.triangle_count() - 1;
+    const auto slot = [&](std::uint32_t i) { return std::min(slots[std::min(i, last)], last_slot); };
+    for (std::uint32_t i = 0; i < count; i += block_width) test({slot(i), slot(i + 1), slot(i + 2), slot(i + 3)});
   }
 
   void walk_near() {
@@ -223,7 +244,7 @@ class PointSearch {
       const CornerTriangle<Double4> t = triangles_of_block(data_, block);
       const Double4 squared = separation_squared(t, closest_on_triangle(t, lanes_));
       const Mask4 passes = squared >= broadcast4(wanted * wanted);
-      for (unsigned fails = ~lane_bits(passes) & all_lanes; fails != 0; fails &= fails - 1) {
+      for (unsigned fails = ~lane_bits(passes) & lanes_within_limit(block); fails != 0; fails &= fails - 1) {
         const std::int64_t slot = std::int64_t{block} * block_width + std::countr_zero(fails);
         const auto triangle = triangle_at(data_, static_cast<std::uint32_t>(std::min(slot, last_slot_)));
         least = std::min(least, best_separation(triangle, p_, wanted));
@@ -235,8 +256,9 @@ class PointSearch {
 
   const Bvh::Data& data_;
   Vec3 p_;
-  Vec<Double4> lanes_;  ///< the query, in each lane
-  FloatQuery box_;      ///< the query, as a box of floats
+  Double4 coordinates_;  ///< of the query
+  Vec<Double4> lanes_;   ///< the query, in each lane
+  FloatQuery box_;       ///< the query, as a box of floats
   PointRoundings roundings_;
   std::int64_t last_slot_;
   std::uint32_t first_block_ = 0;

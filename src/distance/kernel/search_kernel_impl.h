@@ -18,7 +18,7 @@ class SearchKernelImpl final : public SearchKernel {
 
   Nearest nearest(const Vec3& p, std::uint32_t hint, double enough_squared) override {
     Nearest best{closest_on_triangle(triangle_at(walker_.target(), hint), p).squared_distance, hint};
-    if (enough_squared > 0) step_towards(walker_.target(), p, enough_squared, best, walker_.counters().queries);
+    if (enough_squared > 0) descend(walker_.target(), p, enough_squared, best, walker_.counters().queries);
     if (best.squared > enough_squared)
       find_nearest(walker_.target(), p, enough_squared, best, walker_.counters().queries);
     return best;
