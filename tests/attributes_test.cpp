@@ -241,6 +241,43 @@ TEST(TransferredAttributes, KeepNormalsOnTheirSideOfASharpEdge) {
   }
 }
 
+/// A low wall on a floor, leaning away from where it stood: the floor is nearer to it than the wall of the original.
+TEST(TransferredAttributes, KeepNormalsOfATriangleThatOneOfAnotherDirectionIsNearestTo) {
+  Textured room;
+  room.mesh.vertices = {{0, 0, 0}, {0, 1, 0}, {0, 0, 0.05}, {0, 1, 0.05}, {1, 0, 0}, {1, 1, 0}};
+  room.mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {4, 5, 1}};
+  room.attributes.normals.values = {{1, 0, 0}, {0, 0, 1}};
+  room.attributes.normals.index = {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, {1, 1, 1}};
+  SimplifiedLevel level;
+  level.mesh = room.mesh;
+  level.mesh.vertices[0].x() = level.mesh.vertices[1].x() = 0.01;
+  level.source_vertex = {0, 1, 2, 3, 4, 5};
+  level.source_triangle = {0, 1, 2, 3};
+  const CornerAttribute result = transferred_attributes(room.mesh, room.attributes, level).normals;
+  for (std::size_t t = 0; t < 4; ++t)
+    for (const std::uint32_t i : result.index[t]) EXPECT_EQ(result.values[i], room.attributes.normals.values[t / 2]);
+}
+
+/// A level with six vertices of a tube, at uneven distances.
+TEST(TransferredAttributes, KeepNormalsOfVerticesOfASmoothSurface) {
+  Textured round = tube(48, 1);
+  const auto radial = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.y(), 0).normalized(); };
+  round.attributes = {};
+  for (const Eigen::Vector3d& p : round.mesh.vertices) round.attributes.normals.values.push_back(radial(p));
+  round.attributes.normals.index = round.mesh.triangles;
+  SimplifiedLevel level;
+  for (const std::uint32_t v : {0, 2, 10, 48, 50, 58}) level.mesh.vertices.push_back(round.mesh.vertices[v]);
+  level.mesh.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+  level.source_triangle = {0, 1, 4, 5};
+  const CornerAttribute result = transferred_attributes(round.mesh, round.attributes, level).normals;
+  for (std::size_t t = 0; t < 4; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d p = level.mesh.vertices[level.mesh.triangles[t][k]];
+      EXPECT_NEAR(result.values[result.index[t][k]].dot(radial(p)), 1, 1e-12);
+    }
+  }
+}
+
 /// Texture coordinates of real models: no triangle of a level spans more of the texture than the originals around it.
 TEST(TransferredAttributes, OfRealModelsAreFoundAtEveryCorner) {
   std::size_t found = 0;

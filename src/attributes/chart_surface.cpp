@@ -30,9 +30,9 @@ std::size_t WeightedPoint::nearest_corner() const {
   return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
 }
 
-ChartSurface::ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes)
+ChartSurface::ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes, NormalSeams normal_seams)
     : mesh_(mesh),
-      charts_(charts(mesh, attributes)),
+      charts_(charts(mesh, attributes, normal_seams)),
       positions_(positions_of(mesh)),
       corners_at_(mesh.vertices.size()),
       triangles_of_(charts_.count),

@@ -26,7 +26,8 @@ struct WeightedPoint {
 class ChartSurface {
  public:
   /// `mesh` must outlive this. Throws as `charts`.
-  ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes);
+  ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes,
+               NormalSeams normal_seams = NormalSeams::Ignored);
 
   [[nodiscard]] std::uint32_t chart_of(std::uint32_t triangle) const { return charts_.chart_of[triangle]; }
   /// Corners 3 t + k of triangles at exactly this position.

@@ -120,7 +120,7 @@ void number_charts(Charts& charts) {
 
 }  // namespace
 
-Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
+Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes, NormalSeams normal_seams) {
   const std::size_t triangles = mesh.triangles.size();
   check_sizes(attributes, triangles);
   Charts result;
@@ -132,7 +132,9 @@ Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = result.neighbours[t][k];
       if (other == no_index) continue;
-      if (is_seam(attributes, neighbours_across(mesh, result.first, t, k, other))) result.is_seam[t][k] = 1;
+      const Neighbours at = neighbours_across(mesh, result.first, t, k, other);
+      const bool is_crease = normal_seams == NormalSeams::Counted && differs(attributes.normals, at);
+      if (is_crease || is_seam(attributes, at)) result.is_seam[t][k] = 1;
     }
   }
   number_charts(result);

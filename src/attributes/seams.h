@@ -17,7 +17,11 @@ struct Charts {
   std::vector<std::uint32_t> first;                      ///< by vertex: the first one at its position
 };
 
+/// Whether edges where normals differ are seams as well: surfaces are shaded smoothly within a chart then.
+enum class NormalSeams : bool { Ignored, Counted };
+
 /// Throws `InvalidInput` if the attributes are for another number of triangles. O(n log n).
-[[nodiscard]] Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes);
+[[nodiscard]] Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes,
+                            NormalSeams normal_seams = NormalSeams::Ignored);
 
 }  // namespace meshbound

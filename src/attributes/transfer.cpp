@@ -12,12 +12,15 @@ namespace {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
-/// The normal of a corner is looked up at a point this share of the way from the corner to the middle of its triangle.
+/// Where a corner belongs is looked up at a point this share of the way from the corner to the middle of its triangle.
 constexpr double share_inside = 0.1;
 
-/// Cosine of the largest angle between normals of neighbouring corners that get one common normal: 15 degrees, which
-/// shading hides on a coarse mesh. Sharper edges have a normal on each side.
-constexpr double smooth_cosine = 0.9659;
+/// Cosine of 5 degrees: normals that differ by less look alike. Neighbouring corners with such normals get one common
+/// normal; sharper edges have a normal on each side.
+constexpr double smooth_cosine = 0.9962;
+
+/// Cosine of 20 degrees: triangles of level and original within this angle have the same direction.
+constexpr double min_alignment = 0.9397;
 
 /// The interpolated value at a point; absent if a corner of its triangle has none.
 std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const WeightedPoint& at) {
@@ -55,10 +58,20 @@ bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std:
   return true;
 }
 
+/// The unit normal of a triangle; not a unit vector where it has no area.
+Eigen::Vector3d direction(const std::array<Eigen::Vector3d, 3>& corners) {
+  const Eigen::Vector3d u = (corners[1] - corners[0]).stableNormalized();
+  return u.cross((corners[2] - corners[0]).stableNormalized()).stableNormalized();
+}
+
 class Transfer {
  public:
   Transfer(const TriangleMesh& mesh, const MeshAttributes& attributes, const SimplifiedLevel& level)
-      : original_(mesh, attributes), from_(attributes), level_(level), on_line_(level.mesh.vertices.size(), 0) {
+      : original_mesh_(mesh),
+        original_(mesh, attributes),
+        from_(attributes),
+        level_(level),
+        on_line_(level.mesh.vertices.size(), 0) {
     for (const Edge& edge : level.lines)
       for (const std::uint32_t v : edge) on_line_[v] = 1;
   }
@@ -163,12 +176,44 @@ class Transfer {
     return point;
   }
 
+  [[nodiscard]] Eigen::Vector3d normal_at(const WeightedPoint& at) const {
+    const auto value = value_at(from_.normals, at);
+    return value ? value->stableNormalized() : Eigen::Vector3d::Zero();
+  }
+
+  /// Cosine of the angle between a triangle of the level and one of the original.
+  [[nodiscard]] double alignment(std::uint32_t triangle, std::uint32_t of_original) const {
+    const Triangle& v = level_.mesh.triangles[triangle];
+    const auto& p = level_.mesh.vertices;
+    return direction({p[v[0]], p[v[1]], p[v[2]]}).dot(direction(original_.corners(of_original)));
+  }
+
+  /// The point of the original that a point inside a triangle of the level stands for: the closest one. Where the
+  /// original has another direction there, as it does at edges and on the other side of thin sheets, the closest one of
+  /// the smooth surface that the triangle comes from, if that is better aligned.
+  WeightedPoint counterpart(std::uint32_t triangle, const Eigen::Vector3d& inside, ChartSurface& smooth) {
+    const std::uint32_t source = level_.source_triangle[triangle];
+    const WeightedPoint closest = original_.closest(original_.chart_of(source), inside);
+    const double aligned = alignment(triangle, closest.triangle);
+    if (aligned >= min_alignment) return closest;
+    const WeightedPoint of_source = smooth.closest(smooth.chart_of(source), inside);
+    return alignment(triangle, of_source.triangle) > aligned ? of_source : closest;
+  }
+
+  /// The normal of a corner, zero if the original has none there: that of the original where its smooth surface is
+  /// nearest to the vertex. Where the normal changes much from there to a point inside the triangle, as where a rounded
+  /// edge has become a sharp one, it is that of the original near the inner point.
+  Eigen::Vector3d normal_of(std::uint32_t corner, ChartSurface& smooth) {
+    const WeightedPoint at = counterpart(corner / 3, point_inside(corner, share_inside), smooth);
+    const Eigen::Vector3d normal_inside = normal_at(at);
+    const Eigen::Vector3d normal = normal_at(smooth.closest(smooth.chart_of(at.triangle), position(corner)));
+    return normal.dot(normal_inside) >= smooth_cosine ? normal : normal_inside;
+  }
+
   CornerAttribute normals() {
-    std::vector<Eigen::Vector3d> by_corner;  // zero if a corner has none
-    for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) {
-      const auto value = value_at(from_.normals, original_.closest(chart(c), point_inside(c, share_inside)));
-      by_corner.push_back(value ? value->stableNormalized() : Eigen::Vector3d::Zero());
-    }
+    ChartSurface smooth(original_mesh_, from_, NormalSeams::Counted);
+    std::vector<Eigen::Vector3d> by_corner;
+    for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) by_corner.push_back(normal_of(c, smooth));
     CornerAttribute result;
     result.index = no_values();
     const auto is_smooth = [&](std::uint32_t i, std::uint32_t j) {
@@ -184,6 +229,7 @@ class Transfer {
     return result;
   }
 
+  const TriangleMesh& original_mesh_;
   ChartSurface original_;
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
