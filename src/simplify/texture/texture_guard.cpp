@@ -264,7 +264,7 @@ bool TextureGuard::match(double max_squared) {
 /// Derivative of a sample's distance by the coordinate of the vertex: where the vertex moves by d in the texture, the
 /// point of the face with the sample's coordinate moves by -weight J d, with J the derivative of the position in the
 /// face by the coordinate.
-void TextureGuard::add_slope(const Face& face, const Match& match, Deviations& deviations) const {
+void TextureGuard::add_slope(const Face& face, const Match& match, Slope& sum) const {
   if (!face.has_area || !match.is_inside) return;
   const double weight = match.weights[0];
   const Eigen::Vector3d offset = to_eigen((1 / map_.limit) * match.offset);
@@ -272,46 +272,47 @@ void TextureGuard::add_slope(const Face& face, const Match& match, Deviations& d
   // The objective is the sum of squared^3: its gradient is 6 squared^2 D^T e; of its Hessian only the positive
   // semidefinite part is kept.
   const Eigen::Vector2d slope = -weight * (face.derivative.transpose() * offset);
-  deviations.sum += squared * squared * squared;
-  deviations.gradient += 6 * squared * squared * slope;
-  deviations.curvature +=
+  sum.gradient += 6 * squared * squared * slope;
+  sum.curvature +=
       6 * squared * squared * weight * weight * face.squared_derivative + 24 * squared * slope * slope.transpose();
 }
 
-TextureGuard::Deviations TextureGuard::deviations() {
-  Deviations result;
-  for (const Match& m : matches_) {
-    result.worst_squared = std::max(result.worst_squared, squared_length(m.offset));
-    if (is_free_) add_slope(faces_[m.face], m, result);
-  }
-  return result;
+/// The Newton step of the coordinate of the vertex; nothing where the curvature is singular.
+std::optional<Eigen::Vector2d> TextureGuard::newton_step() const {
+  Slope sum;
+  for (const Match& m : matches_) add_slope(faces_[m.face], m, sum);
+  if (!(sum.curvature.determinant() > 0)) return std::nullopt;
+  const Eigen::Vector2d step = -sum.curvature.inverse() * sum.gradient;
+  return step.allFinite() ? std::optional(step) : std::nullopt;
+}
+
+double TextureGuard::worst_squared() const {
+  double worst = 0;
+  for (const Match& m : matches_) worst = std::max(worst, squared_length(m.offset));
+  return worst;
 }
 
 /// Moves the coordinate of the vertex until all samples are within the limit or no step helps. Leaves the faces with
 /// the best coordinate.
 bool TextureGuard::improve() {
-  const auto is_within = [&](const Deviations& d) { return d.worst_squared <= map_.limit * map_.limit; };
-  Deviations here = deviations();
-  if (!is_free_) return is_within(here);
-  for (int step = 0; step < max_steps; ++step) {
-    if (here.worst_squared <= good_share * good_share * map_.limit * map_.limit) break;
-    const double determinant = here.curvature.determinant();
-    if (!(determinant > 0)) break;
+  const double limit = map_.limit * map_.limit, good = good_share * good_share * limit;
+  double worst = worst_squared();
+  for (int k = 0; is_free_ && worst > good && k < max_steps; ++k) {
+    const std::optional<Eigen::Vector2d> step = newton_step();
+    if (!step) break;
     const Eigen::Vector2d before = faces_[0].coordinates[0];
-    const Eigen::Vector2d way = -here.curvature.inverse() * here.gradient;
-    if (!way.allFinite()) break;
-    const std::vector<Match> matches = matches_;
-    move_to(before + way);
-    const bool is_possible = !is_turned_over() && match(here.worst_squared);
-    const Deviations there = is_possible ? deviations() : Deviations{};
-    if (!is_possible || !(there.worst_squared < here.worst_squared)) {
+    matches_before_ = matches_;
+    move_to(before + *step);
+    const bool is_possible = !is_turned_over() && match(worst);
+    const double there = is_possible ? worst_squared() : HUGE_VAL;
+    if (!(there < worst)) {
       move_to(before);
-      matches_ = matches;
+      matches_ = matches_before_;
       break;
     }
-    here = there;
+    worst = there;
   }
-  return is_within(here);
+  return worst <= limit;
 }
 
 /// Whether edge k of a face that stays (edge 1 is opposite to the vertex) is a line, or becomes one by merging with the

@@ -61,9 +61,8 @@ class TextureGuard {
     std::array<double, 3> weights{};
     Vec3 offset;  ///< from the sample to that point
   };
-  /// How far the samples are from the faces for one choice of coordinates.
-  struct Deviations {
-    double worst_squared = 0, sum = 0;
+  /// Of the sum of the sixth powers of the samples' distances, in limits, by the coordinate of the vertex.
+  struct Slope {
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
   };
@@ -78,8 +77,9 @@ class TextureGuard {
   [[nodiscard]] std::optional<Match> match_inside(const TextureMap::Sample& sample, std::uint32_t face) const;
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
   [[nodiscard]] Match match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const;
-  void add_slope(const Face& face, const Match& match, Deviations& deviations) const;
-  [[nodiscard]] Deviations deviations();
+  void add_slope(const Face& face, const Match& match, Slope& sum) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> newton_step() const;
+  [[nodiscard]] double worst_squared() const;
   [[nodiscard]] bool improve();
   void move_to(const Eigen::Vector2d& coordinate);
   [[nodiscard]] bool are_borders_free();
@@ -99,8 +99,8 @@ class TextureGuard {
   std::vector<std::uint32_t> samples_, charts_;  ///< of the star: its samples, and the chart of each
   std::vector<Face> faces_;                      ///< by moved corner; the moving vertex comes first
   std::vector<double> area_before_;  ///< by moved corner: twice the area of the face in the texture before the collapse
-  std::vector<Match> matches_;       ///< by sample
-  bool is_free_ = false;             ///< the vertex has a single coordinate, which may be changed
+  std::vector<Match> matches_, matches_before_;  ///< by sample; now, and before the last Newton step
+  bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be changed
   bool accepted_ = false;
   std::vector<std::uint32_t> found_;
 };
