@@ -271,6 +271,12 @@ TEST(ManifoldSoup, KeepsRepetitionsThatLookDifferentOnSheetsOfTheirOwn) {
   EXPECT_EQ(one.vertex_of.size(), 4U);
 }
 
+TEST(ManifoldSoup, KeepsTheBackOfATriangleWhereLooksCount) {
+  const TriangleMesh soup = mesh_of({{0, 1, 2}, {2, 1, 0}, {1, 2, 0}});
+  EXPECT_EQ(manifold_soup(soup, std::vector<std::uint32_t>{3, 3, 3}).triangle_of, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(manifold_soup(soup).triangle_of, (std::vector<std::uint32_t>{0}));
+}
+
 TEST(ManifoldSoup, RefusesTooManyTriangles) {
   const double position[3] = {0, 0, 0};
   const std::uint32_t indices[3] = {0, 0, 0};

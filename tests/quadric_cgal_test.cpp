@@ -36,11 +36,28 @@ SurfaceMesh waves(unsigned n) {
 }
 
 std::vector<Quadric> quadrics_of(const SurfaceMesh& mesh) {
-  return vertex_quadrics(indexed_manifold(to_triangle_mesh(mesh)));
+  return vertex_quadrics(indexed_manifold(to_triangle_mesh(mesh)), PlaneWeights::Equal);
 }
 
 Vec3 to_vec3(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 Kernel::Point_3 to_point(Vec3 p) { return {p.x, p.y, p.z}; }
+
+/// Three faces of area 1/2 meet at the origin; the fourth one has the area sqrt(3) / 2.
+TEST(Quadric, CountsFacesByTheirAreaInMeanAreas) {
+  TriangleMesh corner;
+  corner.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  corner.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const std::vector<Quadric> quadrics = vertex_quadrics(indexed_manifold(corner), PlaneWeights::Area);
+  const double mean = (3 + std::sqrt(3)) / 4;
+  EXPECT_NEAR(quadrics[0].planes(), 3 / mean, 1e-12);
+  for (const std::size_t v : {1, 2, 3}) EXPECT_NEAR(quadrics[v].planes(), (2 + std::sqrt(3)) / mean, 1e-12);
+  EXPECT_NEAR(quadrics[0].at({1, 1, 1}), 3 / mean, 1e-12);
+
+  corner.triangles = {{0, 2, 1}};  // planes through two border edges of length 1, and of length 1 and sqrt(2)
+  const std::vector<Quadric> open = vertex_quadrics(indexed_manifold(corner), PlaneWeights::Area);
+  EXPECT_NEAR(open[0].planes(), 1 + 1 + 1, 1e-12);
+  EXPECT_NEAR(open[1].planes(), 1 + 1 + 2, 1e-12);
+}
 
 TEST(Quadric, IsCgalsWithTheBorderIncluded) {
   SurfaceMesh mesh = waves(12);

@@ -142,6 +142,27 @@ TEST(TextureGuard, KeepsADecalThatLiesOnItsSurface) {
   EXPECT_LE(deviation.a_to_b.uncovered.upper, 1e-9);
 }
 
+/// Renderers that draw the front of triangles only would show holes.
+TEST(TextureGuard, LeavesTrianglesFacingTheWayTheyDid) {
+  Textured square = sheet(16, flat, even);
+  for (std::size_t t = 0; t < square.mesh.triangles.size(); ++t) {
+    if (square.coordinates[t][0].x() + square.coordinates[t][1].x() + square.coordinates[t][2].x() < 1.5) continue;
+    std::swap(square.mesh.triangles[t][0], square.mesh.triangles[t][1]);
+    std::swap(square.coordinates[t][0], square.coordinates[t][1]);
+  }
+  const SimplifiedLevel level = simplified(square, 0.01, 0.01);
+  EXPECT_LT(level.faces(), square.mesh.triangles.size() / 4);
+  double front = 0, back = 0;  // twice the areas
+  for (const Triangle& t : level.mesh.triangles) {
+    const auto& v = level.mesh.vertices;
+    const double z = (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).z();
+    (z > 0 ? front : back) += std::abs(z);
+  }
+  EXPECT_NEAR(front, 1, 1e-9);
+  EXPECT_NEAR(back, 1, 1e-9);
+  EXPECT_LE(deviation_of(square, level).bounds.upper, 0.01);
+}
+
 /// The two halves have charts that do not touch. At the line between them each side keeps its own coordinates.
 TEST(TextureGuard, KeepsTheSidesOfASeamApart) {
   const Textured halves = sheet(16, flat, [](double x, double y, bool is_right) {

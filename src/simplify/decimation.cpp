@@ -125,6 +125,7 @@ void Decimation::make_state(const StopToken& stop) {
     state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
                    std::move(soup.triangle_of));
   stop.check();
+  if (!options_.texture_coordinates.empty()) note_turned_faces();
   if (has_lines()) set_lines();
   if (!options_.texture_coordinates.empty()) set_texture();
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
@@ -230,11 +231,12 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
   return marked;
 }
 
-/// Whether texture coordinates or materials differ between the two faces of an edge.
+/// Whether texture coordinates, materials or the side that shows differ between the two faces of an edge.
 bool Decimation::is_seam(Corner edge) const {
   const ArrayMesh& mesh = state_->mesh;
   const Corner twin = mesh.twin(edge);
   if (options_.texture_coordinates.empty() || twin == ArrayMesh::none) return false;
+  if (is_turned_over_[edge / 3] != is_turned_over_[twin / 3]) return true;
   const auto triangle = [&](Corner c) { return order_.triangle[state_->source_triangle[c / 3]]; };
   if (!options_.materials.empty() && options_.materials[triangle(edge)] != options_.materials[triangle(twin)])
     return true;
@@ -267,6 +269,15 @@ void Decimation::set_texture() {
                           state_->mesh, state_->lines, state_->source_triangle, vertices_, original_.triangles,
                           tolerance);
   state_->texture->limit = share_of_texture_tolerance * tolerance;
+  state_->quadrics = vertex_quadrics(state_->mesh, PlaneWeights::Area);
+}
+
+void Decimation::note_turned_faces() {
+  const ArrayMesh& mesh = state_->mesh;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {  // one that is turned over keeps its first corner
+    const Vec3 second = vertices_[original_.triangles[state_->source_triangle[f]][1]];
+    is_turned_over_.push_back(same_position(mesh.position(mesh.start(3 * f + 1)), second) ? 0 : 1);
+  }
 }
 
 void Decimation::set_lines() {
@@ -389,6 +400,10 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
     into.source_triangle.push_back(caller_triangle(state.source_triangle[f]));
     if (state.texture) into.texture_coordinates.push_back(state.texture->of(f));
+    if (state.texture && is_turned_over_[f] != 0) {
+      std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
+      std::swap(into.texture_coordinates.back()[1], into.texture_coordinates.back()[2]);
+    }
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))
         into.lines.push_back({index[state.mesh.start(c)], index[state.mesh.end(c)]});

@@ -58,6 +58,7 @@ class Decimation {
   void set_lines();
   [[nodiscard]] std::vector<std::uint8_t> marked_edges() const;
   [[nodiscard]] bool is_seam(Corner edge) const;
+  void note_turned_faces();
   void set_texture();
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
@@ -81,6 +82,8 @@ class Decimation {
   std::optional<DecimationThreads> threads_;
   std::size_t dropped_triangles_ = 0, locked_vertices_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
   std::vector<Edge> lines_;  ///< of the original, by its own numbers
+  /// By face, if there is a texture: its corners run the other way than in the original.
+  std::vector<std::uint8_t> is_turned_over_;
   bool split_ = false, below_rounding_ = false;
 };
 

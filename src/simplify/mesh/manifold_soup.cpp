@@ -108,6 +108,12 @@ class ManifoldBuilder {
 
   /// Marks repetitions among triangles with the same corners in `dropped`, and sets the sheets of the others.
   void sort_out(std::span<const Repetition> same, std::vector<std::uint8_t>& dropped);
+  /// Whether the lowest corner of a triangle is followed by the highest: of two triangles with the same corners, one
+  /// is the back of the other where this differs.
+  [[nodiscard]] bool shows_back(std::uint32_t triangle) const {
+    const auto [a, b, c] = welded(triangle);
+    return (a < b) + (b < c) + (c < a) == 1;
+  }
   [[nodiscard]] std::uint32_t sheet_of(std::uint32_t corner) const {
     return sheet_.empty() ? 0 : sheet_[result_.triangle_of[corner / 3]];
   }
@@ -121,9 +127,10 @@ class ManifoldBuilder {
 
 void ManifoldBuilder::sort_out(std::span<const Repetition> same, std::vector<std::uint8_t>& dropped) {
   if (same.size() == 1) return;
-  std::vector<std::uint32_t> looks;  // by sheet
+  std::vector<std::pair<std::uint32_t, bool>> looks;  // by sheet
   for (const Repetition& repetition : same) {
-    const std::uint32_t t = repetition.triangle, look = look_.empty() ? 0 : look_[t];
+    const std::uint32_t t = repetition.triangle;
+    const auto look = look_.empty() ? std::pair(0U, false) : std::pair(look_[t], shows_back(t));
     if (std::find(looks.begin(), looks.end(), look) != looks.end()) {
       dropped[t] = 1;
       continue;

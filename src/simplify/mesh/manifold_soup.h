@@ -34,9 +34,10 @@ struct ManifoldSoup {
 /// possible (Moebius). Last, a vertex is duplicated for each further fan or ring of faces around it. Vertices are
 /// numbered as the corners of the faces come, and a face that is turned over keeps its first corner.
 ///
-/// `look` is empty or has a number for each triangle: only repetitions with equal numbers are dropped. Those that
-/// differ, as a decal does from what it lies on, are kept on sheets of their own: triangles of different sheets are not
-/// joined, and the first triangle of each set of corners is on the first sheet.
+/// `look` is empty or has a number for each triangle: only repetitions with equal numbers that face the same way are
+/// dropped. Those that differ, as a decal does from what it lies on, or the back of a sheet from its front, are kept on
+/// sheets of their own: triangles of different sheets are not joined, and the first triangle of each set of corners is
+/// on the first sheet.
 ///
 /// `soup` is valid (see `validate`). Without faces where no triangle has three different corners. Throws `InvalidInput`
 /// for more than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.

@@ -19,6 +19,22 @@ Vec3 unit(Vec3 v) {
   return norm > 0 ? (1 / norm) * v : v;
 }
 
+/// Perpendicular to a face, twice as long as its area.
+Vec3 doubled_area(const ArrayMesh& mesh, std::uint32_t face) {
+  const auto [p, q, r] = mesh.triangle(face);
+  return cross(q - p, r - p);
+}
+
+double mean_doubled_area(const ArrayMesh& mesh) {
+  double sum = 0, count = 0;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.is_removed(f)) continue;
+    sum += length(doubled_area(mesh, f));
+    ++count;
+  }
+  return sum / count;
+}
+
 }  // namespace
 
 Quadric Quadric::of_plane(Vec3 n, Vec3 p, double weight) {
@@ -57,18 +73,20 @@ std::optional<Vec3> Quadric::minimum() const {
               scale * (c_xz * x + c_yz * y + c_zz * z)};
 }
 
-std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh) {
+std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh, PlaneWeights weights) {
   std::vector<Quadric> quadrics(mesh.vertex_count());
+  const double mean = weights == PlaneWeights::Area ? mean_doubled_area(mesh) : 0;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (mesh.is_removed(f)) continue;
-    const auto [p, q, r] = mesh.triangle(f);
-    const Vec3 normal = unit(cross(q - p, r - p));
-    const Quadric plane = Quadric::of_plane(normal, p, 1);
+    const Vec3 area = doubled_area(mesh, f), normal = unit(area);
+    const double weight = mean > 0 ? length(area) / mean : 1;
+    const Quadric plane = Quadric::of_plane(normal, mesh.position(mesh.start(3 * f)), weight);
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       quadrics[mesh.start(c)] += plane;
       if (mesh.twin(c) != ArrayMesh::none) continue;
       const Vec3 from = mesh.position(mesh.start(c)), to = mesh.position(mesh.end(c));
-      const Quadric wall = Quadric::of_plane(unit(cross(to - from, normal)), to, border_weight);
+      const double border = mean > 0 ? squared_length(to - from) / mean : border_weight;
+      const Quadric wall = Quadric::of_plane(unit(cross(to - from, normal)), to, border);
       quadrics[mesh.start(c)] += wall;
       quadrics[mesh.end(c)] += wall;
     }

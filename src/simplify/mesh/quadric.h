@@ -26,8 +26,17 @@ struct Quadric {
   [[nodiscard]] std::optional<Vec3> minimum() const;
 };
 
+/// The weight of a face's plane in the quadrics of a mesh.
+enum class PlaneWeights {
+  /// 1 for each face, more at borders: favours few faces within a largest distance.
+  Equal,
+  /// The area of the face, or half a square on the border edge, divided by the mean area of all faces: favours a small
+  /// distance on average, which pictures show.
+  Area
+};
+
 /// By vertex: the planes of the faces around it, and through border edges, perpendicular to their face.
-[[nodiscard]] std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh);
+[[nodiscard]] std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh, PlaneWeights weights);
 
 struct Placement {
   Vec3 point;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// node compare.mjs TOOLS CHROMIUM FOLDER MODEL.obj...: simplifies each model by our tool within 1% of its diagonal, shape
-// and texture, and by meshoptimizer to as many faces; measures both, draws both, and prints a table in Markdown. Files go
-// to FOLDER. Of meshoptimizer's results with several weights of texture coordinates the one that looks best counts.
+// node compare.mjs TOOLS CHROMIUM FOLDER SHARE MODEL.obj...: simplifies each model to that share of its faces, by our tool
+// within 1% of its diagonal, shape and texture, and by meshoptimizer; measures both, draws both, and prints a table in
+// Markdown. Files go to FOLDER. Where one of the two stops earlier, the other gets as many faces. Of meshoptimizer's
+// results with several weights of texture coordinates the one that looks best counts.
 import { execFileSync } from 'node:child_process';
 import { mkdir, readFile } from 'node:fs/promises';
 import { basename, join } from 'node:path';
@@ -10,13 +11,19 @@ import { simplifyByMeshopt } from './meshopt.mjs';
 import { faceCount, readObj, writeObj } from './obj.mjs';
 import { pictureErrors } from './render.mjs';
 
-const [, , tools, chromium, folder, ...models] = process.argv;
+const [, , tools, chromium, folder, share, ...models] = process.argv;
 if (models.length === 0) {
-  console.error('usage: node compare.mjs TOOLS CHROMIUM FOLDER MODEL.obj...');
+  console.error('usage: node compare.mjs TOOLS CHROMIUM FOLDER SHARE MODEL.obj...');
   process.exit(2);
 }
 const tolerance = '1%';
 const weights = [0, 1, 10];
+
+async function byMeshopt(mesh, faces) {
+  const levels = [];
+  for (const weight of weights) levels.push(await simplifyByMeshopt(mesh, faces, weight));
+  return levels;
+}
 
 async function measured(original, level) {
   const json = `${level}.json`;
@@ -37,12 +44,14 @@ let won = 0;
 for (const model of models) {
   const name = basename(model, '.obj');
   const ours = join(folder, `${name}_ours.obj`);
-  execFileSync(join(tools, 'simplify_with_bound'),
-    [model, ours, '--tolerance', tolerance, '--texture-tolerance', tolerance, '--quiet'], { stdio: 'ignore' });
   const original = await readObj(model);
+  let others = await byMeshopt(original, Number(share) * faceCount(original));
+  const target = Math.max(...others.map(faceCount));
+  execFileSync(join(tools, 'simplify_with_bound'),
+    [model, ours, '--tolerance', tolerance, '--texture-tolerance', tolerance, '--target-faces', `${target}`, '--quiet'],
+    { stdio: 'ignore' });
   const level = await readObj(ours);
-  const others = [];
-  for (const weight of weights) others.push(await simplifyByMeshopt(original, faceCount(level), weight));
+  if (faceCount(level) > target) others = await byMeshopt(original, faceCount(level));
   const [error, ...errors] = await pictureErrors(chromium, original, [level, ...others]);
   const best = errors.indexOf(Math.min(...errors));
   const theirs = join(folder, `${name}_meshopt.obj`);
