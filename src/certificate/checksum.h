@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace meshbound {
 
@@ -23,5 +24,11 @@ class Crc64 {
   }();
   std::uint64_t state_ = ~std::uint64_t{0};
 };
+
+[[nodiscard]] inline std::uint64_t crc64_of(std::span<const std::uint8_t> bytes) {
+  Crc64 crc;
+  for (const std::uint8_t byte : bytes) crc.add(byte);
+  return crc.value();
+}
 
 }  // namespace meshbound

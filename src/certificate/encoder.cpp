@@ -139,9 +139,7 @@ std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& sim
   put_mesh(bytes, simplified);
   put_sections(bytes, original_to_simplified, simplified_to_original, [] {});
   if (lines != nullptr) put_lines(bytes, *lines);
-  Crc64 crc;
-  for (const std::uint8_t byte : bytes) crc.add(byte);
-  put(bytes, crc.value(), 8);
+  put(bytes, crc64_of(bytes), 8);
   return bytes;
 }
 

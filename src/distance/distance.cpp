@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "bvh/bvh_data.h"
+#include "distance/default_error_share.h"
 #include "distance/search/one_sided.h"
 #include "distance/symmetric.h"
 #include "meshbound/error.h"
@@ -14,9 +15,6 @@
 
 namespace meshbound {
 namespace {
-
-/// Default error bound, as a share of the size of the models.
-constexpr double default_error_share = 1e-6;
 
 double checked(double length, const char* name) {
   if (!(length >= 0)) throw InvalidInput(std::string(name) + " must be a length of 0 or more");

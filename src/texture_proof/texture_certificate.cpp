@@ -81,9 +81,7 @@ std::uint64_t checksum_of(const TexturedMesh& mesh) {
     for (const Eigen::Vector2d& uv : t.coordinates)
       for (const double x : uv) put(bytes, std::bit_cast<std::uint64_t>(x), 8);
   }
-  Crc64 crc;
-  for (const std::uint8_t byte : bytes) crc.add(byte);
-  return crc.value();
+  return crc64_of(bytes);
 }
 
 void check(const std::array<TexturedMesh, 2>& meshes, double tolerance) {
@@ -110,9 +108,7 @@ Bytes extended(const Bytes& file, const std::array<TexturedMesh, 2>& meshes, dou
     put(bytes, counts.pieces, 8);
   }
   for (const auto& [proof, counts] : proofs) bytes.insert(bytes.end(), proof.begin(), proof.end());
-  Crc64 crc;
-  for (const std::uint8_t byte : bytes) crc.add(byte);
-  put(bytes, crc.value(), 8);
+  put(bytes, crc64_of(bytes), 8);
   return bytes;
 }
 

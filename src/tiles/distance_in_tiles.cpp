@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "distance/default_error_share.h"
 #include "distance/distance_stats.h"
 #include "distance/search/one_sided.h"
 #include "mesh/stored_lists.h"
@@ -279,7 +280,7 @@ class TiledMeasurement {
 
 double default_error_bound(const StoredMesh& a, const StoredMesh& b, double diagonal) {
   if (!(diagonal > 0)) diagonal = diagonal_of(used_bounding_box(a).merged(used_bounding_box(b)));
-  return default_error_bound(TriangleMesh(), TriangleMesh(), diagonal);
+  return default_error_share * diagonal;
 }
 
 OneSidedDistance measure_one_side_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
