@@ -61,7 +61,7 @@ class TextureGuard {
     std::array<double, 3> weights{};
     Vec3 offset;  ///< from the sample to that point
   };
-  /// Of the sum of the sixth powers of the samples' distances, in limits, by the coordinate of the vertex.
+  /// Derivatives of a sum by the coordinate of the vertex: of the sixth powers of the samples' distances, in limits.
   struct Slope {
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
