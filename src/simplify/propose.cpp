@@ -115,6 +115,7 @@ void Proposer::gather_samples() {
   taken_ = numbers_;
   taken_.insert(taken_.end(), star_.removed.begin(), star_.removed.end());
   samples_.add_faces(taken_);
+  samples_.compare(faces_);
   if (texture_) texture_->begin({star_.edge, star_.moved, star_.removed});
 }
 
@@ -122,7 +123,6 @@ void Proposer::gather_samples() {
 bool Proposer::set_faces(Vec3 point) {
   if (placed_ && same_position(*placed_, point)) return true;
   placed_.reset();
-  compared_ = false;
   faces_.clear();
   for (std::size_t i = 0; i < star_.moved.size(); ++i) {
     const Corner c = star_.moved[i];
@@ -131,15 +131,9 @@ bool Proposer::set_faces(Vec3 point) {
     faces_.emplace_back(point - origin_, q - origin_, r - origin_);
   }
   note_shared_sides(faces_);
+  if (gathered_) samples_.compare(faces_);
   placed_ = point;
   return true;
-}
-
-/// Compares the samples around with the faces that stay.
-void Proposer::compare() {
-  if (!gathered_) gather_samples();
-  if (!compared_) samples_.compare(faces_);
-  compared_ = true;
 }
 
 /// What must be found in doubles around the star.
@@ -157,8 +151,8 @@ bool Proposer::owns(std::uint32_t face) const { return split_->owns_face(region_
 
 bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) return false;
+  if (!gathered_) gather_samples();
   by_bound_ = true;
-  compare();
   return samples_.hold(beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point) &&
          keeps_texture(point);
 }
@@ -322,7 +316,6 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   bool is_stray = false;
   const int max_steps = is_together_ ? max_minimax_steps_together : max_minimax_steps;
   for (int k = 0; k < max_steps; ++k) {
-    compare();
     deviation_kernel_.linearise(points, faces_, samples_.offsets(), by_limit, deviations_);
     if (is_stray) add_vertex(point);
     MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);

@@ -74,7 +74,6 @@ class Proposer {
 
  private:
   void gather_samples();
-  void compare();
   [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
   /// Where the vertex of a collapse may stand.
   struct AllowedEnds {
@@ -109,7 +108,6 @@ class Proposer {
   bool lowered_ = false;               ///< the last placement already has the smallest largest distance
   bool gathered_ = false;              ///< samples of the star are in `samples_`
   std::optional<Vec3> placed_;         ///< where the vertex is in `faces_`
-  bool compared_ = false;              ///< samples have been compared with `faces_`
   Hope hope_ = Hope::WithMoreTolerance;
   bool by_bound_ = false;  ///< samples decided the refusal
   Vec3 tried_;             ///< the first placement
