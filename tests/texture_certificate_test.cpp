@@ -11,6 +11,7 @@
 
 #include "forged_bytes.h"
 #include "meshbound/error.h"
+#include "verify/texture_check.h"
 #include "verify/verifier.h"
 
 namespace meshbound {
@@ -307,6 +308,52 @@ TEST(TextureCertificate, AcceptsNothingFalseWhateverBytesChange) {
       forged[at + header + random() % (forged.size() - at - header - 8)] = static_cast<std::uint8_t>(random() % 40);
     ASSERT_NE(c.rejection(sealed(forged)), "") << "change " << i;
   }
+}
+
+/// A triangle whose texture coordinates are its first two coordinates.
+verify::TextureSurface::Triangle flat_triangle(const Eigen::Vector2d& at, double size) {
+  verify::TextureSurface::Triangle triangle;
+  triangle.coordinates = {at, at + Eigen::Vector2d(size, 0), at + Eigen::Vector2d(0, size)};
+  for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] << triangle.coordinates[k], 0;
+  return triangle;
+}
+
+/// Appends the cuts of a triangle into pieces whose weights are at least `low`, each of which names no triangle.
+void append_cuts(Bytes& tokens, std::uint64_t& pieces, std::array<double, 3> low, int depth, int max_depth) {
+  std::array<double, 3> size{};
+  for (int k = 0; k < 3; ++k) size[static_cast<std::size_t>(k)] = std::ldexp(1, -(depth + 2 - k) / 3);
+  const double sum = low[0] + low[1] + low[2];
+  const bool is_empty = sum >= 1 || sum + size[0] + size[1] + size[2] <= 1;
+  if (is_empty || depth == max_depth) {
+    tokens.push_back(1);
+    ++pieces;
+    return;
+  }
+  tokens.push_back(0);
+  append_cuts(tokens, pieces, low, depth + 1, max_depth);
+  const auto corner = static_cast<std::size_t>(depth % 3);
+  low[corner] += size[corner] / 2;
+  append_cuts(tokens, pieces, low, depth + 1, max_depth);
+}
+
+/// Thousands of pieces that nothing covers, each of which must be compared with thousands of triangles in the same box.
+TEST(TextureCertificate, ThatCostsFarMoreThanItsBytesIsRefused) {
+  verify::TextureSurface source, target;
+  source.triangles = {flat_triangle({0, 0}, 1)};
+  for (int i = 0; i < 1500; ++i) target.triangles.push_back(flat_triangle({0.9 + i * 1e-6, 0.9}, 1e-6));
+  const auto rejection = [&](int max_depth) -> std::string {
+    Bytes tokens;
+    std::uint64_t pieces = 0;
+    append_cuts(tokens, pieces, {0, 0, 0}, 0, max_depth);
+    try {
+      (void)verify::check_texture(source, target, 1, {tokens, pieces}, "original");
+    } catch (const verify::Rejected& rejected) {
+      return rejected.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(rejection(3), "");
+  EXPECT_EQ(rejection(14), "the proof about the texture costs too much to check");
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "common/output_folder.h"
 #include "common/provenance.h"
 #include "common/signals.h"
+#include "common/standard_streams.h"
 #include "decimation/decimation_run.h"
 #include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
@@ -61,7 +62,7 @@ void declare(CLI::App& app, Options& options) {
                  "With --pixels: height of the screen in pixels (default 1080)");
   app.add_option("--fov", options.fov, "With --pixels: vertical field of view in degrees (default 60)");
   app.add_option("--format", options.format, "Format of the level files")
-      ->check(CLI::IsMember({"ply", "obj", "off", "stl", "glb", "gltf"}))
+      ->check(CLI::IsMember(mesh_formats()))
       ->capture_default_str();
   app.add_option("--glb", options.one_file,
                  "With --format glb: write all levels into this file, too, for engines that know MSFT_lod; a level is "

@@ -9,6 +9,7 @@
 #include "meshbound/distance.h"
 #include "numeric/first_error.h"
 #include "simplify/exceed_check.h"
+#include "simplify/minimax_step.h"
 #include "simplify/refine.h"
 #include "simplify/region_collapses.h"
 #include "simplify/repair.h"
@@ -199,7 +200,7 @@ std::size_t Run::prove_and_repair() {
 /// Makes edges open again that were refused for a smaller share of the tolerance.
 void Run::try_the_others_again() {
   for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
-    if (state_.hope[e] == Hope::WithMoreTolerance) state_.refused_at[e] = 0;
+    if (state_.deviation[e] <= hopeless_deviation) state_.refused_at[e] = 0;
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 

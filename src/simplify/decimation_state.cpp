@@ -129,7 +129,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       stamp(mesh.face_count(), 0),
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
-      hope(3 * mesh.face_count(), Hope::WithMoreTolerance),
+      deviation(3 * mesh.face_count(), 0),
       index_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
       starts_as_original(false),
       cover(std::move(cover_of)),
@@ -156,10 +156,14 @@ void DecimationState::set_samples(double for_tolerance) {
 
 void DecimationState::grow_tolerance(double to) {
   if (to == tolerance) return;
+  const auto scale = static_cast<float>(tolerance / to);
+  for (std::size_t e = 0; e < deviation.size(); ++e) {
+    deviation[e] *= scale;
+    if (!is_far_beyond(deviation[e])) refused_at[e] = 0;
+  }
   tolerance = to;
   limit = provable(to);
   line_limit = provable(std::min(line_tolerance, to));
-  std::fill(refused_at.begin(), refused_at.end(), 0);
   std::fill(share.begin(), share.end(), 1.0F);
 }
 

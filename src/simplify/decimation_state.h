@@ -81,12 +81,10 @@ class Samples {
   std::vector<std::uint32_t> triangle_near_, first_;
 };
 
-/// What must change before a refused edge is worth another trial.
-enum class Hope : std::uint8_t {
-  WithMoreTolerance,  ///< a larger share of the tolerance, or a change around it
-  AfterChange,        ///< something changes around it
-  OfOtherEnds         ///< one of its ends moves: it was refused by a wide margin
-};
+/// Whether an edge that was refused with this deviation, in tolerances, needs other ends: beyond hardly any is accepted
+/// after a change around it.
+inline constexpr float far_beyond = 1.25F;
+inline bool is_far_beyond(float deviation) { return deviation > far_beyond; }
 
 /// An unproven change of the mesh, with what is needed to undo it.
 struct Edit {
@@ -183,7 +181,7 @@ struct DecimationState {
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the start
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  std::vector<Hope> hope;                          ///< by edge: what must change before a refused edge is tried again
+  std::vector<float> deviation;                    ///< by edge: in tolerances, as found when it was refused; else 0
   std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
   /// Sets a larger tolerance: all proofs hold for it as well, and what was refused may fit now. A smaller one is not

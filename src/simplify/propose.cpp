@@ -39,15 +39,6 @@ constexpr double good_share = 0.9;
 /// Where a placement could not be proven, another one is looked for where distances are this share of the limit.
 constexpr double lower_share = 0.7;
 
-/// Beyond this deviation, in tolerances, hardly any edge is accepted after a change around it.
-constexpr float max_deviation_after_change = 1.25F;
-
-/// What may help an edge whose samples are this far away, in tolerances, from its best placement.
-Hope hope_of(float deviation) {
-  if (deviation > max_deviation_after_change) return Hope::OfOtherEnds;
-  return deviation > hopeless_deviation ? Hope::AfterChange : Hope::WithMoreTolerance;
-}
-
 /// Whether the two faces that stay are those of a tetrahedron: they have three vertices in common.
 bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
   return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
@@ -220,7 +211,6 @@ std::optional<Vec3> Proposer::placement_at_end(const AllowedEnds& ends) {
   const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
   const auto cost = [&](Vec3 at) { return state_.quadrics[kept].at(at) + state_.quadrics[gone].at(at); };
   const bool end_first = ends.end && (!ends.start || cost(q) < cost(p));
-  hope_ = Hope::WithMoreTolerance;
   lowered_ = true;  // there is no other one
   for (const bool at_end : {end_first, !end_first}) {
     if (!(at_end ? ends.end : ends.start)) continue;
@@ -233,7 +223,7 @@ std::optional<Vec3> Proposer::placement_at_end(const AllowedEnds& ends) {
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
   by_bound_ = false;
-  hope_ = Hope::AfterChange;
+  deviation_ = 0;
   if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   const AllowedEnds ends = allowed_ends(edge);
@@ -246,14 +236,15 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   by_bound_ = true;
   const double planes = state_.quadrics[kept].planes() + state_.quadrics[gone].planes();
   const double deviation = std::sqrt(std::max(0.0, best.cost) / planes);
-  hope_ = Hope::OfOtherEnds;
-  if (!wanted && deviation > max_deviation_from_planes * full_limit_) return std::nullopt;
-  hope_ = Hope::WithMoreTolerance;
+  if (!wanted && deviation > max_deviation_from_planes * full_limit_) {
+    deviation_ = static_cast<float>(deviation / (max_deviation_from_planes * full_limit_)) * far_beyond;
+    return std::nullopt;
+  }
   if (share < 1 && deviation > max_deviation_together * limit_) return std::nullopt;
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
   if (const auto lower = minimax(tried_, good_share * limit_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (hope_ == Hope::WithMoreTolerance && fits(end)) return end;
+    if (deviation_ <= hopeless_deviation && fits(end)) return end;
   }
   return std::nullopt;
 }
@@ -305,7 +296,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
     sample_kernel_.offsets(few_.blocks, faces_, few_offsets_);
     deviation_kernel_.linearise(few_, faces_, few_offsets_, by_limit, deviations_);
     const MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
-    hope_ = hope_of(step.there);
+    deviation_ = step.there;
     if (step.there > max_height) return std::nullopt;
     const Vec3 moved = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
     if (set_faces(moved))
@@ -327,7 +318,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
         step = minimax_step(deviations_, deviation_kernel_, low_deviation);
       }
     }
-    hope_ = hope_of(step.there);
+    deviation_ = step.there;
     if (full_limit_ * step.there > (k == 0 ? hopeful_deviation : 1) * limit_) return std::nullopt;
     point = point + full_limit_ * Vec3{step.move[0], step.move[1], step.move[2]};
     if (!set_faces(point)) return std::nullopt;

@@ -57,8 +57,8 @@ class Proposer {
   /// Whether the last edge was refused because of the bound, and where its vertex was to go.
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
-  /// What must change before the edge refused last is worth another trial.
-  [[nodiscard]] Hope hope() const { return hope_; }
+  /// How far samples were from the best placement of the edge refused last, in tolerances; 0 where that is not known.
+  [[nodiscard]] float deviation() const { return deviation_; }
   /// Another placement for the edge asked for last, if the first one could not be proven: one with a smaller largest
   /// distance.
   [[nodiscard]] std::optional<Vec3> lower_placement(Vec3 than);
@@ -108,7 +108,7 @@ class Proposer {
   bool lowered_ = false;               ///< the last placement already has the smallest largest distance
   bool gathered_ = false;              ///< samples of the star are in `samples_`
   std::optional<Vec3> placed_;         ///< where the vertex is in `faces_`
-  Hope hope_ = Hope::WithMoreTolerance;
+  float deviation_ = 0;
   bool by_bound_ = false;  ///< samples decided the refusal
   Vec3 tried_;             ///< the first placement
   Vec3 origin_;

@@ -28,7 +28,7 @@ bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns_f
 
 bool RegionCollapses::is_open(Corner edge) const {
   const std::uint32_t refused_at = state_.refused_at[mesh().edge(edge)];
-  if (refused_at > 0 && state_.hope[mesh().edge(edge)] == Hope::OfOtherEnds) return false;
+  if (refused_at > 0 && is_far_beyond(state_.deviation[mesh().edge(edge)])) return false;
   return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >= refused_at;
 }
 
@@ -64,7 +64,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
   state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
-  state_.hope[mesh().edge(edge)] = point_found ? Hope::WithMoreTolerance : proposer_.hope();
+  state_.deviation[mesh().edge(edge)] = point_found ? 0 : proposer_.deviation();
   if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
   return false;
 }

@@ -20,9 +20,11 @@ constexpr const char* output_device = "/dev/stdout";
 
 }  // namespace
 
+std::vector<std::string> mesh_formats() { return {"ply", "obj", "off", "stl", "glb", "gltf"}; }
+
 void add_stream_format(CLI::App& app, const std::string& name, std::string& format, const std::string& meshes) {
   app.add_option(name, format, "Format of a mesh on standard " + meshes + ", which - stands for")
-      ->check(CLI::IsMember({"ply", "obj", "off", "stl", "glb", "gltf"}));
+      ->check(CLI::IsMember(mesh_formats()));
 }
 
 std::string stream_path(const std::string& role, const std::string& argument, StandardStream stream,

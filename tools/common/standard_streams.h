@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "meshbound/stop_token.h"
 
@@ -13,6 +14,9 @@ class App;
 namespace meshbound::tools {
 
 enum class StandardStream { Input, Output };
+
+/// The formats of meshes, as an option names them.
+[[nodiscard]] std::vector<std::string> mesh_formats();
 
 /// Adds the option `name`, the format of `meshes`: --format of meshes on standard input or output.
 void add_stream_format(CLI::App& app, const std::string& name, std::string& format, const std::string& meshes);

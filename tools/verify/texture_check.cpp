@@ -15,8 +15,8 @@ constexpr int weight_bits = 40;         ///< levels are multiples of 2^-40
 constexpr std::size_t max_rest = 256;   ///< pieces of what is not covered
 constexpr std::size_t block_size = 32;  ///< triangles of a block of the index
 
-/// Clips that a proof may cost: few bytes could ask for many. Real proofs need some ten for each byte.
-constexpr std::uint64_t min_work = 65536, work_per_unit = 1024;
+/// Clips that a proof may cost: few bytes could ask for many. Real proofs needed 5 to 23 for each byte and triangle.
+constexpr std::uint64_t min_work = 65536, work_per_unit = 256;
 
 /// The area of a polygon in the plane of the first two weights, of which the whole triangle has 1/2; rounded.
 double rough_area(const DomainPolygon& polygon) {
