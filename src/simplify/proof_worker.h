@@ -130,7 +130,7 @@ class ProofWorkers::Worker {
     // What is cheap and likely to fail comes first.
     const FaceMask all = ForwardCover::first(cover_.size());
     for (const std::size_t i : in_pieces_)
-      if (cover_.corner_out_of_reach(affected_[i], all)) return false;
+      if (!cover_.are_corners_near(affected_[i], all)) return false;
     for (const std::size_t i : in_pieces_) {
       used_[i] = cover_.cover(affected_[i], all, added);
       if (used_[i] == 0) return false;

@@ -13,7 +13,8 @@ void CandidateFaces::clear(double tolerance) {
   size_ = 0;
 }
 
-void CandidateFaces::put(int k, const std::array<Vec3, 3>& corners) {
+void CandidateFaces::add(const std::array<Vec3, 3>& corners) {
+  const int k = size_++;
   corners_[k] = corners;
   prepared_ &= ~(FaceMask{1} << k);
   missing_ |= 1U << (k / PlaneBlock::lanes);

@@ -28,9 +28,7 @@ class CandidateFaces {
 
   void clear(double tolerance);
   /// `size()` must be less than `capacity`.
-  void add(const std::array<Vec3, 3>& corners) { put(size_++, corners); }
-  /// Replaces candidate k.
-  void replace(int k, const std::array<Vec3, 3>& corners) { put(k, corners); }
+  void add(const std::array<Vec3, 3>& corners);
   [[nodiscard]] int size() const { return size_; }
 
   /// The members of `among` that are within the tolerance of p.
@@ -46,7 +44,6 @@ class CandidateFaces {
  private:
   static constexpr std::size_t blocks = capacity / PlaneBlock::lanes;
   [[nodiscard]] bool holds(int k, Vec3 p);
-  void put(int k, const std::array<Vec3, 3>& corners);
   [[nodiscard]] const PreparedTriangle& triangle(int k);
   /// The planes of candidates 4 block to 4 block + 3, made when they are first asked for, all at once.
   const PlaneBlock& planes(std::size_t block) {

@@ -31,29 +31,15 @@ void ForwardCover::begin(double tolerance) {
   ++round_;
 }
 
-int ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
-  const int k = candidates_.size();
-  if (k == CandidateFaces::capacity) return no_room;
-  faces_[static_cast<std::size_t>(k)] = face;
+void ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
+  if (size() == CandidateFaces::capacity) return;
+  faces_[static_cast<std::size_t>(size())] = face;
   candidates_.add(corners);
-  return k;
-}
-
-void ForwardCover::replace_first(std::span<const std::array<Vec3, 3>> corners) {
-  for (std::size_t k = 0; k < corners.size(); ++k) candidates_.replace(static_cast<int>(k), corners[k]);
-  replaced_ = first(static_cast<int>(corners.size()));
-  ++replacement_;
 }
 
 FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
   CachedMask& cached = cache_[vertex];
-  if (cached.round != round_) {
-    cached = {round_, replacement_, 0, 0};
-  } else if (cached.replacement != replacement_) {
-    cached.replacement = replacement_;
-    cached.known &= ~replaced_;
-    cached.mask &= ~replaced_;
-  }
+  if (cached.round != round_) cached = {round_, 0, 0};
   if (const FaceMask missing = allowed & ~cached.known; missing != 0) {
     cached.mask |= candidates_.holding(vertices_[vertex], missing);
     cached.known |= missing;
@@ -61,10 +47,9 @@ FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
   return cached.mask & allowed;
 }
 
-std::optional<std::uint32_t> ForwardCover::corner_out_of_reach(std::uint32_t triangle, FaceMask allowed) {
+bool ForwardCover::are_corners_near(std::uint32_t triangle, FaceMask allowed) {
   const auto& corners = triangles_[triangle];
-  const auto at = std::find_if(corners.begin(), corners.end(), [&](std::uint32_t v) { return !holds(v, allowed); });
-  return at == corners.end() ? std::nullopt : std::optional(*at);
+  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return mask_of(v, allowed) != 0; });
 }
 
 FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
@@ -112,7 +97,6 @@ std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corn
 }
 
 FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int max_cuts) {
-  ++splits;
   open_.assign(1, whole);
   FaceMask used = 0;
   for (int spent = 0; !open_.empty();) {
@@ -146,7 +130,6 @@ bool ForwardCover::cut(const Piece& piece, FaceMask allowed, Asked asked) {
     share = std::clamp((reach.forth + 1 - reach.back) / 2, nearest_cut, 1 - nearest_cut);
   }
   const Vec3 middle = p + share * (q - p);
-  ++cuts;
   // A candidate that holds no corner holds no part that is cut here, unless it is smaller than the piece: it is asked
   // only when the others fail.
   const FaceMask likely = asked == Asked::All ? allowed : piece.masks[0] | piece.masks[1] | piece.masks[2];

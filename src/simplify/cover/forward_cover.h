@@ -27,11 +27,8 @@ class ForwardCover {
 
   /// Begins a new set of candidates; masks of earlier ones are forgotten.
   void begin(double tolerance);
-  /// Index of the new candidate, `no_room` when there are 64 already.
-  int add(const std::array<Vec3, 3>& corners, std::uint32_t face);
-  static constexpr int no_room = -1;
-  /// Replaces the corners of the first candidates; what is known of the others stays.
-  void replace_first(std::span<const std::array<Vec3, 3>> corners);
+  /// Adds a candidate. There are 64 at most; further ones are left out.
+  void add(const std::array<Vec3, 3>& corners, std::uint32_t face);
   [[nodiscard]] int size() const { return candidates_.size(); }
   [[nodiscard]] std::uint32_t face(int k) const { return faces_[static_cast<std::size_t>(k)]; }
   /// Candidates [0, size).
@@ -50,12 +47,8 @@ class ForwardCover {
   /// Mask of the candidates that together cover a part of a triangle with at most `max_cuts` cuts, 0 when they do not.
   /// None if no candidate holds some corner.
   [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int max_cuts);
-  /// The first corner of the triangle that no candidate of `allowed` holds, if there is one.
-  [[nodiscard]] std::optional<std::uint32_t> corner_out_of_reach(std::uint32_t triangle, FaceMask allowed);
-  /// True when some candidate of `allowed` is within the tolerance of the vertex.
-  [[nodiscard]] bool holds(std::uint32_t vertex, FaceMask allowed) { return mask_of(vertex, allowed) != 0; }
-
-  std::uint64_t splits = 0, cuts = 0;
+  /// Whether some candidate of `allowed` is within the tolerance of each corner.
+  [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
 
  private:
   struct Piece {
@@ -69,7 +62,7 @@ class ForwardCover {
   [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
 
   struct CachedMask {
-    std::uint32_t round = 0, replacement = 0;
+    std::uint32_t round = 0;
     FaceMask known = 0;  ///< candidates that have been asked
     FaceMask mask = 0;
   };
@@ -79,8 +72,7 @@ class ForwardCover {
   CandidateFaces candidates_;
   std::array<std::uint32_t, CandidateFaces::capacity> faces_{};
   double shortest_squared_edge_ = 0;
-  std::uint32_t round_ = 0, replacement_ = 0;
-  FaceMask replaced_ = 0;
+  std::uint32_t round_ = 0;
   std::vector<CachedMask> cache_;
   std::vector<Piece> open_;
 };
