@@ -153,6 +153,24 @@ TEST_F(Tori, ALargerInstanceNeedsAFinerLevel) {
   EXPECT_GT(levels.cameras[0].level[0], levels.cameras[0].level[1]);
 }
 
+/// Of the directions that a pose stretches by different factors the one that it stretches most counts.
+TEST_F(Tori, AStretchedInstanceNeedsTheLevelOfItsLongestDirection) {
+  Affine3d stretched = at({0, 0, -50});
+  stretched.linear() = Vector3d(-1, 4, 0.5).asDiagonal();
+  const ViewLevels levels = choose({{0, stretched, {}}, {0, at({0, 0, -50}), {}}});
+  const double tolerance = view_tolerance(square_camera(), 1, used_bounding_box(models_[0]), stretched);
+  const std::vector<ViewLevel>& of_torus = levels.models[0];
+  const std::uint32_t chosen = levels.cameras[0].level[0];
+  EXPECT_LE(4 * of_torus[chosen].error, tolerance);
+  EXPECT_GT(levels.cameras[0].level[1], chosen);
+  EXPECT_GT(4 * of_torus[chosen + 1].error, tolerance);
+}
+
+TEST_F(Tori, APointIsHidden) {
+  const ViewLevels levels = choose({{0, at({0, 0, -5}, 0), {}}, {0, at({0, 0, 0}, 0), {}}});
+  EXPECT_EQ(levels.cameras[0].level, std::vector<std::uint32_t>(2, ViewChoice::hidden));
+}
+
 TEST_F(Tori, TheErrorOfAGroupIsThatOfItsWorstPart) {
   const ViewLevels levels = choose(
       {{0, at({0, 0, -20}), 1}, {0, at({5, 0, -400}, 2), 1}, {0, at({0, 0, -0.35}), 0}, {0, at({0, 0, -900}), {}}});
@@ -165,9 +183,7 @@ TEST_F(Tori, TheErrorOfAGroupIsThatOfItsWorstPart) {
 }
 
 TEST_F(Tori, WhatCannotBeIsRefused) {
-  Affine3d stretched = at({0, 0, -5});
-  stretched.linear()(0, 0) = 2;
-  EXPECT_THROW((void)choose({{0, stretched, {}}}), InvalidInput);
+  EXPECT_THROW((void)choose({{0, at({0, 0, -std::numeric_limits<double>::infinity()}), {}}}), InvalidInput);
   EXPECT_THROW((void)choose({{1, at({0, 0, -5}), {}}}), InvalidInput);
   ViewOptions none = options();
   none.pixels = 0;

@@ -3,11 +3,13 @@
 // are refused with the place in them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "datasets/analytic_meshes.h"
+#include "gltf_file.h"
 #include "json_claims.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
@@ -108,7 +110,7 @@ TEST_F(ViewTool, RefusesAScenePointingAtWhatIsWrong) {
   refused("/cameras/0/direction", {0, 0, 0}, "cameras[0].direction: must have a length");
   refused("/screen/fov", 180, "screen.fov: expected degrees below 180");
   refused("/pixels", 0, "pixels: expected a positive number");
-  refused("/instances/0/pose/0", 2, "instance 0: its pose is not a rigid motion and a scale");
+  refused("/instances/0/pose/12", 2, "instances[0].pose: the last four of the 16 numbers must be 0 0 0 1");
   scene_ = good;
   scene_.erase("models");
   expect_refused("scene.json: \"models\" is missing");
@@ -124,6 +126,107 @@ TEST_F(ViewTool, RefusesToReplaceItsInputs) {
   const ToolRun result = run();
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(line_count(result.err), 1) << result.err;
+}
+
+/// Positions as floats, as glTF has them.
+TriangleMesh rounded(TriangleMesh mesh) {
+  for (Eigen::Vector3d& p : mesh.vertices) p = p.cast<float>().cast<double>();
+  return mesh;
+}
+
+void add_mesh(test::GltfFile& file, const TriangleMesh& mesh) {
+  std::vector<float> positions;
+  std::vector<std::uint16_t> indices;
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    for (const double x : p) positions.push_back(static_cast<float>(x));
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) indices.push_back(static_cast<std::uint16_t>(v));
+  test::GltfJson primitive = {{"attributes", {{"POSITION", file.add_positions(positions)}}}};
+  primitive["indices"] = file.add_indices(indices);
+  file.json["meshes"].push_back({{"primitives", {primitive}}});
+}
+
+/// A glTF scene with two tori, one of them stretched and below another node, a sphere behind the camera, a mesh of
+/// points, and a camera that its node moves and turns; and the same as a scene of JSON.
+class GltfViewTool : public ViewTool {
+ protected:
+  GltfViewTool() {
+    const TriangleMesh torus = rounded(datasets::torus(1, 0.3, 80, 40)), sphere = rounded(datasets::icosphere(1, 4));
+    write_mesh(folder_ / "torus.ply", torus);
+    write_mesh(folder_ / "sphere.off", sphere);
+    add_mesh(file_, torus);
+    file_.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"mode", 0}}}}});
+    add_mesh(file_, sphere);
+    file_.json["cameras"] = {{{"type", "orthographic"}},
+                             {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"aspectRatio", 1.5}}}}};
+    // The camera looks along +x from (7, 0, 0).
+    file_.json["nodes"] = {{{"mesh", 1}},
+                           {{"mesh", 0}, {"translation", {20, 0, 0}}},
+                           {{"children", {3}}, {"translation", {100, 0, 0}}},
+                           {{"mesh", 0}, {"translation", {50, 0, 0}}, {"scale", {1, 3, -1}}},
+                           {{"mesh", 2}, {"translation", {-9, 0, 0}}},
+                           {{"camera", 0}},
+                           {{"camera", 1}, {"translation", {7, 0, 0}}}};
+    const double half = std::sqrt(0.5);
+    file_.json["nodes"][6]["rotation"] = {0, -half, 0, half};
+    file_.json["scenes"][0]["nodes"] = {0, 1, 2, 4, 5, 6};
+    scene_["pixels"] = 2;
+    scene_["screen"] = {{"height", 900}, {"fov", 180 / std::acos(-1)}, {"aspect", 1.5}};
+    scene_["instances"] = {{{"model", 0}, {"pose", {1, 0, 0, 20, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}},
+                           {{"model", 0}, {"pose", {1, 0, 0, 150, 0, 3, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}}},
+                           {{"model", 1}, {"pose", {1, 0, 0, -9, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}};
+    scene_["cameras"] = {{{"position", {7, 0, 0}}, {"direction", {1, 0, 0}}}};
+  }
+  ToolRun run_gltf(const std::vector<std::string>& options = {}) {
+    file_.write(folder_ / "scene.glb");
+    std::vector<std::string> all{"--scene", folder_ / "scene.glb", folder_ / "of_gltf"};
+    all.insert(all.end(), options.begin(), options.end());
+    return run_tool(LOD_CHAIN, all);
+  }
+  void expect_gltf_refused(const std::string& why, const std::vector<std::string>& options = {}) {
+    const ToolRun result = run_gltf(options);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(line_count(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "of_gltf"));
+  }
+
+  test::GltfFile file_;
+};
+
+TEST_F(GltfViewTool, ASceneOfGltfGetsTheLevelsOfTheSameSceneInJson) {
+  ASSERT_EQ(run({"--quiet"}).exit_code, 0);
+  const ToolRun result = run_gltf({"--pixels", "2", "--screen-height", "900"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("scene.glb, mesh 2, 5120 faces"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("left out    1 orthographic cameras"), std::string::npos) << result.out;
+  const json of_json = json::parse(content_of(folder_ / "out/view.json")),
+             view = checked_document(content_of(folder_ / "of_gltf/view.json"));
+  EXPECT_EQ(view["pixels"], 2);
+  ASSERT_EQ(view["models"].size(), 2u);
+  EXPECT_EQ(view["models"][1]["mesh"], 2);
+  ASSERT_GE(view["models"][0]["levels"].size(), 2u);
+  for (std::size_t model = 0; model < 2; ++model)
+    EXPECT_EQ(view["models"][model]["levels"], of_json["models"][model]["levels"]);
+  EXPECT_EQ(view["instances"],
+            json::parse(R"([{"node": 1, "model": 0}, {"node": 3, "model": 0}, {"node": 4, "model": 1}])"));
+  ASSERT_EQ(view["cameras"].size(), 1u);
+  EXPECT_EQ(view["cameras"][0]["node"], 6);
+  EXPECT_EQ(view["cameras"][0]["levels"], of_json["cameras"][0]["levels"]);
+  EXPECT_TRUE(view["cameras"][0]["levels"][2].is_null());
+  EXPECT_NE(view["cameras"][0]["levels"][0], view["cameras"][0]["levels"][1]);
+  EXPECT_EQ(view["cameras"][0]["triangles"], of_json["cameras"][0]["triangles"]);
+}
+
+TEST_F(GltfViewTool, RefusesASceneThatNothingIsSeenFrom) {
+  expect_gltf_refused("leave out --levels", {"--levels", "1%"});
+  expect_gltf_refused("one number of --pixels", {"--pixels", "1,2"});
+  file_.json["cameras"][1]["perspective"]["yfov"] = 4;
+  expect_gltf_refused("cameras[1].perspective.yfov: expected radians between 0 and pi");
+  file_.json["cameras"][1]["type"] = "orthographic";
+  expect_gltf_refused("the default scene has no perspective camera");
+  file_.json["scenes"][0]["nodes"] = {0, 5};
+  expect_gltf_refused("the default scene shows no triangles");
 }
 
 }  // namespace

@@ -45,9 +45,10 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("DIR", options.folder,
                  "Folder for lod_0 (the finest), lod_1, ... and chain.json; made when it is not there. Levels of an "
                  "earlier run in it that are not written again are removed");
-  app.add_option("--scene", options.scene,
-                 "Instead of IN: a scene of instances and cameras (JSON); makes the levels that they need, and "
-                 "view.json, which says who uses which");
+  app.add_option(
+      "--scene", options.scene,
+      "Instead of IN: a scene of instances and cameras (JSON, GLB or glTF); makes the levels that they need, "
+      "and view.json, which says who uses which");
   app.add_option("--levels", options.levels, "Tolerances: model units, or 0.1% of the bounding-box diagonal: T1,T2,...")
       ->delimiter(',');
   app.add_option("--pixels", options.pixels,
@@ -85,13 +86,18 @@ constexpr double smallest_usual_fov = 5;
 /// `lod_chain --scene FILE DIR`.
 int run_scene(const Options& options) {
   if (!options.folder.empty()) throw InvalidInput("--scene names the models; leave IN out and give DIR alone");
-  if (!options.levels.empty() || !options.pixels.empty() || !options.distances.empty() || options.screen_height ||
-      options.fov)
+  if (!options.levels.empty() || !options.distances.empty() || options.fov ||
+      (!is_gltf(options.scene) && (!options.pixels.empty() || options.screen_height)))
     throw InvalidInput(
-        "--scene gives pixels, screen and cameras; leave out --levels, --pixels and what belongs to them");
+        "--scene gives pixels, screen and cameras (one of glTF only cameras); leave out --levels, --pixels and what "
+        "belongs to them");
+  if (options.pixels.size() > 1) throw InvalidInput("--scene takes one number of --pixels");
   if (options.deviation.has_any())
     throw InvalidInput("--report shows the levels of one mesh; leave it out with --scene");
-  return run_view(options, options.scene, options.input, options.format);
+  ViewRequest request{.scene = options.scene, .folder = options.input, .format = options.format, .screen = {}};
+  if (!options.pixels.empty()) request.screen.pixels = options.pixels.front();
+  if (options.screen_height) request.screen.height_pixels = *options.screen_height;
+  return run_view(options, request);
 }
 
 /// One run of the tool, in the order of its phases.

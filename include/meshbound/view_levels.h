@@ -28,7 +28,7 @@ struct ViewCamera {
 /// A model at a place in the scene.
 struct ViewInstance {
   std::size_t model = 0;  ///< index among the models
-  /// Model to world: a rigid motion and a scale that is the same in all directions.
+  /// Model to world. Deviations count as if it stretched all directions as much as the one that it stretches most.
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
   std::optional<std::size_t> group;  ///< instances with the same number are one group
 };
@@ -62,7 +62,7 @@ struct ViewLevel {
 
 /// What one camera sees of the instances.
 struct ViewChoice {
-  static constexpr std::uint32_t hidden = 0xffffffff;  ///< the whole instance lies behind the camera
+  static constexpr std::uint32_t hidden = 0xffffffff;  ///< it lies behind the camera or is a point
   std::vector<std::uint32_t> level;                    ///< for each instance, a level of its model or `hidden`
   std::size_t triangles = 0;                           ///< that are drawn
   std::size_t full_triangles = 0;                      ///< that would be drawn of the models themselves
@@ -84,8 +84,8 @@ using ViewSink = std::function<void(std::size_t model, std::size_t level, const 
 
 /// Chooses levels for all cameras. Which tolerances are needed follows from the boxes alone, so each model's chain
 /// makes those levels and no other; an instance then gets the coarsest level whose error projects to at most
-/// `ViewOptions::pixels`. Throws `InvalidInput` for an instance of a model that is not there or with a pose that is no
-/// similarity, and as `view_tolerance` and `LodChain`. Time: the levels that are made. `sink` may be empty.
+/// `ViewOptions::pixels`. Throws `InvalidInput` for an instance of a model that is not there or with a pose that is not
+/// finite, and as `view_tolerance` and `LodChain`. Time: the levels that are made. `sink` may be empty.
 [[nodiscard]] ViewLevels view_levels(std::span<const TriangleMesh> models, std::span<const ViewInstance> instances,
                                      std::span<const ViewCamera> cameras, const ViewOptions& options,
                                      const ViewSink& sink = {});

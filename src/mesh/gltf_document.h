@@ -29,9 +29,21 @@ struct GltfDocument : SceneLayout {
 /// The number of textures, cameras, animations and skins.
 [[nodiscard]] std::size_t count_scene_objects(const GltfDocument& document);
 
-/// The meshes that the default scene shows, in the order of its nodes: the scene of number `scene`, else the first one,
-/// else all nodes that are no children. Throws `InvalidInput`, also where a node has two parents.
-[[nodiscard]] std::vector<PlacedMesh> placed_meshes(const MeshSource& source, const GltfDocument& document);
+/// A node of the default scene that has a camera, which looks along -z there. The camera itself is not looked at.
+struct PlacedCamera {
+  std::uint32_t node = 0;
+  NodePlacement placement;
+};
+
+/// What the nodes of the default scene show, in their order.
+struct PlacedObjects {
+  std::vector<PlacedMesh> meshes;
+  std::vector<PlacedCamera> cameras;
+};
+
+/// The objects of the default scene: the scene of number `scene`, else the first one, else all nodes that are no
+/// children. Throws `InvalidInput`, also where a node has two parents.
+[[nodiscard]] PlacedObjects placed_objects(const MeshSource& source, const GltfDocument& document);
 
 /// The bytes that "buffer", "byteOffset" and "byteLength" of a value locate. Throws `InvalidInput` where they reach
 /// beyond their buffer. `buffers` must outlive them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which meshes the nodes of the default scene show, and where ("glTF 2.0 Specification", 3.5).
+// Which meshes and cameras the nodes of the default scene show, and where ("glTF 2.0 Specification", 3.5).
 #include <Eigen/LU>
 #include <cmath>
 #include <numeric>
@@ -61,7 +61,7 @@ class SceneWalk {
         meshes_(root_.count("meshes")),
         is_visited_(nodes_, 0) {}
 
-  std::vector<PlacedMesh> run() {
+  PlacedObjects run() {
     const std::vector<std::size_t> roots = scene_roots();
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) open_.push_back({*root, {}});
     while (!open_.empty()) {
@@ -113,8 +113,9 @@ class SceneWalk {
     if (const auto extensions = here.find("extensions"); extensions && extensions->find("EXT_mesh_gpu_instancing"))
       here.fail("instances of the extension 'EXT_mesh_gpu_instancing' are not read; convert them to nodes");
     if (const auto mesh = here.find("mesh"))
-      placed_.push_back({static_cast<std::uint32_t>(mesh->index(meshes_, "meshes")),
-                         static_cast<std::uint32_t>(at.node), placement, here.find("skin").has_value()});
+      placed_.meshes.push_back({static_cast<std::uint32_t>(mesh->index(meshes_, "meshes")),
+                                static_cast<std::uint32_t>(at.node), placement, here.find("skin").has_value()});
+    if (here.find("camera")) placed_.cameras.push_back({static_cast<std::uint32_t>(at.node), placement});
     const std::vector<std::size_t> children = listed(here, "children");
     for (auto child = children.rbegin(); child != children.rend(); ++child) open_.push_back({*child, placement});
   }
@@ -124,12 +125,12 @@ class SceneWalk {
   std::size_t nodes_, meshes_;
   std::vector<std::uint8_t> is_visited_;
   std::vector<Open> open_;
-  std::vector<PlacedMesh> placed_;
+  PlacedObjects placed_;
 };
 
 }  // namespace
 
-std::vector<PlacedMesh> placed_meshes(const MeshSource& source, const GltfDocument& document) {
+PlacedObjects placed_objects(const MeshSource& source, const GltfDocument& document) {
   return SceneWalk(source, document).run();
 }
 

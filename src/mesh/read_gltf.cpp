@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "mesh/gltf_attributes.h"
 #include "mesh/gltf_document.h"
+#include "mesh/gltf_scene.h"
 #include "mesh/mesh_assembler.h"
 #include "mesh/readers.h"
 #include "mesh/weld.h"
@@ -42,18 +44,21 @@ std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, st
 
 class GltfReader {
  public:
-  explicit GltfReader(const MeshSource& source)
+  GltfReader(const MeshSource& source, std::shared_ptr<GltfDocument> document)
       : source_(source),
-        document_(std::make_shared<GltfDocument>(read_gltf_document(source))),
+        document_(std::move(document)),
         root_(source, document_->json),
         accessors_(source, *document_),
         assembler_(source, Position::Byte) {
     if (source.with_attributes) attributes_.emplace(accessors_, root_);
   }
 
-  MeshFile read() {
-    document_->placed = placed_meshes(source_, *document_);
+  /// The triangles of these meshes; nothing where they have none and `may_be_empty` is set.
+  std::optional<MeshFile> read(std::vector<PlacedMesh> placed, bool may_be_empty) {
+    document_->parts.clear();
+    document_->placed = std::move(placed);
     for (std::uint32_t i = 0; i < document_->placed.size(); ++i) read_placed(i);
+    if (may_be_empty && !assembler_.has_triangles()) return std::nullopt;
     if (!attributes_) {
       assembler_.dropped().materials = root_.count("materials");
       assembler_.dropped().scene_objects = count_scene_objects(*document_);
@@ -161,8 +166,55 @@ class GltfReader {
   std::uint32_t first_vertex_ = 0;
 };
 
+void add_camera(const GltfValue& root, const PlacedCamera& shown, GltfScene& scene) {
+  const GltfValue number = root.at("nodes").item(shown.node).at("camera");
+  const GltfValue camera = root.at("cameras").item(number.index(root.count("cameras"), "cameras"));
+  if (camera.at("type").text() != "perspective") {
+    ++scene.orthographic_cameras;
+    return;
+  }
+  const GltfValue view = camera.at("perspective"), angle = view.at("yfov");
+  if (!(angle.number() > 0 && angle.number() < std::numbers::pi)) angle.fail("expected radians between 0 and pi");
+  GltfScene::Camera& added = scene.cameras.emplace_back();
+  added.node = shown.node;
+  added.placement = shown.placement;
+  added.vertical_field_of_view = angle.number();
+  if (const auto ratio = view.find("aspectRatio")) {
+    if (!(ratio->number() > 0)) ratio->fail("expected a positive number");
+    added.aspect_ratio = ratio->number();
+  }
+}
+
 }  // namespace
 
-MeshFile read_gltf(const MeshSource& source) { return GltfReader(source).read(); }
+MeshFile read_gltf(const MeshSource& source) {
+  auto document = std::make_shared<GltfDocument>(read_gltf_document(source));
+  std::vector<PlacedMesh> placed = placed_objects(source, *document).meshes;
+  return *GltfReader(source, std::move(document)).read(std::move(placed), false);
+}
+
+GltfScene read_gltf_scene(const MeshSource& source) {
+  const auto document = std::make_shared<GltfDocument>(read_gltf_document(source));
+  const PlacedObjects placed = placed_objects(source, *document);
+  GltfScene scene;
+  std::map<std::uint32_t, std::size_t> index_of;  // of a mesh in `scene`; `no_mesh`: it has no triangles
+  constexpr std::size_t no_mesh = no_index;
+  for (const PlacedMesh& shown : placed.meshes) {
+    const auto [found, is_new] = index_of.try_emplace(shown.mesh, no_mesh);
+    if (is_new) {
+      PlacedMesh in_own_frame = shown;
+      in_own_frame.placement = {};
+      auto content = GltfReader(source, document).read({in_own_frame}, true);
+      if (content) {
+        found->second = scene.meshes.size();
+        scene.meshes.push_back({shown.mesh, *std::move(content)});
+      }
+    }
+    if (found->second != no_mesh) scene.instances.push_back({found->second, shown.node, shown.placement});
+  }
+  const GltfValue root(source, document->json);
+  for (const PlacedCamera& shown : placed.cameras) add_camera(root, shown, scene);
+  return scene;
+}
 
 }  // namespace meshbound

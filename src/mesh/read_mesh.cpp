@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh/file_bytes.h"
+#include "mesh/gltf_scene.h"
 #include "mesh/readers.h"
 #include "meshbound/io.h"
 
@@ -17,17 +18,24 @@ bool is_read_by_ranges(const std::filesystem::path& path, std::string_view start
          start.find("\nend_header") != start.npos;
 }
 
-MeshFile parsed(MeshSource source) {
+bool is_gltf(FileFormat format) { return format == FileFormat::Glb || format == FileFormat::Gltf; }
+
+/// Refuses empty files; of text also UTF-16, and begins behind a byte order mark.
+MeshSource begun(MeshSource source) {
   const FileFormat format = format_of(source.path);
   if (source.bytes.empty()) source.fail("the file is empty (0 bytes)");
   // The header of a binary STL may hold any bytes; its reader recognises text for itself.
-  if (format == FileFormat::Stl) return read_stl(source);
-  if (source.bytes.starts_with("glTF") && (format == FileFormat::Glb || format == FileFormat::Gltf))
-    return read_gltf(source);
-
+  if (format == FileFormat::Stl || (is_gltf(format) && source.bytes.starts_with("glTF"))) return source;
   if (is_utf16(source.bytes)) source.fail_at_byte(0, "the text is UTF-16; save it as ASCII or UTF-8");
   if (source.bytes.starts_with("\xEF\xBB\xBF")) source.begin = 3;
-  switch (format) {
+  return source;
+}
+
+MeshFile parsed(const MeshSource& given) {
+  const MeshSource source = begun(given);
+  switch (format_of(source.path)) {
+    case FileFormat::Stl:
+      return read_stl(source);
     case FileFormat::Off:
       return read_off(source);
     case FileFormat::Obj:
@@ -50,6 +58,10 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
 
 MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, const ReadOptions& options) {
   return parsed({path, bytes, 0, {options.deadline, options.cancel}, options.attributes});
+}
+
+GltfScene parse_gltf_scene(const std::filesystem::path& path, std::string_view bytes, const StopToken& stop) {
+  return read_gltf_scene(begun({path, bytes, 0, stop}));
 }
 
 MeshFile parse_mesh_into(const std::filesystem::path& path, std::string_view bytes, const StopToken& stop,

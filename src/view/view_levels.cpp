@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshbound/view_levels.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,22 +14,12 @@
 namespace meshbound {
 namespace {
 
-/// The scale of a pose that is a rigid motion and a scale; absent for other affine maps.
-std::optional<double> similarity_scale(const Eigen::Affine3d& pose) {
-  if (!pose.matrix().allFinite()) return std::nullopt;
-  const Eigen::Matrix3d gram = pose.linear().transpose() * pose.linear();
-  const double square = gram.trace() / 3;
-  if (!(square > 0) || !((gram - square * Eigen::Matrix3d::Identity()).norm() <= 1e-9 * square)) return std::nullopt;
-  return std::sqrt(square);
-}
-
-double scale_of(const ViewInstance& instance, std::size_t number, std::size_t models) {
+/// By how much the pose stretches a length at most.
+double stretch_of(const ViewInstance& instance, std::size_t number, std::size_t models) {
   const std::string where = "instance " + std::to_string(number);
   if (instance.model >= models) throw InvalidInput(where + ": there is no model " + std::to_string(instance.model));
-  const auto scale = similarity_scale(instance.pose);
-  if (!scale)
-    throw InvalidInput(where + ": its pose is not a rigid motion and a scale that is the same in all directions");
-  return *scale * (1 + 1e-9);
+  if (!instance.pose.matrix().allFinite()) throw InvalidInput(where + ": its pose has an entry that is not finite");
+  return Eigen::JacobiSVD<Eigen::Matrix3d>(instance.pose.linear()).singularValues()[0] * (1 + 1e-9);
 }
 
 /// Tolerances that the chain of a model may have, model units, ascending.
@@ -54,21 +45,22 @@ class Needs {
       : instances_(instances.size()) {
     std::vector<Eigen::AlignedBox3d> boxes;
     for (const TriangleMesh& model : models) boxes.push_back(used_bounding_box(model));
-    for (std::size_t i = 0; i < instances.size(); ++i) scales_.push_back(scale_of(instances[i], i, models.size()));
+    for (std::size_t i = 0; i < instances.size(); ++i) stretches_.push_back(stretch_of(instances[i], i, models.size()));
     for (const ViewCamera& camera : cameras)
-      for (std::size_t i = 0; i < instances.size(); ++i)
-        tolerances_.push_back(view_tolerance(camera, pixels, boxes[instances[i].model], instances[i].pose) /
-                              scales_[i]);
+      for (std::size_t i = 0; i < instances.size(); ++i) {
+        const double in_world = view_tolerance(camera, pixels, boxes[instances[i].model], instances[i].pose);
+        tolerances_.push_back(stretches_[i] > 0 ? in_world / stretches_[i] : std::numeric_limits<double>::infinity());
+      }
   }
   [[nodiscard]] double tolerance(std::size_t camera, std::size_t instance) const {
     return tolerances_[camera * instances_ + instance];
   }
-  [[nodiscard]] double scale(std::size_t instance) const { return scales_[instance]; }
+  [[nodiscard]] double stretch(std::size_t instance) const { return stretches_[instance]; }
 
  private:
   std::size_t instances_;
-  std::vector<double> scales_;      ///< by instance: world units per model unit
-  std::vector<double> tolerances_;  ///< by camera, then by instance
+  std::vector<double> stretches_;   ///< by instance: world units per model unit, at most
+  std::vector<double> tolerances_;  ///< by camera, then by instance; infinite: nothing is seen of it
 };
 
 /// Steps of the ladder that some camera needs for some instance of the model.
@@ -133,7 +125,7 @@ std::vector<double> errors_of_groups(const ViewChoice& choice, std::span<const V
     if (errors.size() <= *instances[i].group) errors.resize(*instances[i].group + 1, 0);
     if (choice.level[i] == ViewChoice::hidden) continue;
     double& error = errors[*instances[i].group];
-    error = std::max(error, models[instances[i].model][choice.level[i]].error * needs.scale(i));
+    error = std::max(error, models[instances[i].model][choice.level[i]].error * needs.stretch(i));
   }
   return errors;
 }

@@ -32,9 +32,6 @@ InputFile read_file(const std::string& path, bool with_checksum, const StopToken
   return is_stream_path(path) ? parsed(read_standard_input(stop)) : parsed(FileBytes(path, stop).bytes());
 }
 
-namespace {
-
-/// What is to be told of a file, beside its mesh.
 MeshReport report_of(const std::string& path, const MeshFile& content, const MeshSummary& summary, std::string sha256) {
   return {as_typed(path),
           summary,
@@ -45,8 +42,6 @@ MeshReport report_of(const std::string& path, const MeshFile& content, const Mes
           std::move(sha256),
           content.rest_pose_parts};
 }
-
-}  // namespace
 
 TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report, const StopToken& stop,
                         MeshAttributes* attributes) {

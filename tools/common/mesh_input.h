@@ -23,6 +23,10 @@ struct InputFile {
 [[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop,
                                   bool with_attributes = false);
 
+/// What is to be told of a mesh that was read, beside itself; `sha256` of its file.
+[[nodiscard]] MeshReport report_of(const std::string& path, const MeshFile& content, const MeshSummary& summary,
+                                   std::string sha256);
+
 /// The mesh of `read_file`; `report` says what was read, `attributes` (null: not wanted) what goes with it.
 [[nodiscard]] TriangleMesh read_input(const std::string& path, bool with_checksum, MeshReport& report,
                                       const StopToken& stop, MeshAttributes* attributes = nullptr);

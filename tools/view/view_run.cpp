@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/distance_text.h"
@@ -20,6 +22,7 @@
 #include "decimation/drivers.h"
 #include "meshbound/error.h"
 #include "report/json_parts.h"
+#include "view/gltf_view.h"
 #include "view/scene_file.h"
 
 namespace meshbound::tools {
@@ -30,16 +33,14 @@ namespace fs = std::filesystem;
 /// One run of the tool, in the order of its phases.
 class ViewRun {
  public:
-  ViewRun(const DecimationOptions& options, const std::string& scene, const std::string& folder,
-          const std::string& format)
-      : options_(options), scene_path_(scene), folder_(folder), format_(format) {}
+  ViewRun(const DecimationOptions& options, const ViewRequest& request)
+      : options_(options), request_(request), folder_(request.folder), format_(request.format) {}
 
   int operator()() {
-    scene_ = read_scene(scene_path_);
-    check_paths();
-    const StopToken stop = stop_of_reading(options_.common, watch_);
-    for (const std::string& path : scene_.models)
-      meshes_.push_back(read_input(path, true, models_.emplace_back(), stop));
+    if (is_gltf(request_.scene))
+      read_gltf();
+    else
+      read_json();
     const OutputFolder folder(folder_);
     make_levels();
     const std::string document = to_json();
@@ -52,6 +53,22 @@ class ViewRun {
   }
 
  private:
+  void read_json() {
+    scene_ = read_scene(request_.scene);
+    check_paths();
+    const StopToken stop = stop_of_reading(options_.common, watch_);
+    for (const std::string& path : scene_.models)
+      meshes_.push_back(read_input(path, true, models_.emplace_back(), stop));
+  }
+
+  void read_gltf() {
+    gltf_ = read_gltf_view(request_.scene, request_.screen, stop_of_reading(options_.common, watch_));
+    scene_ = std::move(gltf_->scene);
+    meshes_ = std::move(gltf_->meshes);
+    models_ = std::move(gltf_->reports);
+    check_paths();
+  }
+
   [[nodiscard]] fs::path view_path() const { return fs::path(folder_) / "view.json"; }
   [[nodiscard]] std::string level_file(std::size_t model, std::size_t level) const {
     return "model_" + std::to_string(model) + "_lod_" + std::to_string(level) + "." + format_;
@@ -60,7 +77,7 @@ class ViewRun {
   /// More levels than these no model can have.
   void check_paths() const {
     constexpr std::size_t max_levels = 16;
-    std::vector<NamedPath> inputs{{"--scene", scene_path_}},
+    std::vector<NamedPath> inputs{{"--scene", request_.scene}},
         outputs{{"DIR", view_path()}, {"--json", options_.common.json}};
     for (std::size_t model = 0; model < scene_.models.size(); ++model) {
       inputs.push_back({"models[" + std::to_string(model) + "]", scene_.models[model]});
@@ -104,7 +121,7 @@ class ViewRun {
   [[nodiscard]] std::string to_json() const {
     using namespace report;
     Json json = {{"schema", "meshbound/view/1"}, {"provenance", report::provenance(tools::provenance())}};
-    json["scene"] = scene_path_;
+    json["scene"] = request_.scene;
     json["pixels"] = scene_.pixels;
     json["models"] = Json::array();
     for (std::size_t model = 0; model < models_.size(); ++model) {
@@ -116,8 +133,11 @@ class ViewRun {
                                    {"error", number(made.error)},
                                    {"faces", made.faces}});
       }
+      if (gltf_) entry["mesh"] = gltf_->mesh_of_model[model];
       json["models"].push_back(std::move(entry));
     }
+    for (std::size_t i = 0; gltf_ && i < scene_.instances.size(); ++i)
+      json["instances"].push_back({{"node", gltf_->node_of_instance[i]}, {"model", scene_.instances[i].model}});
     json["cameras"] = Json::array();
     for (std::size_t camera = 0; camera < levels_.cameras.size(); ++camera) {
       const ViewChoice& choice = levels_.cameras[camera];
@@ -129,18 +149,24 @@ class ViewRun {
       for (std::size_t group = 0; group < levels_.group_errors[camera].size(); ++group)
         entry["groups"].push_back(
             {{"name", scene_.groups[group]}, {"error", number(levels_.group_errors[camera][group])}});
+      if (gltf_) entry["node"] = gltf_->node_of_camera[camera];
       json["cameras"].push_back(std::move(entry));
     }
+    if (gltf_) json["orthographic_cameras"] = gltf_->orthographic_cameras;
     json["levels_computed"] = levels_.levels_computed;
     json["levels_skipped"] = levels_.levels_skipped;
     json["seconds"] = {{"total", number(watch_.seconds())}};
     return text(json);
   }
 
+  [[nodiscard]] std::string name_of(std::size_t model) const {
+    return scene_.models[model] + (gltf_ ? ", mesh " + std::to_string(gltf_->mesh_of_model[model]) : "");
+  }
+
   void print() const {
     for (std::size_t model = 0; model < models_.size(); ++model) {
       print_line("model " + std::to_string(model),
-                 scene_.models[model] + ", " + std::to_string(models_[model].summary.faces) + " faces");
+                 name_of(model) + ", " + std::to_string(models_[model].summary.faces) + " faces");
       for (std::size_t level = 1; level < levels_.models[model].size(); ++level)
         print_line("  level " + std::to_string(level), std::to_string(levels_.models[model][level].faces) +
                                                            " faces, error " +
@@ -150,15 +176,19 @@ class ViewRun {
       print_line("camera " + std::to_string(camera), std::to_string(levels_.cameras[camera].triangles) + " of " +
                                                          std::to_string(levels_.cameras[camera].full_triangles) +
                                                          " triangles drawn");
+    if (gltf_ && gltf_->orthographic_cameras > 0)
+      print_line("left out", std::to_string(gltf_->orthographic_cameras) + " orthographic cameras");
     print_line("levels", std::to_string(levels_.levels_computed) + " computed, " +
                              std::to_string(levels_.levels_skipped) + " that no instance needs skipped");
     print_line("seconds", "total " + rounded_seconds(watch_.seconds()));
   }
 
   const DecimationOptions& options_;
-  const std::string &scene_path_, &folder_, &format_;
+  const ViewRequest& request_;
+  const std::string &folder_, &format_;
   Stopwatch watch_;
   SceneFile scene_;
+  std::optional<GltfView> gltf_;  ///< where the scene is one of glTF: what is left of it besides the scene
   std::vector<MeshReport> models_;
   std::vector<TriangleMesh> meshes_;
   ViewLevels levels_;
@@ -167,9 +197,6 @@ class ViewRun {
 
 }  // namespace
 
-int run_view(const DecimationOptions& options, const std::string& scene, const std::string& folder,
-             const std::string& format) {
-  return ViewRun(options, scene, folder, format)();
-}
+int run_view(const DecimationOptions& options, const ViewRequest& request) { return ViewRun(options, request)(); }
 
 }  // namespace meshbound::tools

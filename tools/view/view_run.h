@@ -3,12 +3,19 @@
 #include <string>
 
 #include "decimation/decimation_options.h"
+#include "view/gltf_view.h"
 
 namespace meshbound::tools {
 
-/// `lod_chain --scene FILE DIR`: makes the levels that the cameras of a scene need, each with a proven distance to its
-/// model, writes them to the folder as <format> files, and says in its view.json who uses which.
-[[nodiscard]] int run_view(const DecimationOptions& options, const std::string& scene, const std::string& folder,
-                           const std::string& format);
+/// What `lod_chain --scene FILE DIR` is asked.
+struct ViewRequest {
+  std::string scene;           ///< a file: JSON (tools/schema/scene-1.schema.json) or glTF
+  std::string folder, format;  ///< of the levels
+  GltfScreen screen;           ///< of a glTF scene
+};
+
+/// Makes the levels that the cameras of a scene need, each with a proven distance to its model, writes them to the
+/// folder, and says in its view.json who uses which.
+[[nodiscard]] int run_view(const DecimationOptions& options, const ViewRequest& request);
 
 }  // namespace meshbound::tools
