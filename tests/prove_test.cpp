@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The proof of a mesh from nothing: it proves what holds, never what does not, names what is at fault, and is the same
-// for any number of threads.
+// for any number of threads. Then proofs of single changes, and covers of single triangles.
 #include "simplify/prove.h"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
 #include "reference/small_meshes.h"
+#include "simplify/change_prover.h"
+#include "simplify/cover/face_box.h"
+#include "simplify/cover/forward_cover.h"
 #include "simplify/mesh/indexed_manifold.h"
+#include "simplify/propose.h"
+#include "simplify/repair.h"
 
 namespace meshbound {
 namespace {
@@ -169,6 +175,68 @@ TEST(Proof, KeepsTheTolerancesOfTriangles) {
     EXPECT_TRUE(std::binary_search(unproven.originals.begin(), unproven.originals.end(), 7u));
     EXPECT_LT(unproven.originals.size(), 100u);
     EXPECT_FALSE(unproven.faces.empty());
+  }
+}
+
+/// Faces that a collapse does not touch, and that are not beside it, still cover the rest of a large original.
+TEST(ChangeProver, ProvesACollapseBelowAnOriginalThatReachesFarBeyond) {
+  Approximation it(reference::unit_square(1), reference::unit_square(5), 0.04);
+  ProofWorkers workers(it.state, 1);
+  Proof proof(it.state, workers);
+  proof.run({});
+  ASSERT_TRUE(proof.unproven().empty());
+  proof.commit();
+  std::fill(it.state.stamp.begin(), it.state.stamp.end(), 0);
+  Split split = whole(it.state);
+  Region& region = split.regions.front();
+  Proposer proposer(it.state);
+  ChangeProver prover(it.state, workers, 0);
+  proposer.enter(split, region);
+  int made = 0;
+  const ArrayMesh& mesh = it.state.mesh;
+  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
+    if (mesh.edge(c) != c || mesh.is_border(mesh.start(c)) || mesh.is_border(mesh.end(c))) continue;
+    const std::optional<Vec3> point = proposer.placement(c, 1, std::nullopt);
+    if (!point) continue;  // a corner of the original is the sample of a face that is not near it
+    proposer.collapse(region, *point);
+    ASSERT_TRUE(prover.prove(split, region)) << "edge " << c;
+    undo_last(it.state, region);
+    ++made;
+  }
+  EXPECT_GT(made, 20);
+}
+
+/// A sheet of 50 faces whose vertices lie up to 0.65 tolerances above and below a triangle that is 40 tolerances long.
+TEST(ForwardCover, FindsCoversThatNeedManyCuts) {
+  constexpr double tolerance = 1.0 / 40;
+  const std::vector<Vec3> corners = {{0.03, 0.02, 0}, {0.98, 0.04, 0}, {0.05, 0.95, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> height(-0.65 * tolerance, 0.65 * tolerance);
+  for (int round = 0; round < 100; ++round) {
+    TriangleMesh sheet = reference::unit_square(5);
+    for (Vector3d& p : sheet.vertices) p.z() = height(random);
+    std::vector<std::array<Vec3, 3>> faces;
+    ForwardCover cover(corners, triangles);
+    cover.begin(tolerance);
+    for (std::uint32_t f = 0; f < sheet.triangles.size(); ++f) {
+      const auto at = [&](std::size_t k) {
+        const Vector3d& p = sheet.vertices[sheet.triangles[f][k]];
+        return Vec3{p.x(), p.y(), p.z()};
+      };
+      faces.push_back({at(0), at(1), at(2)});
+      cover.add(faces.back(), f);
+    }
+    const FaceMask used = cover.cover(0, ForwardCover::first(cover.size()), 0);
+    ASSERT_NE(used, 0U) << "round " << round;
+    for (int i = 0; i <= 40; ++i)
+      for (int j = 0; i + j <= 40; ++j) {
+        const Vec3 p = (i / 40.0) * corners[0] + (j / 40.0) * corners[1] + ((40 - i - j) / 40.0) * corners[2];
+        double min_squared = HUGE_VAL;
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          if ((used >> f & 1) != 0) min_squared = std::min(min_squared, squared_distance(faces[f], p));
+        ASSERT_LE(std::sqrt(min_squared), tolerance * (1 + 2 * CandidateFaces::plane_slack));
+      }
   }
 }
 

@@ -127,6 +127,7 @@ class ProofWorkers::Worker {
     }
     if (in_pieces_.empty()) return true;
     enter_ring(added_count, owned);
+    enter_covers();
     // What is cheap and likely to fail comes first.
     const FaceMask all = ForwardCover::first(cover_.size());
     for (const std::size_t i : in_pieces_)
@@ -196,6 +197,12 @@ class ProofWorkers::Worker {
         });
       }
     }
+  }
+  /// Enters the faces that have covered the originals in pieces: large ones reach beyond the ring.
+  void enter_covers() {
+    for (const std::size_t i : in_pieces_)
+      for (const std::uint32_t f : state_.cover.faces_of(affected_[i]))
+        if (!state_.mesh.is_removed(f) && found_marks_.insert(f)) enter_face(f);
   }
   void enter_face(std::uint32_t face) {
     found_.push_back(face);
@@ -291,7 +298,7 @@ class ProofWorkers::Worker {
       parts_.pop_back();
       choose_candidates(part.corners);
       enter(chosen_, limit);
-      const std::optional<FaceMask> used = cover_.cover_part(part.corners, ForwardCover::deepest_cut - part.halvings);
+      const std::optional<FaceMask> used = cover_.cover_part(part.corners, part.halvings);
       if (!used || (*used == 0 && (part.halvings == max_halvings || ++count > max_parts))) {
         faces.clear();
         return;

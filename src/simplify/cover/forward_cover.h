@@ -21,7 +21,7 @@ namespace meshbound {
 /// cut on the way down, is part of the rounding slack of the proof (`deepest_cut`).
 class ForwardCover {
  public:
-  static constexpr int deepest_cut = 64;  ///< cuts spent on one original triangle
+  static constexpr int deepest_cut = 64;  ///< cuts on the way down to a piece
 
   ForwardCover(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
@@ -44,9 +44,9 @@ class ForwardCover {
   /// As `cover`, where nothing is known: of the candidates that hold the triangle the one nearest to its middle, or
   /// pieces, for which small candidates are tried as well.
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
-  /// Mask of the candidates that together cover a part of a triangle with at most `max_cuts` cuts, 0 when they do not.
-  /// None if no candidate holds some corner.
-  [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int max_cuts);
+  /// Mask of the candidates that together cover a part of a triangle, 0 when they do not. None if no candidate holds
+  /// some corner. `depth`: cuts that made the part.
+  [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int depth);
   /// Whether some candidate of `allowed` is within the tolerance of each corner.
   [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
 
@@ -54,11 +54,12 @@ class ForwardCover {
   struct Piece {
     std::array<Vec3, 3> corners;
     std::array<FaceMask, 3> masks;
+    int depth = 0;  ///< cuts that made it
   };
   [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, FaceMask allowed);
   enum class Asked { LikelyOnes, All };  ///< whether a point of a cut is near candidates that hold no corner, too
-  [[nodiscard]] FaceMask cover_in_pieces(std::uint32_t triangle, FaceMask allowed, Asked asked);
-  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int max_cuts);
+  [[nodiscard]] FaceMask cover_in_pieces(std::uint32_t triangle, FaceMask allowed);
+  [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked);
   [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
 
   struct CachedMask {
