@@ -3,11 +3,14 @@
 #pragma once
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "bvh/bvh_data.h"
 #include "geometry/mapping.h"
+#include "penetration/sparse_array.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
@@ -50,25 +53,44 @@ inline unsigned overlapping_children(const BvhNode& node, const FloatBox& box) {
   return lanes;
 }
 
+inline bool overlaps(const FloatBox& p, const FloatBox& q) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(p.lo[axis] <= q.hi[axis] && q.lo[axis] <= p.hi[axis])) return false;
+  return true;
+}
+
 /// A node of each of two trees; level 0 are the leaves.
 struct NodePair {
   std::uint32_t level_a, a, level_b, b;
 };
 
-/// The box of a node below the root, in the working frame of its tree.
-inline Box box_below_root(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
-  return child_box(data.nodes[data.level_begin[level + 1] + index / node_width], index % node_width);
+/// The box of a node in the working frame of its tree; that of the root is taken as all of space.
+inline FloatBox box_of(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  if (level + 1 == data.levels()) return {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+  const BvhNode& node = data.nodes[data.level_begin[level + 1] + index / node_width];
+  const std::uint32_t lane = index % node_width;
+  return {{node.lo[0][lane], node.lo[1][lane], node.lo[2][lane]},
+          {node.hi[0][lane], node.hi[1][lane], node.hi[2][lane]}};
 }
+
+/// Memory of `visit_box_pairs` from call to call.
+struct BoxPairMemory {
+  std::vector<NodePair> stack;
+  SparseArray<FloatBox> mapped;  ///< by node of b and child: its box as seen from a, computed once in a call
+};
 
 /// Calls `on_leaves(block_a, block_b)` for all pairs of leaves whose boxes overlap, and possibly for some others, until
 /// it returns false. Returns whether it never did. `map` leads from the working frame of b to that of a. In a tree
-/// compared with itself (`is_same`) each pair comes once, with block_a <= block_b. `stack` is scratch memory.
+/// compared with itself (`is_same`) each pair comes once, with block_a <= block_b.
 template <class OnLeaves>
-bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map, bool is_same,
-                     std::vector<NodePair>& stack, std::uint64_t& compared, OnLeaves&& on_leaves) {
+bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map, bool is_same, BoxPairMemory& memory,
+                     std::uint64_t& compared, OnLeaves&& on_leaves) {
   const double scale = std::fabs(map.rows[0].x) + std::fabs(map.rows[0].y) + std::fabs(map.rows[0].z);
   const double margin = map.error + a.frame.error + 2 * scale * b.frame.error + 0x1p-40 * map.magnitude;
+  std::vector<NodePair>& stack = memory.stack;
   stack.assign(1, {a.levels() - 1, 0, b.levels() - 1, 0});
+  memory.mapped.clear(b.nodes.size() * node_width);
   while (!stack.empty()) {
     const NodePair pair = stack.back();
     stack.pop_back();
@@ -82,12 +104,19 @@ bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map,
     const std::uint32_t child_level_a = opens_a ? pair.level_a - 1 : 0, child_level_b = opens_b ? pair.level_b - 1 : 0;
     const BvhNode& node_a = a.nodes[a.level_begin[child_level_a + 1] + first_a / node_width];
     const unsigned lanes_a = opens_a ? 0xff : 1U << (pair.a % node_width);
+    const FloatBox around_a = box_of(a, pair.level_a, pair.a);
     const std::uint32_t first_b = opens_b ? pair.b * node_width : pair.b;
+    const std::uint32_t node_b = b.level_begin[child_level_b + 1] + first_b / node_width;
     for (std::uint32_t child_b = first_b; child_b < (opens_b ? first_b + node_width : first_b + 1); ++child_b) {
-      const Box box = box_below_root(b, child_level_b, child_b);
-      if (!(box.lo.x <= box.hi.x)) break;  // the rest of the node is empty
+      const std::uint32_t lane_b = child_b % node_width;
+      if (!(b.nodes[node_b].lo[0][lane_b] <= b.nodes[node_b].hi[0][lane_b])) break;  // the rest of the node is empty
       ++compared;
-      unsigned hits = overlapping_children(node_a, mapped_box(map, box, margin)) & lanes_a;
+      const std::size_t index = std::size_t{node_b} * node_width + lane_b;
+      const FloatBox& box = memory.mapped.has(index)
+                                ? memory.mapped[index]
+                                : memory.mapped.set(index, mapped_box(map, child_box(b.nodes[node_b], lane_b), margin));
+      if (!overlaps(box, around_a)) continue;
+      unsigned hits = overlapping_children(node_a, box) & lanes_a;
       for (; hits != 0; hits &= hits - 1) {
         const std::uint32_t child_a = first_a + static_cast<std::uint32_t>(std::countr_zero(hits));
         if (!is_same || child_a <= child_b) stack.push_back({child_level_a, child_a, child_level_b, child_b});

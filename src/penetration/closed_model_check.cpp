@@ -157,9 +157,9 @@ void require_no_crossing(const ClosedModel::Data& model, const StopToken& stop) 
   PlacedPair pair;
   place_twice(pair, model, stop);
   require_area(model, pair);
-  std::vector<NodePair> stack;
+  BoxPairMemory box_pairs;
   PairCounters counters;
-  visit_triangle_pairs(pair, true, stack, counters, [&](std::uint32_t s, std::uint32_t t) {
+  visit_triangle_pairs(pair, true, box_pairs, counters, [&](std::uint32_t s, std::uint32_t t) {
     if (!triangles_cross(pair, model.triangles[s], model.triangles[t])) return true;
     const auto [first, second] = std::minmax(s, t);
     throw InvalidInput("the mesh intersects itself: " + name_of(model, first) + ", at " +

@@ -32,9 +32,9 @@ struct PairCounters {
 
 /// Calls `on_triangles(s, t)` for all pairs of a triangle of each side whose boxes overlap, until it returns false.
 /// Returns whether it never did. `is_same`: both sides are one model at one place, and each pair of its triangles comes
-/// once. `stack` is scratch memory.
+/// once.
 template <class OnTriangles>
-bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>& stack, PairCounters& counters,
+bool visit_triangle_pairs(PlacedPair& pair, bool is_same, BoxPairMemory& memory, PairCounters& counters,
                           OnTriangles&& on_triangles) {
   const std::uint32_t side = pair.tree_side();
   const Bvh::Data &a = pair.model(side).tree.data(), &b = pair.model(1 - side).tree.data();
@@ -57,7 +57,7 @@ bool visit_triangle_pairs(PlacedPair& pair, bool is_same, std::vector<NodePair>&
     }
     return true;
   };
-  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, stack, counters.node_pairs, on_leaves);
+  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, memory, counters.node_pairs, on_leaves);
 }
 
 }  // namespace meshbound

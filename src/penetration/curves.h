@@ -93,7 +93,7 @@ class CrossingCurves {
   void group_nodes(PlacedPair& pair);
 
   std::unordered_map<std::uint64_t, std::uint32_t> node_at_;
-  std::vector<NodePair> stack_;
+  BoxPairMemory box_pairs_;
   std::array<std::vector<std::uint32_t>, 2> segment_order_;
   std::array<SparseArray<Range>, 2> segment_ranges_;
   std::vector<std::uint32_t> node_order_;

@@ -27,7 +27,7 @@ struct Scratch {
   CrossingCurves curves;
   Pieces pieces;
   VolumeFinder volumes;
-  std::vector<NodePair> stack;
+  BoxPairMemory box_pairs;
 };
 
 Scratch& scratch() {
@@ -243,7 +243,7 @@ bool in_contact(const PlacedClosedModel& a, const PlacedClosedModel& b) {
   pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
   PairCounters counters;
   const bool are_apart =
-      visit_triangle_pairs(pair, false, memory.stack, counters, [&](std::uint32_t s, std::uint32_t t) {
+      visit_triangle_pairs(pair, false, memory.box_pairs, counters, [&](std::uint32_t s, std::uint32_t t) {
         const Triangle &p = pair.model(0).triangles[s], &q = pair.model(1).triangles[t];
         return !triangles_meet(pair, {{{0, p[0]}, {0, p[1]}, {0, p[2]}}}, {{{1, q[0]}, {1, q[1]}, {1, q[2]}}});
       });
