@@ -193,6 +193,27 @@ TEST(Similarity, EveryAlignmentIsAccountedFor) {
   EXPECT_GT(stats.ended_by_extents, stats.alignments / 2);
 }
 
+/// A sphere with a vertex pushed towards the centre: extents and samples do not show it.
+Shape dented(std::size_t vertex, double depth) {
+  TriangleMesh sphere = datasets::icosphere(1, 4);
+  sphere.vertices[vertex] *= 1 - depth;
+  return Shape(sphere);
+}
+
+TEST(Similarity, AVertexThatIsTooFarSparesADecision) {
+  const Shape query(datasets::icosphere(1, 4));
+  std::vector<Shape> candidates;
+  candidates.push_back(dented(1000, 0.03));
+  const SimilarityStats alone = nearest_shapes(query, candidates).stats;
+  candidates.push_back(dented(2000, 0.06));
+  const SimilarShapes found = nearest_shapes(query, candidates);
+  EXPECT_EQ(found.nearest[0].index, 0u);
+  EXPECT_EQ(found.stats.ended_by_decision, 1u);
+  EXPECT_EQ(found.stats.measured, 1u);
+  // Of the other one 32 are for samples; a decision asks for more than 64 vertices.
+  EXPECT_LT(found.stats.closest_point_queries - alone.closest_point_queries, 96u);
+}
+
 TEST(Similarity, IsIncompleteWhenTheTimeOrATreeEndsTheSearch) {
   const Shape query(datasets::icosphere(1, 3));
   std::vector<Shape> candidates;

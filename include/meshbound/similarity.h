@@ -63,7 +63,7 @@ struct SimilarityStats {
   std::uint64_t alignments = 0;             ///< of all candidates together
   std::uint64_t ended_by_extents = 0;       ///< too long or too short along an axis, without a tree
   std::uint64_t ended_by_samples = 0;       ///< a few points are too far away
-  std::uint64_t ended_by_decision = 0;      ///< `check_tolerance` has found a point that is too far away
+  std::uint64_t ended_by_decision = 0;      ///< a vertex or `check_tolerance` shows a point that is too far away
   std::uint64_t measured = 0;               ///< to the error bound
   std::uint64_t closest_point_queries = 0;  ///< of all candidates together
 };

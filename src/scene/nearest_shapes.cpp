@@ -4,6 +4,7 @@
 #include <limits>
 #include <queue>
 
+#include "distance/search/one_sided.h"
 #include "meshbound/error.h"
 #include "meshbound/motion.h"
 #include "meshbound/stop_token.h"
@@ -123,6 +124,21 @@ class ShapeSearch {
     return trial;
   }
 
+  /// Whether a vertex of either shape is too far from the other one. Most of the candidates that come so far are like
+  /// the query all over, so that only a full search tells them from the nearest; but often a vertex does.
+  bool has_far_vertex(const PlacedModel& candidate, const DistanceOptions& options) {
+    const PlacedModel query(query_.tree());
+    for (const bool from_query : {true, false}) {
+      OneSidedTask task{.a = from_query ? query : candidate, .b = from_query ? candidate : query, .options = options};
+      task.tolerance = limit_;
+      task.decide_only = true;
+      const OneSidedDistance found = bound_by_vertices(task);
+      count(found);
+      if (found.bounds.lower > limit_) return true;
+    }
+    return false;
+  }
+
   void measure(const ShapeTrial& trial) {
     MovingPair pair(query_.tree(), candidates_[trial.index].tree());
     const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity(), pose = alignment(trial.index, trial.way);
@@ -132,6 +148,10 @@ class ShapeSearch {
     options.progress = nullptr;
     options.budget.seconds = stop_.seconds_left();
     if (std::isfinite(limit_)) {
+      if (has_far_vertex({candidates_[trial.index].tree(), pose}, options)) {
+        ++stats().ended_by_decision;
+        return;
+      }
       const ToleranceCheck check = pair.check_tolerance(identity, pose, limit_, options);
       count(check.a_to_b);
       count(check.b_to_a);

@@ -71,6 +71,20 @@ OneSidedDistance search_one_sided(const OneSidedTask& task) {
   return result;
 }
 
+OneSidedDistance bound_by_vertices(const OneSidedTask& task) {
+  const Mapping map = mapping_of(task);
+  OneSidedDistance result;
+  if (fits_frame(map)) {
+    OneSidedSearch search(task, map);
+    with_team(search.threads(), [&] {
+      (void)query_vertices(search, Remaining(search.a().triangle_count()));
+      result = search.result();
+    });
+  }
+  result.bounds.upper = std::numeric_limits<double>::infinity();
+  return result;
+}
+
 std::pair<OneSidedDistance, OneSidedDistance> search_both(const OneSidedTask& forward, const OneSidedTask& back) {
   const Mapping forward_map = mapping_of(forward), back_map = mapping_of(back);
   if (forward.options.method == Method::CrossCulling || !fits_frame(forward_map) || !fits_frame(back_map)) {
