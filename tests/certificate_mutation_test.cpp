@@ -122,7 +122,8 @@ Trees trees_of(const Case& of) {
 
 Bytes encoded(const Case& of, const Trees& trees) {
   const std::vector<Nodes> forward{trees.forward}, backward{trees.backward};
-  return assemble(of.a, of.b, of.tolerance, encode(of.a, forward), encode(of.b, backward));
+  return assemble(CertifiedMesh(of.a), CertifiedMesh(of.b), of.tolerance, encode(of.a, forward),
+                  encode(of.b, backward));
 }
 
 /// Where the tree of each source triangle begins, and the end.

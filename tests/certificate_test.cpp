@@ -14,6 +14,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "reference/small_meshes.h"
+#include "tiles/certificate_in_tiles.h"
 #include "verify/verifier.h"
 
 namespace meshbound {
@@ -115,6 +116,37 @@ TEST_P(CertificateOfPair, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one->bytes, three->bytes);
 }
 
+/// Gives each job the bytes of its result, as other processes would take them.
+class PackingRunner : public JobRunner {
+ public:
+  void run(TileJobs& jobs) override {
+    for (const std::size_t job : heaviest_first(jobs)) jobs.unpack(job, jobs.run_packed(job));
+  }
+};
+
+std::optional<Certificate> in_tiles(const TriangleMesh& a, const TriangleMesh& b, double tolerance, JobRunner& runner) {
+  return certify_in_tiles(MeshInMemory(a), MeshInMemory(b), tolerance, {}, {40}, runner);
+}
+
+TEST_P(CertificateOfPair, HoldsInTilesWhoeverWorksOnThem) {
+  const TriangleMesh &a = GetParam().a, &b = GetParam().b;
+  for (const double share : {1 + 1e-5, 3.0}) {
+    const double tolerance = share * distance_of(GetParam());
+    ThreadRunner one(1), three(3);
+    PackingRunner packing;
+    const auto certificate = in_tiles(a, b, tolerance, one);
+    EXPECT_EQ(verify::check_certificate(a, b, certificate->bytes).tolerance, tolerance);
+    EXPECT_EQ(in_tiles(a, b, tolerance, three)->bytes, certificate->bytes);
+    EXPECT_EQ(in_tiles(a, b, tolerance, packing)->bytes, certificate->bytes);
+  }
+}
+
+TEST_P(CertificateOfPair, IsNotMadeInTilesBelowTheDistance) {
+  const double lower = hausdorff_distance(Bvh(GetParam().a), Bvh(GetParam().b)).bounds.lower;
+  ThreadRunner threads(2);
+  EXPECT_THROW((void)in_tiles(GetParam().a, GetParam().b, lower * (1 - 1e-9), threads), Error);
+}
+
 INSTANTIATE_TEST_SUITE_P(Pairs, CertificateOfPair, testing::ValuesIn(pairs()),
                          [](const auto& of) { return of.param.name; });
 
@@ -123,6 +155,8 @@ TEST(Certificate, OfAMeshAndItselfHoldsForATolerance0) {
                                    reference::moved(datasets::torus(1, 0.3, 20, 9), {1e7, 1e7, 1e7})}) {
     EXPECT_EQ(proof_of({"", mesh, mesh}, 0).tolerance, 0);
     EXPECT_EQ(proof_of({"", mesh, mesh}, -0.0).tolerance, 0);
+    ThreadRunner threads(2);
+    EXPECT_EQ(verify::check_certificate(mesh, mesh, in_tiles(mesh, mesh, 0, threads)->bytes).tolerance, 0);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "json_claims.h"
 #include "ranks.h"
@@ -96,6 +97,19 @@ TEST_F(ToolsOverRanks, GiveTheFileOfOneProcessAndSayWhatTheySent) {
   }
 }
 
+TEST_F(ToolsOverRanks, GiveTheCertificateOfOneProcess) {
+  ASSERT_EQ(
+      run_tool(SIMPLIFY_WITH_BOUND, {in("torus.ply"), in("certified.ply"), "--tolerance", "0.3%", "--tile-triangles",
+                                     "4000", "--memory", "4G", "--certificate", in("alone.cert")})
+          .exit_code,
+      0);
+  for (const int ranks : {1, 3}) {
+    const ToolRun run = simplify(ranks, "certified.ply", {"--certificate", in("ranks.cert")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(content_of(in("ranks.cert")), content_of(in("alone.cert"))) << ranks << " ranks";
+  }
+}
+
 TEST_F(ToolsOverRanks, PrintOnce) {
   const ToolRun run = simplify(3, "printed.ply", {});
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -125,7 +139,7 @@ TEST_F(ToolsOverRanks, SayHelpAndWhatIsWrongOnce) {
   const ToolRun help = run_ranks(3, SIMPLIFY_WITH_BOUND_MPI, {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.out.find("Exit codes: 0 "), help.out.rfind("Exit codes: 0 "));
-  EXPECT_EQ(help.out.find("--certificate"), std::string::npos);
+  EXPECT_EQ(help.out.find("--levels"), std::string::npos);
   const ToolRun wrong = simplify(3, "none.ply", {"--levels", "1%"});
   EXPECT_EQ(wrong.exit_code, 2);
   const std::string line = "simplify_with_bound_mpi: ";
@@ -133,61 +147,129 @@ TEST_F(ToolsOverRanks, SayHelpAndWhatIsWrongOnce) {
   EXPECT_EQ(wrong.err.find(line), wrong.err.rfind(line)) << wrong.err;
 }
 
-/// What a rank that is killed leaves behind, and what is wrong for all ranks.
+/// What happens to ranks from outside while they work.
 class FaultsOverRanks : public ToolsOverRanks {
  protected:
-  /// Starts three ranks and kills one of them once `until`, a test of the shell, holds.
-  static ToolRun killed(const std::string& until, bool kills_first, const std::vector<std::string>& more) {
+  static void SetUpTestSuite() {
+    ToolsOverRanks::SetUpTestSuite();
     std::filesystem::create_directories(in("out"));
-    std::vector<std::string> arguments{
-        in("torus.ply"), in("out/killed.ply"), "--tolerance", "0.3%", "--tile-triangles", "1000", "--threads", "1"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string start = over_ranks(3, SIMPLIFY_WITH_BOUND_MPI, arguments);
-    return run_shell("(" + start + ") & run=$!; until " + until +
-                         "; do sleep 0.01; kill -0 $run || exit 99; done; kill -KILL $(pgrep -P $run | " +
-                         (kills_first ? "head" : "tail") + " -n 1); wait $run",
+    std::vector<std::string> arguments = arguments_for(in("whole.ply"));
+    arguments.insert(arguments.end(), {"--memory", "4G"});
+    ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, arguments).exit_code, 0);
+  }
+  static std::vector<std::string> arguments_for(const std::string& out) {
+    return {in("torus.ply"), out, "--tolerance", "0.3%", "--tile-triangles", "1000", "--threads", "1"};
+  }
+  /// Starts three ranks, and does `then` once `until` holds: both are shell, where $ranks are the processes.
+  static ToolRun disturbed(const std::string& until, const std::string& then, const std::string& scratch) {
+    std::vector<std::string> arguments = arguments_for(in("out/result.ply"));
+    arguments.insert(arguments.end(), {"--scratch", scratch, "--quiet"});
+    return run_shell("(" + over_ranks(3, SIMPLIFY_WITH_BOUND_MPI, arguments) + ") & run=$!; until " + until +
+                         "; do sleep 0.01; kill -0 $run || exit 99; done; ranks=$(pgrep -P $run); " + then +
+                         "; wait $run",
                      100);
+  }
+  static void expect_resumed(const std::string& scratch, bool takes_tiles) {
+    std::vector<std::string> arguments = arguments_for(in("resumed.ply"));
+    arguments.insert(arguments.end(), {"--scratch", scratch, "--resume"});
+    const ToolRun run = run_ranks(2, SIMPLIFY_WITH_BOUND_MPI, arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("finished tiles came from"), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find("resumed     0 ") == std::string::npos, takes_tiles) << run.out;
+    EXPECT_EQ(content_of(in("resumed.ply")), content_of(in("whole.ply")));
+    EXPECT_TRUE(std::filesystem::is_empty(scratch));
+  }
+  /// All ranks end by themselves with one line of rank 0, beside what mpirun says.
+  static void expect_refused_together(const ToolRun& run) {
+    EXPECT_EQ(run.exit_code, 2);
+    const std::string line = "simplify_with_bound_mpi: ";
+    EXPECT_NE(run.err.find(line), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find(line), run.err.rfind(line)) << run.err;
+    EXPECT_EQ(run.err.find("MPI_ABORT"), std::string::npos) << run.err;
+    EXPECT_TRUE(std::filesystem::is_empty(in("out")));
   }
 };
 
-TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledWithoutAResult) {
-  const std::string scratch = in("scratch");
-  // Starting or reading, the first pass, a later pass, measuring what stands under a temporary name.
-  const std::string stages[] = {"[ $(pgrep -c -P $run) = 3 ]", "[ -e " + scratch + "/*/0-3 ]",
-                                "ls " + scratch + "/*/1-* >" + in("ls") + " 2>&1",
-                                "ls -A " + in("out") + " | grep -q ."};
-  for (const std::string& until : stages) {
-    const ToolRun run = killed(until, false, {"--scratch", scratch});
-    EXPECT_NE(run.exit_code, 99) << "too late: " << until;
-    EXPECT_NE(run.exit_code, 0) << until;
-    EXPECT_NE(run.err.find("signal 9"), std::string::npos) << until << ": " << run.err;
-    // mpirun kills the other ranks in turn, so that one of them cannot remove a file under its temporary name.
-    EXPECT_FALSE(std::filesystem::exists(in("out/killed.ply"))) << until;
+/// When a rank is disturbed.
+struct Stage {
+  const char* name;
+  std::string until;  ///< shell; $scratch is the folder
+  const char* rank;   ///< that is killed: "head" or "tail" of them all
+  bool has_tiles;     ///< results of tiles are kept by then
+};
+const Stage stages[] = {{"starting", "[ $(pgrep -c -P $run) = 3 ]", "tail", false},
+                        {"the first pass", "[ -e $scratch/*/0-3 ]", "head", true},
+                        {"a later pass", "ls $scratch/*/1-* >$scratch/ls 2>&1", "tail", true},
+                        {"measuring", "find /proc/[0-9]*/fd -lname \"$out/*\" 2>/dev/null | grep -q .", "head", false}};
+
+TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTiles) {
+  for (const Stage& stage : stages) {
+    SCOPED_TRACE(stage.name);
+    const std::string scratch = in("killed");
+    std::filesystem::create_directories(scratch);
+    const ToolRun run =
+        disturbed("scratch=" + scratch + " out=" + in("out") + "; " + stage.until,
+                  "kill -KILL $(echo $ranks | tr ' ' '\\n' | " + std::string(stage.rank) + " -n 1)", scratch);
+    EXPECT_NE(run.exit_code, 99) << "too late";
+    EXPECT_NE(run.exit_code, 0);
+    EXPECT_NE(run.err.find("signal 9"), std::string::npos) << run.err;
+    EXPECT_TRUE(std::filesystem::is_empty(in("out")));
+    std::filesystem::remove(scratch + "/ls");
+    expect_resumed(scratch, stage.has_tiles);
   }
+}
+
+TEST_F(FaultsOverRanks, ThatAreAFullDiskOfOneRankAreSaidOnceAndCanBeResumed) {
+  // No result of a tile fits, or none of what passes share.
+  for (const auto& [stage, size] : {std::pair(1, "100"), std::pair(2, "200000")}) {
+    SCOPED_TRACE(stages[stage].name);
+    const std::string scratch = in("full");
+    std::filesystem::create_directories(scratch);
+    const ToolRun run =
+        disturbed("scratch=" + scratch + "; " + stages[stage].until,
+                  std::string("prlimit --fsize=") + size + " --pid $(echo $ranks | cut -d ' ' -f 2)", scratch);
+    expect_refused_together(run);
+    std::filesystem::remove(scratch + "/ls");
+    expect_resumed(scratch, true);
+  }
+}
+
+/// Open MPI itself needs files of more than 4 MB.
+TEST_F(FaultsOverRanks, ThatAreAFullDiskOfAllRanksAreSaidOnce) {
+  const auto limited = [](const std::string& input) {
+    return run_ranks(3, "prlimit",
+                     {"--fsize=6000000", SIMPLIFY_WITH_BOUND_MPI, in(input), in("out/result.ply"), "--tolerance", "1%",
+                      "--threads", "1"});
+  };
+  // The first one does not fit while it is read, the second one while it is cut into tiles.
+  for (const std::string size : {"600000", "450000"}) {
+    ASSERT_EQ(run_tool(GENERATE_MESH, {"torus", "--output", in("large.ply"), "--size", size}).exit_code, 0);
+    const ToolRun run = limited("large.ply");
+    expect_refused_together(run);
+    EXPECT_NE(run.err.find("cannot write a temporary file"), std::string::npos) << run.err;
+  }
+}
+
+TEST_F(FaultsOverRanks, KeepOneCopyOfTheOriginalOnAMachine) {
+  const std::string scratch = in("shared");
+  const std::string size = "$(( 12 * 59536 ))";  // bytes of the triangles, and of the vertices
+  const ToolRun run =
+      disturbed("[ -e " + scratch + "/*/0-3 ]",
+                "for rank in $ranks; do stat -Lc '%i %s' /proc/$rank/fd/* 2>/dev/null; done | grep \" " + size +
+                    "$\" | sort | uniq -c",
+                scratch);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(run.out);
+  std::size_t files = 0;
+  for (std::string line; std::getline(lines, line); ++files)
+    EXPECT_EQ(std::stoi(line), 3) << "ranks that have the file open: " << line;
+  EXPECT_EQ(files, 2u) << run.out;
+  std::filesystem::remove(in("out/result.ply"));
 }
 
 TEST(SlurmScripts, AreScriptsOfTheShell) {
   for (const auto& script : std::filesystem::directory_iterator(MESHBOUND_SOURCE_DIR "/examples/slurm"))
     EXPECT_EQ(run_shell("bash -n " + shell_quoted(script.path())).exit_code, 0) << script.path();
-}
-
-TEST_F(FaultsOverRanks, AreResumedWithTheSameResult) {
-  const std::string scratch = in("resumed");
-  const ToolRun run = killed("[ -e " + scratch + "/*/0-3 ]", true, {"--scratch", scratch});
-  EXPECT_NE(run.exit_code, 99) << "too late";
-  EXPECT_NE(run.exit_code, 0);
-  std::vector<std::string> arguments{in("torus.ply"), in("resumed.ply"), "--tolerance", "0.3%",    "--tile-triangles",
-                                     "1000",          "--scratch",       scratch,       "--resume"};
-  const ToolRun resumed = run_ranks(2, SIMPLIFY_WITH_BOUND_MPI, arguments);
-  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_NE(resumed.out.find("finished tiles came from"), std::string::npos) << resumed.out;
-  EXPECT_EQ(resumed.out.find("resumed     0 "), std::string::npos) << resumed.out;
-  EXPECT_TRUE(std::filesystem::is_empty(scratch));
-  arguments.resize(6);
-  arguments[1] = in("uninterrupted.ply");
-  arguments.insert(arguments.end(), {"--memory", "4G"});
-  ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, arguments).exit_code, 0);
-  EXPECT_EQ(content_of(in("resumed.ply")), content_of(in("uninterrupted.ply")));
 }
 
 TEST_F(FaultsOverRanks, AreSaidInOneLineOfTheTool) {
@@ -200,10 +282,7 @@ TEST_F(FaultsOverRanks, AreSaidInOneLineOfTheTool) {
   for (std::vector<std::string> arguments : wrong) {
     arguments.insert(arguments.end(), {"--tolerance", "1%"});
     const ToolRun run = run_ranks(3, SIMPLIFY_WITH_BOUND_MPI, arguments);
-    EXPECT_EQ(run.exit_code, 2) << run.err;
-    const std::string line = "simplify_with_bound_mpi: ";
-    EXPECT_NE(run.err.find(line), std::string::npos) << run.err;
-    EXPECT_EQ(run.err.find(line), run.err.rfind(line)) << run.err;
+    expect_refused_together(run);
     EXPECT_FALSE(std::filesystem::exists(in("none.ply")));
   }
 }

@@ -14,8 +14,10 @@
 #include "common/exit_code.h"
 #include "common/output_folder.h"
 #include "mesh/atomic_file.h"
+#include "mesh/unnamed_file.h"
 #include "meshbound/error.h"
 #include "run_tool.h"
+#include "setting.h"
 
 namespace meshbound::tools {
 namespace {
@@ -51,6 +53,7 @@ class Signals : public testing::Test {
 
 TEST_F(Signals, EndAProcessThatDoesNotListenInOneLineAndRemoveItsFiles) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const test::Setting has_unnamed_files(internal::has_unnamed_files, signal == SIGHUP);
     const int code = run([&] {
       const OutputFolder folder(folder_ / "levels");
       AtomicFile first(folder_ / "levels/first"), second(folder_ / "second");
@@ -65,6 +68,18 @@ TEST_F(Signals, EndAProcessThatDoesNotListenInOneLineAndRemoveItsFiles) {
     EXPECT_EQ(content_of(folder_ / "err"), "tool: interrupted; unfinished files were removed\n");
     EXPECT_EQ(file_count(), 1) << "only what was said is there";
   }
+}
+
+TEST_F(Signals, ThatKillLeaveNoFile) {
+  const int code = run([&] {
+    AtomicFile first(folder_ / "first"), second(folder_ / "second");
+    first.write("half");
+    second.write("whole, but not to be seen");
+    second.complete();
+    ::raise(SIGKILL);
+  });
+  EXPECT_EQ(code, 128 + SIGKILL);
+  EXPECT_EQ(file_count(), 1) << "only what was said is there";
 }
 
 TEST_F(Signals, LetFilesAppearTogether) {

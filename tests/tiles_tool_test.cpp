@@ -86,8 +86,8 @@ TEST_F(Tiles, SayHowMuchMemoryIsNeededAndWriteNothing) {
 }
 
 TEST_F(Tiles, DoNotGoWithWhatNeedsTheWholeMesh) {
-  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
-           {"--target-faces", "10"}, {"--certificate", in_folder("c.cert")}, {"--prune"}, {"--on-exceed", "stop"}}) {
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--target-faces", "10"}, {"--prune"}, {"--on-exceed", "stop"}}) {
     std::vector<std::string> arguments = more;
     arguments.insert(arguments.end(), {"--memory", "1G"});
     const ToolRun run = simplify("none.ply", arguments);
@@ -154,6 +154,14 @@ TemporaryFolder* TileScratch::folder_ = nullptr;
 TEST_F(TileScratch, IsEmptyAfterARunThatEnds) {
   ASSERT_EQ(simplify("kept.ply", {"--scratch", in("ends")}).exit_code, 0);
   EXPECT_EQ(content_of(in("kept.ply")), content_of(in("whole.ply")));
+  EXPECT_TRUE(std::filesystem::is_empty(in("ends")));
+}
+
+TEST_F(TileScratch, GoesWithACertificateThatVerifies) {
+  ASSERT_EQ(simplify("kept.ply", {"--scratch", in("ends"), "--certificate", in("kept.cert")}).exit_code, 0);
+  const ToolRun run =
+      run_tool(VERIFY_CERTIFICATE, {in("torus.ply"), in("kept.ply"), in("kept.cert"), "--tolerance", "0.3%"});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_TRUE(std::filesystem::is_empty(in("ends")));
 }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <string_view>
 
 #include "certificate/bytes.h"
 #include "certificate/checksum.h"
+#include "meshbound/error.h"
 
 namespace meshbound {
 namespace {
@@ -23,75 +25,28 @@ void put_cut(Bytes& bytes, const Chord& chord) {
   put(bytes, chord.to.numerator, chord.bits / 8);
 }
 
-/// Writes the trees one by one; a triangle may refer to what its neighbours before it wrote (recall).
-class SectionEncoder {
+/// The checksum of a mesh: coordinates of all vertices, then corners of all triangles.
+class MeshChecksum {
  public:
-  explicit SectionEncoder(const MeshView& source) : source_(source), last_at_(source.vertex_count(), 0) {}
-
-  void add(const ProofNode& node) {
-    if (open_ == 0) {
-      corners_ = source_.triangle(next_++);
-      open_ = 1;
-    }
-    --open_;
-    if (node.kind == ProofNode::Kind::Cut) {
-      ++result_.cuts;
-      put_cut(result_.bytes, node.chord);
-      open_ += 2;
-    } else {
-      add_leaf(node);
-    }
-    if (open_ == 0)
-      for (const std::uint32_t vertex : corners_) last_at_[vertex] = last_;
+  void add(const Eigen::Vector3d& vertex) {
+    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(vertex[axis]), 8);
   }
-
-  [[nodiscard]] EncodedSection take() { return std::move(result_); }
+  void add(const Triangle& corners) {
+    for (const std::uint32_t vertex : corners) add(vertex, 4);
+  }
+  [[nodiscard]] std::uint64_t value() const { return crc_.value(); }
 
  private:
-  void add_leaf(const ProofNode& node) {
-    ++result_.pieces;
-    const std::uint64_t step = zigzag(static_cast<std::int64_t>(node.target) - static_cast<std::int64_t>(last_));
-    last_ = node.target;
-    if (node.kind == ProofNode::Kind::Parity) {
-      ++result_.by_parity;
-      return put_token(result_.bytes, ParityToken, step);
-    }
-    const auto at = std::find_if(corners_.begin(), corners_.end(),
-                                 [&](std::uint32_t vertex) { return last_at_[vertex] == node.target; });
-    constexpr std::uint64_t max_in_one_byte = 31;
-    if (step > max_in_one_byte && at != corners_.end())
-      put_token(result_.bytes, RecallToken, static_cast<std::uint64_t>(at - corners_.begin()));
-    else
-      put_token(result_.bytes, NearToken, step);
+  void add(std::uint64_t word, int size) {
+    for (int i = 0; i < size; ++i) crc_.add(static_cast<std::uint8_t>(word >> (8 * i)));
   }
-
-  const MeshView& source_;
-  std::vector<std::uint32_t> last_at_;
-  std::size_t next_ = 0;
-  Triangle corners_{};
-  std::uint64_t open_ = 0;  ///< nodes that the tree at hand still needs
-  std::uint32_t last_ = 0;
-  EncodedSection result_;
+  Crc64 crc_;
 };
 
-std::uint64_t checksum_of(const MeshView& mesh) {
-  Crc64 crc;
-  const auto add = [&](std::uint64_t word, int size) {
-    for (int i = 0; i < size; ++i) crc.add(static_cast<std::uint8_t>(word >> (8 * i)));
-  };
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    const Eigen::Vector3d p = mesh.vertex(v);
-    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint64_t>(p[axis]), 8);
-  }
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    for (const std::uint32_t vertex : mesh.triangle(t)) add(vertex, 4);
-  return crc.value();
-}
-
-void put_mesh(Bytes& bytes, const MeshView& mesh) {
-  put(bytes, mesh.vertex_count(), 8);
-  put(bytes, mesh.triangle_count(), 8);
-  put(bytes, checksum_of(mesh), 8);
+void put_mesh(Bytes& bytes, const CertifiedMesh& mesh) {
+  put(bytes, mesh.vertices, 8);
+  put(bytes, mesh.triangles, 8);
+  put(bytes, mesh.checksum, 8);
 }
 
 /// Appends the sizes of two sections, then what `between` appends, then the bytes of both sections.
@@ -119,14 +74,63 @@ void put_lines(Bytes& bytes, const EncodedLines& lines) {
 
 }  // namespace
 
+void SectionEncoder::add(const ProofNode& node) {
+  --open_;
+  if (node.kind == ProofNode::Kind::Cut) {
+    ++result_.cuts;
+    put_cut(result_.bytes, node.chord);
+    open_ += 2;
+  } else {
+    add_leaf(node);
+  }
+  if (open_ == 0)
+    for (const std::uint32_t vertex : corners_) last_at_[vertex] = last_;
+}
+
+void SectionEncoder::add_leaf(const ProofNode& node) {
+  ++result_.pieces;
+  const std::uint64_t step = zigzag(static_cast<std::int64_t>(node.target) - static_cast<std::int64_t>(last_));
+  last_ = node.target;
+  if (node.kind == ProofNode::Kind::Parity) {
+    ++result_.by_parity;
+    return put_token(result_.bytes, ParityToken, step);
+  }
+  const auto at = std::find_if(corners_.begin(), corners_.end(),
+                               [&](std::uint32_t vertex) { return last_at_[vertex] == node.target; });
+  constexpr std::uint64_t max_in_one_byte = 31;
+  if (step > max_in_one_byte && at != corners_.end())
+    put_token(result_.bytes, RecallToken, static_cast<std::uint64_t>(at - corners_.begin()));
+  else
+    put_token(result_.bytes, NearToken, step);
+}
+
 EncodedSection encode(const MeshView& source, std::span<const std::vector<ProofNode>> trees) {
-  SectionEncoder encoder(source);
-  for (const std::vector<ProofNode>& run : trees)
-    for (const ProofNode& node : run) encoder.add(node);
+  SectionEncoder encoder(source.vertex_count());
+  std::size_t next = 0;
+  for (const std::vector<ProofNode>& run : trees) {
+    for (const ProofNode& node : run) {
+      if (!encoder.is_open()) encoder.begin(source.triangle(next++));
+      encoder.add(node);
+    }
+  }
   return encoder.take();
 }
 
-std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& simplified, double tolerance,
+CertifiedMesh::CertifiedMesh(const MeshView& mesh) : vertices(mesh.vertex_count()), triangles(mesh.triangle_count()) {
+  MeshChecksum sum;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) sum.add(mesh.vertex(v));
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) sum.add(mesh.triangle(t));
+  checksum = sum.value();
+}
+
+CertifiedMesh::CertifiedMesh(const StoredMesh& mesh) : vertices(mesh.vertex_count()), triangles(mesh.triangle_count()) {
+  MeshChecksum sum;
+  mesh.for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) { sum.add(p); });
+  mesh.for_each_triangle([&](std::uint32_t, const Triangle& corners) { sum.add(corners); });
+  checksum = sum.value();
+}
+
+std::vector<std::uint8_t> assemble(const CertifiedMesh& original, const CertifiedMesh& simplified, double tolerance,
                                    const EncodedSection& original_to_simplified,
                                    const EncodedSection& simplified_to_original, const EncodedLines* lines) {
   constexpr std::string_view magic = "MESHCERT";
@@ -141,6 +145,27 @@ std::vector<std::uint8_t> assemble(const MeshView& original, const MeshView& sim
   if (lines != nullptr) put_lines(bytes, *lines);
   put(bytes, crc64_of(bytes), 8);
   return bytes;
+}
+
+Certificate certificate_of(const CertifiedMesh& original, const CertifiedMesh& simplified, double tolerance,
+                           const EncodedSection& original_to_simplified, const EncodedSection& simplified_to_original,
+                           const EncodedLines* lines) {
+  const auto counts_of = [](const EncodedSection& section) {
+    return Certificate::Direction{section.pieces, section.by_parity, section.cuts, section.bytes.size()};
+  };
+  Certificate certificate;
+  certificate.original_to_simplified = counts_of(original_to_simplified);
+  certificate.simplified_to_original = counts_of(simplified_to_original);
+  if (lines != nullptr)
+    certificate.lines = {counts_of(lines->original_to_simplified), counts_of(lines->simplified_to_original)};
+  certificate.bytes = assemble(original, simplified, tolerance, original_to_simplified, simplified_to_original, lines);
+  return certificate;
+}
+
+double checked_tolerance(double tolerance) {
+  if (!(std::isfinite(tolerance) && tolerance >= 0))
+    throw InvalidInput("the tolerance of a certificate must be a length in model units, 0 or more");
+  return tolerance + 0.0;  // turns the negative zero into the positive one
 }
 
 }  // namespace meshbound

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "mesh/file_stop.h"
+#include "mesh/unnamed_file.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -48,14 +49,28 @@ void AtomicFile::open() {
   if (fd_ >= 0) return;
   buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size);
   if (target_.is_stream && stream_ == Stream::Direct) return open_stream();
-  std::filesystem::path name =
-      temporary_name(target_.is_stream ? std::filesystem::temp_directory_path() : target_.path.parent_path());
-  listed_.emplace(name);  // listed before it exists, so that no signal can come in between
+  open_staged(target_.is_stream ? std::filesystem::temp_directory_path() : target_.path.parent_path());
+  if (target_.replaced) hand_over(fd_, *target_.replaced);
+}
+
+void AtomicFile::open_staged(const std::filesystem::path& folder) {
   const mode_t mode = target_.is_stream ? 0600 : 0666;
+  fd_ = open_unnamed_file(folder, mode);
+  if (fd_ >= 0) {
+    staged_ = path_of_descriptor(::getpid(), fd_);
+    return;
+  }
+  std::filesystem::path name = list_temporary_name(folder);
   fd_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (fd_ < 0) fail(errno);
-  temporary_ = std::move(name);
-  if (target_.replaced) hand_over(fd_, *target_.replaced);
+  staged_ = temporary_ = std::move(name);
+}
+
+/// A free name in the folder, listed before it exists, so that no signal can come in between.
+std::filesystem::path AtomicFile::list_temporary_name(const std::filesystem::path& folder) {
+  std::filesystem::path name = temporary_name(folder);
+  listed_.emplace(name);
+  return name;
 }
 
 void AtomicFile::open_stream() {
@@ -83,26 +98,38 @@ char* AtomicFile::room(std::size_t size) {
   return buffer_.get() + filled_;
 }
 
+/// Network file systems report a full disk only when a descriptor is closed. That of a file without a name is all there
+/// is of it, so a copy is closed.
 void AtomicFile::complete() {
   open();
   flush();
   buffer_.reset();
-  close();
+  const bool has_no_name = !staged_.empty() && temporary_.empty();
+  if (::close(has_no_name ? ::dup(fd_) : std::exchange(fd_, -1)) != 0) fail(errno);
 }
 
 void AtomicFile::commit() {
-  if (fd_ >= 0 || temporary_.empty()) complete();
-  if (temporary_.empty()) return;
+  if (buffer_ || staged_.empty()) complete();
+  if (staged_.empty()) return;
   if (target_.is_stream) return send_staged();
+  if (temporary_.empty()) name_staged();
   if (std::rename(temporary_.c_str(), target_.path.c_str()) != 0) fail(errno);
   temporary_.clear();
   listed_.reset();
 }
 
+/// A name for `rename`, which can replace a file as giving a name cannot.
+void AtomicFile::name_staged() {
+  std::filesystem::path name = list_temporary_name(target_.path.parent_path());
+  if (!give_name(fd_, name)) fail(errno);
+  temporary_ = std::move(name);
+}
+
 /// The staged file stays until the destructor removes it.
 void AtomicFile::send_staged() {
-  const int staged = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  const int staged = ::open(staged_.c_str(), O_RDONLY | O_CLOEXEC);
   if (staged < 0) fail(errno);
+  if (fd_ >= 0) ::close(std::exchange(fd_, -1));
   buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size);
   try {
     open_stream();
@@ -111,7 +138,7 @@ void AtomicFile::send_staged() {
       if (count > 0) write_through(buffer_.get(), static_cast<std::size_t>(count));
       if (count < 0 && errno != EINTR) fail(errno);
     }
-    close();
+    if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
   } catch (...) {
     ::close(staged);
     throw;
@@ -130,11 +157,6 @@ void AtomicFile::write_through(const char* from, std::size_t size) {
     from += written;
     size -= static_cast<std::size_t>(written);
   }
-}
-
-void AtomicFile::close() {
-  // Network file systems report a full disk only here.
-  if (::close(std::exchange(fd_, -1)) != 0) fail(errno);
 }
 
 void AtomicFile::fail(int error) const { throw IoError(path_.string() + ": cannot write: " + std::strerror(error)); }

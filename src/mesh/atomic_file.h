@@ -12,11 +12,12 @@
 
 namespace meshbound {
 
-/// A file that appears whole or not at all: written under a temporary name in the same folder, renamed by `commit`,
-/// removed otherwise by the destructor, or by `remove_temporary_files`. A symbolic link is followed, so that what it
-/// points to is replaced, or made. A file that is replaced leaves its permissions to the new one. Devices and FIFOs are
-/// written to as they are. Buffered; every member throws `IoError` with the path as it was given, also when the disk is
-/// full.
+/// A file that appears whole or not at all: written without a name, which `commit` gives it, so that no ending leaves
+/// anything behind. Where the file system knows only files with names it is written under a temporary one in the same
+/// folder; where it is not committed, the destructor or `remove_temporary_files` removes it. A symbolic link is
+/// followed, so that what it points to is replaced, or made. A file that is replaced leaves its permissions to the new
+/// one. Devices and FIFOs are written to as they are. Buffered; every member throws `IoError` with the path as it was
+/// given, also when the disk is full.
 class AtomicFile {
  public:
   /// When bytes are sent to a device or FIFO, which cannot be read back.
@@ -46,25 +47,28 @@ class AtomicFile {
   void complete();
 
   /// The file that holds what was written, between `complete` and `commit`. Empty for a stream that is not staged.
-  [[nodiscard]] const std::filesystem::path& staged() const { return temporary_; }
+  [[nodiscard]] const std::filesystem::path& staged() const { return staged_; }
 
   /// Makes the file visible under its name, or sends what was staged to the stream. Call once, last.
   void commit();
 
  private:
   void open();
+  void open_staged(const std::filesystem::path& folder);
   void open_stream();
+  [[nodiscard]] std::filesystem::path list_temporary_name(const std::filesystem::path& folder);
+  void name_staged();
   void flush();
   void write_through(const char* from, std::size_t size);
   void send_staged();
-  void close();
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path path_;  // as the caller named it, for messages
   OutputTarget target_;
   Stream stream_;
   StopToken stop_;
-  std::filesystem::path temporary_;  // empty when writing to a stream, and after the rename
+  std::filesystem::path staged_;     // where what was written can be read; empty for a stream that is not staged
+  std::filesystem::path temporary_;  // a name that must not stay; empty where there is none
   std::optional<TemporaryName> listed_;
   int fd_ = -1;
   std::unique_ptr<char[]> buffer_;

@@ -2,6 +2,7 @@
 #include "mesh/byte_store.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/unnamed_file.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -22,10 +24,29 @@ constexpr std::size_t chunk_size = std::size_t{1} << 18;  // bytes: large enough
 
 ByteStore::ByteStore(const StoreSpace& space) : space_(space) {
   if (space_.folder.empty()) return;
+  fd_ = open_unnamed_file(space_.folder, 0600);
+  if (fd_ >= 0) return;
   std::string name = space_.folder / ".meshbound-XXXXXX";
   fd_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (fd_ < 0) fail("make", errno);
   ::unlink(name.c_str());
+}
+
+ByteStore::ByteStore(const StoreSpace& space, const SharedBytes& shared) : space_(space), written_(shared.size) {
+  const std::filesystem::path path = path_of_descriptor(static_cast<pid_t>(shared.process), shared.descriptor);
+  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd_ < 0) fail("open", errno);
+  struct stat status {};
+  if (::fstat(fd_, &status) == 0 && status.st_dev == shared.device && status.st_ino == shared.inode) return;
+  ::close(fd_);
+  fail("open", ENOENT);
+}
+
+SharedBytes ByteStore::share() {
+  write_chunk();
+  struct stat status {};
+  if (::fstat(fd_, &status) != 0) fail("find", errno);
+  return {::getpid(), fd_, status.st_dev, status.st_ino, written_};
 }
 
 ByteStore::~ByteStore() {

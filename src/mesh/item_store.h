@@ -50,10 +50,12 @@ class ItemStore {
   static_assert(std::is_trivially_copyable_v<T>);
 
   explicit ItemStore(const StoreSpace& space) : bytes_(space) {}
+  ItemStore(const StoreSpace& space, const SharedBytes& shared) : bytes_(space, shared) {}
 
   void append(const T& item) { bytes_.append(&item, sizeof(T)); }
   void append(std::span<const T> items) { bytes_.append(items.data(), items.size_bytes()); }
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(bytes_.size() / sizeof(T)); }
+  [[nodiscard]] SharedBytes share() { return bytes_.share(); }
   void read(std::size_t first, std::span<T> to) const {
     bytes_.read(static_cast<std::uint64_t>(first) * sizeof(T), to.data(), to.size_bytes());
   }

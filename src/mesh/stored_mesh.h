@@ -65,6 +65,11 @@ class MeshInMemory : public StoredMesh {
   StoreSpace space_;
 };
 
+/// Where other processes of this user on this machine find a mesh.
+struct SharedMesh {
+  SharedBytes vertices, triangles;
+};
+
 /// A mesh in a space, of which it keeps no more than buffers in memory.
 class MeshInSpace : public StoredMesh {
  public:
@@ -75,6 +80,13 @@ class MeshInSpace : public StoredMesh {
   }
   void append(std::span<const Eigen::Vector3d> vertices);
   void append(std::span<const Triangle> triangles) { triangles_.append(triangles); }
+  /// Once it is complete. Throws `IoError`.
+  [[nodiscard]] SharedMesh share() { return {vertices_.share(), triangles_.share()}; }
+  /// Makes this the mesh of another process. Throws as `ByteStore`.
+  void use(const SharedMesh& shared) {
+    vertices_ = {space_, shared.vertices};
+    triangles_ = {space_, shared.triangles};
+  }
 
   [[nodiscard]] std::size_t vertex_count() const override { return vertices_.size(); }
   [[nodiscard]] std::size_t triangle_count() const override { return triangles_.size(); }

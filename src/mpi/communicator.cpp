@@ -19,6 +19,9 @@ namespace {
 /// Bytes of the largest message: MPI counts in ints.
 constexpr std::size_t max_message = std::size_t{1} << 30;
 
+/// Of what `gather` sends.
+constexpr int bytes_tag = 0;
+
 /// Waits asleep for a message that may be long in coming.
 void wait_asleep(MPI_Request& request) {
   for (int done = 0;;) {
@@ -84,24 +87,38 @@ std::string described(const std::exception_ptr& error) {
   throw Error(what);
 }
 
+MPI_Comm copy_of(MPI_Comm ranks) {
+  MPI_Comm copy = MPI_COMM_NULL;
+  MPI_Comm_dup(ranks, &copy);
+  return copy;
+}
+
 }  // namespace
 
 void rest() { std::this_thread::sleep_for(std::chrono::microseconds(500)); }
 
-Communicator::Communicator(MPI_Comm ranks) {
-  MPI_Comm_dup(ranks, &ranks_);
+Communicator::Communicator(MPI_Comm ranks) : Communicator(Owned{copy_of(ranks)}, std::make_shared<std::uint64_t>(0)) {}
+
+Communicator::Communicator(Owned ranks, std::shared_ptr<std::uint64_t> bytes_sent)
+    : ranks_(ranks.ranks), bytes_sent_(std::move(bytes_sent)) {
   MPI_Comm_rank(ranks_, &rank_);
   MPI_Comm_size(ranks_, &size_);
 }
 
 Communicator::~Communicator() { MPI_Comm_free(&ranks_); }
 
+Communicator Communicator::on_this_machine() const {
+  Owned some{MPI_COMM_NULL};
+  MPI_Comm_split_type(ranks_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &some.ranks);
+  return Communicator(some, bytes_sent_);
+}
+
 void Communicator::broadcast(std::string& bytes, int root) {
   std::uint64_t size = bytes.size();
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibcast(&size, 1, MPI_UINT64_T, root, ranks_, &request);
   wait_asleep(request);
-  if (rank_ == root) bytes_sent_ += sizeof size * static_cast<std::uint64_t>(size_ - 1);
+  if (rank_ == root) *bytes_sent_ += sizeof size * static_cast<std::uint64_t>(size_ - 1);
   bytes.resize(size);
   broadcast(bytes.data(), bytes.size(), root);
 }
@@ -112,7 +129,7 @@ void Communicator::broadcast(char* bytes, std::size_t size, int root) {
     MPI_Ibcast(bytes + first, static_cast<int>(std::min(max_message, size - first)), MPI_BYTE, root, ranks_, &request);
     wait_awake(request);
   }
-  if (rank_ == root) bytes_sent_ += size * static_cast<std::uint64_t>(size_ - 1);
+  if (rank_ == root) *bytes_sent_ += size * static_cast<std::uint64_t>(size_ - 1);
 }
 
 std::vector<std::string> Communicator::all_gather(std::string bytes) {
@@ -122,12 +139,47 @@ std::vector<std::string> Communicator::all_gather(std::string bytes) {
   return all;
 }
 
+std::vector<std::string> Communicator::gather(std::string bytes) {
+  if (rank_ != 0) {
+    send(bytes, 0);
+    return {};
+  }
+  std::vector<std::string> all{std::move(bytes)};
+  for (int rank = 1; rank < size_; ++rank) all.push_back(receive_from(rank));
+  return all;
+}
+
+void Communicator::send(const std::string& bytes, int to) {
+  send(static_cast<std::int64_t>(bytes.size()), to, bytes_tag);
+  for (std::size_t first = 0; first < bytes.size(); first += max_message) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Isend(bytes.data() + first, static_cast<int>(std::min(max_message, bytes.size() - first)), MPI_BYTE, to,
+              bytes_tag, ranks_, &request);
+    wait_asleep(request);
+  }
+  *bytes_sent_ += bytes.size();
+}
+
+std::string Communicator::receive_from(int from) {
+  std::int64_t size = 0;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Irecv(&size, 1, MPI_INT64_T, from, bytes_tag, ranks_, &request);
+  wait_asleep(request);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  for (std::size_t first = 0; first < bytes.size(); first += max_message) {
+    MPI_Irecv(bytes.data() + first, static_cast<int>(std::min(max_message, bytes.size() - first)), MPI_BYTE, from,
+              bytes_tag, ranks_, &request);
+    wait_awake(request);
+  }
+  return bytes;
+}
+
 bool Communicator::any(bool here) {
   int own = here ? 1 : 0, whole = 0;
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(&own, &whole, 1, MPI_INT, MPI_MAX, ranks_, &request);
   wait_asleep(request);
-  bytes_sent_ += size_ > 1 ? sizeof own : 0;
+  *bytes_sent_ += size_ > 1 ? sizeof own : 0;
   return whole != 0;
 }
 
@@ -144,7 +196,7 @@ void Communicator::throw_together(const std::exception_ptr& error) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(&own, &first, 1, MPI_INT, MPI_MIN, ranks_, &request);
   wait_asleep(request);
-  bytes_sent_ += size_ > 1 ? sizeof own : 0;
+  *bytes_sent_ += size_ > 1 ? sizeof own : 0;
   if (first == std::numeric_limits<int>::max()) return;
   std::string bytes = first == rank_ ? described(error) : std::string();
   broadcast(bytes, first);
@@ -152,9 +204,19 @@ void Communicator::throw_together(const std::exception_ptr& error) {
   throw_described(bytes);
 }
 
+void Communicator::do_together(const std::function<void()>& step) {
+  std::exception_ptr error;
+  try {
+    step();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  throw_together(error);
+}
+
 void Communicator::send(std::int64_t number, int to, int tag) {
   MPI_Send(&number, 1, MPI_INT64_T, to, tag, ranks_);  // so small that it is on its way at once
-  bytes_sent_ += sizeof number;
+  *bytes_sent_ += sizeof number;
 }
 
 std::optional<Communicator::Message> Communicator::receive(int tag) {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +24,9 @@ class Communicator {
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
 
+  /// Those of these ranks that share a machine with this one, in the same order.
+  [[nodiscard]] Communicator on_this_machine() const;
+
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] int size() const { return size_; }
 
@@ -31,12 +36,16 @@ class Communicator {
   void broadcast(char* bytes, std::size_t size, int root);
   /// The bytes of each rank, by rank, on all of them.
   [[nodiscard]] std::vector<std::string> all_gather(std::string bytes);
+  /// The bytes of each rank, by rank, on rank 0; nothing on the others.
+  [[nodiscard]] std::vector<std::string> gather(std::string bytes);
   [[nodiscard]] bool any(bool here);
   /// The sum over all ranks.
   [[nodiscard]] std::uint64_t sum(std::uint64_t here);
   /// Where `error` is not null on some rank, all ranks throw that of the first one: its kind where it is one of this
   /// library's or out of memory, else `Error`.
   void throw_together(const std::exception_ptr& error);
+  /// All ranks do the step, and throw together what it throws on one of them.
+  void do_together(const std::function<void()>& step);
   /// Whether `throw_together` has thrown since `begin_together`: all ranks have left what they did, and none waits for
   /// another.
   void begin_together() { has_thrown_together_ = false; }
@@ -51,15 +60,23 @@ class Communicator {
   /// A number that has come with this tag, if one has.
   [[nodiscard]] std::optional<Message> receive(int tag);
 
-  /// Bytes that this rank has sent, each as often as there are receivers.
-  [[nodiscard]] std::uint64_t bytes_sent() const { return bytes_sent_; }
+  /// Bytes that this rank has sent here and in groups made of this one, each as often as there are receivers.
+  [[nodiscard]] std::uint64_t bytes_sent() const { return *bytes_sent_; }
 
  private:
+  /// Takes the group over.
+  struct Owned {
+    MPI_Comm ranks;
+  };
+  Communicator(Owned ranks, std::shared_ptr<std::uint64_t> bytes_sent);
+  void send(const std::string& bytes, int to);
+  [[nodiscard]] std::string receive_from(int from);
+
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
   bool has_thrown_together_ = false;
-  std::uint64_t bytes_sent_ = 0;
+  std::shared_ptr<std::uint64_t> bytes_sent_;
 };
 
 /// Sleeps for about half a millisecond.

@@ -178,15 +178,6 @@ class Dealer {
   bool is_last_ = false;     ///< nothing is left for this rank
 };
 
-std::exception_ptr first_of(const FirstError& error) {
-  try {
-    error.rethrow();
-  } catch (...) {
-    return std::current_exception();
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 RankRunner::RankRunner(Communicator& ranks, int threads)
@@ -204,7 +195,7 @@ void RankRunner::run(TileJobs& jobs) {
       queue.work();
     }
   }
-  ranks_.throw_together(first_of(queue.error()));
+  ranks_.do_together([&] { queue.error().rethrow(); });
   exchange(jobs, queue.take_done());
 }
 
@@ -215,7 +206,8 @@ void RankRunner::exchange(TileJobs& jobs, const std::vector<Done>& done) {
     own.number(job);
     own.text(bytes);
   }
-  const std::vector<std::string> all = ranks_.all_gather(own.take());
+  const std::vector<std::string> all =
+      jobs.only_first_needs_results() ? ranks_.gather(own.take()) : ranks_.all_gather(own.take());
   struct Result {
     std::size_t job;
     std::string_view bytes;
@@ -229,10 +221,13 @@ void RankRunner::exchange(TileJobs& jobs, const std::vector<Done>& done) {
       results.push_back({job, from.text()});
     }
   }
-  FirstError error;
+  ranks_.do_together([&] {
+    FirstError error;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-  for (std::size_t i = 0; i < results.size(); ++i) error.guard([&] { jobs.unpack(results[i].job, results[i].bytes); });
-  ranks_.throw_together(first_of(error));
+    for (std::size_t i = 0; i < results.size(); ++i)
+      error.guard([&] { jobs.unpack(results[i].job, results[i].bytes); });
+    error.rethrow();
+  });
 }
 
 }  // namespace meshbound::mpi

@@ -22,22 +22,13 @@ std::uint64_t size_of_file(const std::filesystem::path& path) {
 }  // namespace
 
 std::string read_ranges(Communicator& ranks, const std::filesystem::path& path, const StopToken& stop) {
-  const auto together = [&](const auto& work) {
-    std::exception_ptr error;
-    try {
-      work();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    ranks.throw_together(error);
-  };
   std::uint64_t size = 0;
-  together([&] {
+  ranks.do_together([&] {
     if (ranks.rank() == 0) size = size_of_file(path);
   });
   ranks.broadcast(reinterpret_cast<char*>(&size), sizeof size, 0);
   std::string bytes;
-  together([&] {
+  ranks.do_together([&] {
     bytes.resize(size);
     const std::size_t first = begin_of_range(size, ranks.rank(), ranks.size());
     const std::size_t count = begin_of_range(size, ranks.rank() + 1, ranks.size()) - first;

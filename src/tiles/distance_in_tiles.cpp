@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -20,21 +21,12 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
-#include "numeric/numbers_below.h"
-#include "numeric/rounding.h"
+#include "tiles/clusters.h"
 #include "tiles/measure_in_tiles.h"
 #include "tiles/tile_bytes.h"
-#include "tiles/tile_cut.h"
 
 namespace meshbound {
 namespace {
-
-/// Triangles of a cluster. Smaller clusters include less beyond the reach, but more boxes have to be tested.
-constexpr std::uint64_t triangles_of_cluster = 4096;
-
-/// Number of clusters near a tile for which it is not halved, however small it is: a single triangle may be near as
-/// many.
-constexpr std::size_t clusters_beside = 8;
 
 /// First reach if there is no tolerance, and smallest reach after it, as shares of the diagonal of both meshes.
 constexpr double first_reach = 1e-2, min_reach = 1e-5;
@@ -43,94 +35,6 @@ constexpr double first_reach = 1e-2, min_reach = 1e-5;
 /// batch has twice as many as the one before: the bound of the first ones is what saves work, and the later ones have
 /// work for many.
 constexpr std::size_t tiles_of_first_batch = 8;
-
-/// Calls use(triangles) for tiles of some triangles of a mesh.
-void cut(const TriangleMesh& part, std::span<const std::uint32_t> triangles, std::uint64_t max_triangles,
-         const UseTile& use) {
-  const NumberLists tiles = cut_into_tiles(
-      numbers_below(triangles.size()), [&](std::uint32_t t) { return sum_of_corners(part, t); }, {}, max_triangles);
-  for (std::size_t k = 0; k < tiles.size(); ++k) {
-    std::vector<std::uint32_t> tile;
-    for (const std::uint32_t t : tiles[k]) tile.push_back(triangles[t]);
-    use(tile);
-  }
-}
-
-/// Calls use(triangles) for tiles of all triangles of a mesh.
-void cut(const StoredMesh& mesh, std::uint64_t max_triangles, const UseTile& use) {
-  constexpr std::size_t triangles_of_block = std::size_t{1} << 18;
-  ItemStore<CutItem> items(mesh.space());
-  for (std::size_t first = 0; first < mesh.triangle_count(); first += triangles_of_block) {
-    std::vector<std::uint32_t> block = numbers_below(std::min(triangles_of_block, mesh.triangle_count() - first));
-    for (std::uint32_t& t : block) t += static_cast<std::uint32_t>(first);
-    const MeshPart part = part_of(mesh, block);
-    for (std::uint32_t t = 0; t < block.size(); ++t) items.append({to_vec3(sum_of_corners(part.mesh, t)), block[t]});
-  }
-  cut_into_tiles(std::move(items), max_triangles, {}, mesh.space(), use);
-}
-
-Eigen::AlignedBox3d box_of(const TriangleMesh& part) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : part.vertices) box.extend(p);
-  return box;
-}
-
-/// A mesh in clusters, with their boxes.
-struct Clusters {
-  explicit Clusters(const StoredMesh& whole) : mesh(whole), triangles(whole.space()) {
-    cut(mesh, triangles_of_cluster, [&](std::span<const std::uint32_t> cluster) {
-      triangles.append(cluster);
-      sizes.push_back(cluster.size());
-      boxes.push_back(box_of(part_of(mesh, cluster).mesh));
-    });
-  }
-  const StoredMesh& mesh;
-  StoredLists triangles;
-  std::vector<std::size_t> sizes;
-  std::vector<Eigen::AlignedBox3d> boxes;
-};
-
-/// A lower bound of the distance between two boxes: the largest gap along an axis, which rounds once.
-double separation(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
-  const double gap = (a.min() - b.max()).cwiseMax(b.min() - a.max()).maxCoeff();
-  return std::max(0.0, next_down(gap));
-}
-
-/// The triangles of B near a box, and a lower bound of the distance between the box and all others.
-struct Near {
-  MeshPart part;
-  std::vector<std::uint32_t> triangles;  ///< by triangle of the part: its number in B
-  double rest = std::numeric_limits<double>::infinity();
-};
-
-Near near_to(const Clusters& b, const Eigen::AlignedBox3d& box, double reach) {
-  Near near;
-  for (std::size_t k = 0; k < b.boxes.size(); ++k) {
-    const double apart = separation(box, b.boxes[k]);
-    if (apart > reach) {
-      near.rest = std::min(near.rest, apart);
-      continue;
-    }
-    const std::vector<std::uint32_t> cluster = b.triangles[k];
-    near.triangles.insert(near.triangles.end(), cluster.begin(), cluster.end());
-  }
-  near.part = part_of(b.mesh, near.triangles);
-  return near;
-}
-
-/// Adds a tile of these triangles of A. It is halved while more than `max_near` triangles of B are near, since a few
-/// large triangles may run along all of B.
-void add_tile(StoredLists& tiles, const StoredMesh& a, std::span<const std::uint32_t> triangles, const Clusters& b,
-              double reach, std::size_t max_near) {
-  const MeshPart part = part_of(a, triangles);
-  const Eigen::AlignedBox3d box = box_of(part.mesh);
-  std::size_t near = 0;
-  for (std::size_t i = 0; i < b.boxes.size(); ++i)
-    if (separation(box, b.boxes[i]) <= reach) near += b.sizes[i];
-  if (triangles.size() == 1 || near <= max_near) return tiles.append(triangles);
-  cut(part.mesh, triangles, (triangles.size() + 1) / 2,
-      [&](std::span<const std::uint32_t> half) { add_tile(tiles, a, half, b, reach, max_near); });
-}
 
 /// How far around a tile B is searched: the first reach, and the smallest one after it. Model units.
 struct Reach {
@@ -142,10 +46,12 @@ class TiledSearch {
  public:
   TiledSearch(const StoredMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
               const Reach& reach, StopToken::Clock::time_point start)
-      : a_(a), b_(b), options_(options), reach_(reach), start_(start), tiles_(a.space()) {
-    const std::size_t max_near = 2 * max_triangles + clusters_beside * triangles_of_cluster;
-    cut(a, max_triangles,
-        [&](std::span<const std::uint32_t> tile) { add_tile(tiles_, a, tile, b, reach.first, max_near); });
+      : a_(a),
+        b_(b),
+        options_(options),
+        reach_(reach),
+        start_(start),
+        tiles_(tiles_beside(a, b, reach.first, max_triangles)) {
     options_.threads = 1;
     options_.progress = {};
   }
@@ -220,7 +126,8 @@ class TiledSearch {
   }
 
   [[nodiscard]] OneSidedDistance search_near(const Bvh& tile, const Near& near, double known_lower) const {
-    const Bvh tree(near.part.mesh, BvhOptions{1});
+    const MeshPart part = part_of(b_.mesh, near.triangles);
+    const Bvh tree(part.mesh, BvhOptions{1});
     const PlacedModel a(tile), b(tree);
     OneSidedTask task{.a = a, .b = b, .options = options_};
     task.error_bound = *options_.error_bound;
@@ -264,8 +171,13 @@ class TiledMeasurement {
   }
 
   [[nodiscard]] OneSidedDistance search(const StoredMesh& from, const StoredMesh& to, double known_lower) const {
-    const Clusters clusters(to);
-    return TiledSearch(from, clusters, options_, tiles_.max_triangles, reach_, start_).run(known_lower, runner_);
+    std::optional<Clusters> clusters;
+    std::optional<TiledSearch> search;
+    runner_.do_together([&] {
+      clusters.emplace(to);
+      search.emplace(from, *clusters, options_, tiles_.max_triangles, reach_, start_);
+    });
+    return search->run(known_lower, runner_);
   }
 
  private:

@@ -66,7 +66,7 @@ class TiledRun {
     SimplifyResult result;
     SimplifiedLevel& level = result.levels.emplace_back();
     level.tolerance = options_.tolerance;
-    mesh_.current_mesh(level);
+    runner_.do_together([&] { mesh_.current_mesh(level); });
     if (options_.precision == Precision::Single)
       for (Eigen::Vector3d& p : level.mesh.vertices) p = p.cast<float>().cast<double>();
     level.ended_by = ended_by_;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,8 +10,8 @@
 namespace meshbound {
 
 /// Jobs that do not depend on one another: 0, 1, ... below `size`. Each leaves a result here, and whoever continues
-/// needs all results. A result may come from another process as bytes: what `run` leaves behind and what `unpack` makes
-/// of the bytes of `run_packed` is the same to the bit.
+/// needs all results, unless only the first process does. A result may come from another process as bytes: what `run`
+/// leaves behind and what `unpack` makes of the bytes of `run_packed` is the same to the bit.
 class TileJobs {
  public:
   TileJobs() = default;
@@ -30,6 +31,8 @@ class TileJobs {
   virtual void unpack(std::size_t job, std::string_view bytes) = 0;
   /// Whether a job has come to its own end, not to that of a time limit.
   [[nodiscard]] virtual bool is_complete(std::size_t job) const = 0;
+  /// Whether results are of no use but to the first process, so that they need not be sent to others.
+  [[nodiscard]] virtual bool only_first_needs_results() const { return false; }
   /// Called now and then from the thread that called `JobRunner::run`, with the share of the weight that is done.
   virtual void progress(double share) = 0;
 };
@@ -45,8 +48,12 @@ class JobRunner {
 
   /// Has each job run, or its result unpacked. Throws what a job throws.
   virtual void run(TileJobs& jobs) = 0;
+  /// Whether this is the first process.
+  [[nodiscard]] virtual bool is_first() const { return true; }
   /// Whether any process says so: for decisions on which all must agree.
   [[nodiscard]] virtual bool any(bool here) { return here; }
+  /// Does a step that all processes do alike. Where it throws in one of them, all throw what the first of these threw.
+  virtual void do_together(const std::function<void()>& step) { step(); }
 };
 
 /// Jobs from the heaviest to the lightest; of equal ones the first comes first. O(n log n).

@@ -79,11 +79,13 @@ class TiledMesh::Jobs : public TileJobs {
 };
 
 TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
-  find_owners(how.cut, how.max_triangles);
-  find_triangles();
-  find_what_stays();
-  if (!is_original_) find_originals();
-  new_covers_.emplace(original_.space());
+  runner.do_together([&] {
+    find_owners(how.cut, how.max_triangles);
+    find_triangles();
+    find_what_stays();
+    if (!is_original_) find_originals();
+    new_covers_.emplace(original_.space());
+  });
   Jobs jobs(*this, how);
   runner.run(jobs);
   PassFacts facts;
@@ -94,7 +96,7 @@ TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
     facts.dropped_triangles += tile.output.dropped_triangles;
     facts.split = facts.split || tile.output.split;
   }
-  join(jobs.tiles());
+  runner.do_together([&] { join(jobs.tiles()); });
   return facts;
 }
 

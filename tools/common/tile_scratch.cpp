@@ -2,6 +2,7 @@
 #include "common/tile_scratch.h"
 
 #include <algorithm>
+#include <atomic>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "mesh/atomic_file.h"
 #include "mesh/file_bytes.h"
 #include "meshbound/error.h"
+#include "tiles/decimate_in_tiles.h"
 
 namespace meshbound::tools {
 namespace {
@@ -28,6 +30,70 @@ void add_checksums(CompactWriter& to, std::size_t size, const Read& read) {
     to.text(sha256({reinterpret_cast<const char*>(block.data()), block.size() * sizeof(T)}));
   }
 }
+
+/// Jobs of which some may be in the folder.
+class ScratchJobs : public TileJobs {
+ public:
+  ScratchJobs(TileJobs& jobs, TileScratch& scratch, std::size_t stage)
+      : jobs_(jobs), scratch_(scratch), stage_(stage) {}
+
+  [[nodiscard]] std::size_t size() const override { return jobs_.size(); }
+  [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return jobs_.weight(job); }
+  void run(std::size_t job) override { (void)run_packed(job); }
+  [[nodiscard]] std::string run_packed(std::size_t job) override {
+    if (std::optional<std::string> bytes = taken_over(job)) {
+      ++reused_;
+      return *std::move(bytes);
+    }
+    std::string bytes = jobs_.run_packed(job);
+    if (jobs_.is_complete(job)) scratch_.store(stage_, job, bytes);
+    return bytes;
+  }
+  void unpack(std::size_t job, std::string_view bytes) override { jobs_.unpack(job, bytes); }
+  [[nodiscard]] bool is_complete(std::size_t job) const override { return jobs_.is_complete(job); }
+  void progress(double share) override { jobs_.progress(share); }
+  [[nodiscard]] std::size_t reused() const { return reused_; }
+
+ private:
+  /// The result of the folder, unpacked, if there is one.
+  std::optional<std::string> taken_over(std::size_t job) {
+    std::optional<std::string> bytes = scratch_.load(stage_, job);
+    if (!bytes) return std::nullopt;
+    try {
+      jobs_.unpack(job, *bytes);
+    } catch (const InvalidInput&) {
+      return std::nullopt;
+    }
+    return bytes;
+  }
+
+  TileJobs& jobs_;
+  TileScratch& scratch_;
+  std::size_t stage_;
+  std::atomic<std::size_t> reused_ = 0;
+};
+
+/// Runs jobs by another runner and by way of the folder.
+class ScratchRunner : public JobRunner {
+ public:
+  /// Both must outlive this.
+  ScratchRunner(JobRunner& runner, TileScratch& scratch) : runner_(runner), scratch_(scratch) {}
+  void run(TileJobs& jobs) override {
+    ScratchJobs with_scratch(jobs, scratch_, stage_++);
+    runner_.run(with_scratch);
+    reused_ += with_scratch.reused();
+  }
+  [[nodiscard]] bool is_first() const override { return runner_.is_first(); }
+  [[nodiscard]] bool any(bool here) override { return runner_.any(here); }
+  void do_together(const std::function<void()>& step) override { runner_.do_together(step); }
+  [[nodiscard]] std::size_t reused() const { return reused_; }
+
+ private:
+  JobRunner& runner_;
+  TileScratch& scratch_;
+  std::size_t stage_ = 0;  ///< calls of `run`
+  std::size_t reused_ = 0;
+};
 
 }  // namespace
 
@@ -99,54 +165,17 @@ void TileScratch::store(std::size_t stage, std::size_t job, std::string_view byt
   listed_.emplace_front(file_of(stage, job));
 }
 
-/// Jobs of which some may be in the folder.
-class ScratchRunner::Jobs : public TileJobs {
- public:
-  Jobs(TileJobs& jobs, ScratchRunner& runner) : jobs_(jobs), runner_(runner), stage_(runner.stage_) {}
-
-  [[nodiscard]] std::size_t size() const override { return jobs_.size(); }
-  [[nodiscard]] std::uint64_t weight(std::size_t job) const override { return jobs_.weight(job); }
-  void run(std::size_t job) override { (void)run_packed(job); }
-  [[nodiscard]] std::string run_packed(std::size_t job) override {
-    if (std::optional<std::string> bytes = taken_over(job)) {
-      ++runner_.reused_;
-      return *std::move(bytes);
-    }
-    std::string bytes = jobs_.run_packed(job);
-    if (jobs_.is_complete(job)) runner_.scratch_.store(stage_, job, bytes);
-    return bytes;
-  }
-  void unpack(std::size_t job, std::string_view bytes) override { jobs_.unpack(job, bytes); }
-  [[nodiscard]] bool is_complete(std::size_t job) const override { return jobs_.is_complete(job); }
-  void progress(double share) override { jobs_.progress(share); }
-
- private:
-  /// The result of the folder, unpacked, if there is one.
-  std::optional<std::string> taken_over(std::size_t job) {
-    std::optional<std::string> bytes = runner_.scratch_.load(stage_, job);
-    if (!bytes) return std::nullopt;
-    try {
-      jobs_.unpack(job, *bytes);
-    } catch (const InvalidInput&) {
-      return std::nullopt;
-    }
-    return bytes;
-  }
-
-  TileJobs& jobs_;
-  ScratchRunner& runner_;
-  std::size_t stage_;
-};
-
-void ScratchRunner::run(TileJobs& jobs) {
-  Jobs with_scratch(jobs, *this);
+Decimated decimate_in_tiles(const StoredMesh& original, const SimplifyOptions& options, const TileOptions& tiles,
+                            JobRunner& runner, std::optional<TileScratch>& scratch) {
+  if (!scratch) return {meshbound::decimate_in_tiles(original, options, tiles, runner), 0};
+  ScratchRunner with_scratch(runner, *scratch);
   try {
-    runner_.run(with_scratch);
-  } catch (const IoError&) {  // of the folder: nothing else is written by jobs
-    scratch_.keep();
+    SimplifyResult result = meshbound::decimate_in_tiles(original, options, tiles, with_scratch);
+    return {std::move(result), with_scratch.reused()};
+  } catch (const IoError&) {  // of files of this run: nothing else is written or read
+    scratch->keep();
     throw;
   }
-  ++stage_;
 }
 
 }  // namespace meshbound::tools

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <deque>
 #include <filesystem>
 #include <mutex>
@@ -54,23 +53,15 @@ class TileScratch {
   std::deque<TemporaryName> listed_;  ///< what a signal removes: the folder, then the files
 };
 
-/// Runs jobs by another runner, but takes results that the scratch folder has and stores those that it has not.
-class ScratchRunner : public JobRunner {
- public:
-  /// Both must outlive this.
-  ScratchRunner(JobRunner& runner, TileScratch& scratch) : runner_(runner), scratch_(scratch) {}
-  void run(TileJobs& jobs) override;
-  [[nodiscard]] bool any(bool here) override { return runner_.any(here); }
-  /// Results that came from the folder, in this process.
-  [[nodiscard]] std::size_t reused() const { return reused_; }
-
- private:
-  class Jobs;
-
-  JobRunner& runner_;
-  TileScratch& scratch_;
-  std::size_t stage_ = 0;  ///< calls of `run`
-  std::atomic<std::size_t> reused_ = 0;
+struct Decimated {
+  SimplifyResult result;
+  std::size_t reused = 0;  ///< tiles whose results this process took from the scratch folder
 };
+
+/// As `decimate_in_tiles`, but takes results of tiles that the scratch folder has, if there is one, and stores those
+/// that it has not. Where a disk is full the folder stays.
+[[nodiscard]] Decimated decimate_in_tiles(const StoredMesh& original, const SimplifyOptions& options,
+                                          const TileOptions& tiles, JobRunner& runner,
+                                          std::optional<TileScratch>& scratch);
 
 }  // namespace meshbound::tools

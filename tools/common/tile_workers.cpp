@@ -5,7 +5,7 @@
 
 #include "common/tile_scratch.h"
 #include "meshbound/error.h"
-#include "tiles/decimate_in_tiles.h"
+#include "tiles/certificate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
 
 namespace meshbound::tools {
@@ -28,14 +28,14 @@ MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, 
 
 SimplifyResult LocalTileWorkers::decimate(const StoredMesh& original, const SimplifyOptions& options) {
   ThreadRunner threads(options.threads);
-  if (setting_.scratch.empty()) return decimate_in_tiles(original, options, setting_.tiles, threads);
-  TileScratch scratch(setting_.scratch,
-                      decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles),
-                      setting_.resumes, true);
-  ScratchRunner runner(threads, scratch);
-  SimplifyResult result = decimate_in_tiles(original, options, setting_.tiles, runner);
-  reused_tiles_ += runner.reused();
-  return result;
+  std::optional<TileScratch> scratch;
+  if (!setting_.scratch.empty())
+    scratch.emplace(setting_.scratch,
+                    decimation_key(original, options, setting_.driver + " " + setting_.cost, setting_.tiles),
+                    setting_.resumes, true);
+  auto [result, reused] = decimate_in_tiles(original, options, setting_.tiles, threads, scratch);
+  reused_tiles_ += reused;
+  return std::move(result);
 }
 
 HausdorffDistance LocalTileWorkers::measure(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options) {
@@ -47,6 +47,12 @@ OneSidedDistance LocalTileWorkers::measure_one_side(const StoredMesh& a, const S
                                                     const DistanceOptions& options) {
   ThreadRunner threads(options.threads);
   return measure_one_side_in_tiles(a, b, options, setting_.tiles, threads);
+}
+
+std::optional<Certificate> LocalTileWorkers::certify(const StoredMesh& original, const StoredMesh& simplified,
+                                                     double tolerance, const CertificateOptions& options) {
+  ThreadRunner threads(options.threads);
+  return certify_in_tiles(original, simplified, tolerance, options, setting_.tiles, threads);
 }
 
 }  // namespace meshbound::tools

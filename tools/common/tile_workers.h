@@ -5,6 +5,7 @@
 
 #include "mesh/readers.h"
 #include "mesh/stored_mesh.h"
+#include "meshbound/certificate.h"
 #include "meshbound/distance.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
@@ -48,6 +49,10 @@ class TileWorkers {
   [[nodiscard]] virtual OneSidedDistance measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                           const DistanceOptions& options) = 0;
 
+  /// As `certify_in_tiles`.
+  [[nodiscard]] virtual std::optional<Certificate> certify(const StoredMesh& original, const StoredMesh& simplified,
+                                                           double tolerance, const CertificateOptions& options) = 0;
+
   /// Tiles whose results the decimations so far took from the scratch folder.
   [[nodiscard]] std::size_t reused_tiles() const { return reused_tiles_; }
 
@@ -72,6 +77,8 @@ class LocalTileWorkers : public TileWorkers {
                                           const DistanceOptions& options) override;
   [[nodiscard]] OneSidedDistance measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                   const DistanceOptions& options) override;
+  [[nodiscard]] std::optional<Certificate> certify(const StoredMesh& original, const StoredMesh& simplified,
+                                                   double tolerance, const CertificateOptions& options) override;
   [[nodiscard]] std::optional<CommunicationReport> communication() override { return std::nullopt; }
 
  private:

@@ -13,8 +13,8 @@
 #include "mesh/readers.h"
 #include "meshbound/error.h"
 #include "mpi/rank_runner.h"
+#include "tiles/certificate_in_tiles.h"
 #include "tiles/compact_bytes.h"
-#include "tiles/decimate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
 
 namespace meshbound::tools {
@@ -28,6 +28,7 @@ enum class RankWorkers::Command : std::uint8_t {
   Decimate,
   Measure,
   MeasureOneSide,
+  Certify,
   Count
 };
 
@@ -123,18 +124,24 @@ TriangleMesh unpack_mesh(CompactReader& from) {
   return mesh;
 }
 
-/// Each rank reads the file; all throw what one of them throws, and where they do not find the same mesh.
+/// The first rank of each machine reads the file, and the others there use its copy. All throw what one of them throws,
+/// and where they do not find the same mesh.
 MeshFile read_together(Communicator& ranks, const std::string& path, const StopToken& stop, MeshInSpace& into,
                        const FileWindow::Reader& reader) {
   return together(ranks, [&] {
+    Communicator here = ranks.on_this_machine();
+    const bool reads = here.rank() == 0;
     MeshFile file;
-    std::exception_ptr error;
-    try {
+    SharedMesh copy;
+    ranks.do_together([&] {
+      if (!reads) return;
       file = read_mesh_into(path, stop, into, reader);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    ranks.throw_together(error);
+      copy = into.share();
+    });
+    here.broadcast(reinterpret_cast<char*>(&copy), sizeof copy, 0);
+    ranks.do_together([&] {
+      if (!reads) into.use(copy);
+    });
     CompactWriter found;
     found.number(into.vertex_count());
     found.number(into.triangle_count());
@@ -145,17 +152,11 @@ MeshFile read_together(Communicator& ranks, const std::string& path, const StopT
   });
 }
 
-struct Decimated {
-  SimplifyResult result;
-  std::size_t reused = 0;  ///< tiles of all ranks that came from the scratch folder
-};
-
 Decimated decimate_together(Communicator& ranks, const StoredMesh& original, const SimplifyOptions& options,
-                            const TileOptions& tiles, RankRunner& runner, std::optional<TileScratch>& scratch) {
-  if (!scratch) return {decimate_in_tiles(original, options, tiles, runner), 0};
-  ScratchRunner with_scratch(runner, *scratch);
-  Decimated decimated{decimate_in_tiles(original, options, tiles, with_scratch), 0};
-  decimated.reused = ranks.sum(with_scratch.reused());
+                            const TileOptions& tiles, std::optional<TileScratch>& scratch) {
+  RankRunner runner(ranks, options.threads);
+  Decimated decimated = decimate_in_tiles(original, options, tiles, runner, scratch);
+  decimated.reused = ranks.sum(decimated.reused);
   return decimated;
 }
 
@@ -195,6 +196,8 @@ class Follower {
       case Command::Measure:
       case Command::MeasureOneSide:
         return measure(which, from);
+      case Command::Certify:
+        return certify(from);
       case Command::Count:
         (void)ranks_.sum(ranks_.bytes_sent());
         return;
@@ -232,8 +235,7 @@ class Follower {
     const std::string folder(from.text()), key(from.text());
     std::optional<TileScratch> scratch;
     if (!key.empty()) scratch.emplace(folder, key, true, false);
-    RankRunner runner(ranks_, options.threads);
-    (void)decimate_together(ranks_, original, options, tiles, runner, scratch);
+    (void)decimate_together(ranks_, original, options, tiles, scratch);
   }
 
   void measure(Command which, CompactReader& from) {
@@ -246,6 +248,19 @@ class Follower {
       (void)measure_in_tiles(a, b, options, tiles, runner);
     else
       (void)measure_one_side_in_tiles(a, b, options, tiles, runner);
+  }
+
+  void certify(CompactReader& from) {
+    CertificateOptions options;
+    double tolerance = 0;
+    from.raw(options.threads);
+    from.raw(options.seconds);
+    from.raw(tolerance);
+    const TileOptions tiles{static_cast<std::size_t>(from.number())};
+    const StoredMesh& original = mesh(from);
+    const StoredMesh& simplified = mesh(from);
+    RankRunner runner(ranks_, options.threads);
+    (void)certify_in_tiles(original, simplified, tolerance, options, tiles, runner);
   }
 
   [[nodiscard]] const StoredMesh& mesh(CompactReader& from) const { return *meshes_.at(from.number()); }
@@ -306,9 +321,8 @@ SimplifyResult RankWorkers::decimate(const StoredMesh& original, const SimplifyO
   message.text(setting_.scratch);
   message.text(key);
   tell(ranks_, message);
-  RankRunner runner(ranks_, options.threads);
   return together(ranks_, [&] {
-    auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, runner, scratch);
+    auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, scratch);
     reused_tiles_ += reused;
     return std::move(result);
   });
@@ -336,6 +350,22 @@ void RankWorkers::tell_measurement(Command which, const StoredMesh& a, const Sto
   message.number(number_of_a);
   message.number(number_of_b);
   tell(ranks_, message);
+}
+
+std::optional<Certificate> RankWorkers::certify(const StoredMesh& original, const StoredMesh& simplified,
+                                                double tolerance, const CertificateOptions& options) {
+  const std::uint64_t number_of_original = number_of(original), number_of_simplified = number_of(simplified);
+  CompactWriter message = command(Command::Certify);
+  message.raw(options.threads);
+  message.raw(options.seconds);
+  message.raw(tolerance);
+  message.number(setting_.tiles.max_triangles);
+  message.number(number_of_original);
+  message.number(number_of_simplified);
+  tell(ranks_, message);
+  RankRunner runner(ranks_, options.threads);
+  return together(ranks_,
+                  [&] { return certify_in_tiles(original, simplified, tolerance, options, setting_.tiles, runner); });
 }
 
 std::optional<CommunicationReport> RankWorkers::communication() {

@@ -24,6 +24,8 @@ class RankWorkers : public TileWorkers {
                                           const DistanceOptions& options) override;
   [[nodiscard]] OneSidedDistance measure_one_side(const StoredMesh& a, const StoredMesh& b,
                                                   const DistanceOptions& options) override;
+  [[nodiscard]] std::optional<Certificate> certify(const StoredMesh& original, const StoredMesh& simplified,
+                                                   double tolerance, const CertificateOptions& options) override;
   [[nodiscard]] std::optional<CommunicationReport> communication() override;
 
   enum class Command : std::uint8_t;

@@ -27,10 +27,9 @@ void check_formats(const SimplifyArguments& arguments) {
 }
 
 /// What needs the mesh in one piece, so that it does not go with --memory.
-constexpr std::array options_of_whole_meshes =
-    std::to_array<const char*>({"--levels", "--target-faces", "--target-ratio", "--certificate", "--prune", "--batch",
-                                "--texture-tolerance", "--normal-tolerance", "--feature-angle", "--line-tolerance",
-                                "--heatmap", "--heatmap-original", "--image", "--report"});
+constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
+    {"--levels", "--target-faces", "--target-ratio", "--prune", "--batch", "--texture-tolerance", "--normal-tolerance",
+     "--feature-angle", "--line-tolerance", "--heatmap", "--heatmap-original", "--image", "--report"});
 
 /// What speaks of one of these, or of an attribute.
 constexpr std::array options_without_use_for_tiles =

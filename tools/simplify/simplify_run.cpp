@@ -307,20 +307,19 @@ std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double
   else
     file.mesh = output.written_mesh();
   const TriangleMesh& written = file.mesh;
+  if (options_.workers != nullptr)
+    return options_.workers->certify(*stored_original_, MeshInMemory(written), tolerance, options);
   if (original_lines_)
     options.lines = CertifiedLines{lines_, output.lines_of(written), std::min(tolerance, original_lines_->tolerance)};
   const Stopwatch watch;
   auto certificate = build_certificate(original_, written, tolerance, options);
-  if (certificate && original_texture_) {
-    options.seconds -= watch.seconds();
-    auto with_texture =
-        with_texture_proof(*certificate, textured_meshes(original_, attributes_, written, file.attributes),
-                           original_texture_->tolerance, options);
-    certificate.reset();
-    if (with_texture) certificate = std::move(with_texture->certificate);
-  }
-  end_if_interrupted();
-  return certificate;
+  if (!certificate || !original_texture_) return certificate;
+  options.seconds -= watch.seconds();
+  auto with_texture =
+      with_texture_proof(*certificate, textured_meshes(original_, attributes_, written, file.attributes),
+                         original_texture_->tolerance, options);
+  if (!with_texture) return std::nullopt;
+  return std::move(with_texture->certificate);
 }
 
 /// Proves the files as they read. A result whose certificate is not complete in time is replaced by the original, which
@@ -338,10 +337,12 @@ void Run::write_certificates() {
     options.progress = [&](double fraction) { bar.show(fraction); };
     const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
     auto certificate = certificate_of(outputs_[i], tolerance, options);
+    end_if_interrupted();
     if (!certificate) {
       decided_by_[i] = fall_back(outputs_[i], nullptr, measurement(tolerance));
       options.seconds = std::numeric_limits<double>::infinity();
       certificate = certificate_of(outputs_[i], tolerance, options);
+      end_if_interrupted();
     }
     const std::vector<std::uint8_t>& bytes = certificate->bytes;
     certificates_[i].write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

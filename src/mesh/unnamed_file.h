@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <sys/types.h>
+
+#include <filesystem>
+
+namespace meshbound {
+
+/// Makes a file in `folder` that has no name there, so that no ending leaves it behind, not even a kill. Returns its
+/// descriptor, for reading and writing; -1 where the file system knows no such files, as over a network, or where
+/// `path_of_descriptor` leads nowhere.
+[[nodiscard]] int open_unnamed_file(const std::filesystem::path& folder, mode_t mode);
+
+/// A path by which this process, and others of the same user on this machine, open the file of a descriptor of
+/// `process`.
+[[nodiscard]] std::filesystem::path path_of_descriptor(pid_t process, int descriptor);
+
+/// Gives the file of `open_unnamed_file` a name, which must be free. Sets `errno` where it returns false.
+[[nodiscard]] bool give_name(int descriptor, const std::filesystem::path& name);
+
+namespace internal {
+/// False in tests of file systems without such files.
+extern bool has_unnamed_files;
+}  // namespace internal
+
+}  // namespace meshbound

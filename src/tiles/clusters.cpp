@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "tiles/clusters.h"
+
+#include <algorithm>
+
+#include "numeric/numbers_below.h"
+#include "numeric/rounding.h"
+#include "tiles/tile_cut.h"
+
+namespace meshbound {
+namespace {
+
+/// Triangles of a cluster. Smaller clusters include less beyond the reach, but more boxes have to be tested.
+constexpr std::uint64_t triangles_of_cluster = 4096;
+
+/// Number of clusters near a tile for which it is not halved, however small it is: a single triangle may be near as
+/// many.
+constexpr std::size_t clusters_beside = 8;
+
+/// Calls use(triangles) for tiles of some triangles of a mesh.
+void cut(const TriangleMesh& part, std::span<const std::uint32_t> triangles, std::uint64_t max_triangles,
+         const UseTile& use) {
+  const NumberLists tiles = cut_into_tiles(
+      numbers_below(triangles.size()), [&](std::uint32_t t) { return sum_of_corners(part, t); }, {}, max_triangles);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    std::vector<std::uint32_t> tile;
+    for (const std::uint32_t t : tiles[k]) tile.push_back(triangles[t]);
+    use(tile);
+  }
+}
+
+/// Calls use(triangles) for tiles of all triangles of a mesh.
+void cut(const StoredMesh& mesh, std::uint64_t max_triangles, const UseTile& use) {
+  constexpr std::size_t triangles_of_block = std::size_t{1} << 18;
+  ItemStore<CutItem> items(mesh.space());
+  for (std::size_t first = 0; first < mesh.triangle_count(); first += triangles_of_block) {
+    std::vector<std::uint32_t> block = numbers_below(std::min(triangles_of_block, mesh.triangle_count() - first));
+    for (std::uint32_t& t : block) t += static_cast<std::uint32_t>(first);
+    const MeshPart part = part_of(mesh, block);
+    for (std::uint32_t t = 0; t < block.size(); ++t) items.append({to_vec3(sum_of_corners(part.mesh, t)), block[t]});
+  }
+  cut_into_tiles(std::move(items), max_triangles, {}, mesh.space(), use);
+}
+
+/// A lower bound of the distance between two boxes: the largest gap along an axis, which rounds once.
+double separation(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  const double gap = (a.min() - b.max()).cwiseMax(b.min() - a.max()).maxCoeff();
+  return std::max(0.0, next_down(gap));
+}
+
+/// Adds a tile of these triangles of A. It is halved while more than `max_near` triangles of B are near, since a few
+/// large triangles may run along all of B.
+void add_tile(StoredLists& tiles, const StoredMesh& a, std::span<const std::uint32_t> triangles, const Clusters& b,
+              double reach, std::size_t max_near) {
+  const MeshPart part = part_of(a, triangles);
+  const Eigen::AlignedBox3d box = box_of(part.mesh);
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < b.boxes.size(); ++i)
+    if (separation(box, b.boxes[i]) <= reach) near += b.sizes[i];
+  if (triangles.size() == 1 || near <= max_near) return tiles.append(triangles);
+  cut(part.mesh, triangles, (triangles.size() + 1) / 2,
+      [&](std::span<const std::uint32_t> half) { add_tile(tiles, a, half, b, reach, max_near); });
+}
+
+}  // namespace
+
+Clusters::Clusters(const StoredMesh& whole) : mesh(whole), triangles(whole.space()) {
+  cut(mesh, triangles_of_cluster, [&](std::span<const std::uint32_t> cluster) {
+    triangles.append(cluster);
+    sizes.push_back(cluster.size());
+    boxes.push_back(box_of(part_of(mesh, cluster).mesh));
+  });
+}
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& part) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : part.vertices) box.extend(p);
+  return box;
+}
+
+Near near_to(const Clusters& b, const Eigen::AlignedBox3d& box, double reach) {
+  Near near;
+  for (std::size_t k = 0; k < b.boxes.size(); ++k) {
+    const double apart = separation(box, b.boxes[k]);
+    if (apart > reach) {
+      near.rest = std::min(near.rest, apart);
+      continue;
+    }
+    const std::vector<std::uint32_t> cluster = b.triangles[k];
+    near.triangles.insert(near.triangles.end(), cluster.begin(), cluster.end());
+  }
+  return near;
+}
+
+StoredLists tiles_beside(const StoredMesh& a, const Clusters& b, double reach, std::size_t max_triangles) {
+  StoredLists tiles(a.space());
+  const std::size_t max_near = 2 * max_triangles + clusters_beside * triangles_of_cluster;
+  cut(a, max_triangles, [&](std::span<const std::uint32_t> tile) { add_tile(tiles, a, tile, b, reach, max_near); });
+  return tiles;
+}
+
+}  // namespace meshbound
