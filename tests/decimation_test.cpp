@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <set>
 
 #include "datasets/analytic_meshes.h"
 #include "drivers.h"
 #include "levels/level_run.h"
 #include "meshbound/simplify.h"
+#include "numeric/numbers_below.h"
 #include "numeric/vector_code.h"
 #include "reference/small_meshes.h"
 #include "setting.h"
@@ -68,6 +70,58 @@ TEST_P(Decimation, RepairsWhatWrongSamplesHaveAdmitted) {
       EXPECT_LT(static_cast<double>(wrong.last().faces()), 1.4 * static_cast<double>(right.last().faces()));
     }
   }
+}
+
+/// Options of a run whose proven changes can be taken back, though its faces may turn as they like.
+SimplifyOptions with_changes_kept(SimplifyOptions options) {
+  options.normal_tolerance = 180;
+  return options;
+}
+
+std::set<std::set<std::uint32_t>> triangles_by_sources(const SimplifiedLevel& level) {
+  std::set<std::set<std::uint32_t>> result;
+  for (const Triangle& t : level.mesh.triangles)
+    result.insert({level.source_vertex[t[0]], level.source_vertex[t[1]], level.source_vertex[t[2]]});
+  return result;
+}
+
+/// A measurement refutes one face: what led to it is undone and proven again there, and nothing else is tried again.
+TEST_P(Decimation, TakesBackProvenChangesWhereTheyAreRefuted) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 120, 48);
+  const SimplifyOptions options = with_changes_kept(this->options(0.01));
+  LevelRun run(torus, options);
+  const SimplifiedLevel before = run.next(options.tolerance, 0);
+  SimplifyResult counts_before, counts_after;
+  run.describe(counts_before);
+  ASSERT_TRUE(run.take_back({{0}, {}}, 1));
+  SimplifiedLevel after = run.next(options.tolerance, 0);
+  run.describe(counts_after);
+  EXPECT_EQ(check_tolerance(Bvh(torus), Bvh(after.mesh), options.tolerance).verdict, Verdict::Within);
+  EXPECT_GT(counts_after.counts.restored, 0U);
+  EXPECT_LT(counts_after.counts.restored, before.collapses_performed / 10);
+  EXPECT_LT(counts_after.counts.tried - counts_before.counts.tried, counts_before.counts.tried / 5);
+  const auto old_ones = triangles_by_sources(before), new_ones = triangles_by_sources(after);
+  std::vector<std::set<std::uint32_t>> common;
+  std::set_intersection(old_ones.begin(), old_ones.end(), new_ones.begin(), new_ones.end(), std::back_inserter(common));
+  EXPECT_LT(common.size(), old_ones.size());
+  EXPECT_GT(common.size(), old_ones.size() * 3 / 4);
+  EXPECT_EQ(2 * after.collapses_performed + after.faces(), torus.triangles.size());
+}
+
+/// Each round takes something back for good, so that the original is left in the end.
+TEST_P(Decimation, TakesEverythingBackWhereEveryFaceIsRefutedAgainAndAgain) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  const SimplifyOptions options = with_changes_kept(this->options(0.02));
+  LevelRun run(sphere, options);
+  SimplifiedLevel level = run.next(options.tolerance, 0);
+  EXPECT_LT(level.faces(), sphere.triangles.size() / 2);
+  const auto all_of = [](const TriangleMesh& mesh) { return numbers_below(mesh.triangles.size()); };
+  for (int round = 0; run.take_back({all_of(level.mesh), all_of(sphere)}, sphere.triangles.size()); ++round) {
+    ASSERT_LT(round, 5);
+    level = run.next(options.tolerance, 0);
+  }
+  EXPECT_EQ(level.mesh.vertices, sphere.vertices);
+  EXPECT_EQ(level.faces(), sphere.triangles.size());
 }
 
 TEST_P(Decimation, RepairsForATargetThatWasReachedWithoutAProof) {

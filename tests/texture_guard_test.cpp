@@ -196,6 +196,28 @@ TEST(TextureGuard, KeepsALineThatAnotherChartLiesAlong) {
   EXPECT_LE(deviation_of(touching, kept).bounds.upper, 0.2);
 }
 
+/// The texture is folded along a bow: u grows up to it and falls beyond. Where that fold moves, coordinates beside it
+/// are covered no more, and only another sheet far away has them.
+TEST(TextureGuard, KeepsAFoldOfTheTexture) {
+  const auto folded = [](double x, double y, bool /*is_right*/) {
+    return Eigen::Vector2d(0.5 - std::abs(x - 0.5) + 0.03 * std::sin(std::numbers::pi * y), y);
+  };
+  Textured sheets = sheet(16, flat, folded);
+  const Textured far = sheet(
+      1, [](double, double) { return 9.0; }, [](double x, double y, bool) { return Eigen::Vector2d(2 * x - 0.5, y); });
+  const auto first = static_cast<std::uint32_t>(sheets.mesh.vertices.size());
+  sheets.mesh.vertices.insert(sheets.mesh.vertices.end(), far.mesh.vertices.begin(), far.mesh.vertices.end());
+  for (const Triangle& t : far.mesh.triangles)
+    sheets.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  sheets.coordinates.insert(sheets.coordinates.end(), far.coordinates.begin(), far.coordinates.end());
+  const SimplifiedLevel level = simplified(sheets, 0.1, 0.1);
+  EXPECT_LT(level.faces(), sheets.mesh.triangles.size() / 4);
+  EXPECT_LE(deviation_of(sheets, level).bounds.upper, 0.1);
+  EXPECT_TRUE(std::any_of(level.lines.begin(), level.lines.end(), [&](const Edge& line) {
+    return level.mesh.vertices[line[0]].x() == 0.5 && level.mesh.vertices[line[1]].x() == 0.5;
+  }));
+}
+
 /// Equal coordinates of different materials are different: the line between them is kept though the map is even.
 TEST(TextureGuard, KeepsMaterialsApart) {
   Textured square = sheet(16, flat, even);

@@ -80,7 +80,7 @@ struct SimplifyOptions {
   std::vector<double> levels;
   Effort effort = Effort::Normal;  ///< time for fewer faces
   /// Whole components whose every point lies within the tolerance of what remains are dropped, the smallest first. Not
-  /// those with locked vertices or, with `preserve_boundary`, with a border.
+  /// those with locked vertices or, with `preserve_boundary`, with a border, and none where a texture or normals count.
   bool prune = false;
   bool preserve_boundary = false;  ///< edges with one face stay as they are
   /// By vertex of the original, empty for none: true keeps a vertex that a triangle uses where it is, to the bit.
@@ -104,6 +104,10 @@ struct SimplifyOptions {
   /// How far the texture may move on the surface (`texture_deviation`), model units: collapses that move samples of the
   /// original further are refused. This is no proof, and the verdict of a level does not include it.
   double texture_tolerance = std::numeric_limits<double>::infinity();
+  /// How far faces may turn (`normal_deviation`), degrees: collapses after which samples of the original turn further
+  /// are refused. This is no proof, and the verdict of a level does not include it. `Effort::High` is `Effort::Normal`
+  /// then.
+  std::optional<double> normal_tolerance;
   CollapsePlacements placements = CollapsePlacements::Optimal;  ///< with `Subset`, `Effort::High` only flips edges
   /// By triangle of the original, model units, empty for none: beside `tolerance`, every point of triangle k stays
   /// within face_tolerances[k] of the result, and every point of the result within face_tolerances[g] of the original
@@ -151,6 +155,7 @@ struct CollapseCounts {
   std::uint64_t proven_together = 0;   ///< collapses that samples admitted and one common proof confirmed
   std::uint64_t taken_back = 0;        ///< collapses that samples admitted and that were undone where that proof failed
   std::uint64_t proven_alone = 0;      ///< collapses, and other changes, that were proven one by one
+  std::uint64_t restored = 0;          ///< proven collapses that were undone for the texture or the normals
   std::uint64_t unproven = 0;          ///< changes tried one by one and undone, as their proof failed
   std::uint64_t originals_tested = 0;  ///< triangles of the original that proofs tested
   std::uint64_t faces_tested = 0;      ///< faces of the result that proofs tested

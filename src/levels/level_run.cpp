@@ -55,7 +55,7 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
       else
         decimation_->current_mesh(level);
       const CollapseCounts counts = decimation_->counts();
-      level.collapses_performed = counts.proven_together + counts.proven_alone;
+      level.collapses_performed = counts.proven_together + counts.proven_alone - counts.restored;
       level.collapses_refused = counts.refused;
     });
   }
@@ -65,6 +65,13 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
   }
   simplify_seconds_ += seconds_since(start);
   return level;
+}
+
+bool LevelRun::take_back(const RefutedTriangles& refuted, std::size_t depth) {
+  const Clock::time_point start = Clock::now();
+  const bool is_changed = decimation_ && decimation_->take_back(refuted, depth);
+  simplify_seconds_ += seconds_since(start);
+  return is_changed;
 }
 
 void LevelRun::describe(SimplifyResult& result) const {

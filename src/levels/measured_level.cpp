@@ -22,6 +22,8 @@ void check_options(const SimplifyOptions& options) {
     throw InvalidInput("the line tolerance must be a length in model units, 0 or more");
   if (!(options.texture_tolerance >= 0))
     throw InvalidInput("the texture tolerance must be a length in model units, 0 or more");
+  if (options.normal_tolerance && !(*options.normal_tolerance >= 0 && *options.normal_tolerance <= 180))
+    throw InvalidInput("the normal tolerance must lie between 0 and 180 degrees");
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
   if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))

@@ -71,8 +71,9 @@ std::vector<double> tolerances(const SimplifyOptions& options) {
   return all;
 }
 
-/// Number of faces at which the last level ends; 0 if no target is given.
-std::size_t target(const TriangleMesh& original, const SimplifyOptions& options) {
+}  // namespace
+
+std::size_t target_faces(const TriangleMesh& original, const SimplifyOptions& options) {
   std::size_t faces = options.target_faces.value_or(0);
   if (options.target_ratio) {
     const double share = *options.target_ratio * static_cast<double>(original.triangles.size());
@@ -80,8 +81,6 @@ std::size_t target(const TriangleMesh& original, const SimplifyOptions& options)
   }
   return faces;
 }
-
-}  // namespace
 
 std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAttributes& attributes) {
   std::vector<SceneGroup> groups(1);
@@ -230,12 +229,37 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
     const auto faces = static_cast<double>(group.group.mesh.triangles.size());
     SimplifiedLevel part;
     timed(group, [&] { part = group.run->next(tolerance, static_cast<std::size_t>(std::floor(share * faces))); });
+    group.faces = part.faces();
     append(group, part, level);
     level.ended_by = joint_reason(level.ended_by, part.ended_by);
     level.collapses_performed += part.collapses_performed;
     level.collapses_refused += part.collapses_refused;
   }
   return level;
+}
+
+/// Of each group, its triangles are told by number in one copy.
+bool SceneRun::take_back(const RefutedTriangles& refuted, std::size_t depth) {
+  if (groups_.size() == 1 && groups_.front().group.triangles.empty())
+    return groups_.front().run->take_back(refuted, depth);
+  std::vector<std::pair<Group*, std::uint32_t>> of_level, of_original(original_.triangles.size());
+  for (Group& group : groups_) {
+    const std::size_t copies = std::max<std::size_t>(group.group.copies.size(), 1);
+    for (std::size_t i = 0; i < copies * group.faces; ++i)
+      of_level.emplace_back(&group, static_cast<std::uint32_t>(i % group.faces));
+    for (std::uint32_t i = 0; i < group.group.triangles.size(); ++i) {
+      of_original[group.group.triangles[i]] = {&group, i};
+      for (const SceneCopy& copy : group.group.copies) of_original[copy.first_triangle + i] = {&group, i};
+    }
+  }
+  std::map<Group*, RefutedTriangles> by_group;
+  for (const std::uint32_t t : refuted.level) by_group[of_level[t].first].level.push_back(of_level[t].second);
+  for (const std::uint32_t t : refuted.original)
+    if (of_original[t].first != nullptr) by_group[of_original[t].first].original.push_back(of_original[t].second);
+  bool is_changed = false;
+  for (auto& [group, triangles] : by_group)
+    timed(*group, [&] { is_changed = group->run->take_back(triangles, depth) || is_changed; });
+  return is_changed;
 }
 
 void SceneRun::describe(SimplifyResult& result) const {
@@ -265,7 +289,7 @@ SimplifyResult decimate_levels(const TriangleMesh& original, const SimplifyOptio
   const std::vector<double> levels = tolerances(options);
   for (const double tolerance : levels) {
     const bool is_last = tolerance == levels.back();
-    result.levels.push_back(run.next(tolerance, is_last ? target(original, options) : 0));
+    result.levels.push_back(run.next(tolerance, is_last ? target_faces(original, options) : 0));
     if (options.progress)
       options.progress(static_cast<double>(result.levels.size()) / static_cast<double>(levels.size()));
   }

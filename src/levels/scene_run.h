@@ -31,6 +31,9 @@ struct SceneGroup {
 /// original.
 [[nodiscard]] std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAttributes& attributes);
 
+/// Number of faces at which the last level ends; 0 if the options have no target.
+[[nodiscard]] std::size_t target_faces(const TriangleMesh& original, const SimplifyOptions& options);
+
 /// Makes the levels of an original as `LevelRun` does, and keeps copies of a mesh copies of each other. Not
 /// thread-safe.
 class SceneRun {
@@ -40,6 +43,8 @@ class SceneRun {
 
   /// As `LevelRun::next`. A target counts the faces shown, and each group gets its share of it.
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
+  /// As `LevelRun::take_back`, in all copies of a mesh.
+  [[nodiscard]] bool take_back(const RefutedTriangles& refuted, std::size_t depth);
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
   void describe(SimplifyResult& result) const;
 
@@ -48,7 +53,8 @@ class SceneRun {
     SceneGroup group;
     SimplifyOptions options;
     std::optional<LevelRun> run;
-    double seconds = 0;  ///< that its run took
+    double seconds = 0;     ///< that its run took
+    std::size_t faces = 0;  ///< of its last level, in one copy
   };
 
   template <class Work>

@@ -28,6 +28,7 @@ CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
   proven_together += other.proven_together;
   taken_back += other.taken_back;
   proven_alone += other.proven_alone;
+  restored += other.restored;
   unproven += other.unproven;
   originals_tested += other.originals_tested;
   faces_tested += other.faces_tested;

@@ -32,6 +32,7 @@ void ChangeProver::accept(Region& region) {
   ++proven;
   workers_.of_thread(thread_).assign_covers(state_.cover);
   for (const EditLog::Stamp& stamp : region.log.stamps_of(region.log.last_number())) state_.stamp[stamp.face] = 0;
+  if (state_.proven_changes) region.proven.append(region.log);
   region.log.clear();
 }
 

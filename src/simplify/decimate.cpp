@@ -57,21 +57,16 @@ class Run {
     state_.grow_tolerance(goal_.tolerance);
     keep_what_has_no_face();
     if (state_.faces == 0) return ended_by_;
-    for (int round = 0; round < max_rounds; ++round) {
-      propose(0);
-      propose(1);
-      const auto changes = static_cast<double>(proposed());
-      const auto share = static_cast<double>(prove_and_repair()) / std::max(1.0, changes);
-      if (share < min_share_taken_back || share > max_share_taken_back) break;
-    }
+    if (state_.tried_tolerance != goal_.tolerance) prove_together();
     prove_one_by_one();
-    if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.texture) refine();
+    if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.proven_changes) refine();
     return ended_by_;
   }
 
  private:
   using Work = std::function<void(const Split&, Region&, Proposer&, ChangeProver&)>;
 
+  void prove_together();
   void try_the_others_again();
   void keep_what_has_no_face();
   void propose(int shift);
@@ -197,6 +192,20 @@ std::size_t Run::prove_and_repair() {
   return taken_back;
 }
 
+/// Most collapses; those that are still refused for a share of the tolerance are open again then.
+void Run::prove_together() {
+  state_.refuted.clear();
+  for (int round = 0; round < max_rounds; ++round) {
+    propose(0);
+    propose(1);
+    const auto changes = static_cast<double>(proposed());
+    const auto share = static_cast<double>(prove_and_repair()) / std::max(1.0, changes);
+    if (share < min_share_taken_back || share > max_share_taken_back) break;
+  }
+  try_the_others_again();
+  state_.tried_tolerance = goal_.tolerance;
+}
+
 /// Makes edges open again that were refused for a smaller share of the tolerance.
 void Run::try_the_others_again() {
   for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
@@ -206,7 +215,6 @@ void Run::try_the_others_again() {
 
 /// Collapses near the tolerance, each proven before the next.
 void Run::prove_one_by_one() {
-  try_the_others_again();
   while (!has_ended()) {
     const std::size_t before = state_.faces;
     for (int shift = is_global() ? shifts_of_split : 0; shift <= shifts_of_split && !has_ended(); ++shift) {
@@ -261,6 +269,21 @@ bool Run::truly_exceeds(Region& region, Proposer& proposer) {
 
 EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads) {
   return Run(state, goal, threads)();
+}
+
+bool take_back(DecimationState& state, const Unproven& refuted, std::size_t depth, DecimationThreads& threads) {
+  std::fill(state.refused_at.begin(), state.refused_at.end(),
+            state.clock + 1);  // only what this changes is tried again
+  std::size_t restored = undo_refuted(state, refuted, depth).changes;
+  Proof proof(state, threads.workers);
+  for (proof.run({}); !proof.unproven().empty(); proof.run({})) {
+    const Repair repaired = repair_proven(state, proof.unproven());
+    restored += repaired.changes;
+    proof.reopen(repaired.faces);
+  }
+  proof.commit();
+  threads.together.restored += restored;
+  return restored > 0;
 }
 
 }  // namespace meshbound

@@ -26,4 +26,10 @@ struct DecimationGoal {
 /// goal, whatever ended it; that tolerance must not be smaller than that of the call before.
 [[nodiscard]] EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads);
 
+/// Undoes what has led to faces and originals that are refuted by a measurement of the mesh, and proves the state
+/// again: the last `depth` changes of each face. False if there are none. `DecimationState::proven_changes` must be
+/// set.
+[[nodiscard]] bool take_back(DecimationState& state, const Unproven& refuted, std::size_t depth,
+                             DecimationThreads& threads);
+
 }  // namespace meshbound

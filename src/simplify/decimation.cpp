@@ -86,12 +86,14 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
 namespace {
 
 /// A number for each triangle, taken in this order: equal where the material and the texture coordinates of the
-/// corners, in any order, are. Empty where there are no texture coordinates.
+/// corners, in any order, are. Empty where neither texture nor normals count.
 std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<const std::uint32_t> order) {
   using Look = std::tuple<std::uint32_t, std::array<std::array<double, 2>, 3>>;
   std::map<Look, std::uint32_t> number_of;
   std::vector<std::uint32_t> looks;
+  if (options.normal_tolerance) looks.assign(order.size(), 0);
   if (options.texture_coordinates.size() != order.size()) return looks;
+  looks.clear();
   for (const std::uint32_t t : order) {
     Look look{options.materials.size() == order.size() ? options.materials[t] : 0, {}};
     auto& corners = std::get<1>(look);
@@ -125,9 +127,11 @@ void Decimation::make_state(const StopToken& stop) {
     state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
                    std::move(soup.triangle_of));
   stop.check();
-  if (!options_.texture_coordinates.empty()) note_turned_faces();
+  if (keeps_sides()) note_turned_faces();
   if (has_lines()) set_lines();
   if (!options_.texture_coordinates.empty()) set_texture();
+  if (options_.normal_tolerance) state_->turns.emplace(state_->mesh, is_turned_over_, *options_.normal_tolerance);
+  if (keeps_sides()) state_->proven_changes.emplace(state_->mesh.face_count());
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
   state_->locked = locked();
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
@@ -194,6 +198,17 @@ std::vector<std::uint8_t> Decimation::locked() const {
   return locked;
 }
 
+bool Decimation::take_back(const RefutedTriangles& refuted, std::size_t depth) {
+  const std::vector<std::uint32_t> faces = faces_in_order();
+  std::vector<std::uint32_t> index(order_.triangle.size());  // of the original here, by the caller's
+  for (std::uint32_t t = 0; t < index.size(); ++t) index[order_.triangle[t]] = t;
+  Unproven unproven;
+  for (const std::uint32_t t : refuted.level)
+    if (t < faces.size()) unproven.faces.push_back(faces[t]);  // those after them are triangles of the original
+  for (const std::uint32_t t : refuted.original) unproven.originals.push_back(index[t]);
+  return meshbound::take_back(*state_, unproven, depth, *threads_);
+}
+
 void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {
   const ArrayMesh& mesh = state_->mesh;
   const bool locks_creases = options_.feature_angle && !has_lines();
@@ -231,7 +246,8 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
   return marked;
 }
 
-/// Whether texture coordinates, materials or the side that shows differ between the two faces of an edge.
+/// Whether texture coordinates, materials or the side that shows differ between the two faces of an edge, or the
+/// texture is folded there: what lies beside a fold in the texture would be covered no more where the fold moves.
 bool Decimation::is_seam(Corner edge) const {
   const ArrayMesh& mesh = state_->mesh;
   const Corner twin = mesh.twin(edge);
@@ -250,7 +266,14 @@ bool Decimation::is_seam(Corner edge) const {
     return a != b && (a.allFinite() || b.allFinite());
   };
   const std::uint32_t start = mesh.start(edge), end = mesh.end(edge);
-  return differ(at(edge, start), at(twin, start)) || differ(at(edge, end), at(twin, end));
+  if (differ(at(edge, start), at(twin, start)) || differ(at(edge, end), at(twin, end))) return true;
+  const Eigen::Vector2d from = at(edge, start), way = at(edge, end) - from;
+  const auto doubled_area = [&](Corner side) {
+    const Eigen::Vector2d to = at(side, mesh.apex(side)) - from;
+    return way.x() * to.y() - way.y() * to.x();
+  };
+  const double left = doubled_area(edge), right = doubled_area(twin);
+  return (left > 0 && right > 0) || (left < 0 && right < 0);
 }
 
 void Decimation::set_texture() {
@@ -400,9 +423,9 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
     mesh.triangles.push_back({index[corners[0]], index[corners[1]], index[corners[2]]});
     into.source_triangle.push_back(caller_triangle(state.source_triangle[f]));
     if (state.texture) into.texture_coordinates.push_back(state.texture->of(f));
-    if (state.texture && is_turned_over_[f] != 0) {
+    if (keeps_sides() && is_turned_over_[f] != 0) {
       std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
-      std::swap(into.texture_coordinates.back()[1], into.texture_coordinates.back()[2]);
+      if (state.texture) std::swap(into.texture_coordinates.back()[1], into.texture_coordinates.back()[2]);
     }
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       if (state.mesh.edge(c) == c && state.lines.is_line(state.mesh, c))

@@ -12,6 +12,12 @@
 
 namespace meshbound {
 
+/// What a measurement has refuted, by index.
+struct RefutedTriangles {
+  std::vector<std::uint32_t> level;  ///< triangles of the level that was given out last
+  std::vector<std::uint32_t> original;
+};
+
 /// One decimation under growing tolerances: the state in its working frame, and the maps into that frame and back.
 class Decimation {
  public:
@@ -26,6 +32,11 @@ class Decimation {
   /// Decimates until nothing fits, `target_faces` are left or `stop` says so. `tolerance` in model units, not smaller
   /// than in the call before.
   EndedBy run(double tolerance, std::size_t target_faces, const StopToken& stop);
+
+  /// Undoes what has led to triangles that a measurement of `current_mesh` refutes, for good:
+  /// the last `depth` changes of each. False if there are none. Needs texture coordinates or a tolerance
+  /// for normals in the options.
+  [[nodiscard]] bool take_back(const RefutedTriangles& refuted, std::size_t depth);
 
   /// The current mesh in model coordinates, with its sources. Vertices and triangles are in the order of the original.
   void current_mesh(SimplifiedLevel& into) const;
@@ -55,6 +66,10 @@ class Decimation {
   [[nodiscard]] bool has_lines() const {
     return options_.line_tolerance || !options_.feature_edges.empty() || !options_.texture_coordinates.empty();
   }
+  /// Whether the side of a triangle that shows matters.
+  [[nodiscard]] bool keeps_sides() const {
+    return !options_.texture_coordinates.empty() || options_.normal_tolerance.has_value();
+  }
   void set_lines();
   [[nodiscard]] std::vector<std::uint8_t> marked_edges() const;
   [[nodiscard]] bool is_seam(Corner edge) const;
@@ -82,7 +97,7 @@ class Decimation {
   std::optional<DecimationThreads> threads_;
   std::size_t dropped_triangles_ = 0, locked_vertices_ = 0, pruned_components_ = 0, pruned_faces_ = 0;
   std::vector<Edge> lines_;  ///< of the original, by its own numbers
-  /// By face, if there is a texture: its corners run the other way than in the original.
+  /// By face, if `keeps_sides`: its corners run the other way than in the original.
   std::vector<std::uint8_t> is_turned_over_;
   bool split_ = false, below_rounding_ = false;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "numeric/no_index.h"
 #include "numeric/rounding.h"
@@ -107,6 +108,31 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
       const std::uint32_t mark = is_border_or_crease(vertices, triangles, t, across) ? at_edge : 0;
       triangle_near_[v] |= mark, triangle_near_[w] |= mark;
       add_between(vertices[v], vertices[w], spacing, t | mark, [&](Vec3 p) { return nearest_face(t, p); });
+    }
+  }
+}
+
+void EditLog::append(const EditLog& other) {
+  const auto first = static_cast<std::uint32_t>(stamps.size());
+  for (const Edit& edit : other.edits) {
+    edits.push_back(edit);
+    edits.back().first_stamp += first;
+  }
+  stamps.insert(stamps.end(), other.stamps.begin(), other.stamps.end());
+  coordinates.insert(coordinates.end(), other.coordinates.begin(), other.coordinates.end());
+}
+
+void ProvenChanges::add(const EditLog& proven) {
+  EditLog& log = logs.front();
+  std::uint32_t number = log.last_number();
+  std::size_t stamp = log.stamps.size();
+  log.append(proven);
+  for (const Edit& edit : proven.edits) {
+    ++number;
+    for (const std::size_t end = stamp + log.stamps_of(number).size(); stamp < end; ++stamp) {
+      if (edit.edge == ArrayMesh::none) continue;
+      EditLog::Stamp& of_face = log.stamps[stamp];
+      of_face.before = std::exchange(last[of_face.face], number);
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
 #include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/face_turns.h"
 #include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/quadric.h"
 #include "simplify/texture/texture_map.h"
@@ -86,11 +87,11 @@ class Samples {
 inline constexpr float far_beyond = 1.25F;
 inline bool is_far_beyond(float deviation) { return deviation > far_beyond; }
 
-/// An unproven change of the mesh, with what is needed to undo it.
+/// A change of the mesh, with what is needed to undo it.
 struct Edit {
   enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
   bool was_locked = false;
-  Corner edge = ArrayMesh::none;  ///< the edge collapsed or flipped; for a move, a corner of the vertex
+  Corner edge = ArrayMesh::none;  ///< the edge collapsed or flipped; for a move, a corner of the vertex; none: undone
   Vec3 position;                  ///< of the start of the edge, before the change
   FeatureLines::Before lines;     ///< before a collapse, at its edge
   std::uint32_t first_stamp = 0;  ///< index of its first face in `EditLog::stamps`
@@ -109,6 +110,8 @@ struct EditLog {
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
   void clear() { edits.clear(), stamps.clear(), coordinates.clear(); }
+  /// Adds the changes of another log after those here.
+  void append(const EditLog& other);
   /// The faces that change `number` has touched.
   [[nodiscard]] std::span<const Stamp> stamps_of(std::uint32_t number) const {
     const std::size_t k = number - before - 1, begin = edits[k].first_stamp;
@@ -117,10 +120,21 @@ struct EditLog {
   }
 };
 
+/// Changes that are proven, kept so that some of them can be taken back all the same.
+struct ProvenChanges {
+  explicit ProvenChanges(std::size_t faces) : last(faces, 0), logs(1) {}
+  /// Takes over changes that have been proven, in their order.
+  void add(const EditLog& proven);
+
+  std::vector<std::uint32_t> last;  ///< by face: the number of the last of these changes that touched it, or 0
+  std::vector<EditLog> logs;        ///< one
+};
+
 /// A part of the mesh that one thread changes, see `Split`.
 struct Region {
   std::uint32_t id = 0;
-  EditLog log;  ///< unproven changes
+  EditLog log;     ///< unproven changes
+  EditLog proven;  ///< changes proven one by one, if these are kept
   std::size_t removed_faces = 0;
   std::uint32_t clock = 0;
   std::vector<std::uint32_t> vertices;  ///< of the region; empty where it is the whole mesh
@@ -162,28 +176,34 @@ struct DecimationState {
   std::vector<std::uint32_t> source_vertex,
       source_triangle;               ///< by vertex and face: where it comes from in the original
   std::vector<std::uint8_t> locked;  ///< by vertex
-  std::vector<Quadric> quadrics;     ///< by vertex
-  std::vector<float> share;          ///< by vertex: share of the tolerance that samples may reach
+  /// By vertex: a collapse of it was refuted, and at this tolerance it takes part in no other. Empty: none.
+  std::vector<std::uint8_t> refuted;
+  std::vector<Quadric> quadrics;  ///< by vertex
+  std::vector<float> share;       ///< by vertex: share of the tolerance that samples may reach
   Samples samples;
 
   double magnitude = 0;  ///< largest coordinate of the original
   double tolerance = 0;
-  double limit = 0;  ///< largest computed distance that proves `tolerance` in real arithmetic
+  double tried_tolerance = 0;  ///< all edges have been tried with it, but for those that are open
+  double limit = 0;            ///< largest computed distance that proves `tolerance` in real arithmetic
   FeatureLines lines;
   double line_tolerance = HUGE_VAL;  ///< of `lines`, where it is smaller than `tolerance`
   double line_limit = 0;             ///< largest computed distance that proves both tolerances for lines
   bool keeps_positions = false;      ///< vertices may stand only where the original has vertices
   std::optional<LocalTolerance> local;
   std::optional<TextureMap> texture;  ///< set if the texture must not move too far
+  std::optional<FaceTurns> turns;     ///< set if faces must not turn too much
 
-  std::vector<std::uint32_t> stamp;  ///< by face: the number of the last change since the last proof, or 0
-  std::vector<EditLog> logs;         ///< since the last proof, their numbers ascending
+  std::vector<std::uint32_t> stamp;             ///< by face: the number of the last change since the last proof, or 0
+  std::vector<EditLog> logs;                    ///< since the last proof, their numbers ascending
+  std::optional<ProvenChanges> proven_changes;  ///< set if changes may have to be taken back once they are proven
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the start
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
   std::vector<float> deviation;                    ///< by edge: in tolerances, as found when it was refused; else 0
   std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
+  [[nodiscard]] bool is_refuted(std::uint32_t vertex) const { return !refuted.empty() && refuted[vertex] != 0; }
   /// Sets a larger tolerance: all proofs hold for it as well, and what was refused may fit now. A smaller one is not
   /// allowed.
   void grow_tolerance(double to);

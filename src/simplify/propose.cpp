@@ -91,6 +91,7 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
 
 Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {
   if (state.texture) texture_.emplace(*state.texture, state.mesh, state.lines);
+  if (state.turns) turns_.emplace(*state.turns, state.mesh);
 }
 
 void Proposer::gather_samples() {
@@ -108,6 +109,7 @@ void Proposer::gather_samples() {
   samples_.add_faces(taken_);
   samples_.compare(faces_);
   if (texture_) texture_->begin({star_.edge, star_.moved, star_.removed});
+  if (turns_) turns_->begin(star_.moved, star_.removed);
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -145,11 +147,11 @@ bool Proposer::fits(Vec3 point) {
   if (!gathered_) gather_samples();
   by_bound_ = true;
   return samples_.hold(beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point) &&
-         keeps_texture(point);
+         keeps_appearance(point);
 }
 
-bool Proposer::keeps_texture(Vec3 point) {
-  if (!texture_ || texture_->holds(point)) return true;
+bool Proposer::keeps_appearance(Vec3 point) {
+  if ((!turns_ || turns_->holds(point)) && (!texture_ || texture_->holds(point))) return true;
   by_bound_ = false;
   return false;
 }
@@ -359,6 +361,7 @@ void Proposer::assign_samples(Region& region) {
   for (const Corner c : star_.moved) s.samples.clear(c / 3);
   samples_.give(numbers_);
   if (texture_) texture_->give_samples(*s.texture);
+  if (turns_) turns_->give_samples(*s.turns);
   s.share[kept] = std::min(s.share[kept], s.share[gone]);
   ++region.clock;
   s.touched[kept] = region.clock;

@@ -74,7 +74,7 @@ class Proposer {
 
  private:
   void gather_samples();
-  [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0; }
+  [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0 || state_.is_refuted(v); }
   /// Where the vertex of a collapse may stand.
   struct AllowedEnds {
     bool start = false, end = false, elsewhere = false;
@@ -88,7 +88,7 @@ class Proposer {
   void take_few();
   void add_vertex(Vec3 point);
   [[nodiscard]] bool fits(Vec3 point);
-  [[nodiscard]] bool keeps_texture(Vec3 point);
+  [[nodiscard]] bool keeps_appearance(Vec3 point);
   void find_borders();
   [[nodiscard]] bool is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points);
   [[nodiscard]] bool are_edges_near(Vec3 point);
@@ -99,6 +99,7 @@ class Proposer {
   std::uint32_t region_ = 0;
   StarSamples samples_;
   std::optional<TextureGuard> texture_;
+  std::optional<TurnGuard> turns_;
   SampleKernel sample_kernel_ = simplify_kernels().samples;
   DeviationKernel deviation_kernel_ = simplify_kernels().deviations;
   EdgeStar star_;

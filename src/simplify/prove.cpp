@@ -102,8 +102,9 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
 void Proof::commit() {
   for (std::uint32_t i = 0; i < originals_.size(); ++i)
     if (originals_[i] != ArrayMesh::none) state_.cover.assign(originals_[i], draft(i));
-  for (const EditLog& log : state_.logs)
-    for (const EditLog::Stamp& stamp : log.stamps) state_.stamp[stamp.face] = 0;
+  if (state_.proven_changes)
+    for (const EditLog& log : state_.logs) state_.proven_changes->add(log);
+  std::fill(state_.stamp.begin(), state_.stamp.end(), 0);
   state_.logs.clear();
 }
 

@@ -59,6 +59,7 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
              ProofWorkers& workers) {
   state.grow_tolerance(tolerance);
   Pruned pruned;
+  if (state.proven_changes) return pruned;  // these could not be taken back without their component
   const std::vector<Component> all = components(state.mesh);
   if (all.size() < 2) return pruned;
   const FaceBoxes boxes(state.mesh);

@@ -130,7 +130,7 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
   }
   std::uint32_t number = state.last_number();
   for (std::uint32_t r = 0; r < count; ++r) {
-    split.regions.push_back({r, EditLog{number, {}, {}, {}}, 0, state.clock, {}});
+    split.regions.push_back({r, EditLog{number, {}, {}, {}}, {}, 0, state.clock, {}});
     number += faces[r];
   }
 }
@@ -164,6 +164,7 @@ void merge(DecimationState& state, Split split) {
     state.faces -= region.removed_faces;
     state.clock = std::max(state.clock, region.clock);
     if (!region.log.edits.empty()) state.logs.push_back(std::move(region.log));
+    if (state.proven_changes) state.proven_changes->add(region.proven);
   }
 }
 

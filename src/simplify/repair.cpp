@@ -48,13 +48,31 @@ void restore_coordinates(DecimationState& s, const EditLog& log, std::size_t fir
 /// Undoes changes, the last one first, together with everything built on them.
 class Undoing {
  public:
-  explicit Undoing(DecimationState& state) : state_(state) {}
+  /// Unproven changes.
+  explicit Undoing(DecimationState& state) : Undoing(state, state.stamp, state.logs) {}
+  /// `last` has the number of the last change of each face, 0 for none, `logs` the changes. Blame falls on so many
+  /// changes of a face.
+  Undoing(DecimationState& state, std::vector<std::uint32_t>& last, std::vector<EditLog>& logs, std::size_t depth = 1)
+      : state_(state), last_(last), logs_(logs), depth_(depth) {}
 
-  /// Marks a change to be undone.
-  void blame(std::uint32_t number) {
-    if (number == 0) return;
-    wanted_.push(number);
-    at_fault_.push_back(number);
+  /// Marks the last changes of a face to be undone, and to be tried again with a smaller share of the tolerance. False
+  /// if there are none.
+  bool blame(std::uint32_t face) {
+    std::uint32_t number = last_[face];
+    for (std::size_t k = 0; k < depth_ && number != 0; ++k) {
+      wanted_.push(number);
+      at_fault_.push_back(number);
+      const auto stamps = stamps_of(number);
+      number =
+          std::find_if(stamps.begin(), stamps.end(), [&](const auto& stamp) { return stamp.face == face; })->before;
+    }
+    return last_[face] != 0;
+  }
+  /// Those of the changes that were marked by `blame`.
+  [[nodiscard]] std::vector<Corner> blamed_edges() const {
+    std::vector<Corner> edges;
+    for (const std::uint32_t number : at_fault_) edges.push_back(edit_of(number).edge);
+    return edges;
   }
   void want(std::uint32_t number) {
     if (number != 0) wanted_.push(number);
@@ -77,7 +95,7 @@ class Undoing {
 
  private:
   [[nodiscard]] EditLog& log_of(std::uint32_t number) const {
-    const auto after = std::upper_bound(state_.logs.begin(), state_.logs.end(), number,
+    const auto after = std::upper_bound(logs_.begin(), logs_.end(), number,
                                         [](std::uint32_t n, const EditLog& log) { return n <= log.before; });
     return *(after - 1);
   }
@@ -93,8 +111,8 @@ class Undoing {
   bool is_on_top(std::uint32_t number) {
     bool on_top = true;
     for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      if (state_.stamp[stamp.face] == number) continue;
-      wanted_.push(state_.stamp[stamp.face]);
+      if (last_[stamp.face] == number) continue;
+      wanted_.push(last_[stamp.face]);
       on_top = false;
     }
     return on_top;
@@ -106,11 +124,11 @@ class Undoing {
     gather_samples(number);
     s.faces += take_back(s, edit);
     for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      s.stamp[stamp.face] = stamp.before;
+      last_[stamp.face] = stamp.before;
       changed_.push_back(stamp.face);
     }
     give_samples(number);
-    restore_texture(number);
+    restore_appearance(number);
     if (std::binary_search(at_fault_.begin(), at_fault_.end(), number)) lower_share(edit.edge);
     edit.edge = ArrayMesh::none;
     ++undone_;
@@ -142,18 +160,21 @@ class Undoing {
     }
   }
 
-  void restore_texture(std::uint32_t number) {
-    if (!state_.texture) return;
+  void restore_appearance(std::uint32_t number) {
     const EditLog& log = log_of(number);
     const std::span<const EditLog::Stamp> stamps = stamps_of(number);
     const auto first = static_cast<std::size_t>(stamps.data() - log.stamps.data());
     restore_coordinates(state_, log, first, first + stamps.size());
     faces_.clear();
     for (const EditLog::Stamp& stamp : stamps) faces_.push_back(stamp.face);
-    give_back_samples(*state_.texture, state_.mesh, faces_);
+    if (state_.texture) give_back_samples(*state_.texture, state_.mesh, faces_);
+    if (state_.turns) state_.turns->give_back(state_.mesh, faces_);
   }
 
   DecimationState& state_;
+  std::vector<std::uint32_t>& last_;
+  std::vector<EditLog>& logs_;
+  std::size_t depth_ = 1;
   std::priority_queue<std::uint32_t> wanted_;
   std::size_t undone_ = 0;
   std::vector<std::uint32_t> at_fault_, changed_, samples_, faces_;
@@ -224,20 +245,25 @@ void undo_last(DecimationState& state, Region& region) {
   log.edits.pop_back();
 }
 
-Repair repair(DecimationState& state, const Unproven& unproven) {
-  Undoing undoing(state);
+namespace {
+
+/// Blames the changes that caused what could not be proven. Returns whether there are any.
+bool blame(Undoing& undoing, const DecimationState& state, const Unproven& unproven) {
   NearestFaces nearest(state);
-  for (const std::uint32_t f : unproven.faces) undoing.blame(state.stamp[f]);
+  bool found_any = false;
+  for (const std::uint32_t f : unproven.faces) found_any = undoing.blame(f) || found_any;
   for (const std::uint32_t t : unproven.originals) {
     bool found = false;
-    for (const std::uint32_t v : state.triangles[t]) {
-      const std::uint32_t number = state.stamp[nearest.to(v)];
-      undoing.blame(number);
-      found = found || number != 0;
-    }
-    if (found) continue;
-    for (const std::uint32_t f : state.cover.faces_of(t)) undoing.blame(state.stamp[f]);
+    for (const std::uint32_t v : state.triangles[t]) found = undoing.blame(nearest.to(v)) || found;
+    if (!found)
+      for (const std::uint32_t f : state.cover.faces_of(t)) found = undoing.blame(f) || found;
+    found_any = found_any || found;
   }
+  return found_any;
+}
+
+/// Undoes what was blamed. What lies around may be tried again.
+Repair undo_blamed(DecimationState& state, Undoing& undoing) {
   const std::vector<std::uint32_t> changed = undoing.run();
   ++state.clock;
   for (const std::uint32_t f : changed) {
@@ -246,6 +272,44 @@ Repair repair(DecimationState& state, const Unproven& unproven) {
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) state.refused_at[state.mesh.edge(c)] = 0;
   }
   return {changed, undoing.undone()};
+}
+
+/// Faces with this stamp are unproven, and no log has their changes.
+constexpr std::uint32_t taken_back = ArrayMesh::none;
+
+/// Undoes proven changes; the faces that this changes are unproven then.
+Repair undo_proven(DecimationState& state, Undoing& undoing) {
+  Repair repair = undo_blamed(state, undoing);
+  for (const std::uint32_t f : repair.faces) state.stamp[f] = taken_back;
+  return repair;
+}
+
+}  // namespace
+
+Repair repair(DecimationState& state, const Unproven& unproven) {
+  Undoing undoing(state);
+  (void)blame(undoing, state, unproven);
+  return undo_blamed(state, undoing);
+}
+
+Repair repair_proven(DecimationState& state, const Unproven& unproven) {
+  ProvenChanges& changes = *state.proven_changes;
+  Undoing undoing(state, changes.last, changes.logs);
+  if (!blame(undoing, state, unproven))
+    for (std::uint32_t f = 0; f < changes.last.size(); ++f) undoing.want(changes.last[f]);
+  return undo_proven(state, undoing);
+}
+
+Repair undo_refuted(DecimationState& state, const Unproven& refuted, std::size_t depth) {
+  ProvenChanges& changes = *state.proven_changes;
+  Undoing undoing(state, changes.last, changes.logs, depth);
+  (void)blame(undoing, state, refuted);
+  const std::vector<Corner> edges = undoing.blamed_edges();
+  state.refuted.resize(state.mesh.vertex_count(), 0);
+  const Repair repair = undo_proven(state, undoing);
+  for (const Corner edge : edges)
+    for (const std::uint32_t v : {state.mesh.start(edge), state.mesh.end(edge)}) state.refuted[v] = 1;
+  return repair;
 }
 
 void undo_all(DecimationState& state) {

@@ -209,7 +209,7 @@ std::string explanation(DecidedBy how) {
 void print_locked(std::size_t vertices, const MeshSummary& original) {
   if (vertices == 0) return;
   print_line("locked", std::to_string(vertices) + " of " + std::to_string(original.vertices) +
-                           " vertices: they stay where they are, for edges, texture or normals");
+                           " vertices: they stay where they are, for edges");
 }
 
 void print_lines(const std::optional<LineReport>& lines, double diagonal) {

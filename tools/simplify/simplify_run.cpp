@@ -21,9 +21,9 @@
 #include "common/texture_length.h"
 #include "common/tile_workers.h"
 #include "decimation/decimation_run.h"
-#include "decimation/kept_vertices.h"
 #include "deviation/deviation_outputs.h"
-#include "levels/level_run.h"
+#include "levels/measured_level.h"
+#include "levels/scene_run.h"
 #include "mesh/atomic_file.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
@@ -36,6 +36,27 @@
 namespace meshbound::tools {
 namespace {
 
+/// Rounds in which changes are undone for texture and normals; each goes back twice as far as the one before.
+constexpr std::size_t max_rounds = 12;
+
+/// What of a level, or of the original, has moved too far in the texture or turned too much.
+RefutedTriangles refuted_by(const GatedOutput& output) {
+  RefutedTriangles refuted;
+  if (const auto& texture = output.texture_deviation()) {
+    for (const TextureWitness& w : texture->a_to_b.exceeding) {
+      refuted.original.push_back(w.from.triangle);
+      refuted.level.push_back(w.nearest.triangle);
+    }
+    for (const TextureWitness& w : texture->b_to_a.exceeding) refuted.level.push_back(w.from.triangle);
+  }
+  if (const auto& normals = output.normal_deviation())
+    for (const FaceTurn& turn : normals->exceeding) {
+      refuted.original.push_back(turn.from.triangle);
+      refuted.level.push_back(turn.nearest.triangle);
+    }
+  return refuted;
+}
+
 /// One run of the tool, in the order of its phases.
 class Run : DecimationRun {
  public:
@@ -46,16 +67,20 @@ class Run : DecimationRun {
   void parse_target();
   void read();
   void plan_memory();
-  [[nodiscard]] SimplifyResult decimated(const SimplifyOptions& options) const;
+  [[nodiscard]] SimplifiedLevel decimated(const SimplifyOptions& options) const;
   void choose_tolerances();
   void open_outputs();
-  void simplify();
+  void make_levels();
+  void make_level(std::size_t level);
   void choose_appearance();
-  [[nodiscard]] bool tightens_appearance();
-  [[nodiscard]] bool keeps_appearance() const;
+  [[nodiscard]] bool tightens_appearance(std::size_t output, std::size_t round);
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void guard_texture(SimplifyOptions& simplify) const;
-  void certify();
+  void certify(std::size_t output, ProgressBar& bar);
+  /// OUT may repeat the last level.
+  [[nodiscard]] double tolerance_of(std::size_t output) const {
+    return tolerances_[std::min(output, tolerances_.size() - 1)];
+  }
   [[nodiscard]] std::optional<Certificate> certificate_of(const GatedOutput& output, double tolerance,
                                                           CertificateOptions options) const;
   void write_certificates();
@@ -69,7 +94,9 @@ class Run : DecimationRun {
   std::vector<GatedOutput> outputs_;
   std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
   std::optional<DeviationOutputs> deviation_;
-  SimplifyResult result_;
+  SimplifyOptions simplify_;       ///< of all levels
+  std::optional<SceneRun> scene_;  ///< makes them; absent where workers on tiles do
+  SimplifyResult result_;          ///< the last level that was made
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
   /// Whether the time limit ended the run: OUT is then the best mesh proven by that time.
@@ -83,7 +110,6 @@ class Run : DecimationRun {
   std::optional<TextureLength> typed_texture_tolerance_;
   std::optional<OriginalTexture> original_texture_;
   double texel_length_ = 0;
-  std::optional<KeptVertices> kept_vertices_;
   std::vector<std::string> checksums_;  ///< of the outputs, when a document is to name them
   std::vector<DecidedBy> decided_by_;   ///< of the outputs
 };
@@ -99,11 +125,7 @@ int Run::operator()() {
     return ExitDone;
   }
   open_outputs();
-  do {
-    simplify();
-    end_if_interrupted();
-    certify();
-  } while (tightens_appearance());
+  make_levels();
   if (verdict_ == Verdict::Within) write_certificates();
   if (verdict_ == Verdict::Within && deviation_) measure_deviation();
   if (verdict_ == Verdict::Within) publish();
@@ -133,9 +155,9 @@ void Run::plan_memory() {
                              stored_original_->triangle_count(), tiles, cost_of_simplifying, options_.common.threads));
 }
 
-SimplifyResult Run::decimated(const SimplifyOptions& options) const {
-  return options_.workers == nullptr ? decimate_levels(original_, options, attributes_)
-                                     : options_.workers->decimate(*stored_original_, options);
+SimplifiedLevel Run::decimated(const SimplifyOptions& options) const {
+  if (options_.workers != nullptr) return options_.workers->decimate(*stored_original_, options).last();
+  return decimate_levels(original_, options, attributes_).last();
 }
 
 /// Fills `tolerances_`, the last being that of OUT.
@@ -157,7 +179,6 @@ void Run::choose_tolerances() {
 }
 
 void Run::choose_appearance() {
-  if (typed_texture_tolerance_ || options_.normal_tolerance) kept_vertices_.emplace(original_);
   if (!typed_texture_tolerance_) return;
   if (attributes_.texture_coordinates.empty())
     throw InvalidInput(
@@ -189,16 +210,27 @@ void Run::open_outputs() {
   certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
 }
 
-void Run::simplify() {
-  ProgressBar bar("simplifying", options_.common.quiet);
-  SimplifyOptions simplify = decimation_options(bar);
-  simplify.tolerance = before_rounding(tolerances_.back());
-  if (kept_vertices_) simplify.locked_vertices = kept_vertices_->locked();
+/// Makes the levels, the finest first, and proves each before the next one. Where a texture has moved too far or faces
+/// have turned too much, the level is made again there.
+void Run::make_levels() {
+  ProgressBar bar("simplifying and measuring", options_.common.quiet);
+  simplify_ = decimation_options(bar);
+  simplify_.tolerance = before_rounding(tolerances_.back());
   if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
-    simplify.tolerance = std::min(simplify.tolerance, original_texture_->tolerance);
-  for (std::size_t i = 0; i + 1 < tolerances_.size(); ++i) simplify.levels.push_back(before_rounding(tolerances_[i]));
-  result_ = decimated(simplify);
-  set_lines(result_.lines);
+    simplify_.tolerance = std::min(simplify_.tolerance, original_texture_->tolerance);
+  if (options_.workers == nullptr) {
+    check_options(simplify_);
+    scene_.emplace(original_, attributes_, simplify_);
+    set_lines(scene_->lines());
+  }
+  verdict_ = Verdict::Within;
+  for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
+    for (std::size_t round = 0; round == 0 || tightens_appearance(i, round - 1); ++round) {
+      if (i < tolerances_.size()) make_level(i);  // OUT may repeat the last level
+      end_if_interrupted();
+      certify(i, bar);
+    }
+  }
   report_.effort = options_.effort;
   report_.driver = options_.driver;
   report_.locked_vertices = result_.locked_vertices;
@@ -206,7 +238,22 @@ void Run::simplify() {
   report_.stopped_by = to_string(result_.last().ended_by);
   report_.collapses = {result_.last().collapses_performed, result_.last().collapses_refused,
                        result_.counts.proven_together, result_.counts.taken_back, result_.counts.proven_alone};
-  report_.seconds.simplify = watch_.lap();
+}
+
+/// Sets `result_`, whose only level is this one.
+void Run::make_level(std::size_t level) {
+  watch_.lap();
+  if (scene_) {
+    const bool is_last = level + 1 == tolerances_.size();
+    const double tolerance = is_last ? simplify_.tolerance : before_rounding(tolerances_[level]);
+    SimplifiedLevel made = scene_->next(tolerance, is_last ? target_faces(original_, simplify_) : 0);
+    result_ = {};
+    result_.levels.push_back(std::move(made));
+    scene_->describe(result_);
+  } else {
+    result_ = options_.workers->decimate(*stored_original_, simplify_);
+  }
+  report_.seconds.simplify += watch_.lap();
 }
 
 /// All options of the decimation except its tolerances.
@@ -217,6 +264,7 @@ SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
   simplify.on_exceed = options_.on_exceed == "stop" ? OnExceed::Stop : OnExceed::Skip;
   simplify.effort = options_.effort == "high" ? Effort::High : Effort::Normal;
   simplify.prune = options_.prune;
+  simplify.normal_tolerance = options_.normal_tolerance;
   if (original_texture_) guard_texture(simplify);
   return simplify;
 }
@@ -234,63 +282,48 @@ void Run::guard_texture(SimplifyOptions& simplify) const {
   simplify.texture_tolerance = original_texture_->tolerance;
 }
 
-/// Writes each mesh under a temporary name, reads it back and measures that.
-void Run::certify() {
-  verdict_ = Verdict::Within;
-  decided_by_.clear();
-  for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
-    const std::size_t level = std::min(i, tolerances_.size() - 1);  // OUT may repeat the last level
-    watch_.lap();
-    if (original_lines_) outputs_[i].require_lines(&*original_lines_);
-    if (original_texture_) outputs_[i].require_texture(&*original_texture_);
-    outputs_[i].require_normals(options_.normal_tolerance);
-    (void)writes(outputs_[i],
-                 result_.levels[level]);  // if this fails, `prove` falls back to a finer level or the original
-    report_.seconds.write += watch_.lap();
-    ProgressBar bar("measuring", options_.common.quiet);
-    bar.show(static_cast<double>(i) / static_cast<double>(outputs_.size()));
-    const auto redo = [&](double tolerance) {
-      SimplifyOptions again = decimation_options(bar);
-      again.tolerance = before_rounding(tolerance);
-      return decimated(again).last();
-    };
-    decided_by_.push_back(prove(outputs_[i], tolerances_[level], i > 0 ? &outputs_[i - 1] : nullptr, redo));
-    verdict_ = outputs_[i].verdict();
-    report_.seconds.certify += watch_.lap();
-    if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
-      throw Error(
-          "internal error: the result is further from the original than was proven during decimation; nothing was "
-          "written under its name. Please report this with the folder " +
-          save_reproducer(options_, outputs_[i], {tolerances_, tolerances_[level], target_ratio_}).string());
-  }
+/// Writes the level under a temporary name, reads it back and measures that.
+void Run::certify(std::size_t index, ProgressBar& bar) {
+  GatedOutput& output = outputs_[index];
+  const double tolerance = tolerance_of(index);
+  watch_.lap();
+  if (original_lines_) output.require_lines(&*original_lines_);
+  if (original_texture_) output.require_texture(&*original_texture_);
+  output.require_normals(options_.normal_tolerance);
+  (void)writes(output, result_.last());  // if this fails, `prove` falls back to a finer level or the original
+  report_.seconds.write += watch_.lap();
+  const auto redo = [&](double smaller) {
+    SimplifyOptions again = decimation_options(bar);
+    again.tolerance = before_rounding(smaller);
+    return decimated(again);
+  };
+  decided_by_.resize(index + 1);
+  decided_by_[index] = prove(output, tolerance, index > 0 ? &outputs_[index - 1] : nullptr, redo);
+  verdict_ = output.verdict();
+  report_.seconds.certify += watch_.lap();
+  if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
+    throw Error(
+        "internal error: the result is further from the original than was proven during decimation; nothing was "
+        "written under its name. Please report this with the folder " +
+        save_reproducer(options_, output, {tolerances_, tolerance, target_ratio_}).string());
 }
 
-bool Run::keeps_appearance() const {
-  return std::all_of(outputs_.begin(), outputs_.end(), [](const GatedOutput& output) {
-    return output.verdict() != Verdict::Within || output.keeps_appearance();
-  });
-}
-
-/// Prepares another run with more vertices of the original locked where the texture of a result has moved too far or
-/// faces have turned too much. A result that does not get within these tolerances in this way, or not in time, is
-/// replaced by the original.
-bool Run::tightens_appearance() {
-  if (!kept_vertices_ || keeps_appearance()) return false;
+/// Undoes what has led to a texture that has moved too far or to faces that have turned too much: more in each round. A
+/// result that does not get within these tolerances in this way, or not in time, is replaced by the original.
+bool Run::tightens_appearance(std::size_t index, std::size_t round) {
+  GatedOutput& output = outputs_[index];
+  if (output.verdict() != Verdict::Within || output.keeps_appearance()) return false;
   end_if_interrupted();
-  if (!is_out_of_time()) {
-    for (const GatedOutput& output : outputs_) {
-      if (output.texture_deviation())
-        kept_vertices_->learn(*output.texture_deviation(), original_tree(), output.written_mesh());
-      if (output.normal_deviation()) kept_vertices_->learn(*output.normal_deviation());
-    }
-    if (kept_vertices_->tighten()) return true;
+  watch_.lap();
+  if (!is_out_of_time() && round < max_rounds) {
+    const RefutedTriangles refuted = refuted_by(output);
+    const bool is_changed = scene_->take_back(refuted, std::size_t{4} << (2 * round));
+    report_.seconds.simplify += watch_.lap();
+    if (is_changed) return true;
   }
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (outputs_[i].keeps_appearance()) continue;
-    const bool has_smaller = i > 0 && outputs_[i - 1].keeps_appearance();
-    const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
-    decided_by_[i] = fall_back(outputs_[i], has_smaller ? &outputs_[i - 1] : nullptr, measurement(tolerance));
-  }
+  const bool has_smaller = index > 0 && outputs_[index - 1].keeps_appearance();
+  decided_by_[index] =
+      fall_back(output, has_smaller ? &outputs_[index - 1] : nullptr, measurement(tolerance_of(index)));
   return false;
 }
 
@@ -335,7 +368,7 @@ void Run::write_certificates() {
     if (!is_original) options.seconds = remaining(1);
     options.cancel = &interrupted_;
     options.progress = [&](double fraction) { bar.show(fraction); };
-    const double tolerance = tolerances_[std::min(i, tolerances_.size() - 1)];
+    const double tolerance = tolerance_of(i);
     auto certificate = certificate_of(outputs_[i], tolerance, options);
     end_if_interrupted();
     if (!certificate) {

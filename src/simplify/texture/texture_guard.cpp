@@ -23,9 +23,9 @@ constexpr int max_steps = 4;
 constexpr std::array<double, 3> shares_of_strip = {0.02, 0.5, 0.98};
 
 /// Points of a face that are compared with the original, by their weights; the first weight is that of the moving
-/// vertex.
-constexpr std::array<std::array<double, 3>, 4> tested_points = {
-    {{1, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}};
+/// vertex. The third edge of a face is the first one of the next face, or a line.
+constexpr std::array<std::array<double, 3>, 5> tested_points = {
+    {{1, 0, 0}, {0.75, 0.25, 0}, {0.5, 0.5, 0}, {0.25, 0.75, 0}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}};
 
 /// An edge that becomes a line is compared at the ends of this many parts.
 constexpr int parts_of_line = 8;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/mesh/face_turns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/point_triangle.h"
+
+namespace meshbound {
+namespace {
+
+/// Squared distances that differ by less than this share count as equal: the nearest point lies on a common edge.
+constexpr double tie = 1e-9;
+
+double squared_distance(const std::array<Vec3, 3>& t, Vec3 p) {
+  return squared_length(closest_on_triangle(CornerTriangle<double>{t[0], t[1] - t[0], t[2] - t[0]}, p).offset);
+}
+
+}  // namespace
+
+FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, double max_degrees)
+    : is_turned_over_(std::move(is_turned_over)),
+      min_cosine_(std::cos(max_degrees / 180 * std::numbers::pi)),
+      first_(start.face_count(), none) {
+  for (std::uint32_t f = 0; f < start.face_count(); ++f) {
+    const std::array<Vec3, 3> corners = start.triangle(f);
+    const Vec3 unit = normal(f, corners);
+    if (squared_length(unit) == 0) continue;
+    samples_.push_back({(1.0 / 3) * (corners[0] + corners[1] + corners[2]), unit, none});
+    give_to(static_cast<std::uint32_t>(samples_.size() - 1), f);
+  }
+}
+
+Vec3 FaceTurns::normal(std::uint32_t face, const std::array<Vec3, 3>& corners) const {
+  const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double size = length(across);
+  if (!(size > 0)) return {};
+  return (is_turned_over_[face] != 0 ? -1 / size : 1 / size) * across;
+}
+
+void FaceTurns::give_back(const ArrayMesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<std::uint32_t> samples;
+  for (const std::uint32_t f : faces) {
+    for (std::uint32_t s = first_[f]; s != none; s = samples_[s].following) samples.push_back(s);
+    clear(f);
+  }
+  for (const std::uint32_t s : samples) {
+    double least = HUGE_VAL;
+    std::uint32_t nearest = none;
+    for (const std::uint32_t f : faces) {
+      if (mesh.is_removed(f)) continue;
+      const double squared = squared_distance(mesh.triangle(f), samples_[s].at);
+      if (nearest == none || squared < least) least = squared, nearest = f;
+    }
+    give_to(s, nearest);
+  }
+}
+
+void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed) {
+  faces_.clear();
+  samples_.clear();
+  removed_.assign(removed.begin(), removed.end());
+  const auto add_samples = [&](std::uint32_t face) {
+    for (std::uint32_t s = turns_.first(face); s != FaceTurns::none; s = turns_.sample(s).following)
+      samples_.push_back(s);
+  };
+  for (const Corner c : moved) {
+    faces_.push_back({{Vec3{}, mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))}, {}, c / 3});
+    add_samples(c / 3);
+  }
+  for (const std::uint32_t f : removed) add_samples(f);
+  squared_.resize(faces_.size());
+}
+
+/// Sets the squared distances of the faces from the sample, and returns the nearest face.
+std::size_t TurnGuard::nearest(const FaceTurns::Sample& sample) {
+  for (std::size_t f = 0; f < faces_.size(); ++f) squared_[f] = squared_distance(faces_[f].corners, sample.at);
+  return static_cast<std::size_t>(std::min_element(squared_.begin(), squared_.end()) - squared_.begin());
+}
+
+bool TurnGuard::turns_little(const FaceTurns::Sample& sample) {
+  const auto is_allowed = [&](const Face& face) { return turns_.allows(sample.normal, face.normal); };
+  if (std::all_of(faces_.begin(), faces_.end(), is_allowed)) return true;  // whichever is nearest
+  const double least = squared_[nearest(sample)];
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    if (squared_[f] <= (1 + tie) * least && is_allowed(faces_[f])) return true;
+  return false;
+}
+
+bool TurnGuard::holds(Vec3 point) {
+  for (Face& face : faces_) {
+    face.corners[0] = point;
+    face.normal = turns_.normal(face.number, face.corners);
+  }
+  return std::all_of(samples_.begin(), samples_.end(), [&](std::uint32_t s) { return turns_little(turns_.sample(s)); });
+}
+
+void TurnGuard::give_samples(FaceTurns& turns) {
+  for (const Face& face : faces_) turns.clear(face.number);
+  for (const std::uint32_t f : removed_) turns.clear(f);
+  for (const std::uint32_t s : samples_) turns.give_to(s, faces_[nearest(turns.sample(s))].number);
+}
+
+}  // namespace meshbound

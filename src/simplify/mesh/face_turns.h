@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+/// Refuses collapses after which faces of the original would turn too much, by the samples around them.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simplify/mesh/array_mesh.h"
+
+namespace meshbound {
+
+/// The centroids of the original's faces with their normals, each assigned to the face of the mesh that it was found
+/// nearest to. They guide decimation and prove nothing. Threads may change what belongs to faces of different regions
+/// at once.
+class FaceTurns {
+ public:
+  static constexpr std::uint32_t none = ArrayMesh::none;
+
+  struct Sample {
+    Vec3 at, normal;                 ///< a unit vector
+    std::uint32_t following = none;  ///< next sample of the same face
+  };
+
+  /// `start` is the original, but for faces that are turned over. Faces without area have no sample. O(n).
+  FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, double max_degrees);
+
+  [[nodiscard]] const Sample& sample(std::uint32_t s) const { return samples_[s]; }
+  [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
+  void clear(std::uint32_t face) { first_[face] = none; }
+  void give_to(std::uint32_t s, std::uint32_t face) {
+    samples_[s].following = first_[face];
+    first_[face] = s;
+  }
+  /// Assigns the samples of faces that an undone collapse has just restored to the nearest of them.
+  void give_back(const ArrayMesh& mesh, std::span<const std::uint32_t> faces);
+
+  /// The unit normal that a face of the mesh has in results, at these corners; 0 where it has no area.
+  [[nodiscard]] Vec3 normal(std::uint32_t face, const std::array<Vec3, 3>& corners) const;
+  /// Whether two unit normals are within the tolerance of each other.
+  [[nodiscard]] bool allows(Vec3 before, Vec3 after) const { return dot(before, after) >= min_cosine_; }
+
+ private:
+  std::vector<std::uint8_t> is_turned_over_;  ///< by face: its corners run the other way than in results
+  double min_cosine_;
+  std::vector<Sample> samples_;
+  std::vector<std::uint32_t> first_;  ///< by face: its first sample
+};
+
+/// Compares the samples around a collapse with the faces as they would be. Each thread needs its own.
+class TurnGuard {
+ public:
+  TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {}
+
+  /// Starts anew with the faces that stay, by the corner that moves, and those that go. O(samples).
+  void begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed);
+  /// Whether no sample turns too much with the vertex at `point`: the one of the nearest faces that turns least counts.
+  /// O(samples * faces).
+  [[nodiscard]] bool holds(Vec3 point);
+  /// Assigns the samples to the faces that stay, as `holds` has placed them last.
+  void give_samples(FaceTurns& turns);
+
+ private:
+  struct Face {
+    std::array<Vec3, 3> corners;  ///< the moving one first
+    Vec3 normal;
+    std::uint32_t number = 0;
+  };
+  [[nodiscard]] bool turns_little(const FaceTurns::Sample& sample);
+  [[nodiscard]] std::size_t nearest(const FaceTurns::Sample& sample);
+
+  const FaceTurns& turns_;
+  const ArrayMesh& mesh_;
+  std::vector<Face> faces_;
+  std::vector<std::uint32_t> removed_, samples_;
+  std::vector<double> squared_;  ///< by face: squared distance of the sample in work
+};
+
+}  // namespace meshbound
