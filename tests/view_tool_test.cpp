@@ -199,7 +199,7 @@ TEST_F(GltfViewTool, ASceneOfGltfGetsTheLevelsOfTheSameSceneInJson) {
   const ToolRun result = run_gltf({"--pixels", "2", "--screen-height", "900"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("scene.glb, mesh 2, 5120 faces"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("left out    1 orthographic cameras"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("left out    orthographic cameras: 1"), std::string::npos) << result.out;
   const json of_json = json::parse(content_of(folder_ / "out/view.json")),
              view = checked_document(content_of(folder_ / "of_gltf/view.json"));
   EXPECT_EQ(view["pixels"], 2);

@@ -177,7 +177,7 @@ class ViewRun {
                                                          std::to_string(levels_.cameras[camera].full_triangles) +
                                                          " triangles drawn");
     if (gltf_ && gltf_->orthographic_cameras > 0)
-      print_line("left out", std::to_string(gltf_->orthographic_cameras) + " orthographic cameras");
+      print_line("left out", "orthographic cameras: " + std::to_string(gltf_->orthographic_cameras));
     print_line("levels", std::to_string(levels_.levels_computed) + " computed, " +
                              std::to_string(levels_.levels_skipped) + " that no instance needs skipped");
     print_line("seconds", "total " + rounded_seconds(watch_.seconds()));
