@@ -118,8 +118,9 @@ class EarCutter {
     const int beyond = quality == EarQuality::Clear ? 0 : 1;
     for (std::size_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
       const PieceCorner c = ring_[j];
-      // A corner that turns left cannot be the first one to enter the ear.
-      if (turns_[j] > 0 || c == p || c == q || c == r) continue;
+      // A corner that turns left cannot be the first one to enter the ear. Where the ring comes to q again, the ear may
+      // lie on its other side.
+      if (turns_[j] > 0 || c == p || c == r) continue;
       if (plane_.turn(r, p, c) >= beyond && plane_.turn(p, q, c) >= beyond && plane_.turn(q, r, c) >= beyond)
         return false;
     }
