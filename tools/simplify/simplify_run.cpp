@@ -213,7 +213,7 @@ void Run::open_outputs() {
 /// Makes the levels, the finest first, and proves each before the next one. Where a texture has moved too far or faces
 /// have turned too much, the level is made again there.
 void Run::make_levels() {
-  ProgressBar bar("simplifying and measuring", options_.common.quiet);
+  ProgressBar bar("simplifying", options_.common.quiet);
   simplify_ = decimation_options(bar);
   simplify_.tolerance = before_rounding(tolerances_.back());
   if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
