@@ -223,30 +223,22 @@ TEST_F(Stored, FilesAreRefusedAsIntoMemory) {
 
 TEST_F(Stored, ItemsAreCutIntoTheTilesOfItemsInMemory) {
   const TriangleMesh mesh = datasets::terrain(1, 80, 7);
-  std::vector<std::uint32_t> weights;
-  ItemStore<CutItem> all(space_);
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    weights.push_back(1 + v % 5);
-    all.append({to_vec3(mesh.vertices[v]), v, weights.back()});
-  }
+  std::vector<CutItem> all;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) all.push_back({to_vec3(mesh.vertices[v]), v, 1 + v % 5});
   for (const TileCut& cut : {TileCut{0, 0.5}, TileCut{1, 1.0 / 3}, TileCut{2, 0.999}}) {
     for (const std::uint64_t max_weight : {40u, 3000u, 1000000u}) {
-      const NumberLists expected = cut_into_tiles(
-          numbers_below(mesh.vertices.size()), [&](std::uint32_t v) { return mesh.vertices[v]; }, weights, max_weight,
-          cut);
+      using Tiles = std::vector<std::vector<std::uint32_t>>;
+      Tiles expected;
+      cut_into_tiles(all, max_weight, cut,
+                     [&](std::span<const std::uint32_t> tile) { expected.emplace_back(tile.begin(), tile.end()); });
       for (const std::size_t max_in_memory : {256, 1000, 1000000}) {
         ItemStore<CutItem> items(space_);
-        all.for_each([&](std::size_t, const CutItem& item) { items.append(item); });
-        std::size_t tiles = 0;
+        items.append(all);
+        Tiles tiles;
         cut_into_tiles(
             std::move(items), max_weight, cut, space_,
-            [&](std::span<const std::uint32_t> tile) {
-              ASSERT_LT(tiles, expected.size());
-              const auto other = expected[tiles++];
-              ASSERT_TRUE(std::equal(tile.begin(), tile.end(), other.begin(), other.end()));
-            },
-            max_in_memory);
-        EXPECT_EQ(tiles, expected.size());
+            [&](std::span<const std::uint32_t> tile) { tiles.emplace_back(tile.begin(), tile.end()); }, max_in_memory);
+        EXPECT_EQ(tiles, expected);
       }
     }
   }

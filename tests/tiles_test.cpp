@@ -74,36 +74,35 @@ TriangleMesh unwelded(const TriangleMesh& mesh) {
 
 TEST(TileCut, PutsEachTriangleIntoOneTileThatIsNotTooHeavy) {
   const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
-  std::vector<std::uint32_t> weights(torus.triangles.size());
-  for (std::uint32_t t = 0; t < weights.size(); ++t) weights[t] = 1 + t % 7;
-  const NumberLists tiles =
-      cut_into_tiles(numbers_below(weights.size()), [&](std::uint32_t t) { return sum_of_corners(torus, t); }, weights,
-                     500, {1, 1.0 / 3});
+  std::vector<CutItem> items;
+  for (std::uint32_t t = 0; t < torus.triangles.size(); ++t)
+    items.push_back({to_vec3(sum_of_corners(torus, t)), t, 1 + t % 7});
   std::set<std::uint32_t> seen;
-  for (std::size_t k = 0; k < tiles.size(); ++k) {
-    EXPECT_TRUE(std::is_sorted(tiles[k].begin(), tiles[k].end()));
+  std::size_t tiles = 0;
+  cut_into_tiles(items, 500, {1, 1.0 / 3}, [&](std::span<const std::uint32_t> tile) {
+    EXPECT_TRUE(std::is_sorted(tile.begin(), tile.end()));
     std::uint64_t weight = 0;
-    for (const std::uint32_t t : tiles[k]) {
-      weight += weights[t];
+    for (const std::uint32_t t : tile) {
+      weight += items[t].weight;
       EXPECT_TRUE(seen.insert(t).second);
     }
     EXPECT_LE(weight, 500u);
-  }
+    ++tiles;
+  });
   EXPECT_EQ(seen.size(), torus.triangles.size());
-  EXPECT_GT(tiles.size(), 20u);
+  EXPECT_GT(tiles, 20u);
 }
 
 TEST(TileCut, LeavesATriangleThatIsTooHeavyAlone) {
   const TriangleMesh cube = datasets::cube(1, 1);
-  std::vector<std::uint32_t> weights(cube.triangles.size(), 1);
-  weights[5] = 100;
-  const NumberLists tiles = cut_into_tiles(
-      numbers_below(weights.size()), [&](std::uint32_t t) { return sum_of_corners(cube, t); }, weights, 4);
-  for (std::size_t k = 0; k < tiles.size(); ++k) {
-    if (std::find(tiles[k].begin(), tiles[k].end(), 5u) != tiles[k].end()) {
-      EXPECT_EQ(tiles[k].size(), 1u);
-    }
-  }
+  std::vector<CutItem> items;
+  for (std::uint32_t t = 0; t < cube.triangles.size(); ++t)
+    items.push_back({to_vec3(sum_of_corners(cube, t)), t, t == 5 ? 100u : 1u});
+  std::size_t alone = 0;
+  cut_into_tiles(items, 4, {}, [&](std::span<const std::uint32_t> tile) {
+    if (std::find(tile.begin(), tile.end(), 5u) != tile.end() && tile.size() == 1) ++alone;
+  });
+  EXPECT_EQ(alone, 1u);
 }
 
 TEST(SimplifyInTiles, HoldsTheToleranceWithHardlyMoreFacesThanInOnePiece) {

@@ -17,16 +17,13 @@ constexpr std::uint64_t triangles_of_cluster = 4096;
 /// many.
 constexpr std::size_t clusters_beside = 8;
 
-/// Calls use(triangles) for tiles of some triangles of a mesh.
+/// Calls use(triangles) for tiles of some triangles of a mesh, which are those of `part`.
 void cut(const TriangleMesh& part, std::span<const std::uint32_t> triangles, std::uint64_t max_triangles,
          const UseTile& use) {
-  const NumberLists tiles = cut_into_tiles(
-      numbers_below(triangles.size()), [&](std::uint32_t t) { return sum_of_corners(part, t); }, {}, max_triangles);
-  for (std::size_t k = 0; k < tiles.size(); ++k) {
-    std::vector<std::uint32_t> tile;
-    for (const std::uint32_t t : tiles[k]) tile.push_back(triangles[t]);
-    use(tile);
-  }
+  std::vector<CutItem> items;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    items.push_back({to_vec3(sum_of_corners(part, t)), triangles[t]});
+  cut_into_tiles(std::move(items), max_triangles, {}, use);
 }
 
 /// Calls use(triangles) for tiles of all triangles of a mesh.

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "geometry/cut_axes.h"
 #include "geometry/eigen_vec3.h"
-#include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {
@@ -44,108 +42,78 @@ std::size_t before_plane(std::size_t items, double share) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(items)));
 }
 
+using Key = std::pair<double, std::uint32_t>;  ///< place along an axis, and number: no two items have the same
+
+Key key_of(const CutItem& item, const Vec3& axis) { return {along(axis, to_eigen(item.position)), item.number}; }
+
+template <class Use>
+void for_each_item(std::span<const CutItem> items, const Use& use) {
+  for (const CutItem& item : items) use(item);
+}
+
+template <class Use>
+void for_each_item(const ItemStore<CutItem>& items, const Use& use) {
+  items.for_each([&](std::size_t, const CutItem& item) { use(item); });
+}
+
 class TileCutter {
  public:
-  TileCutter(const PositionOf& position, std::span<const std::uint32_t> weights, std::uint64_t max_weight,
-             const TileCut& cut)
-      : position_(position),
-        weights_(weights),
-        max_weight_(max_weight),
-        axes_(axes_of(cut)),
-        first_share_(cut.first_share) {}
+  TileCutter(std::uint64_t max_weight, const TileCut& cut, const UseTile& use, const StoreSpace& space,
+             std::size_t max_in_memory)
+      : max_weight_(max_weight), axes_(axes_of(cut)), use_(use), space_(space), max_in_memory_(max_in_memory) {}
 
-  NumberLists run(std::vector<std::uint32_t> items) {
-    NumberLists tiles;
-    tiles.numbers = std::move(items);
-    if (!tiles.numbers.empty()) cut(tiles, tiles.numbers, first_share_);
-    return tiles;
+  void cut(std::span<CutItem> items, double share) const {
+    if (!items.empty()) cut_any(items, share);
+  }
+  void cut(ItemStore<CutItem> items, double share) const {
+    if (items.size() > max_in_memory_) return cut_any(std::move(items), share);
+    std::vector<CutItem> all(items.size());
+    items.read(0, all);
+    cut(std::span(all), share);
   }
 
  private:
-  void cut(NumberLists& tiles, std::span<std::uint32_t> items, double share) const {
-    if (items.size() == 1 || weight(items) <= max_weight_) {
-      std::sort(items.begin(), items.end());
-      tiles.begin.push_back(tiles.begin.back() + static_cast<std::uint32_t>(items.size()));
-      return;
-    }
+  /// `Items` are in memory or in a store.
+  template <class Items>
+  void cut_any(Items items, double share) const {
     CutBox box(axes_);
-    for (const std::uint32_t i : items) box.extend(position_(i));
-    const Vec3& axis = box.longest_axis();
-    const std::size_t middle = before_plane(items.size(), share);
-    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
-                     [&](std::uint32_t i, std::uint32_t j) {
-                       const double at = along(axis, position_(i)), other = along(axis, position_(j));
-                       return at < other || (at == other && i < j);
-                     });
-    cut(tiles, items.first(middle), 0.5);
-    cut(tiles, items.subspan(middle), 0.5);
-  }
-
-  [[nodiscard]] std::uint64_t weight(std::span<const std::uint32_t> items) const {
-    if (weights_.empty()) return items.size();
-    return std::accumulate(items.begin(), items.end(), std::uint64_t{0},
-                           [&](std::uint64_t sum, std::uint32_t i) { return sum + weights_[i]; });
-  }
-
-  const PositionOf& position_;
-  std::span<const std::uint32_t> weights_;
-  std::uint64_t max_weight_;
-  const CutAxes& axes_;
-  double first_share_;
-};
-
-/// As `TileCutter` for items of a store.
-class StoredTileCutter {
- public:
-  StoredTileCutter(std::uint64_t max_weight, const TileCut& cut, const StoreSpace& space, const UseTile& use,
-                   std::size_t max_in_memory)
-      : max_weight_(max_weight), cut_(cut), space_(space), use_(use), max_in_memory_(max_in_memory) {}
-
-  void cut(ItemStore<CutItem> items, double share) const {
-    if (items.size() <= max_in_memory_) return cut_in_memory(items, share);
-    CutBox box(axes_of(cut_));
     std::uint64_t weight = 0;
-    items.for_each([&](std::size_t, const CutItem& item) {
+    for_each_item(items, [&](const CutItem& item) {
       box.extend(to_eigen(item.position));
       weight += item.weight;
     });
-    if (weight <= max_weight_) return use_all(items);
-    const Vec3& axis = box.longest_axis();
-    const Key first_behind = key_at(items, axis, before_plane(items.size(), share));
-    ItemStore<CutItem> before(space_), behind(space_);
-    items.for_each(
-        [&](std::size_t, const CutItem& item) { (key_of(item, axis) < first_behind ? before : behind).append(item); });
-    items = ItemStore<CutItem>(StoreSpace());  // gives the room back
+    if (items.size() == 1 || weight <= max_weight_) return use_all(items);
+    auto [before, behind] = halves(items, box.longest_axis(), before_plane(items.size(), share));
     cut(std::move(before), 0.5);
     cut(std::move(behind), 0.5);
   }
 
- private:
-  using Key = std::pair<double, std::uint32_t>;  ///< place along an axis, and number: no two items have the same
-
-  static Key key_of(const CutItem& item, const Vec3& axis) {
-    return {along(axis, to_eigen(item.position)), item.number};
-  }
-
-  void cut_in_memory(const ItemStore<CutItem>& items, double share) const {
-    std::vector<CutItem> all(items.size());
-    items.read(0, all);
-    std::vector<std::uint32_t> weights;
-    for (const CutItem& item : all) weights.push_back(item.weight);
-    const NumberLists tiles =
-        cut_into_tiles(numbers_below(all.size()), [&](std::uint32_t i) { return to_eigen(all[i].position); }, weights,
-                       max_weight_, {cut_.direction, share});
-    for (std::size_t k = 0; k < tiles.size(); ++k) {
-      std::vector<std::uint32_t> numbers;
-      for (const std::uint32_t i : tiles[k]) numbers.push_back(all[i].number);
-      use_(numbers);
-    }
-  }
-
-  void use_all(const ItemStore<CutItem>& items) const {
+  template <class Items>
+  void use_all(const Items& items) const {
     std::vector<std::uint32_t> numbers;
-    items.for_each([&](std::size_t, const CutItem& item) { numbers.push_back(item.number); });
+    numbers.reserve(items.size());
+    for_each_item(items, [&](const CutItem& item) { numbers.push_back(item.number); });
+    std::sort(numbers.begin(), numbers.end());
     use_(numbers);
+  }
+
+  /// The first `rank` items along the axis, and the others.
+  static std::pair<std::span<CutItem>, std::span<CutItem>> halves(std::span<CutItem> items, const Vec3& axis,
+                                                                  std::size_t rank) {
+    std::nth_element(
+        items.begin(), items.begin() + static_cast<std::ptrdiff_t>(rank), items.end(),
+        [&](const CutItem& item, const CutItem& other) { return key_of(item, axis) < key_of(other, axis); });
+    return {items.first(rank), items.subspan(rank)};
+  }
+  /// Gives the room of the items back.
+  std::pair<ItemStore<CutItem>, ItemStore<CutItem>> halves(ItemStore<CutItem>& items, const Vec3& axis,
+                                                           std::size_t rank) const {
+    const Key first_behind = key_at(items, axis, rank);
+    ItemStore<CutItem> before(space_), behind(space_);
+    for_each_item(items,
+                  [&](const CutItem& item) { (key_of(item, axis) < first_behind ? before : behind).append(item); });
+    items = ItemStore<CutItem>(StoreSpace());
+    return {std::move(before), std::move(behind)};
   }
 
   /// The key that has `rank` others before it. A sample of what lies between two keys around it narrows these down
@@ -162,7 +130,7 @@ class StoredTileCutter {
       const Key from = expected > margin ? sample[expected - margin] : low;
       const Key to = expected + margin < sample.size() ? sample[expected + margin] : high;
       std::size_t before_from = 0, before_to = 0;
-      items.for_each([&](std::size_t, const CutItem& item) {
+      for_each_item(items, [&](const CutItem& item) {
         const Key key = key_of(item, axis);
         if (key < from) ++before_from;
         if (key < to) ++before_to;
@@ -192,7 +160,7 @@ class StoredTileCutter {
                                                      const Key& high, std::size_t step) {
     std::vector<Key> keys;
     std::size_t count = 0;
-    items.for_each([&](std::size_t, const CutItem& item) {
+    for_each_item(items, [&](const CutItem& item) {
       const Key key = key_of(item, axis);
       if (key < low || !(key < high)) return;
       if (count++ % step == 0) keys.push_back(key);
@@ -203,22 +171,21 @@ class StoredTileCutter {
   static constexpr std::size_t samples = std::size_t{1} << 16;
 
   std::uint64_t max_weight_;
-  const TileCut& cut_;
-  const StoreSpace& space_;
+  const CutAxes& axes_;
   const UseTile& use_;
+  const StoreSpace& space_;
   std::size_t max_in_memory_;
 };
 
 }  // namespace
 
-NumberLists cut_into_tiles(std::vector<std::uint32_t> items, const PositionOf& position,
-                           std::span<const std::uint32_t> weights, std::uint64_t max_weight, const TileCut& cut) {
-  return TileCutter(position, weights, max_weight, cut).run(std::move(items));
+void cut_into_tiles(std::vector<CutItem> items, std::uint64_t max_weight, const TileCut& cut, const UseTile& use) {
+  TileCutter(max_weight, cut, use, {}, items.size()).cut(std::span(items), cut.first_share);
 }
 
 void cut_into_tiles(ItemStore<CutItem> items, std::uint64_t max_weight, const TileCut& cut, const StoreSpace& space,
                     const UseTile& use, std::size_t max_in_memory) {
-  StoredTileCutter(max_weight, cut, space, use, max_in_memory).cut(std::move(items), cut.first_share);
+  TileCutter(max_weight, cut, use, space, max_in_memory).cut(std::move(items), cut.first_share);
 }
 
 }  // namespace meshbound

@@ -8,7 +8,6 @@
 
 #include "geometry/vec3.h"
 #include "mesh/item_store.h"
-#include "mesh/number_lists.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
@@ -19,17 +18,7 @@ struct TileCut {
   double first_share = 0.5;  ///< of the items before the first plane; all further planes halve
 };
 
-/// Where an item of a mesh is, by its number.
-using PositionOf = std::function<Eigen::Vector3d(std::uint32_t)>;
-
-/// Vertices or triangles of a mesh in tiles: cut by planes across the longest side of the box of what is left, until no
-/// tile weighs more than `max_weight` or has more than one item. `weights`: by item number, or empty where each weighs
-/// 1. Numbers in a tile ascend. O(n log n) for n items, which are different.
-[[nodiscard]] NumberLists cut_into_tiles(std::vector<std::uint32_t> items, const PositionOf& position,
-                                         std::span<const std::uint32_t> weights, std::uint64_t max_weight,
-                                         const TileCut& cut = {});
-
-/// An item where the items are in a store, in the order of their numbers.
+/// A vertex or triangle of a mesh.
 struct CutItem {
   Vec3 position;
   std::uint32_t number = 0, weight = 1;
@@ -38,11 +27,16 @@ struct CutItem {
 /// Takes the tiles one after the other, as the numbers of their items, which ascend.
 using UseTile = std::function<void(std::span<const std::uint32_t>)>;
 
+/// Items with different numbers in tiles: cut by planes across the longest side of the box of what is left, until no
+/// tile weighs more than `max_weight` or has more than one item. O(n log n) for n items.
+void cut_into_tiles(std::vector<CutItem> items, std::uint64_t max_weight, const TileCut& cut, const UseTile& use);
+
 /// Items of a store that are cut in memory: 80 MB.
 inline constexpr std::size_t max_cut_in_memory = std::size_t{1} << 20;
 
-/// As above for items of a store, of which at most `max_in_memory` are in memory at once: gives the same tiles for any
-/// such number from 256 on. Expected O(n log n); reads each item some five times for each halving. Throws `IoError`.
+/// As above for items of a store, in the order of their numbers, of which at most `max_in_memory` are in memory at
+/// once: gives the same tiles for any such number from 256 on. Expected O(n log n); reads each item some five times for
+/// each halving. Throws `IoError`.
 void cut_into_tiles(ItemStore<CutItem> items, std::uint64_t max_weight, const TileCut& cut, const StoreSpace& space,
                     const UseTile& use, std::size_t max_in_memory = max_cut_in_memory);
 
