@@ -76,9 +76,6 @@ class CrossingCurves {
   [[nodiscard]] std::span<const std::uint32_t> segments_in(std::uint32_t side, std::uint32_t triangle) const;
   /// Nodes on an edge, from its first vertex to its second.
   [[nodiscard]] std::span<const std::uint32_t> nodes_on(std::uint32_t side, std::uint32_t edge) const;
-  [[nodiscard]] bool is_crossed(std::uint32_t side, std::uint32_t triangle) const {
-    return segment_ranges_[side].has(triangle);
-  }
 
  private:
   struct Range {

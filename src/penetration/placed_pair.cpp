@@ -170,11 +170,6 @@ const ExactPoint& PlacedPair::exact(PairVertex v) {
   return side.exact_points.set(v.vertex, (*side.map)(side.model->positions[v.vertex]));
 }
 
-int PlacedPair::exact_unit() {
-  prepare_exact();
-  return unit_;
-}
-
 Eigen::Vector3d PlacedPair::to_world(const Vec3& local) const {
   return {std::ldexp(local.x, exponent_) + origin_.x, std::ldexp(local.y, exponent_) + origin_.y,
           std::ldexp(local.z, exponent_) + origin_.z};

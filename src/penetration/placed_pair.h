@@ -71,8 +71,6 @@ class PlacedPair {
   [[nodiscard]] Eigen::Vector3d to_world(const Vec3& local) const;
   /// Local coordinates of numerator / denominator, which is in the unit of `exact`: rounded to nearest or a neighbour.
   [[nodiscard]] Vec3 to_local(const ExactPoint& numerator, const mpz_class& denominator);
-  /// One sixth of a cubed local unit is 2^this cubed units of `exact`.
-  [[nodiscard]] int exact_unit();
 
   /// Sign of `volume_of` without any perturbation.
   [[nodiscard]] int orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s);
