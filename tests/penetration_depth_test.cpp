@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -92,6 +93,49 @@ TEST(PenetrationDepth, ACavityThroughTheMiddleOfATriangle) {
   EXPECT_NEAR(area(result.volumes[0].parts->on_a), 6 - section, 1e-12);
   EXPECT_EQ(result.volumes[0].faces_on_a, 12U);
   EXPECT_EQ(result.volumes[0].faces_on_b, 4U);
+}
+
+struct PlateWithHoles {
+  double side;
+  std::vector<std::array<Eigen::Vector2d, 3>> holes;
+};
+
+/// The top of A, two triangles, without the sections of cavities of B that go through it.
+void expect_part_without_holes(const PlateWithHoles& plate) {
+  const double n = plate.side;
+  TriangleMesh a = box({0, 0, -4}, {n, n, 0}), b = box({-2, -2, -8}, {n + 2, n + 2, 8});
+  a.triangles[2] = {4, 5, 6}, a.triangles[3] = {5, 7, 6};
+  double expected = area(a);
+  for (const auto& [p, q, r] : plate.holes) {
+    TriangleMesh cavity;
+    for (const double z : {-1.0, 1.0})
+      for (const Eigen::Vector2d& corner : {p, q, r}) cavity.vertices.emplace_back(corner.x(), corner.y(), z);
+    cavity.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}, {2, 5, 0}, {0, 5, 3}};
+    b = both(b, cavity);
+    expected -= std::fabs((q - p).x() * (r - p).y() - (q - p).y() * (r - p).x()) / 2;
+  }
+  PenetrationOptions options;
+  options.keep_parts = true;
+  options.error_bound = 1e-3;
+  const PenetrationDepth result = penetration_depth(a, b, options);
+  ASSERT_EQ(result.volumes.size(), 1U);
+  EXPECT_NEAR(area(result.volumes[0].parts->on_a), expected, 1e-9);
+  EXPECT_LE(result.depth.upper - result.depth.lower, options.error_bound);
+}
+
+/// Corners on lattice points: the way from a hole to what is around it passes through other corners, or other holes.
+TEST(PenetrationDepth, HolesWithCornersInLine) {
+  const std::vector<PlateWithHoles> plates{
+      {7, {{{{1, 2}, {1, 1}, {2, 3}}}}},                                 // through a corner
+      {6, {{{{1, 4}, {3, 2}, {3, 3}}}}},                                 // a corner on the diagonal of the plate
+      {13, {{{{7, 6}, {5, 3}, {6, 4}}}, {{{6, 5}, {6, 6}, {4, 4}}}}},    // through the other hole
+      {9, {{{{1, 5}, {5, 4}, {1, 6}}}, {{{6, 3}, {2, 3}, {3, 1}}}}},     // two ways to one corner
+      {13, {{{{8, 8}, {6, 4}, {12, 9}}}, {{{5, 2}, {6, 3}, {1, 12}}}}},  // an edge through an ear, no corner in it
+  };
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_part_without_holes(plates[i]);
+  }
 }
 
 TEST(PenetrationDepth, IsSymmetricInTheTwoModels) {

@@ -14,10 +14,10 @@ double squared_distance(const PiecePlane& plane, PieceCorner p, PieceCorner q) {
   return squared_length(plane.position(p) - plane.position(q));
 }
 
-/// Whether the interiors of segments (p, q) and (r, s) cross.
+/// Whether segment (r, s), with its ends, meets segment (p, q) between p and q; not if it runs along it.
 bool segments_cross(const PiecePlane& plane, PieceCorner p, PieceCorner q, PieceCorner r, PieceCorner s) {
   if (p == r || p == s || q == r || q == s) return false;
-  return plane.turn(p, q, r) * plane.turn(p, q, s) < 0 && plane.turn(r, s, p) * plane.turn(r, s, q) < 0;
+  return plane.turn(p, q, r) * plane.turn(p, q, s) <= 0 && plane.turn(r, s, p) * plane.turn(r, s, q) < 0;
 }
 
 bool crosses_ring(const PiecePlane& plane, PieceCorner p, PieceCorner q, std::span<const PieceCorner> ring) {
@@ -26,14 +26,37 @@ bool crosses_ring(const PiecePlane& plane, PieceCorner p, PieceCorner q, std::sp
   return false;
 }
 
+/// Whether a segment has points within a triangle that turns left: no line along it or along a side separates the two.
+bool enters(const PiecePlane& plane, PieceCorner r, PieceCorner s, const CornerTriple& triangle) {
+  int least = 1, largest = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PieceCorner p = triangle[k], q = triangle[k < 2 ? k + 1 : 0];
+    if (plane.turn(p, q, r) <= 0 && plane.turn(p, q, s) <= 0) return false;
+    const int turn = plane.turn(r, s, p);
+    least = std::min(least, turn), largest = std::max(largest, turn);
+  }
+  return least < 0 && largest > 0;
+}
+
+/// Whether the way from corner `i` of the ring to p begins on the left of the ring or, if `least` is 0 and not 1, along
+/// it. Where the ring turns back there is nothing on its left.
+bool is_inside_at(const PiecePlane& plane, const Ring& ring, std::size_t i, PieceCorner p, int least) {
+  const PieceCorner before = ring[i > 0 ? i - 1 : ring.size() - 1], at = ring[i],
+                    after = ring[i + 1 < ring.size() ? i + 1 : 0];
+  const bool left_of_first = plane.turn(before, at, p) >= least, left_of_second = plane.turn(at, after, p) >= least;
+  return plane.turn(before, at, after) >= 0 ? left_of_first && left_of_second : left_of_first || left_of_second;
+}
+
 std::size_t rightmost(const PiecePlane& plane, std::span<const PieceCorner> cycle) {
   const auto found = std::max_element(cycle.begin(), cycle.end(),
                                       [&](PieceCorner a, PieceCorner b) { return plane.x(a) < plane.x(b); });
   return static_cast<std::size_t>(found - cycle.begin());
 }
 
-/// Joins a hole to the ring by a bridge from its rightmost corner to the nearest corner of the ring visible from there.
-void join_hole(const PiecePlane& plane, Ring& ring, std::span<const PieceCorner> hole) {
+/// Joins the first of the holes to the ring by a bridge from its rightmost corner to the nearest corner of the ring
+/// visible from there, past the other holes.
+void join_hole(const PiecePlane& plane, Ring& ring, std::span<const std::span<const PieceCorner>> holes) {
+  const std::span<const PieceCorner> hole = holes[0];
   const std::size_t from = rightmost(plane, hole);
   std::vector<std::size_t> order(ring.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -41,10 +64,18 @@ void join_hole(const PiecePlane& plane, Ring& ring, std::span<const PieceCorner>
     const double a = squared_distance(plane, ring[i], hole[from]), b = squared_distance(plane, ring[j], hole[from]);
     return a != b ? a < b : i < j;
   });
-  const auto sees = [&](std::size_t i) {
-    return !crosses_ring(plane, hole[from], ring[i], ring) && !crosses_ring(plane, hole[from], ring[i], hole);
+  const auto nearest_visible = [&](int least) {
+    return std::find_if(order.begin(), order.end(), [&](std::size_t i) {
+      const auto crosses = [&](std::span<const PieceCorner> cycle) {
+        return crosses_ring(plane, hole[from], ring[i], cycle);
+      };
+      return is_inside_at(plane, ring, i, hole[from], least) && !crosses(ring) &&
+             std::none_of(holes.begin(), holes.end(), crosses);
+    });
   };
-  const auto found = std::find_if(order.begin(), order.end(), sees);
+  // Along the ring, a bridge fits several of the corners in one place: the last choice.
+  auto found = nearest_visible(1);
+  if (found == order.end()) found = nearest_visible(0);
   const std::size_t to = found != order.end() ? *found : order.front();
   Ring bridge;
   for (std::size_t i = 0; i <= hole.size(); ++i) bridge.push_back(hole[(from + i) % hole.size()]);
@@ -56,7 +87,7 @@ void join_hole(const PiecePlane& plane, Ring& ring, std::span<const PieceCorner>
 enum class EarQuality {
   Clear,    ///< turns left and no other corner is in it or on its border
   Flat,     ///< its corners lie in one line
-  Touched,  ///< turns left and no other corner is within it
+  Touched,  ///< turns left and no edge of the ring enters it
   Left,     ///< turns left
   Any
 };
@@ -114,17 +145,30 @@ class EarCutter {
     if (quality == EarQuality::Flat) return turns_[i] == 0;
     if (turns_[i] <= 0) return false;
     if (quality == EarQuality::Left) return true;
-    const PieceCorner p = ring_[previous_[i]], q = ring_[i], r = ring_[next_[i]];
-    const int beyond = quality == EarQuality::Clear ? 0 : 1;
+    return quality == EarQuality::Clear ? is_clear(i) : is_entered_by_no_edge(i);
+  }
+
+  [[nodiscard]] bool is_clear(std::size_t i) const {
+    const auto [p, q, r] = corners_at(i);
     for (std::size_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
       const PieceCorner c = ring_[j];
       // A corner that turns left cannot be the first one to enter the ear. Where the ring comes to q again, the ear may
       // lie on its other side.
       if (turns_[j] > 0 || c == p || c == r) continue;
-      if (plane_.turn(r, p, c) >= beyond && plane_.turn(p, q, c) >= beyond && plane_.turn(q, r, c) >= beyond)
-        return false;
+      if (plane_.turn(r, p, c) >= 0 && plane_.turn(p, q, c) >= 0 && plane_.turn(q, r, c) >= 0) return false;
     }
     return true;
+  }
+
+  [[nodiscard]] bool is_entered_by_no_edge(std::size_t i) const {
+    const CornerTriple ear = corners_at(i);
+    for (std::size_t j = next_[i]; j != previous_[i]; j = next_[j])
+      if (enters(plane_, ring_[j], ring_[next_[j]], ear)) return false;
+    return true;
+  }
+
+  [[nodiscard]] CornerTriple corners_at(std::size_t i) const {
+    return {ring_[previous_[i]], ring_[i], ring_[next_[i]]};
   }
 
   std::size_t cut_ear(std::size_t i, std::vector<CornerTriple>& triangles) {
@@ -139,7 +183,7 @@ class EarCutter {
   }
 
   void add(std::size_t i, std::vector<CornerTriple>& triangles) {
-    const PieceCorner p = ring_[previous_[i]], q = ring_[i], r = ring_[next_[i]];
+    const auto [p, q, r] = corners_at(i);
     triangles.push_back({p, q, r});
     if (turns_[i] >= 0) return;
     const double longest =
@@ -172,7 +216,7 @@ double triangulate(const PiecePlane& plane, std::span<const PieceCorner> outer,
       return plane.x(a[rightmost(plane, a)]) > plane.x(b[rightmost(plane, b)]);
     });
   }
-  for (const std::span<const PieceCorner>& hole : from_right) join_hole(plane, memory.ring, hole);
+  for (std::size_t i = 0; i < from_right.size(); ++i) join_hole(plane, memory.ring, std::span(from_right).subspan(i));
   return EarCutter(plane, memory).cut(triangles);
 }
 
