@@ -257,8 +257,10 @@ bool SceneRun::take_back(const RefutedTriangles& refuted, std::size_t depth) {
   for (const std::uint32_t t : refuted.original)
     if (of_original[t].first != nullptr) by_group[of_original[t].first].original.push_back(of_original[t].second);
   bool is_changed = false;
-  for (auto& [group, triangles] : by_group)
-    timed(*group, [&] { is_changed = group->run->take_back(triangles, depth) || is_changed; });
+  for (const auto& item : by_group) {
+    Group& group = *item.first;
+    timed(group, [&] { is_changed = group.run->take_back(item.second, depth) || is_changed; });
+  }
   return is_changed;
 }
 
