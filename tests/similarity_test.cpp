@@ -210,7 +210,7 @@ TEST(Similarity, AVertexThatIsTooFarSparesADecision) {
   EXPECT_EQ(found.nearest[0].index, 0u);
   EXPECT_EQ(found.stats.ended_by_decision, 1u);
   EXPECT_EQ(found.stats.measured, 1u);
-  // Of the other one 32 are for samples; a decision asks for more than 64 vertices.
+  // 32 vertices of the other mesh are for samples; a decision asks for more than 64 of them.
   EXPECT_LT(found.stats.closest_point_queries - alone.closest_point_queries, 96u);
 }
 

@@ -153,7 +153,7 @@ TEST_F(Tori, ALargerInstanceNeedsAFinerLevel) {
   EXPECT_GT(levels.cameras[0].level[0], levels.cameras[0].level[1]);
 }
 
-/// Of the directions that a pose stretches by different factors the one that it stretches most counts.
+/// Where a pose stretches directions by different factors, the largest factor counts.
 TEST_F(Tori, AStretchedInstanceNeedsTheLevelOfItsLongestDirection) {
   Affine3d stretched = at({0, 0, -50});
   stretched.linear() = Vector3d(-1, 4, 0.5).asDiagonal();

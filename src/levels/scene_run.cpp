@@ -238,7 +238,7 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
   return level;
 }
 
-/// Of each group, its triangles are told by number in one copy.
+/// A group is told which of its triangles are refuted by their numbers in one copy.
 bool SceneRun::take_back(const RefutedTriangles& refuted, std::size_t depth) {
   if (groups_.size() == 1 && groups_.front().group.triangles.empty())
     return groups_.front().run->take_back(refuted, depth);

@@ -19,7 +19,7 @@ namespace {
 /// Bytes of the largest message: MPI counts in ints.
 constexpr std::size_t max_message = std::size_t{1} << 30;
 
-/// Of what `gather` sends.
+/// The tag of messages that `gather` sends.
 constexpr int bytes_tag = 0;
 
 /// Waits asleep for a message that may be long in coming.

@@ -144,11 +144,17 @@ void Decimation::make_state(const StopToken& stop) {
   threads_.emplace(*state_, options_.threads > 0 ? options_.threads : omp_get_max_threads());
 }
 
+/// Indices of the original's triangles here, by the caller's.
+std::vector<std::uint32_t> Decimation::index_of_caller_triangle() const {
+  std::vector<std::uint32_t> index(order_.triangle.size());
+  for (std::uint32_t t = 0; t < index.size(); ++t) index[order_.triangle[t]] = t;
+  return index;
+}
+
 void Decimation::go_on_from_start(ManifoldSoup soup, ArrayMesh mesh) {
   std::vector<std::uint32_t> face(start_->mesh.triangles.size(), no_index);  // by triangle of the start
   for (std::uint32_t f = 0; f < soup.triangle_of.size(); ++f) face[soup.triangle_of[f]] = f;
-  std::vector<std::uint32_t> index(order_.triangle.size());  // of the original here, by the caller's
-  for (std::uint32_t t = 0; t < index.size(); ++t) index[order_.triangle[t]] = t;
+  const std::vector<std::uint32_t> index = index_of_caller_triangle();
   std::vector<std::uint32_t> near;
   for (const std::uint32_t t : soup.triangle_of) near.push_back(index[start_->near[t]]);
   CoverAssignment cover(index.size());
@@ -200,8 +206,7 @@ std::vector<std::uint8_t> Decimation::locked() const {
 
 bool Decimation::take_back(const RefutedTriangles& refuted, std::size_t depth) {
   const std::vector<std::uint32_t> faces = faces_in_order();
-  std::vector<std::uint32_t> index(order_.triangle.size());  // of the original here, by the caller's
-  for (std::uint32_t t = 0; t < index.size(); ++t) index[order_.triangle[t]] = t;
+  const std::vector<std::uint32_t> index = index_of_caller_triangle();
   Unproven unproven;
   for (const std::uint32_t t : refuted.level)
     if (t < faces.size()) unproven.faces.push_back(faces[t]);  // those after them are triangles of the original
@@ -448,15 +453,14 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
 
 void Decimation::current_proof(ProvenMesh& into) const {
   const std::vector<std::uint32_t> faces = faces_in_order();
-  std::vector<std::uint32_t> index(state_->mesh.face_count(), no_index), of_caller(order_.triangle.size());
+  std::vector<std::uint32_t> index(state_->mesh.face_count(), no_index);
   into.near.clear();
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     index[faces[i]] = i;
     into.near.push_back(order_.triangle[state_->nearest[faces[i]]]);
   }
-  for (std::uint32_t t = 0; t < of_caller.size(); ++t) of_caller[order_.triangle[t]] = t;
   into.cover = {};
-  for (const std::uint32_t t : of_caller) {
+  for (const std::uint32_t t : index_of_caller_triangle()) {
     for (const std::uint32_t f : state_->cover.faces_of(t)) into.cover.numbers.push_back(index[f]);
     into.cover.end_list();
   }

@@ -59,6 +59,7 @@ class Decimation {
     return start_ != nullptr ? t : order_.triangle[t];
   }
   [[nodiscard]] std::vector<std::uint32_t> faces_in_order() const;
+  [[nodiscard]] std::vector<std::uint32_t> index_of_caller_triangle() const;
   void sort_start_points();
   [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
   [[nodiscard]] std::vector<std::uint8_t> locked() const;

@@ -14,8 +14,8 @@ struct Repair {
   std::size_t changes = 0;           ///< changes undone
 };
 [[nodiscard]] Repair repair(DecimationState& state, const Unproven& unproven);
-/// The same of proven changes, which `DecimationState::proven_changes` must have, where nothing else is unproven. The
-/// faces that this changes are unproven then.
+/// As `repair`, but undoes proven changes: `DecimationState::proven_changes` must be set, and nothing else be unproven.
+/// The faces that this changes are unproven then.
 [[nodiscard]] Repair repair_proven(DecimationState& state, const Unproven& unproven);
 /// Undoes proven changes that led to what a measurement of the mesh has refuted: so many of the last changes of each
 /// face that is blamed, and those made on top of them. Their vertices are `DecimationState::refuted`. The faces that
