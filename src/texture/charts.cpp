@@ -37,6 +37,18 @@ double squared_distance_at_corners(const TexturedTriangle& a, const TexturedTria
   return worst;
 }
 
+/// The nearest one with the texture coordinates of `a`, if it is within `reach`.
+std::vector<const ChartTriangle*>::iterator nearest_copy(const ChartTriangle& a, double reach,
+                                                         std::vector<const ChartTriangle*>& among) {
+  auto nearest = among.end();
+  double least = reach * reach;
+  for (auto b = among.begin(); b != among.end(); ++b) {
+    const double squared = squared_distance_at_corners(*a.source, *(*b)->source);
+    if (squared <= least) least = squared, nearest = b;
+  }
+  return nearest;
+}
+
 /// The box of the texture coordinates; the third side keeps materials apart.
 Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
   Eigen::AlignedBox3d box;
@@ -76,28 +88,22 @@ void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vecto
   for (const std::uint32_t b : found) overlay.add(triangles_[b]);
 }
 
-void Charts::add_near_candidates(const ChartTriangle& a, double reach, Overlay& overlay,
-                                 std::vector<std::uint32_t>& found) const {
-  found.clear();
-  tree_->find(box_of(*a.source), found);
+void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const {
+  found.near.clear();
+  found.others.clear();
+  std::vector<std::uint32_t> indices;
+  tree_->find(box_of(*a.source), indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
-  std::erase_if(found, [&](std::uint32_t b) {
-    return places_[b].squaredExteriorDistance(place) > reach * reach || !seem_to_share_area(a, triangles_[b]);
-  });
-  if (const auto same = nearest_copy(a, reach, found)) found.assign(1, *same);
-  for (const std::uint32_t b : found) overlay.add(triangles_[b]);
-}
-
-/// The nearest one with the texture coordinates of `a`, if it is within `reach`.
-std::optional<std::uint32_t> Charts::nearest_copy(const ChartTriangle& a, double reach,
-                                                  std::span<const std::uint32_t> among) const {
-  std::optional<std::uint32_t> nearest;
-  double least = reach * reach;
-  for (const std::uint32_t b : among) {
-    const double squared = squared_distance_at_corners(*a.source, *triangles_[b].source);
-    if (squared <= least) least = squared, nearest = b;
+  for (const std::uint32_t b : indices) {
+    const bool is_near =
+        places_[b].squaredExteriorDistance(place) <= reach * reach && seem_to_share_area(a, triangles_[b]);
+    (is_near ? found.near : found.others).push_back(&triangles_[b]);
   }
-  return nearest;
+  const auto copy = nearest_copy(a, reach, found.near);
+  if (copy == found.near.end()) return;
+  std::swap(found.near.front(), *copy);
+  found.others.insert(found.others.end(), found.near.begin() + 1, found.near.end());
+  found.near.resize(1);
 }
 
 }  // namespace meshbound

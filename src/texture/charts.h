@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "simplify/cover/box_tree.h"
@@ -16,6 +15,14 @@ namespace meshbound {
 
 /// The box of a triangle in space.
 [[nodiscard]] Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle);
+
+/// Triangles that may have texture coordinates of a triangle.
+struct ChartCandidates {
+  /// Those that seem to share more than an edge with it in the texture and to be within reach of it in space; only the
+  /// nearest one of those that have the same texture coordinates, if there are any. Rounding decides about some.
+  std::vector<const ChartTriangle*> near;
+  std::vector<const ChartTriangle*> others;
+};
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
 class Charts {
@@ -30,16 +37,10 @@ class Charts {
   /// of those whose boxes of texture coordinates meet.
   void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const;
 
-  /// Makes those of them its candidates that seem to share more than an edge with `a` in the texture and to be within
-  /// `reach` of it in space; only the nearest one of those that have the same texture coordinates, if there are any.
-  /// Rounding decides about some.
-  void add_near_candidates(const ChartTriangle& a, double reach, Overlay& overlay,
-                           std::vector<std::uint32_t>& found) const;
+  /// Sorts the triangles that may overlap `a` in the texture. Expected O(log n + k) for k of them.
+  void find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const;
 
  private:
-  [[nodiscard]] std::optional<std::uint32_t> nearest_copy(const ChartTriangle& a, double reach,
-                                                          std::span<const std::uint32_t> among) const;
-
   const TexturedMesh& mesh_;
   std::vector<ChartTriangle> triangles_;
   std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle

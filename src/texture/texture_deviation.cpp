@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -37,7 +36,8 @@ class Direction {
         options_(options),
         reach_(reach),
         bounds_(a.triangles().size()),
-        shares_(a.triangles().size()) {
+        shares_(a.triangles().size()),
+        is_refined_(a.triangles().size(), 0) {
     goal_.error_bound = error_bound;
     goal_.precision = precision_share * error_bound;
     goal_.max_pieces = options.max_pieces;
@@ -46,13 +46,14 @@ class Direction {
   OneSidedTextureDeviation run() {
     pairs_.assign(bounds_.size(), 0);
     look_at_near();
-    look_at_rest();
-    if (!first_ && !bounds_.empty()) look_at(std::array{worst()});
-    refine();
+    find_lower_bound();
+    refine(unknown());
+    refine(open());
+    if (!witness_) find_witness();
     OneSidedTextureDeviation result;
     result.bounds = {goal_.lower, goal_.lower};
     for (const Bounds& b : bounds_) result.bounds.upper = std::max(result.bounds.upper, b.upper);
-    result.witness = witness();
+    result.witness = witness_;
     result.exceeding = std::move(exceeding_);
     result.uncovered = uncovered_share_of(a_.mesh(), shares_);
     if (result.bounds.upper - result.bounds.lower > goal_.error_bound)
@@ -67,19 +68,22 @@ class Direction {
   struct Workspace {
     explicit Workspace(const ExactUnits& units) : overlay(units) {}
     Overlay overlay;
-    std::vector<std::uint32_t> found;
+    ChartCandidates candidates;
   };
 
-  void overlay(std::size_t triangle, Workspace& work) const {
+  /// Starts the overlay of a triangle with the near candidates.
+  void overlay_near(std::size_t triangle, Workspace& work) const {
     const ChartTriangle& t = a_.triangles()[triangle];
     work.overlay.begin(t);
-    b_.add_candidates(t, work.overlay, work.found);
+    b_.find_candidates(t, reach_, work.candidates);
+    for (const ChartTriangle* b : work.candidates.near) work.overlay.add(*b);
   }
 
-  /// Whether the upper bound of a triangle still has to be lowered.
+  /// Whether the bounds of a triangle still have to be refined.
   [[nodiscard]] bool is_open(std::size_t triangle) const {
     const double enough = goal_.lower + goal_.error_bound;
-    return bounds_[triangle].upper > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
+    return is_refined_[triangle] == 0 &&
+           bounds_[triangle].upper > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
   }
 
   [[nodiscard]] bool exceeds(const TriangleDeviation& found) const {
@@ -100,75 +104,65 @@ class Direction {
   /// Many triangles are covered by few near ones: an upper bound, and no uncovered area.
   void look_at_near() {
     for_triangles(bounds_.size(), grain, [&](std::size_t i, Workspace& work) {
-      const ChartTriangle& t = a_.triangles()[i];
-      if (t.chart != Chart::Area) return;
-      work.overlay.begin(t);
-      b_.add_near_candidates(t, reach_, work.overlay, work.found);
+      if (a_.triangles()[i].chart != Chart::Area) return;
+      overlay_near(i, work);
       pairs_[i] = work.overlay.candidates();
       if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision)) bounds_[i] = {0, *upper};
     });
   }
 
-  void look_at_rest() {
-    std::vector<std::size_t> rest;
+  [[nodiscard]] bool is_unknown(std::size_t triangle) const { return !(bounds_[triangle].upper < HUGE_VAL); }
+
+  /// The triangles that near candidates are not known to cover.
+  [[nodiscard]] std::vector<std::size_t> unknown() const {
+    std::vector<std::size_t> found;
     for (std::size_t i = 0; i < bounds_.size(); ++i)
-      if (!(bounds_[i].upper < HUGE_VAL)) rest.push_back(i);
-    look_at(rest);
+      if (is_unknown(i)) found.push_back(i);
+    return found;
   }
 
-  [[nodiscard]] std::size_t worst() const {
-    const auto is_smaller = [](const Bounds& p, const Bounds& q) { return p.upper < q.upper; };
-    return static_cast<std::size_t>(std::max_element(bounds_.begin(), bounds_.end(), is_smaller) - bounds_.begin());
-  }
-
-  /// With all candidates: also a lower bound, from the corners, and the area that none of them covers.
-  void look_at(std::span<const std::size_t> triangles) {
-    std::vector<std::uint8_t> is_covered(triangles.size(), 0);
-    for_triangles(triangles.size(), grain, [&](std::size_t k, Workspace& work) {
-      const std::size_t i = triangles[k];
-      overlay(i, work);
-      const TriangleDeviation known = deviation_by_candidates(work.overlay, goal_.precision).all;
-      bounds_[i] = known.bounds;
-      is_covered[k] = known.far ? 1 : 0;
-      pairs_[i] += work.overlay.candidates();
-      shares_[i] = uncovered_share(work.overlay);
-    });
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-      const std::size_t i = triangles[k];
-      if (is_covered[k] == 0 || (first_ && bounds_[i].lower <= goal_.lower)) continue;
-      goal_.lower = bounds_[i].lower;
-      first_ = i;
-    }
-  }
-
-  /// Refines the triangles with the largest upper bounds first, in batches. Every triangle of a batch starts from the
-  /// lower bound before the batch, so that results do not depend on the number of threads.
-  void refine() {
-    std::vector<std::size_t> order;
+  /// The triangles whose bounds are known but too wide, those with the largest upper bounds first.
+  [[nodiscard]] std::vector<std::size_t> open() const {
+    std::vector<std::size_t> found;
     for (std::size_t i = 0; i < bounds_.size(); ++i)
-      if (is_open(i)) order.push_back(i);
-    std::stable_sort(order.begin(), order.end(),
+      if (!is_unknown(i) && is_open(i)) found.push_back(i);
+    std::stable_sort(found.begin(), found.end(),
                      [&](std::size_t p, std::size_t q) { return bounds_[p].upper > bounds_[q].upper; });
-    constexpr std::size_t first_batch = 16, growth = 4, max_batch = 4096;
+    return found;
+  }
+
+  /// Looks for a lower bound where the upper bounds are largest, so that the rest need not be bounded below it.
+  void find_lower_bound() {
+    std::vector<std::size_t> worst = open();
+    worst.resize(std::min(worst.size(), first_batch));
+    refine(worst);
+  }
+
+  /// Refines triangles in batches. Every triangle of a batch starts from the lower bound before the batch, so that
+  /// results do not depend on the number of threads.
+  void refine(std::span<const std::size_t> order) {
+    constexpr std::size_t growth = 4, max_batch = 4096;
     std::size_t batch = first_batch;
     for (std::size_t done = 0; done < order.size(); batch = std::min(growth * batch, max_batch)) {
-      if (!is_open(order[done])) return;
       const std::size_t count = std::min(batch, order.size() - done);
-      refine(std::span(order).subspan(done, count));
+      refine_batch(order.subspan(done, count));
       done += count;
     }
   }
 
-  void refine(std::span<const std::size_t> triangles) {
+  void refine_batch(std::span<const std::size_t> triangles) {
     std::vector<TriangleDeviation> found(triangles.size());
     std::vector<std::optional<TextureWitness>> witnesses(triangles.size());
     DeviationGoal goal = goal_;
-    if (options_.tolerance) goal.lower = std::min(goal.lower, *options_.tolerance - goal.error_bound);
+    if (options_.tolerance) {
+      goal.lower = std::min(goal.lower, *options_.tolerance - goal.error_bound);
+      goal.silent = *options_.tolerance;
+    }
     for_triangles(triangles.size(), 1, [&](std::size_t k, Workspace& work) {
       if (!is_open(triangles[k])) return;
-      overlay(triangles[k], work);
-      const DeviationByCandidates known = deviation_by_candidates(work.overlay, goal.precision);
-      found[k] = deviation_by_pieces(work.overlay, known, goal);
+      overlay_near(triangles[k], work);
+      found[k] = deviation_by_pieces(work.overlay, work.candidates.others, goal);
+      pairs_[triangles[k]] += work.overlay.candidates();
       const bool may_be_shown = found[k].bounds.lower >= goal_.lower || exceeds(found[k]);
       if (found[k].far && may_be_shown)
         witnesses[k] = work.overlay.witness(found[k].far->candidate, found[k].far->node);
@@ -176,24 +170,35 @@ class Direction {
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       if (found[k].pieces == 0) continue;
       bounds_[triangles[k]] = found[k].bounds;
+      shares_[triangles[k]] = found[k].uncovered;
+      is_refined_[triangles[k]] = 1;
       gave_up_ = gave_up_ || found[k].gave_up;
       pieces_ += found[k].pieces;
       if (exceeds(found[k]) && witnesses[k]) exceeding_.push_back(*witnesses[k]);
-      if (!witnesses[k] || (witness_ && found[k].bounds.lower <= goal_.lower) || found[k].bounds.lower < goal_.lower)
-        continue;
-      goal_.lower = found[k].bounds.lower;
-      witness_ = witnesses[k];
+      if (witnesses[k]) raise(found[k].bounds.lower, *witnesses[k]);
     }
   }
 
-  /// The witness of the lower bound. Where that was found at a corner of a triangle, the witness is made only here.
-  std::optional<TextureWitness> witness() const {
-    if (witness_ || !first_) return witness_;
-    Workspace work(units_);
-    overlay(*first_, work);
-    const FarPoint far = *deviation_by_candidates(work.overlay, goal_.precision).all.far;
-    return work.overlay.witness(far.candidate, far.node);
+  void raise(double lower, const TextureWitness& witness) {
+    if (witness_ ? lower <= goal_.lower : lower < goal_.lower) return;
+    goal_.lower = lower;
+    witness_ = witness;
   }
+
+  /// Where no far point was needed: finds one of the triangle with the largest upper bound.
+  void find_witness() {
+    const auto is_smaller = [](const Bounds& p, const Bounds& q) { return p.upper < q.upper; };
+    const auto worst = std::max_element(bounds_.begin(), bounds_.end(), is_smaller);
+    if (worst == bounds_.end() || worst->upper < 0) return;
+    DeviationGoal goal = goal_;
+    goal.silent = -1;
+    Workspace work(units_);
+    overlay_near(static_cast<std::size_t>(worst - bounds_.begin()), work);
+    const TriangleDeviation found = deviation_by_pieces(work.overlay, work.candidates.others, goal);
+    if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
+  }
+
+  static constexpr std::size_t first_batch = 16;
 
   const Charts &a_, &b_;
   ExactUnits units_;
@@ -202,8 +207,8 @@ class Direction {
   double reach_ = 0;                 ///< of the first look, model units
   std::vector<Bounds> bounds_;       ///< by triangle of A
   std::vector<Approximate> shares_;  ///< by triangle of A: the share of it that B does not cover
+  std::vector<std::uint8_t> is_refined_;
   std::vector<std::uint32_t> pairs_;
-  std::optional<std::size_t> first_;  ///< the triangle at a corner of which the lower bound was found
   std::optional<TextureWitness> witness_;
   std::vector<TextureWitness> exceeding_;
   bool gave_up_ = false;

@@ -21,6 +21,13 @@ enum class Cover { None, Part, All };
 struct Piece {
   Polygon polygon;
   std::vector<std::uint32_t> full, part;
+  bool has_all = false;  ///< all candidates were looked at, not only the likely ones
+};
+
+/// An upper bound for a piece, and the corner that it comes from.
+struct PieceBound {
+  double upper = HUGE_VAL;
+  const Node* where = nullptr;
 };
 
 /// How much of the polygon the candidate covers. None: at most points of its border. For Part, `cut` is set to a line
@@ -40,31 +47,11 @@ Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate
   return cover;
 }
 
-/// Moves the candidates of `part` that cover all of the piece to `full` and drops those that cover nothing. Returns a
-/// line to cut the piece by, of a candidate that `is_preferred` if possible; absent if no candidate covers it in part.
-template <class IsPreferred>
-std::optional<Line> sort_candidates(Overlay& overlay, Piece& piece, const IsPreferred& is_preferred) {
-  std::vector<std::uint32_t> part;
-  std::vector<Line> preferred, others;
-  for (const std::uint32_t c : piece.part) {
-    Line cut = 0;
-    const Cover cover = cover_of(overlay, piece.polygon, c, cut);
-    if (cover == Cover::All) piece.full.push_back(c);
-    if (cover != Cover::Part) continue;
-    part.push_back(c);
-    (is_preferred(c) ? preferred : others).push_back(cut);
-  }
-  piece.part = std::move(part);
-  const std::vector<Line>& cuts = preferred.empty() ? others : preferred;
-  if (cuts.empty()) return std::nullopt;
-  return cuts[cuts.size() / 2];  // a middle one halves pieces: candidates are in spatial order
-}
-
-/// The candidates that can cover more of A than a line or a point.
-std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay) {
+/// The candidates from `first` on that can cover more of A than a line or a point.
+std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay, std::uint32_t first) {
   std::vector<std::uint32_t> found;
   const Chart chart = overlay.triangle().chart;
-  for (std::uint32_t c = 0; c < overlay.candidates(); ++c)
+  for (std::uint32_t c = first; c < overlay.candidates(); ++c)
     if (chart != Chart::Area || overlay.candidate(c).chart == Chart::Area) found.push_back(c);
   return found;
 }
@@ -101,29 +88,36 @@ double upper_at_corners(Overlay& overlay, const Polygon& covered, std::uint32_t 
 
 class PieceSearch {
  public:
-  PieceSearch(Overlay& overlay, const DeviationByCandidates& known, const DeviationGoal& goal)
-      : overlay_(overlay), uppers_(known.uppers), goal_(goal), result_(known.all) {}
+  PieceSearch(Overlay& overlay, std::span<const ChartTriangle* const> others, const DeviationGoal& goal)
+      : overlay_(overlay), others_(others), likely_(overlay.candidates()), goal_(goal) {}
 
-  /// Starts with the whole triangle. What no candidate covers drops out, and every point of a candidate that covers
-  /// more of A than a line or a point lies in a piece or on its border. The other candidates matter only if something
-  /// dropped out: then each candidate is searched by itself, starting from what it covers.
+  /// Starts with the whole triangle. Every point of a candidate that covers some area of A lies in a piece that a
+  /// candidate covers, or on its border. What no candidate covers is left; all other candidates matter only where they
+  /// touch that.
   TriangleDeviation run() {
-    result_.bounds.upper = 0;
-    std::vector<std::uint32_t> spanning = spanning_candidates(overlay_);
-    std::erase_if(spanning, [&](std::uint32_t c) { return uppers_[c] < 0; });
-    search(Piece{overlay_.whole(), {}, std::move(spanning)});
-    for (std::uint32_t c = 0; c < overlay_.candidates() && has_uncovered_; ++c) {
-      if (uppers_[c] < 0) continue;
-      Piece piece{overlay_.whole(), {c}, {}};
-      overlay_.clip(piece.polygon, c);
-      for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
-        if (other != c && uppers_[other] >= 0) piece.part.push_back(other);
-      search(std::move(piece));
+    covers_area_.assign(likely_, 0);
+    search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
+    std::vector<std::uint32_t> touching;
+    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
+      if (covers_area_[c] == 0) touching.push_back(c);
+    for (const Polygon& polygon : std::exchange(uncovered_, {})) {
+      result_.uncovered = result_.uncovered + overlay_.share(polygon);
+      for (const std::uint32_t c : touching) search_where_touched(polygon, c);
     }
-    return result_;
+    if (!result_.far && result_.bounds.upper > goal_.silent) look_at_corners();
+    return std::move(result_);
   }
 
  private:
+  void search_where_touched(const Polygon& uncovered, std::uint32_t candidate) {
+    Piece piece{uncovered, {candidate}, {}, true};
+    overlay_.clip(piece.polygon, candidate);
+    if (piece.polygon.empty()) return;
+    for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
+      if (other != candidate) piece.part.push_back(other);
+    search(std::move(piece));
+  }
+
   void search(Piece piece) {
     stack_.push_back(std::move(piece));
     while (!stack_.empty()) {
@@ -137,54 +131,93 @@ class PieceSearch {
 
   void accept(double upper) { result_.bounds.upper = std::max(result_.bounds.upper, upper); }
 
-  /// The candidate's largest upper bound at a corner of the piece, and that corner in `where`: an upper bound for the
-  /// whole piece, as the distance to one candidate is convex.
-  double upper_of(const Piece& piece, std::uint32_t candidate, const Node*& where) {
-    double upper = 0;
+  /// Lowers the bound to the candidate's, which must cover the piece: the largest at a corner, as the distance to one
+  /// candidate is convex. Returns whether it is within the limit.
+  bool lower_bound_to(const Piece& piece, std::uint32_t candidate, PieceBound& bound) {
+    PieceBound of_candidate{0, nullptr};
     for (const auto& corner : piece.polygon) {
       const double at = overlay_.distance(candidate, corner.node, goal_.precision).upper;
-      if (at >= upper) upper = at, where = &corner.node;
+      if (at >= of_candidate.upper) of_candidate = {at, &corner.node};
     }
-    return upper;
+    if (of_candidate.upper < bound.upper) bound = of_candidate;
+    return bound.upper <= limit();
   }
 
-  double min_upper(const Piece& piece, const Node*& where) {
-    double min = HUGE_VAL;
-    for (const std::uint32_t c : piece.full) {
-      const Node* at = nullptr;
-      const double upper = upper_of(piece, c, at);
-      if (upper < min) min = upper, where = at;
+  /// Moves the candidates of `part` that cover all of the piece to `full` and drops those that cover nothing, until one
+  /// is within the limit. Returns a line of one that covers the piece in part; absent if there is none.
+  std::optional<Line> sort_candidates(Piece& piece, PieceBound& bound) {
+    std::vector<std::uint32_t> part;
+    std::vector<Line> cuts;
+    for (const std::uint32_t c : piece.part) {
+      Line cut = 0;
+      const Cover cover = cover_of(overlay_, piece.polygon, c, cut);
+      if (cover == Cover::All) {
+        covers_area_[c] = 1;
+        piece.full.push_back(c);
+        if (lower_bound_to(piece, c, bound)) return std::nullopt;
+      }
+      if (cover != Cover::Part) continue;
+      part.push_back(c);
+      cuts.push_back(cut);
     }
-    return min;
+    piece.part = std::move(part);
+    if (cuts.empty()) return std::nullopt;
+    return cuts[cuts.size() / 2];  // a middle one halves pieces: candidates are in spatial order
   }
 
   void bound(Piece piece) {
     ++result_.pieces;
-    const Node* where = nullptr;
-    if (const double upper = min_upper(piece, where); upper <= limit()) return accept(upper);
-    const auto is_near = [&](std::uint32_t c) { return uppers_[c] <= limit(); };  // what it covers needs no other one
-    const std::optional<Line> cut = sort_candidates(overlay_, piece, is_near);
-    if (piece.full.empty()) {
-      if (cut) return split(piece, *cut);
-      has_uncovered_ = true;
-      return;
-    }
-    const double upper = min_upper(piece, where);
-    if (upper <= limit()) return accept(upper);
-    if (result_.pieces >= goal_.max_pieces) {
+    PieceBound bound;
+    for (const std::uint32_t c : piece.full)
+      if (lower_bound_to(piece, c, bound)) return accept(bound.upper);
+    const std::optional<Line> cut = sort_candidates(piece, bound);
+    if (bound.upper <= limit()) return accept(bound.upper);
+    const bool is_covered = !piece.full.empty();
+    if (is_covered && result_.pieces >= goal_.max_pieces) {
       result_.gave_up = true;
-      return accept(upper);
+      return accept(bound.upper);
     }
     if (cut) return split(piece, *cut);
-    probe(piece, *where);
-    if (upper <= limit() || piece.full.size() == 1) return accept(upper);
+    if (!piece.has_all) return take_all(std::move(piece));
+    if (!is_covered) return uncovered_.push_back(std::move(piece.polygon));
+    probe(piece, *bound.where);
+    if (bound.upper <= limit() || piece.full.size() == 1) return accept(bound.upper);
     if (const auto middle = middle_line(piece.polygon)) return split(piece, *middle);
-    accept(upper);
+    accept(bound.upper);
+  }
+
+  void add_others() {
+    if (others_.empty()) return;
+    for (const ChartTriangle* other : std::exchange(others_, {})) overlay_.add(*other);
+    covers_area_.resize(overlay_.candidates(), 0);
+    unlikely_ = spanning_candidates(overlay_, likely_);
+    Line cut = 0;
+    std::erase_if(unlikely_, [&, whole = overlay_.whole()](std::uint32_t c) {
+      return cover_of(overlay_, whole, c, cut) == Cover::None;
+    });
+  }
+
+  /// Raises the lower bound at the corners of A, or at one covered point if no corner is covered.
+  void look_at_corners() {
+    add_others();
+    for (const auto& corner : overlay_.whole()) raise(corner.node);
+    for (std::uint32_t c = 0; c < overlay_.candidates() && !result_.far; ++c) {
+      const Polygon covered = covered_by(overlay_, c);
+      if (!covered.empty()) raise(covered.front().node);
+    }
+  }
+
+  /// Goes on with the piece and the candidates that are not likely.
+  void take_all(Piece piece) {
+    add_others();
+    piece.part = unlikely_;
+    piece.has_all = true;
+    stack_.push_back(std::move(piece));
   }
 
   void split(const Piece& piece, Line line) {
     for (const bool flip : {false, true}) {
-      Piece half{{}, piece.full, piece.part};
+      Piece half{{}, piece.full, piece.part, piece.has_all};
       overlay_.clip(piece.polygon, line, flip, half.polygon);
       if (!half.polygon.empty()) stack_.push_back(std::move(half));
     }
@@ -226,87 +259,30 @@ class PieceSearch {
   }
 
   Overlay& overlay_;
-  const std::vector<double>& uppers_;  ///< -1 for a candidate that covers nothing
+  std::span<const ChartTriangle* const> others_;  ///< candidates that the overlay does not hold yet
+  std::uint32_t likely_;                          ///< candidates that it held from the start
+  std::vector<std::uint32_t> unlikely_;           ///< the others that may cover some area of A
   const DeviationGoal& goal_;
   TriangleDeviation result_;
   std::vector<Piece> stack_;
-  bool has_uncovered_ = false;
-};
-
-/// An upper bound for all of A: the largest of the candidates' upper bounds that are at most `limit`, provided that
-/// these candidates together cover A. Absent if that cannot be decided.
-std::optional<double> upper_of_near_candidates(Overlay& overlay, const std::vector<double>& uppers, double limit) {
-  if (overlay.triangle().chart != Chart::Area) return std::nullopt;
-  double upper = 0;
-  std::vector<std::uint32_t> near = spanning_candidates(overlay);
-  std::erase_if(near, [&](std::uint32_t c) { return uppers[c] < 0 || uppers[c] > limit; });
-  for (const std::uint32_t c : near) upper = std::max(upper, uppers[c]);
-  if (!Covering().is_complete(overlay, near)) return std::nullopt;
-  return upper;
-}
-
-/// The share of A that no candidate covers. Pieces are cut by lines of candidates, a middle one first, so that a cut
-/// halves the remaining candidates on average.
-class Uncovered {
- public:
-  explicit Uncovered(Overlay& overlay) : overlay_(overlay) {}
-
-  Approximate of(Piece piece) {
-    const std::optional<Line> cut = sort_candidates(overlay_, piece, [](std::uint32_t) { return true; });
-    if (!piece.full.empty()) return {};
-    if (!cut) return overlay_.share(piece.polygon);
-    Approximate total;
-    for (const bool flip : {false, true}) {
-      Piece half{{}, {}, piece.part};
-      overlay_.clip(piece.polygon, *cut, flip, half.polygon);
-      total = total + of(std::move(half));
-    }
-    return total;
-  }
-
- private:
-  Overlay& overlay_;
+  std::vector<Polygon> uncovered_;
+  std::vector<std::uint8_t> covers_area_;  ///< by candidate: it is known to cover more of A than a line or a point
 };
 
 }  // namespace
 
 std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision) {
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
-  if (!Covering().is_complete(overlay, spanning_candidates(overlay))) return std::nullopt;
+  if (!Covering().is_complete(overlay, spanning_candidates(overlay, 0))) return std::nullopt;
   double upper = 0;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c)
     upper = std::max(upper, upper_at_corners(overlay, covered_by(overlay, c), c, precision));
   return upper;
 }
 
-DeviationByCandidates deviation_by_candidates(Overlay& overlay, double precision) {
-  DeviationByCandidates found;
-  std::optional<Node> covered_point;
-  for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
-    const Polygon covered = covered_by(overlay, c);
-    found.uppers.push_back(upper_at_corners(overlay, covered, c, precision));
-    found.all.bounds.upper = std::max(found.all.bounds.upper, found.uppers.back());
-    if (!covered.empty()) covered_point = covered.front().node;
-  }
-  for (const auto& corner : overlay.whole()) include(overlay, corner.node, precision, found.all);
-  if (!found.all.far && covered_point) include(overlay, *covered_point, precision, found.all);
-  return found;
-}
-
-TriangleDeviation deviation_by_pieces(Overlay& overlay, const DeviationByCandidates& known, const DeviationGoal& goal) {
-  const double limit = std::max(goal.lower, known.all.bounds.lower) + goal.error_bound;
-  const auto upper = upper_of_near_candidates(overlay, known.uppers, limit);
-  if (!upper) return PieceSearch(overlay, known, goal).run();
-  TriangleDeviation result = known.all;
-  result.bounds.upper = std::max(*upper, result.bounds.lower);
-  result.pieces = 1;
-  return result;
-}
-
-Approximate uncovered_share(Overlay& overlay) {
-  std::vector<std::uint32_t> candidates = spanning_candidates(overlay);
-  if (overlay.triangle().chart == Chart::Area && Covering().is_complete(overlay, candidates)) return {};
-  return Uncovered(overlay).of({overlay.whole(), {}, std::move(candidates)});
+TriangleDeviation deviation_by_pieces(Overlay& overlay, std::span<const ChartTriangle* const> others,
+                                      const DeviationGoal& goal) {
+  return PieceSearch(overlay, others, goal).run();
 }
 
 }  // namespace meshbound
