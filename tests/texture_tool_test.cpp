@@ -17,12 +17,16 @@ namespace {
 using nlohmann::json;
 using namespace testing_tools;
 
-/// n x n squares of the unit square in the plane z = `height`, whose u runs unevenly by `warp`.
-void write_square(const std::string& path, int n, double warp, double height = 0) {
+/// n x n squares of the unit square in the plane z = `height`, or with waves as high as `wave` on it, whose u runs
+/// unevenly by `warp`.
+void write_square(const std::string& path, int n, double warp, double height = 0, double wave = 0) {
+  const auto z = [&](int i, int j) {
+    return height + wave * std::sin(2 * std::numbers::pi * i / n) * std::sin(2 * std::numbers::pi * j / n);
+  };
   std::ofstream out(path);
   out.precision(17);
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) out << "v " << i / double(n) << ' ' << j / double(n) << ' ' << height << '\n';
+    for (int i = 0; i <= n; ++i) out << "v " << i / double(n) << ' ' << j / double(n) << ' ' << z(i, j) << '\n';
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
       out << "vt " << i / double(n) + warp * std::sin(2 * std::numbers::pi * i / n) << ' ' << j / double(n) << '\n';
@@ -117,6 +121,21 @@ TEST_F(TextureTool, KeepsTheTextureInPlace) {
   const json again = checked_document(measure({warped_, out_, "--texture", "--json", "-"}).out);
   EXPECT_LE(again["texture"]["upper"].get<double>(), 0.01);
   EXPECT_EQ(again["b"]["faces"], document["simplified"]["faces"]);
+}
+
+/// The texture alone limits these levels: what is undone for it may leave the coarser one with more faces.
+TEST_F(TextureTool, WritesAFinerLevelThatHasFewerFaces) {
+  const std::string wavy = folder_ / "wavy.obj";
+  write_square(wavy, 12, 0.08, 0, 0.05);
+  const ToolRun run =
+      simplify({wavy, out_, "--tolerance", "2%", "--levels", "0.5%,1%", "--texture-tolerance", "0.004", "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json document = checked_document(run.out);
+  const json& levels = document["levels"];
+  EXPECT_LE(levels[1]["faces"], levels[0]["faces"]);
+  EXPECT_LE(document["simplified"]["faces"], levels[1]["faces"]);
+  EXPECT_EQ(document["verdict"], "within");
+  EXPECT_LE(document["texture"]["upper"].get<double>(), 0.004);
 }
 
 TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {

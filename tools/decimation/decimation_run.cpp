@@ -199,7 +199,7 @@ std::string explanation(DecidedBy how) {
     case DecidedBy::SmallerTolerance:
       return "the distance of the first result could not be decided: made again for 99% of the tolerance";
     case DecidedBy::SmallerLevel:
-      return "no result for this tolerance could be decided: it is that of the next smaller one";
+      return "no result for this tolerance could be decided or has fewer faces: it is that of the next smaller one";
     case DecidedBy::Original:
       break;
   }

@@ -85,6 +85,7 @@ class Run : DecimationRun {
                                                           CertificateOptions options) const;
   void write_certificates();
   void measure_deviation();
+  void take_finer(std::size_t index);
   void end_if_interrupted() const;
   void publish();
   void report();
@@ -211,7 +212,7 @@ void Run::open_outputs() {
 }
 
 /// Makes the levels, the finest first, and proves each before the next one. Where a texture has moved too far or faces
-/// have turned too much, the level is made again there.
+/// have turned too much, the level is made again there, which may leave it with more faces than the finer one.
 void Run::make_levels() {
   ProgressBar bar("simplifying", options_.common.quiet);
   simplify_ = decimation_options(bar);
@@ -230,6 +231,7 @@ void Run::make_levels() {
       end_if_interrupted();
       certify(i, bar);
     }
+    if (i > 0 && outputs_[i].summary().faces > outputs_[i - 1].summary().faces) take_finer(i);
   }
   report_.effort = options_.effort;
   report_.driver = options_.driver;
@@ -325,6 +327,12 @@ bool Run::tightens_appearance(std::size_t index, std::size_t round) {
   decided_by_[index] =
       fall_back(output, has_smaller ? &outputs_[index - 1] : nullptr, measurement(tolerance_of(index)));
   return false;
+}
+
+/// Replaces a level by the finer one before it, which is within its tolerance too.
+void Run::take_finer(std::size_t index) {
+  decided_by_[index] = fall_back(outputs_[index], &outputs_[index - 1], measurement(tolerance_of(index)));
+  verdict_ = outputs_[index].verdict();
 }
 
 void Run::end_if_interrupted() const {
