@@ -97,6 +97,22 @@ class GltfTool : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+TEST_F(GltfTool, SaysWhichTextureCoordinatesHaveNoBound) {
+  GltfFile file = sheets(4);
+  for (GltfJson& primitive : file.json["meshes"][0]["primitives"])
+    primitive["attributes"]["TEXCOORD_1"] = primitive["attributes"]["TEXCOORD_0"];
+  file.write(in("two.glb"));
+  const ToolRun warned = simplify("two.glb", "out.glb", {"--texture-tolerance", "0.1"});
+  EXPECT_EQ(warned.exit_code, 0) << warned.err;
+  EXPECT_NE(warned.err.find("and not TEXCOORD_1\n"), std::string::npos) << warned.err;
+  EXPECT_EQ(simplify("two.glb", "bare.glb", {"--strict"}).exit_code, 0);
+  const ToolRun refused = simplify("two.glb", "strict.glb", {"--texture-tolerance", "0.1", "--strict"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("TEXCOORD_1"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(in("strict.glb")));
+  EXPECT_EQ(simplify("in.glb", "one.glb", {"--texture-tolerance", "0.1", "--strict"}).err, "");
+}
+
 TEST_F(GltfTool, SimplifiesAScene) {
   const ToolRun result = simplify("in.glb", "out.glb", {"--json", in("r.json"), "--strict"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

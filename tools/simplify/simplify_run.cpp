@@ -86,6 +86,7 @@ class Run : DecimationRun {
   void write_certificates();
   void measure_deviation();
   void take_finer(std::size_t index);
+  void warn_of_other_coordinates() const;
   void end_if_interrupted() const;
   void publish();
   void report();
@@ -186,11 +187,24 @@ void Run::choose_appearance() {
         "--texture-tolerance needs texture coordinates, and an IN and OUT of a format that carries them "
         "(OBJ, PLY, glTF): none were found in " +
         options_.input);
+  warn_of_other_coordinates();
   if (options_.texture_size)
     texel_length_ =
         texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *options_.texture_size);
   const double tolerance = typed_texture_tolerance_->in_model_units(diagonal_, texel_length_);
   original_texture_ = OriginalTexture{&original_, &attributes_, tolerance};
+}
+
+/// Further sets of texture coordinates come along, but nothing is measured of them.
+void Run::warn_of_other_coordinates() const {
+  std::string sets;
+  for (const NamedAttribute& attribute : attributes_.named)
+    if (attribute.name.starts_with("TEXCOORD_")) sets += (sets.empty() ? "" : ", ") + attribute.name;
+  if (sets.empty()) return;
+  const std::string warning =
+      options_.input + ": --texture-tolerance bounds the first set of texture coordinates only, and not " + sets;
+  if (options_.strict) throw InvalidInput(warning + "; leave out --strict to accept that");
+  std::fprintf(stderr, "%s: %s\n", provenance().tool.c_str(), warning.c_str());
 }
 
 /// Opens an output for each level, if levels are asked for, and then OUT.
