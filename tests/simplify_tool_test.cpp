@@ -184,6 +184,36 @@ TEST_F(SimplifyTool, KeepsSharpEdgesWhenAsked) {
   expect_refused(run("cube.off none.off --tolerance 0.2 --feature-angle 200"), "none.off");
 }
 
+/// A flat square: without the line across it the four corners would be left.
+TEST_F(SimplifyTool, KeepsGivenEdgesAsLines) {
+  constexpr int n = 4;
+  TriangleMesh square;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) square.vertices.emplace_back(i, j, 0);
+  for (std::uint32_t j = 0; j < n; ++j) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+      square.triangles.insert(square.triangles.end(), {{a, a + 1, b + 1}, {a, b + 1, b}});
+    }
+  }
+  write_mesh(in("square.off"), square);
+  std::ofstream(in("edges")) << "# across the square\n2 7\n12 7\n\n12 17 # inside\n17 22\n0 24\n";
+  ASSERT_EQ(run("square.off out.off --tolerance 0.01 --line-tolerance 0.01").exit_code, 0);
+  EXPECT_EQ(read_mesh(in("out.off")).mesh.vertices.size(), 4U);
+  ASSERT_EQ(run("square.off out.off --tolerance 0.01 --feature-edges edges --json r.json").exit_code, 0);
+  EXPECT_EQ(read_mesh(in("out.off")).mesh.vertices.size(), 6U);
+  EXPECT_EQ(checked_document(content_of(in("r.json")))["lines"]["edges"], 7);
+  for (const std::string& wrong : {"1", "1 2 3", "1 25", "-1 2", "1 x"}) {
+    std::ofstream(in("wrong")) << "0 1\n" << wrong << "\n";
+    const Result refused = run("square.off none.off --tolerance 0.01 --feature-edges wrong");
+    expect_refused(refused, "none.off");
+    EXPECT_NE(refused.err.find("wrong: line 2"), std::string::npos) << refused.err;
+  }
+  expect_refused(run("square.off none.off --tolerance 0.01 --feature-edges missing"), "none.off");
+  EXPECT_EQ(run("square.off edges --output-format off --tolerance 0.01 --feature-edges edges").exit_code, 2);
+  EXPECT_EQ(run("square.off out.off --tolerance 0.01 --feature-edges out.off").exit_code, 2);
+}
+
 TEST_F(SimplifyTool, GivesTheSameFileForEveryNumberOfThreads) {
   ASSERT_EQ(run("sphere.off one.ply --tolerance 0.02 --threads 1").exit_code, 0);
   ASSERT_EQ(run("sphere.off two.ply --tolerance 0.02 --threads 2").exit_code, 0);

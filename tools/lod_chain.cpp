@@ -199,7 +199,7 @@ void Run::check_paths() const {
   if (options_.tileset) outputs.push_back({"DIR", tileset_path()});
   const std::size_t of_view = std::max(options_.pixels.size(), options_.distances.size());
   for (std::size_t i = 0; i < options_.levels.size() + of_view; ++i) outputs.push_back({"DIR", level_path(i)});
-  require_distinct_files({{"IN", options_.input}}, outputs);
+  require_distinct_files({{"IN", options_.input}, {"--feature-edges", options_.feature_edges}}, outputs);
   options_.deviation.check();
 }
 

@@ -23,6 +23,10 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
                  "ends of such an edge are locked, and the output says how many vertices that are. With "
                  "--line-tolerance they are lines instead")
       ->check(CLI::Range(0.0, 180.0));
+  app.add_option(
+      "--feature-edges", options.feature_edges,
+      "File of edges that are feature lines, as borders are then: two vertices of IN a line, counted from 0; "
+      "pairs that no triangle has as an edge say nothing");
   app.add_option("--line-tolerance", options.line_tolerance,
                  "Keep borders, and with --feature-angle creases, within this distance of where they were, both ways: "
                  "vertices of these lines move only along them");

@@ -14,6 +14,7 @@ struct DecimationOptions {
   std::string input, driver, cost = "garland-heckbert";
   bool preserve_boundary = false;
   std::optional<double> feature_angle;  ///< degrees
+  std::string feature_edges;            ///< a file of edges; empty: none
   std::string line_tolerance;           ///< a length as typed; empty: no feature lines
   std::string placement = "optimal";
   bool drop_attributes = false;
@@ -24,10 +25,9 @@ struct DecimationOptions {
   TileWorkers* workers = nullptr;  ///< who works on tiles; null: meshes are decimated and measured in one piece
 };
 
-/// Adds --driver, --cost, --preserve-boundary, --feature-angle, --line-tolerance, --placement, --drop-attributes,
-/// --strict,
-/// --error-bound, what `add_write_options` and what `add_common_options` adds, and says in the description what outputs
-/// do not carry.
+/// Adds --driver, --cost, --preserve-boundary, --feature-angle, --feature-edges, --line-tolerance, --placement,
+/// --drop-attributes, --strict, --error-bound, what `add_write_options` and what `add_common_options` adds, and says in
+/// the description what outputs do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
 
 }  // namespace meshbound::tools

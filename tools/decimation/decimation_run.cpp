@@ -14,6 +14,7 @@
 #include "common/signals.h"
 #include "decimation/drivers.h"
 #include "decimation/dropped_attributes.h"
+#include "decimation/edge_file.h"
 #include "decimation/measurement_fault.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -60,7 +61,11 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
   if (shared_.strict && *report.dropped != DroppedAttributes{})
     throw InvalidInput(shared_.input + ": " + output.string() + " would not carry " + listed(*report.dropped) +
                        "; choose another format, or leave out --strict");
-  if (!attributes_.empty()) seams_ = seams(original_, attributes_);
+  if (!attributes_.empty()) feature_edges_ = seams(original_, attributes_);
+  if (!shared_.feature_edges.empty()) {
+    const std::vector<Edge> given = read_edges(shared_.feature_edges, original_.vertices.size(), stop);
+    feature_edges_.insert(feature_edges_.end(), given.begin(), given.end());
+  }
   rounding_ = placement_rounding(original_, attributes_);
   diagonal_ = report.summary.bbox_diagonal;
 }
@@ -81,7 +86,7 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
   if (shared_.feature_angle) options.feature_angle = *shared_.feature_angle / 180 * std::numbers::pi;
   if (!shared_.line_tolerance.empty())
     options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
-  options.feature_edges = seams_;
+  options.feature_edges = feature_edges_;
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   // Frames of nodes round by themselves (`rounding_`).
   options.precision = rounding_ > 0 ? Precision::Double : output.precision();

@@ -73,10 +73,10 @@ class DecimationRun {
   std::unique_ptr<StoredMesh> stored_original_;  ///< for these
   double diagonal_ = 0;
   std::vector<double> tolerances_;
-  MeshAttributes attributes_;  ///< of the original, where outputs carry them
-  double rounding_ = 0;        ///< what the frames of nodes may move vertices by, model units
-  std::vector<Edge> seams_;    ///< of these
-  std::vector<Edge> lines_;    ///< of the original
+  MeshAttributes attributes_;        ///< of the original, where outputs carry them
+  double rounding_ = 0;              ///< what the frames of nodes may move vertices by, model units
+  std::vector<Edge> feature_edges_;  ///< seams of these, and the edges of --feature-edges
+  std::vector<Edge> lines_;          ///< of the original
   std::optional<OriginalLines> original_lines_;
 
  private:

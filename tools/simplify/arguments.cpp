@@ -27,9 +27,10 @@ void check_formats(const SimplifyArguments& arguments) {
 }
 
 /// What needs the mesh in one piece, so that it does not go with --memory.
-constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
-    {"--levels", "--target-faces", "--target-ratio", "--prune", "--batch", "--texture-tolerance", "--normal-tolerance",
-     "--feature-angle", "--line-tolerance", "--heatmap", "--heatmap-original", "--image", "--report"});
+constexpr std::array options_of_whole_meshes =
+    std::to_array<const char*>({"--levels", "--target-faces", "--target-ratio", "--prune", "--batch",
+                                "--texture-tolerance", "--normal-tolerance", "--feature-angle", "--feature-edges",
+                                "--line-tolerance", "--heatmap", "--heatmap-original", "--image", "--report"});
 
 /// What speaks of one of these, or of an attribute.
 constexpr std::array options_without_use_for_tiles =
@@ -101,6 +102,7 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
                            ->needs(scratch);
   if (is_in_tiles) return;
   for (CLI::Option* const option : {tile, scratch, resume}) option->needs(memory);
+  app.get_option("--feature-edges")->excludes(app.get_option("--batch"));
   for (const char* const name : options_of_whole_meshes) memory->excludes(app.get_option(name));
 }
 

@@ -30,7 +30,7 @@ void check_paths(const SimplifyArguments& options) {
     outputs.push_back({"--levels", level_path(options, i)});
     if (!options.certificate.empty()) outputs.push_back({"--certificate", level_certificate_path(options, i)});
   }
-  require_distinct_files({{"IN", options.input}}, outputs);
+  require_distinct_files({{"IN", options.input}, {"--feature-edges", options.feature_edges}}, outputs);
   options.deviation.check();
   if (!options.common.json.empty()) check_writable(options.common.json);
 }
