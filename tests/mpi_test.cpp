@@ -157,12 +157,13 @@ class FaultsOverRanks : public ToolsOverRanks {
     arguments.insert(arguments.end(), {"--memory", "4G"});
     ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, arguments).exit_code, 0);
   }
-  static std::vector<std::string> arguments_for(const std::string& out) {
-    return {in("torus.ply"), out, "--tolerance", "0.3%", "--tile-triangles", "1000", "--threads", "1"};
+  static std::vector<std::string> arguments_for(const std::string& out, const std::string& tolerance = "0.3%") {
+    return {in("torus.ply"), out, "--tolerance", tolerance, "--tile-triangles", "1000", "--threads", "1"};
   }
   /// Starts three ranks, and does `then` once `until` holds: both are shell, where $ranks are the processes.
-  static ToolRun disturbed(const std::string& until, const std::string& then, const std::string& scratch) {
-    std::vector<std::string> arguments = arguments_for(in("out/result.ply"));
+  static ToolRun disturbed(const std::string& until, const std::string& then, const std::string& scratch,
+                           const std::string& out = "result.ply", const std::string& tolerance = "0.3%") {
+    std::vector<std::string> arguments = arguments_for(in("out/" + out), tolerance);
     arguments.insert(arguments.end(), {"--scratch", scratch, "--quiet"});
     return run_shell("(" + over_ranks(3, SIMPLIFY_WITH_BOUND_MPI, arguments) + ") & run=$!; until " + until +
                          "; do sleep 0.01; kill -0 $run || exit 99; done; ranks=$(pgrep -P $run); " + then +
@@ -232,6 +233,17 @@ TEST_F(FaultsOverRanks, ThatAreAFullDiskOfOneRankAreSaidOnceAndCanBeResumed) {
     std::filesystem::remove(scratch + "/ls");
     expect_resumed(scratch, true);
   }
+}
+
+/// The text of a result that keeps most triangles is longer than any file that was written before.
+TEST_F(FaultsOverRanks, ThatAreNoRoomForTheResultAreSaidOnce) {
+  const std::string scratch = in("no room");
+  std::filesystem::create_directories(scratch);
+  const ToolRun run =
+      disturbed("ls " + shell_quoted(scratch) + "/*/0-3 >" + shell_quoted(in("ls")) + " 2>&1",
+                "for rank in $ranks; do prlimit --fsize=2000000 --pid $rank; done", scratch, "result.obj", "0.001%");
+  expect_refused_together(run);
+  EXPECT_NE(run.err.find("result.obj"), std::string::npos) << run.err;
 }
 
 /// Open MPI itself needs files of more than 4 MB.
