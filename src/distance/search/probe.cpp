@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t max_vertices = 64, centroids = 16;
 constexpr std::uint32_t vertices_per_chunk = 16;
+constexpr std::uint32_t min_triangles = 128;  ///< below it the centroids' queries cost more than their bound saves
 
 /// Offers the furthest point of the earlier search, which often is the furthest one still, and returns whether it lies
 /// on B. The point is constructed with less than 21 u M of rounding; a lower bound uses 32 of the 128 u M in the slack,
@@ -32,7 +33,7 @@ bool probe_start(OneSidedSearch& search) {
 /// The vertices of a mesh that was simplified lie on the original, its triangles do not.
 void probe_centroids(OneSidedSearch& search) {
   const std::uint32_t n = search.a().triangle_count();
-  if (n < centroids) return;  // a search of them all costs no more
+  if (n < min_triangles) return;
   SearchKernel& kernel = search.begin_own_batch();
   std::uint32_t hint = 0;
   for (std::uint32_t i = 0; i < centroids; ++i) {
