@@ -191,6 +191,17 @@ TEST_P(Decimation, TakesTheSameWayForEveryInputAndOption) {
 }
 
 /// Each goes on from the one before: half as many edges are tried as in a run for each, with no more proofs.
+/// A placement that leaves a point of the original, or of an edge, too far away is tried again with that point: 1,433
+/// and 1,408 faces are left, 1,467 and 1,470 without the points that proofs find, 1,506 and 1,491 without those of
+/// edges.
+TEST_P(Decimation, PlacesVerticesByWhatProofsHaveFound) {
+  const TriangleMesh terrain = datasets::terrain(1, 39, 3);
+  const SimplifyResult result = simplify_with_bound(terrain, options(0.002));
+  EXPECT_TRUE(holds(terrain, result.last()));
+  EXPECT_GT(result.counts.unproven, 50U);
+  EXPECT_LT(result.last().faces(), 1450U);
+}
+
 TEST_P(Decimation, OfSeveralLevelsCostsLessThanOneForEach) {
   for (const TriangleMesh& shape : {datasets::icosphere(1, 5), datasets::terrain(1, 60, 3)}) {
     const std::vector<double> tolerances = {0.0025, 0.005, 0.01, 0.02};

@@ -240,5 +240,27 @@ TEST(ForwardCover, FindsCoversThatNeedManyCuts) {
   }
 }
 
+/// Two faces with a gap between them that is wider than twice the tolerance.
+TEST(ForwardCover, NamesThePointThatNoFaceHolds) {
+  constexpr double tolerance = 0.1;
+  const std::vector<Vec3> corners = {{0, 0.1, 0}, {3, 0.1, 0}, {0.2, 0.6, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+  const std::vector<std::array<Vec3, 3>> faces = {{Vec3{-1, -1, 0}, {1.2, -1, 0}, {1.2, 2, 0}},
+                                                  {Vec3{-1, -1, 0}, {1.2, 2, 0}, {-1, 2, 0}},
+                                                  {Vec3{1.6, -1, 0}, {4, -1, 0}, {1.6, 4, 0}}};
+  ForwardCover cover(corners, triangles);
+  cover.begin(tolerance);
+  for (std::uint32_t f = 0; f < faces.size(); ++f) cover.add(faces[f], f);
+  ASSERT_TRUE(cover.are_corners_near(0, ForwardCover::first(3)));
+  ASSERT_EQ(cover.cover(0, ForwardCover::first(3), 0), 0U);
+  ASSERT_TRUE(cover.lost_point());
+  const Vec3 lost = *cover.lost_point();
+  EXPECT_GT(lost.x, 1.2 + tolerance);
+  EXPECT_LT(lost.x, 1.6 - tolerance);
+  EXPECT_LT(std::sqrt(squared_distance({corners[0], corners[1], corners[2]}, lost)), 1e-12);
+  ASSERT_FALSE(cover.are_corners_near(0, FaceMask{3}));
+  EXPECT_EQ(cover.lost_point()->x, 3);
+}
+
 }  // namespace
 }  // namespace meshbound

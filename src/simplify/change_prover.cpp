@@ -22,6 +22,7 @@ bool ChangeProver::prove(const Split& split, Region& region) {
   const auto is_near_original = [&](const EditLog::Stamp& stamp) { return is_near(stamp.face); };
   if (is_covered && std::all_of(stamps.begin(), stamps.end(), is_near_original)) return true;
   ++unproven;
+  lost_point_ = is_covered ? std::nullopt : worker.lost_point();
   undo_last(state_, region);
   return false;
 }

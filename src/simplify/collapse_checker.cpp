@@ -200,9 +200,10 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
   }
   if (state_.limit > 0) {
     std::optional<Vec3> point = proposer_.placement(edge, 1, point_in_frame(wanted));
-    if (point && prove(*point, question)) return admitted_->point;
-    if (point) point = proposer_.lower_placement(*point);
-    if (point && prove(*point, question)) return admitted_->point;
+    for (int proofs = 1; point; ++proofs) {
+      if (prove(*point, question)) return admitted_->point;
+      point = proofs < Proposer::max_proofs ? proposer_.placement_near(prover_.lost_point(), *point) : std::nullopt;
+    }
   }
   refused_at = region().clock + 1;
   refused_ = question;

@@ -91,6 +91,7 @@ class ProofWorkers::Worker {
   /// False where one was not found.
   bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
     meets_seam_ = false;
+    lost_point_.reset();
     begin_affected();
     for (const EditLog::Stamp& stamp : changed) add_affected(stamp.face);
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
@@ -131,15 +132,18 @@ class ProofWorkers::Worker {
     // What is cheap and likely to fail comes first.
     const FaceMask all = ForwardCover::first(cover_.size());
     for (const std::size_t i : in_pieces_)
-      if (!cover_.are_corners_near(affected_[i], all)) return false;
+      if (!cover_.are_corners_near(affected_[i], all)) return lost_point_ = cover_.lost_point(), false;
     for (const std::size_t i : in_pieces_) {
       used_[i] = cover_.cover(affected_[i], all, added);
-      if (used_[i] == 0) return false;
+      if (used_[i] == 0) return lost_point_ = cover_.lost_point(), false;
     }
     meets_seam_ = false;
     return true;
   }
   [[nodiscard]] std::size_t affected() const { return affected_.size(); }
+  /// Where `cover_change` has failed last: a point of the original that is too far from all faces asked. Absent where
+  /// it failed for another reason.
+  [[nodiscard]] const std::optional<Vec3>& lost_point() const { return lost_point_; }
   /// Whether `cover_change` failed, but might have found a cover with the help of faces of other regions.
   [[nodiscard]] bool meets_seam() const { return meets_seam_; }
   void assign_covers(CoverAssignment& cover) {
@@ -374,6 +378,7 @@ class ProofWorkers::Worker {
   std::vector<std::size_t> in_pieces_;  ///< indices in `affected_`
   std::vector<FaceMask> used_;
   bool meets_seam_ = false;
+  std::optional<Vec3> lost_point_;
   std::vector<Part> parts_;
 
   /// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most

@@ -17,7 +17,7 @@ namespace {
 
 /// A placement takes at most so many steps towards where the largest sampled distance is smallest; fewer where a proof
 /// of many collapses is still to come.
-constexpr int max_minimax_steps = 3, max_minimax_steps_together = 2;
+constexpr int max_minimax_steps = 4, max_minimax_steps_together = 2;
 
 /// For most edges so many samples show that no placement fits.
 constexpr std::size_t few_samples = 24;
@@ -35,9 +35,6 @@ constexpr double hopeful_deviation = 1.05;
 
 /// A placement is good enough where distances are this share of the limit: closest points move with it.
 constexpr double good_share = 0.9;
-
-/// Where a placement could not be proven, another one is looked for where distances are this share of the limit.
-constexpr double lower_share = 0.7;
 
 /// Whether the two faces that stay are those of a tetrahedron: they have three vertices in common.
 bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
@@ -143,11 +140,11 @@ double Proposer::limit_around() const {
 bool Proposer::owns(std::uint32_t face) const { return split_->owns_face(region_, face); }
 
 bool Proposer::fits(Vec3 point) {
+  found_.clear();
   if (!set_faces(point)) return false;
   if (!gathered_) gather_samples();
   by_bound_ = true;
-  return samples_.hold(beside_, limit_) && samples_.is_near_original(point, limit_) && are_edges_near(point) &&
-         keeps_appearance(point);
+  return samples_.hold(beside_, limit_) && is_vertex_near(point) && are_edges_near(point) && keeps_appearance(point);
 }
 
 bool Proposer::keeps_appearance(Vec3 point) {
@@ -172,9 +169,16 @@ void Proposer::find_borders() {
   }
 }
 
+bool Proposer::is_vertex_near(Vec3 point) {
+  if (!samples_.is_near_original(point, limit_)) found_.push_back({point, 0});
+  return found_.empty();
+}
+
 bool Proposer::is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points) {
   const double steps = std::min(std::floor(length(end - point) / (points.spacing * full_limit_)), points.max);
-  return samples_.is_edge_near_original(point, end, static_cast<int>(steps), limit_);
+  if (const auto share = samples_.stray_on_edge(point, end, static_cast<int>(steps), limit_))
+    found_.push_back({end, *share});
+  return found_.empty();
 }
 
 /// A border that cuts across a bay of the original is far from it, though every sample is near a face; so is an edge
@@ -182,10 +186,9 @@ bool Proposer::is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points) {
 bool Proposer::are_edges_near(Vec3 point) {
   const ArrayMesh& mesh = state_.mesh;
   const PointsOnEdge& on_edges = is_together_ ? points_on_edges_together : points_on_edges;
-  return std::all_of(borders_.begin(), borders_.end(),
-                     [&](Vec3 end) { return is_edge_near(point, end, points_on_borders); }) &&
-         std::all_of(star_.moved.begin(), star_.moved.end(),
-                     [&](Corner c) { return is_edge_near(point, mesh.position(mesh.end(c)), on_edges); });
+  for (const Vec3 end : borders_) (void)is_edge_near(point, end, points_on_borders);
+  for (const Corner c : star_.moved) (void)is_edge_near(point, mesh.position(mesh.end(c)), on_edges);
+  return found_.empty();
 }
 
 Proposer::AllowedEnds Proposer::allowed_ends(Corner edge) const {
@@ -213,7 +216,6 @@ std::optional<Vec3> Proposer::placement_at_end(const AllowedEnds& ends) {
   const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
   const auto cost = [&](Vec3 at) { return state_.quadrics[kept].at(at) + state_.quadrics[gone].at(at); };
   const bool end_first = ends.end && (!ends.start || cost(q) < cost(p));
-  lowered_ = true;  // there is no other one
   for (const bool at_end : {end_first, !end_first}) {
     if (!(at_end ? ends.end : ends.start)) continue;
     tried_ = at_end ? q : p;
@@ -231,6 +233,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   const AllowedEnds ends = allowed_ends(edge);
   if (!ends.start && !ends.end && !ends.elsewhere) return std::nullopt;
   begin_star(share);
+  moves_ = ends.elsewhere;
   if (!ends.elsewhere) return placement_at_end(ends);
   const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
   const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
@@ -244,9 +247,9 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   }
   if (share < 1 && deviation > max_deviation_together * limit_) return std::nullopt;
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
-  if (const auto lower = minimax(tried_, good_share * limit_)) return lower;
+  if (const auto lower = minimax(tried_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (deviation_ <= hopeless_deviation && fits(end)) return end;
+    if (deviation_ <= 1 && fits(end)) return end;
   }
   return std::nullopt;
 }
@@ -261,15 +264,18 @@ void Proposer::begin_star(double share) {
         GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
   full_limit_ = limit_around() * internal::sample_fault;
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
-  lowered_ = gathered_ = false;
+  gathered_ = false;
+  strays_.clear();
   placed_.reset();
   find_borders();
   is_together_ = share < 1;
 }
 
-std::optional<Vec3> Proposer::lower_placement(Vec3 than) {
-  if (lowered_ || is_locked(star_.kept) || is_locked(star_.gone)) return std::nullopt;
-  return minimax(than, lower_share * limit_);
+std::optional<Vec3> Proposer::placement_near(const std::optional<Vec3>& lost_point, Vec3 refuted) {
+  if (!moves_ || !lost_point) return std::nullopt;
+  samples_.add_point(*lost_point);
+  samples_.compare(faces_);
+  return minimax(refuted);
 }
 
 /// Takes a few samples from all parts of the star.
@@ -280,9 +286,8 @@ void Proposer::take_few() {
   for (std::size_t i = 0; i < points.size(); i += stride) few_.add(points.at(i));
 }
 
-/// The placement, reached from `point`, where the largest distance is smallest or below `low`.
-std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
-  lowered_ = true;
+/// The placement, reached from `point`, where the largest distance is smallest or small enough.
+std::optional<Vec3> Proposer::minimax(Vec3 point) {
   if (!set_faces(point)) {
     point = 0.5 * (state_.mesh.position(star_.kept) + state_.mesh.position(star_.gone));
     if (!set_faces(point)) return std::nullopt;
@@ -290,7 +295,8 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   if (!gathered_) gather_samples();
   const SamplePoints& points = samples_.points();
   if (points.blocks.empty()) return fits(point) ? std::optional(point) : std::nullopt;
-  const auto by_limit = static_cast<float>(1 / full_limit_), low_deviation = static_cast<float>(low / full_limit_);
+  const auto by_limit = static_cast<float>(1 / full_limit_),
+             low_deviation = static_cast<float>(good_share * limit_ / full_limit_);
   const float max_height = hopeless_deviation * static_cast<float>(limit_ / full_limit_);
   if (points.size() > 2 * few_samples) {
     take_few();
@@ -306,17 +312,16 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
     else
       (void)set_faces(point);
   }
-  bool is_stray = false;
   const int max_steps = is_together_ ? max_minimax_steps_together : max_minimax_steps;
   for (int k = 0; k < max_steps; ++k) {
     deviation_kernel_.linearise(points, faces_, samples_.offsets(), by_limit, deviations_);
-    if (is_stray) add_vertex(point);
+    for (const Stray& stray : strays_) add_stray(stray, point);
     MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     if (full_limit_ * step.here <= limit_) {
       if (fits(point)) return point;
-      if (!is_stray) {
-        is_stray = true;
-        add_vertex(point);
+      if (!found_.empty()) {
+        for (const Stray& stray : found_) add_stray(stray, point);
+        strays_.insert(strays_.end(), found_.begin(), found_.end());
         step = minimax_step(deviations_, deviation_kernel_, low_deviation);
       }
     }
@@ -328,13 +333,14 @@ std::optional<Vec3> Proposer::minimax(Vec3 point, double low) {
   return fits(point) ? std::optional(point) : std::nullopt;
 }
 
-/// Adds the distance of the vertex from the original to the deviations.
-void Proposer::add_vertex(Vec3 point) {
-  const Vec3 offset = (1 / full_limit_) * samples_.offset_from_original(point);
+/// Adds the distance of a point of the changed faces from the original to the deviations.
+void Proposer::add_stray(const Stray& stray, Vec3 point) {
+  const Vec3 at = point + stray.share * (stray.end - point);
+  const Vec3 offset = (1 / full_limit_) * samples_.offset_from_original(at);
   const double deviation = length(offset);
   if (!(deviation > 0)) return;
-  // It is the vertex that moves, not its closest point.
-  const auto slope = [&](double component) { return static_cast<float>(-component / deviation); };
+  // It is the point that moves with the vertex, not its closest point.
+  const auto slope = [&](double component) { return static_cast<float>((stray.share - 1) * component / deviation); };
   deviations_.add(static_cast<float>(deviation), slope(offset.x), slope(offset.y), slope(offset.z));
 }
 

@@ -55,11 +55,10 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   if (!proposer_.is_inside(edge)) return false;
   std::optional<Vec3> point = proposer_.placement(edge, limits_.share, wanted);
   const bool point_found = point.has_value();
-  if (point) {
-    list_edges();
+  if (point_found) list_edges();
+  for (int proofs = 1; point; ++proofs) {
     if (make(*point)) return true;
-    point = proposer_.lower_placement(*point);
-    if (point && make(*point)) return true;
+    point = proofs < Proposer::max_proofs ? proposer_.placement_near(prover_->lost_point(), *point) : std::nullopt;
   }
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;

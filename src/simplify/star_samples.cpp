@@ -88,10 +88,10 @@ bool StarSamples::hold(std::span<const std::uint32_t> beside, double limit) {
       largest = squared > largest ? squared : largest;
     }
     if (largest <= squared_limit) continue;
-    for (std::size_t k = 0; k < lanes && lanes * b + k < ids_.size(); ++k) {
+    for (std::size_t k = 0; k < lanes && lanes * b + k < points_.size(); ++k) {
       if (offsets_[b].squared[k] <= squared_limit) continue;
       if (outside_.size() == max_outside) return false;
-      const std::uint32_t face = face_beside(ids_[lanes * b + k], beside, squared_limit);
+      const std::uint32_t face = face_beside(lanes * b + k, beside, squared_limit);
       if (face == ArrayMesh::none) return false;
       outside_.emplace_back(lanes * b + k, face);
     }
@@ -99,10 +99,10 @@ bool StarSamples::hold(std::span<const std::uint32_t> beside, double limit) {
   return true;
 }
 
-/// A face of those beside the star that is near the sample, or none.
-std::uint32_t StarSamples::face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
+/// A face of those beside the star that is near the point, or none.
+std::uint32_t StarSamples::face_beside(std::size_t i, std::span<const std::uint32_t> beside,
                                        float squared_limit) const {
-  const Vec3 p = state_.samples.at(sample);
+  const Vec3 p = points_.at(i) + origin_;
   for (const std::uint32_t face : beside) {
     if (squared_distance(state_.mesh.triangle(face), p) <= squared_limit) return face;
   }
@@ -115,14 +115,15 @@ bool StarSamples::is_near_original(Vec3 point, double limit) {
   return proximity_.upper_distance({point.x, point.y, point.z}, near_, limit) <= limit;
 }
 
-bool StarSamples::is_edge_near_original(Vec3 vertex, Vec3 end, int points, double limit) {
-  if (ids_.empty()) return true;
+std::optional<double> StarSamples::stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit) {
+  if (ids_.empty()) return std::nullopt;
   std::uint32_t near = near_;
   for (int k = 1; k <= points; ++k) {
-    const Vec3 p = vertex + (static_cast<double>(k) / (points + 1)) * (end - vertex);
-    if (!(proximity_.upper_distance({p.x, p.y, p.z}, near, limit) <= limit)) return false;
+    const double share = static_cast<double>(k) / (points + 1);
+    const Vec3 p = vertex + share * (end - vertex);
+    if (!(proximity_.upper_distance({p.x, p.y, p.z}, near, limit) <= limit)) return share;
   }
-  return true;
+  return std::nullopt;
 }
 
 Vec3 StarSamples::offset_from_original(Vec3 point) {

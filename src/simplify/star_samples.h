@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,6 +20,8 @@ class StarSamples {
   void begin(Vec3 origin);
   void add_face(std::uint32_t face) { add_faces({&face, 1}); }
   void add_faces(std::span<const std::uint32_t> faces);
+  /// Adds a point of the original that is no sample, until the next star.
+  void add_point(Vec3 point) { points_.add(point - origin_); }
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] const SamplePoints& points() const { return points_; }
 
@@ -30,8 +33,9 @@ class StarSamples {
   [[nodiscard]] bool hold(std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
-  /// Whether `points` points between that vertex and `end`, in equal steps, are within `limit` of the original.
-  [[nodiscard]] bool is_edge_near_original(Vec3 vertex, Vec3 end, int points, double limit);
+  /// Of `points` points between that vertex and `end`, in equal steps: the share of the way to the first one that is
+  /// not within `limit` of the original. Absent if all are.
+  [[nodiscard]] std::optional<double> stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit);
   /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
   /// Assigns each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the
@@ -41,7 +45,7 @@ class StarSamples {
  private:
   void compare_blocks(std::size_t end);
   [[nodiscard]] std::uint32_t triangle_near(Vec3 point) const;
-  [[nodiscard]] std::uint32_t face_beside(std::uint32_t sample, std::span<const std::uint32_t> beside,
+  [[nodiscard]] std::uint32_t face_beside(std::size_t i, std::span<const std::uint32_t> beside,
                                           float squared_limit) const;
   [[nodiscard]] std::size_t nearest(std::size_t i) const;
   void sort_along_curve();
@@ -54,8 +58,8 @@ class StarSamples {
   std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;
   std::vector<std::uint32_t> next_;  ///< samples of each face that is being added
-  std::vector<std::uint32_t> ids_;   ///< by point
-  SamplePoints points_;
+  std::vector<std::uint32_t> ids_;   ///< by point, as far as it is a sample
+  SamplePoints points_;              ///< samples, then points that are none
   std::span<const SampleFace> faces_;
   std::size_t compared_ = 0;                                    ///< blocks whose offsets are known
   std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces

@@ -52,8 +52,12 @@ FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
 }
 
 bool ForwardCover::are_corners_near(std::uint32_t triangle, FaceMask allowed) {
-  const auto& corners = triangles_[triangle];
-  return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return mask_of(v, allowed) != 0; });
+  for (const std::uint32_t v : triangles_[triangle]) {
+    if (mask_of(v, allowed) != 0) continue;
+    lost_point_ = vertices_[v];
+    return false;
+  }
+  return true;
 }
 
 FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
@@ -101,6 +105,7 @@ std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corn
 
 FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked) {
   open_.assign(1, whole);
+  lost_point_.reset();
   FaceMask used = 0;
   for (int spent = 0; !open_.empty();) {
     const Piece piece = open_.back();
@@ -138,7 +143,10 @@ bool ForwardCover::cut(const Piece& piece, FaceMask allowed, Asked asked) {
   const FaceMask likely = asked == Asked::All ? allowed : piece.masks[0] | piece.masks[1] | piece.masks[2];
   FaceMask mask = candidates_.holding(middle, likely);
   if (mask == 0) mask = candidates_.holding(middle, allowed & ~likely);
-  if (mask == 0) return false;
+  if (mask == 0) {
+    lost_point_ = middle;
+    return false;
+  }
   const std::size_t other = 3 - from - to;
   const Vec3 apex = piece.corners[other];
   const FaceMask at_apex = piece.masks[other], at_from = piece.masks[from], at_to = piece.masks[to];

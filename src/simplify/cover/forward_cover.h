@@ -49,6 +49,8 @@ class ForwardCover {
   [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int depth);
   /// Whether some candidate of `allowed` is within the tolerance of each corner.
   [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
+  /// The point that no candidate held where the last cover failed; absent where it failed for another reason.
+  [[nodiscard]] const std::optional<Vec3>& lost_point() const { return lost_point_; }
 
  private:
   struct Piece {
@@ -76,6 +78,7 @@ class ForwardCover {
   std::uint32_t round_ = 0;
   std::vector<CachedMask> cache_;
   std::vector<Piece> open_;
+  std::optional<Vec3> lost_point_;
 };
 
 }  // namespace meshbound
