@@ -203,7 +203,7 @@ TEST_F(SimplifyTool, KeepsGivenEdgesAsLines) {
   ASSERT_EQ(run("square.off out.off --tolerance 0.01 --feature-edges edges --json r.json").exit_code, 0);
   EXPECT_EQ(read_mesh(in("out.off")).mesh.vertices.size(), 6U);
   EXPECT_EQ(checked_document(content_of(in("r.json")))["lines"]["edges"], 7);
-  for (const std::string& wrong : {"1", "1 2 3", "1 25", "-1 2", "1 x"}) {
+  for (const char* const wrong : {"1", "1 2 3", "1 25", "-1 2", "1 x"}) {
     std::ofstream(in("wrong")) << "0 1\n" << wrong << "\n";
     const Result refused = run("square.off none.off --tolerance 0.01 --feature-edges wrong");
     expect_refused(refused, "none.off");
