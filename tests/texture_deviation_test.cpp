@@ -86,6 +86,21 @@ TEST(TextureDeviation, IsTheHeightThatASquareIsRaisedBy) {
 }
 
 /// The geometry is the same; only where the texture lies on it is not.
+/// Corners in another order, at other heights: those with the same texture coordinates belong together.
+TEST(TextureDeviation, OfACopyIsThatOfItsFarthestCorner) {
+  const Corner p{{0, 0, 0}, {0, 0}}, q{{1, 0, 0}, {1, 0}}, r{{0, 1, 0}, {0, 1}};
+  const auto raised = [](Corner corner, double z) {
+    corner.at.z() = z;
+    return corner;
+  };
+  const TexturedMesh a = numbered({{triangle(p, q, r)}, {}});
+  const TexturedMesh b = numbered({{triangle(raised(q, 0.125), raised(r, 0.25), raised(p, 0.0625))}, {}});
+  TextureDeviationOptions options;
+  options.error_bound = tight;
+  options.tolerance = 1;
+  expect_value(texture_deviation(a, b, options).bounds, 0.25);
+}
+
 TEST(TextureDeviation, SeesATextureThatSlidesOnTheSurface) {
   const auto fan = [](double x) {  // a square around a vertex at x whose coordinate is that of the centre
     const Corner middle{{x, 0.5, 0}, {0.5, 0.5}};

@@ -25,28 +25,21 @@ bool seem_to_share_area(const ChartTriangle& a, const ChartTriangle& b) {
   return b.chart == Chart::Area && seems_to_overlap(a, b) && seems_to_overlap(b, a);
 }
 
+/// The corner of `b` with a texture coordinate; 3 if there is none.
+std::size_t corner_at(const TexturedTriangle& b, const Eigen::Vector2d& coordinate) {
+  return static_cast<std::size_t>(std::find(b.coordinates.begin(), b.coordinates.end(), coordinate) -
+                                  b.coordinates.begin());
+}
+
 /// The largest squared distance between corners with the same texture coordinates; infinite where these differ.
 double squared_distance_at_corners(const TexturedTriangle& a, const TexturedTriangle& b) {
   double worst = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto same = std::find(b.coordinates.begin(), b.coordinates.end(), a.coordinates[i]);
-    if (same == b.coordinates.end()) return HUGE_VAL;
-    const auto k = static_cast<std::size_t>(same - b.coordinates.begin());
+    const std::size_t k = corner_at(b, a.coordinates[i]);
+    if (k == 3) return HUGE_VAL;
     worst = std::max(worst, (a.corners[i] - b.corners[k]).squaredNorm());
   }
   return worst;
-}
-
-/// The nearest one with the texture coordinates of `a`, if it is within `reach`.
-std::vector<const ChartTriangle*>::iterator nearest_copy(const ChartTriangle& a, double reach,
-                                                         std::vector<const ChartTriangle*>& among) {
-  auto nearest = among.end();
-  double least = reach * reach;
-  for (auto b = among.begin(); b != among.end(); ++b) {
-    const double squared = squared_distance_at_corners(*a.source, *(*b)->source);
-    if (squared <= least) least = squared, nearest = b;
-  }
-  return nearest;
 }
 
 /// The box of the texture coordinates; the third side keeps materials apart.
@@ -57,6 +50,15 @@ Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
 }
 
 }  // namespace
+
+double upper_to_copy(const ChartTriangle& a, const ChartTriangle& copy) {
+  double upper = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = corner_at(*copy.source, a.source->coordinates[i]);
+    upper = std::max(upper, distance_bounds(a.source->corners[i], copy.source->corners[k]).upper);
+  }
+  return upper;
+}
 
 Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
   Eigen::AlignedBox3d box;
@@ -91,19 +93,22 @@ void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vecto
 void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const {
   found.near.clear();
   found.others.clear();
+  found.copy = nullptr;
   std::vector<std::uint32_t> indices;
   tree_->find(box_of(*a.source), indices);
+  double least = reach * reach;
+  for (const std::uint32_t b : indices) {
+    if (a.chart != Chart::Area) break;
+    const double squared = squared_distance_at_corners(*a.source, *triangles_[b].source);
+    if (squared <= least) least = squared, found.copy = &triangles_[b];
+  }
   const Eigen::AlignedBox3d place = place_of(*a.source);
   for (const std::uint32_t b : indices) {
-    const bool is_near =
-        places_[b].squaredExteriorDistance(place) <= reach * reach && seem_to_share_area(a, triangles_[b]);
+    const bool is_near = found.copy != nullptr ? found.copy == &triangles_[b]
+                                               : places_[b].squaredExteriorDistance(place) <= reach * reach &&
+                                                     seem_to_share_area(a, triangles_[b]);
     (is_near ? found.near : found.others).push_back(&triangles_[b]);
   }
-  const auto copy = nearest_copy(a, reach, found.near);
-  if (copy == found.near.end()) return;
-  std::swap(found.near.front(), *copy);
-  found.others.insert(found.others.end(), found.near.begin() + 1, found.near.end());
-  found.near.resize(1);
 }
 
 }  // namespace meshbound

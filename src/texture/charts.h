@@ -18,11 +18,17 @@ namespace meshbound {
 
 /// Triangles that may have texture coordinates of a triangle.
 struct ChartCandidates {
-  /// Those that seem to share more than an edge with it in the texture and to be within reach of it in space; only the
-  /// nearest one of those that have the same texture coordinates, if there are any. Rounding decides about some.
+  /// Those that seem to share more than an edge with it in the texture and to be within reach of it in space. Rounding
+  /// decides about some. If there is a `copy`, only this one.
   std::vector<const ChartTriangle*> near;
   std::vector<const ChartTriangle*> others;
+  /// The nearest one within reach with the same texture coordinates at the corners; null: there is none.
+  const ChartTriangle* copy = nullptr;
 };
+
+/// An upper bound of the texture deviation from a triangle with an area in the texture to a copy: between corners with
+/// the same texture coordinates, as the length of an offset that is linear over a triangle is largest at a corner.
+[[nodiscard]] double upper_to_copy(const ChartTriangle& a, const ChartTriangle& copy);
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
 class Charts {

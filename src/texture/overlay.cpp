@@ -179,6 +179,13 @@ bool is_end(const Ends& ends, const Eigen::Vector2d& at) {
 
 }  // namespace
 
+Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  std::array<Approximate, 3> offset;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    offset[static_cast<std::size_t>(i)] = Approximate{x[i], 0} - Approximate{y[i], 0};
+  return length_bounds(offset);
+}
+
 ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units) {
   ChartTriangle result{&triangle, Chart::Area, false, {0, 1, 2}};
   const auto points = texture_points<Approximate>(result, units);
@@ -376,13 +383,9 @@ Bounds Overlay::near_distance(const Candidate& candidate, const Node& node) cons
   for (std::size_t k = 0; k < 3; ++k) to[k] = weighted(lines_[candidate.lines[k]].at, node.weights);
   const auto only = std::find_if(to.begin(), to.end(), [](const Approximate& w) { return !w.is_zero(); });
   const bool is_corner = only != to.end() && std::all_of(only + 1, to.end(), [](const auto& w) { return w.is_zero(); });
+  if (is_corner && node.second == Node::is_corner)
+    return distance_bounds(a.corners[node.first], b.corners[static_cast<std::size_t>(only - to.begin())]);
   std::array<Approximate, 3> offset;
-  if (is_corner && node.second == Node::is_corner) {
-    const Eigen::Vector3d &x = a.corners[node.first], &y = b.corners[static_cast<std::size_t>(only - to.begin())];
-    for (Eigen::Index i = 0; i < 3; ++i)
-      offset[static_cast<std::size_t>(i)] = Approximate{x[i], 0} - Approximate{y[i], 0};
-    return length_bounds(offset);
-  }
   const Approximate from_sum = sum(node.weights), to_sum = sum(to);
   const Eigen::Vector3d origin = a.corners[0];
   for (std::size_t k = 0; k < 3; ++k) {

@@ -136,6 +136,9 @@ class Overlay {
   std::vector<int> sides_;
 };
 
+/// Bounds of the distance between two points.
+[[nodiscard]] Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y);
+
 /// The chart of a triangle and the order of its corners in the texture, decided exactly.
 [[nodiscard]] ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units);
 

@@ -71,11 +71,13 @@ class Direction {
     ChartCandidates candidates;
   };
 
-  /// Starts the overlay of a triangle with the near candidates.
+  void find_candidates(std::size_t triangle, Workspace& work) const {
+    b_.find_candidates(a_.triangles()[triangle], reach_, work.candidates);
+  }
+
+  /// Starts the overlay of a triangle with the near ones of the candidates that were found last.
   void overlay_near(std::size_t triangle, Workspace& work) const {
-    const ChartTriangle& t = a_.triangles()[triangle];
-    work.overlay.begin(t);
-    b_.find_candidates(t, reach_, work.candidates);
+    work.overlay.begin(a_.triangles()[triangle]);
     for (const ChartTriangle* b : work.candidates.near) work.overlay.add(*b);
   }
 
@@ -105,6 +107,12 @@ class Direction {
   void look_at_near() {
     for_triangles(bounds_.size(), grain, [&](std::size_t i, Workspace& work) {
       if (a_.triangles()[i].chart != Chart::Area) return;
+      find_candidates(i, work);
+      if (const ChartTriangle* const copy = work.candidates.copy) {
+        bounds_[i] = {0, upper_to_copy(a_.triangles()[i], *copy)};
+        pairs_[i] = 1;
+        return;
+      }
       overlay_near(i, work);
       pairs_[i] = work.overlay.candidates();
       if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision)) bounds_[i] = {0, *upper};
@@ -160,6 +168,7 @@ class Direction {
     }
     for_triangles(triangles.size(), 1, [&](std::size_t k, Workspace& work) {
       if (!is_open(triangles[k])) return;
+      find_candidates(triangles[k], work);
       overlay_near(triangles[k], work);
       found[k] = deviation_by_pieces(work.overlay, work.candidates.others, goal);
       pairs_[triangles[k]] += work.overlay.candidates();
@@ -193,7 +202,9 @@ class Direction {
     DeviationGoal goal = goal_;
     goal.silent = -1;
     Workspace work(units_);
-    overlay_near(static_cast<std::size_t>(worst - bounds_.begin()), work);
+    const auto triangle = static_cast<std::size_t>(worst - bounds_.begin());
+    find_candidates(triangle, work);
+    overlay_near(triangle, work);
     const TriangleDeviation found = deviation_by_pieces(work.overlay, work.candidates.others, goal);
     if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
   }
