@@ -100,7 +100,7 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   for (const std::uint32_t b : indices) {
     if (a.chart != Chart::Area) break;
     const double squared = squared_distance_at_corners(*a.source, *triangles_[b].source);
-    if (squared <= least) least = squared, found.copy = &triangles_[b];
+    if (squared < HUGE_VAL && squared <= least) least = squared, found.copy = &triangles_[b];  // reach^2 may overflow
   }
   const Eigen::AlignedBox3d place = place_of(*a.source);
   for (const std::uint32_t b : indices) {
