@@ -85,7 +85,6 @@ TEST(TextureDeviation, IsTheHeightThatASquareIsRaisedBy) {
   EXPECT_EQ(found.a_to_b.witness->distance, 0.25);
 }
 
-/// The geometry is the same; only where the texture lies on it is not.
 /// Corners in another order, at other heights: those with the same texture coordinates belong together.
 TEST(TextureDeviation, OfACopyIsThatOfItsFarthestCorner) {
   const Corner p{{0, 0, 0}, {0, 0}}, q{{1, 0, 0}, {1, 0}}, r{{0, 1, 0}, {0, 1}};
@@ -101,6 +100,19 @@ TEST(TextureDeviation, OfACopyIsThatOfItsFarthestCorner) {
   expect_value(texture_deviation(a, b, options).bounds, 0.25);
 }
 
+/// Squares of these lengths overflow. No corner of B has a texture coordinate of A.
+TEST(TextureDeviation, OfWhatIsNoCopyIsFoundFarAway) {
+  constexpr double far = 1e200;
+  const TexturedMesh a = numbered({{triangle({{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}})}, {}});
+  const TexturedMesh b =
+      numbered({{triangle({{0, 0, far}, {-1, -1}}, {{4, 0, far}, {3, -1}}, {{0, 4, far}, {-1, 3}})}, {}});
+  TextureDeviationOptions options;
+  options.error_bound = 1e-2 * far;
+  options.tolerance = 0.1 * far;
+  EXPECT_GE(texture_deviation(a, b, options).a_to_b.bounds.upper, far);
+}
+
+/// The geometry is the same; only where the texture lies on it is not.
 TEST(TextureDeviation, SeesATextureThatSlidesOnTheSurface) {
   const auto fan = [](double x) {  // a square around a vertex at x whose coordinate is that of the centre
     const Corner middle{{x, 0.5, 0}, {0.5, 0.5}};
