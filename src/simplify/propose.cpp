@@ -174,11 +174,10 @@ bool Proposer::is_vertex_near(Vec3 point) {
   return found_.empty();
 }
 
-bool Proposer::is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points) {
+void Proposer::look_along(Vec3 point, Vec3 end, const PointsOnEdge& points) {
   const double steps = std::min(std::floor(length(end - point) / (points.spacing * full_limit_)), points.max);
   if (const auto share = samples_.stray_on_edge(point, end, static_cast<int>(steps), limit_))
     found_.push_back({end, *share});
-  return found_.empty();
 }
 
 /// A border that cuts across a bay of the original is far from it, though every sample is near a face; so is an edge
@@ -186,8 +185,8 @@ bool Proposer::is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points) {
 bool Proposer::are_edges_near(Vec3 point) {
   const ArrayMesh& mesh = state_.mesh;
   const PointsOnEdge& on_edges = is_together_ ? points_on_edges_together : points_on_edges;
-  for (const Vec3 end : borders_) (void)is_edge_near(point, end, points_on_borders);
-  for (const Corner c : star_.moved) (void)is_edge_near(point, mesh.position(mesh.end(c)), on_edges);
+  for (const Vec3 end : borders_) look_along(point, end, points_on_borders);
+  for (const Corner c : star_.moved) look_along(point, mesh.position(mesh.end(c)), on_edges);
   return found_.empty();
 }
 

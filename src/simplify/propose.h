@@ -98,7 +98,7 @@ class Proposer {
   [[nodiscard]] bool keeps_appearance(Vec3 point);
   void find_borders();
   [[nodiscard]] bool is_vertex_near(Vec3 point);
-  [[nodiscard]] bool is_edge_near(Vec3 point, Vec3 end, const PointsOnEdge& points);
+  void look_along(Vec3 point, Vec3 end, const PointsOnEdge& points);
   [[nodiscard]] bool are_edges_near(Vec3 point);
   [[nodiscard]] std::optional<Vec3> minimax(Vec3 point);
 

@@ -33,8 +33,8 @@ class StarSamples {
   [[nodiscard]] bool hold(std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
-  /// Of `points` points between that vertex and `end`, in equal steps: the share of the way to the first one that is
-  /// not within `limit` of the original. Absent if all are.
+  /// Looks at `points` points between that vertex and `end`, in equal steps. Returns the share of the way to the first
+  /// one that is not within `limit` of the original; absent if all are.
   [[nodiscard]] std::optional<double> stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit);
   /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
