@@ -107,6 +107,7 @@ void Run::keep_what_has_no_face() {
 /// Runs `work` for the regions of a split side by side.
 void Run::in_regions(Split split, const Work& work) {
   removed_ = 0;
+  if (goal_.progress) goal_.progress(state_.faces);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_.count())
   for (std::size_t r = 0; r < split.regions.size(); ++r) {
     if (error_.has_error()) continue;
