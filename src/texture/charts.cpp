@@ -31,15 +31,16 @@ std::size_t corner_at(const TexturedTriangle& b, const Eigen::Vector2d& coordina
                                   b.coordinates.begin());
 }
 
-/// The largest squared distance between corners with the same texture coordinates; infinite where these differ.
-double squared_distance_at_corners(const TexturedTriangle& a, const TexturedTriangle& b) {
-  double worst = 0;
+/// An upper bound of the largest distance between corners with the same texture coordinates; absent where these differ.
+std::optional<double> upper_at_equal_corners(const TexturedTriangle& a, const TexturedTriangle& b) {
+  std::array<std::size_t, 3> equal{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t k = corner_at(b, a.coordinates[i]);
-    if (k == 3) return HUGE_VAL;
-    worst = std::max(worst, (a.corners[i] - b.corners[k]).squaredNorm());
+    equal[i] = corner_at(b, a.coordinates[i]);
+    if (equal[i] == 3) return std::nullopt;
   }
-  return worst;
+  double upper = 0;
+  for (std::size_t i = 0; i < 3; ++i) upper = std::max(upper, distance_bounds(a.corners[i], b.corners[equal[i]]).upper);
+  return upper;
 }
 
 /// The box of the texture coordinates; the third side keeps materials apart.
@@ -50,15 +51,6 @@ Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
 }
 
 }  // namespace
-
-double upper_to_copy(const ChartTriangle& a, const ChartTriangle& copy) {
-  double upper = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t k = corner_at(*copy.source, a.source->coordinates[i]);
-    upper = std::max(upper, distance_bounds(a.source->corners[i], copy.source->corners[k]).upper);
-  }
-  return upper;
-}
 
 Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
   Eigen::AlignedBox3d box;
@@ -93,20 +85,19 @@ void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vecto
 void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const {
   found.near.clear();
   found.others.clear();
-  found.copy = nullptr;
+  found.copy.reset();
   std::vector<std::uint32_t> indices;
   tree_->find(box_of(*a.source), indices);
-  double least = reach * reach;
   for (const std::uint32_t b : indices) {
     if (a.chart != Chart::Area) break;
-    const double squared = squared_distance_at_corners(*a.source, *triangles_[b].source);
-    if (squared < HUGE_VAL && squared <= least) least = squared, found.copy = &triangles_[b];  // reach^2 may overflow
+    const std::optional<double> upper = upper_at_equal_corners(*a.source, *triangles_[b].source);
+    if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&triangles_[b], *upper};
   }
   const Eigen::AlignedBox3d place = place_of(*a.source);
   for (const std::uint32_t b : indices) {
-    const bool is_near = found.copy != nullptr ? found.copy == &triangles_[b]
-                                               : places_[b].squaredExteriorDistance(place) <= reach * reach &&
-                                                     seem_to_share_area(a, triangles_[b]);
+    const bool is_near =
+        found.copy ? found.copy->triangle == &triangles_[b]
+                   : places_[b].squaredExteriorDistance(place) <= reach * reach && seem_to_share_area(a, triangles_[b]);
     (is_near ? found.near : found.others).push_back(&triangles_[b]);
   }
 }

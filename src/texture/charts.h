@@ -16,19 +16,22 @@ namespace meshbound {
 /// The box of a triangle in space.
 [[nodiscard]] Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle);
 
+/// A triangle whose corners have the texture coordinates of the corners of A, which has an area in the texture.
+struct ChartCopy {
+  const ChartTriangle* triangle = nullptr;
+  /// An upper bound of the texture deviation of A: of the distances between corners with the same texture coordinates,
+  /// as the length of an offset that is linear over a triangle is largest at a corner.
+  double upper = 0;
+};
+
 /// Triangles that may have texture coordinates of a triangle.
 struct ChartCandidates {
   /// Those that seem to share more than an edge with it in the texture and to be within reach of it in space. Rounding
   /// decides about some. If there is a `copy`, only this one.
   std::vector<const ChartTriangle*> near;
   std::vector<const ChartTriangle*> others;
-  /// The nearest one within reach with the same texture coordinates at the corners; null: there is none.
-  const ChartTriangle* copy = nullptr;
+  std::optional<ChartCopy> copy;  ///< the nearest one, if one is within reach
 };
-
-/// An upper bound of the texture deviation from a triangle with an area in the texture to a copy: between corners with
-/// the same texture coordinates, as the length of an offset that is linear over a triangle is largest at a corner.
-[[nodiscard]] double upper_to_copy(const ChartTriangle& a, const ChartTriangle& copy);
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
 class Charts {

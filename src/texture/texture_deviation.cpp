@@ -108,8 +108,8 @@ class Direction {
     for_triangles(bounds_.size(), grain, [&](std::size_t i, Workspace& work) {
       if (a_.triangles()[i].chart != Chart::Area) return;
       find_candidates(i, work);
-      if (const ChartTriangle* const copy = work.candidates.copy) {
-        bounds_[i] = {0, upper_to_copy(a_.triangles()[i], *copy)};
+      if (const auto& copy = work.candidates.copy) {
+        bounds_[i] = {0, copy->upper};
         pairs_[i] = 1;
         return;
       }
