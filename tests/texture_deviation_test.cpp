@@ -100,6 +100,17 @@ TEST(TextureDeviation, OfACopyIsThatOfItsFarthestCorner) {
   expect_value(texture_deviation(a, b, options).bounds, 0.25);
 }
 
+/// The second triangle of B has corners where the first two of A's second have theirs, but its third corner shows
+/// another part of the texture; elsewhere the deviation is 0.25, so that less would not be looked at closely.
+TEST(TextureDeviation, OfATriangleThatSharesTwoCornersIsNotThatOfACopy) {
+  const auto shown_at = [](double z, double u, double v) {
+    return triangle({{0, 0, z}, {u, 0}}, {{1, 0, z}, {u + 1, 0}}, {{0, 1, z}, {u, v}});
+  };
+  const TexturedMesh a = numbered({{shown_at(0, 5, 1), shown_at(0, 0, 1)}, {}});
+  const TexturedMesh b = numbered({{shown_at(0.25, 5, 1), shown_at(0, 0, 2)}, {}});
+  expect_value(measured(a, b).a_to_b.bounds, 0.5);  // from (0, 1, 0) to (0, 0.5, 0)
+}
+
 /// Squares of these lengths overflow. No corner of B has a texture coordinate of A.
 TEST(TextureDeviation, OfWhatIsNoCopyIsFoundFarAway) {
   constexpr double far = 1e200;
