@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -140,6 +141,47 @@ std::vector<std::string> violations(const fs::path& root) {
   return found;
 }
 
+/// The name after "namespace" where a line opens one, "-" for one without a name; empty for other lines.
+std::string opened_namespace(const std::string& line) {
+  if (!line.ends_with('{') || (!starts_with(line, "namespace ") && !starts_with(line, "inline namespace "))) return {};
+  const std::size_t begin = line.find("namespace ") + 10;
+  const std::string name = line.substr(begin, line.find_first_of(" {", begin) - begin);
+  return name.empty() ? "-" : name;
+}
+
+/// The name of the type whose definition begins at the start of a line; empty for other lines.
+std::string defined_type(const std::string& line) {
+  for (const std::string_view keyword : {"struct ", "class ", "enum class "}) {
+    if (!starts_with(line, keyword) || line.find('{') == std::string::npos) continue;
+    const std::size_t begin = starts_with(line, "struct alignas(") ? line.find(") ") + 2 : keyword.size();
+    return line.substr(begin, line.find_first_of(" {", begin) - begin);
+  }
+  return {};
+}
+
+/// Types of the library with a definition in more than one file. The linker takes the functions of either one for both,
+/// without a word, unless they stand in namespaces without a name.
+std::vector<std::string> types_defined_twice(const fs::path& root) {
+  std::map<std::string, std::set<std::string>> files_of_type;
+  for (const SourceFile& file : sources(root)) {
+    if (!starts_with(file.path, "src/") && !starts_with(file.path, "include/")) continue;
+    std::vector<std::string> namespaces;
+    for (const std::string& line : file.lines) {
+      const std::string opened = opened_namespace(line), type = defined_type(line);
+      if (!opened.empty()) namespaces.push_back(opened);
+      if (starts_with(line, "}  // namespace") && !namespaces.empty()) namespaces.pop_back();
+      if (type.empty() || std::count(namespaces.begin(), namespaces.end(), "-") > 0) continue;
+      std::string scope;
+      for (const std::string& name : namespaces) scope += name + "::";
+      files_of_type[scope + type].insert(file.path);
+    }
+  }
+  std::vector<std::string> found;
+  for (const auto& [type, files] : files_of_type)
+    if (files.size() > 1) found.push_back(type + ": defined in " + *files.begin() + " and " + *files.rbegin());
+  return found;
+}
+
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + '\n';
@@ -167,6 +209,8 @@ TEST(SourceTree, FollowsItsOwnRules) {
   ASSERT_GT(sources(MESHBOUND_SOURCE_DIR).size(), 10U) << "the source tree was not found";
   EXPECT_EQ(joined(violations(MESHBOUND_SOURCE_DIR)), "");
 }
+
+TEST(SourceTree, DefinesEveryTypeOnce) { EXPECT_EQ(joined(types_defined_twice(MESHBOUND_SOURCE_DIR)), ""); }
 
 TEST(SourceTree, UmbrellaHeaderNamesEveryPublicHeaderOfTheCore) {
   const fs::path folder = fs::path(MESHBOUND_SOURCE_DIR) / "include/meshbound";
@@ -250,6 +294,17 @@ TEST_F(Layering, RefusesABindingThatNeedsAPrivateHeader) {
   EXPECT_EQ(joined(violations(root_)), "");
   write("bindings/c/src/b.cpp", "#include \"bvh/tree.h\"");
   EXPECT_EQ(violations(root_).size(), 1U);
+}
+
+TEST_F(Layering, RefusesTypesOfOneName) {
+  write("src/mesh/a.h", "namespace meshbound {\nstruct Chart;\nstruct Chart {\n};\n}  // namespace meshbound");
+  write("src/mesh/a.cpp",
+        "namespace meshbound {\nnamespace {\nclass Chart {\n};\n}  // namespace\n}  // namespace meshbound");
+  write("src/bvh/b.h", "namespace meshbound::other {\nclass Chart final {\n};\n}  // namespace meshbound::other");
+  EXPECT_EQ(joined(types_defined_twice(root_)), "");
+  write("src/bvh/c.cpp",
+        "namespace meshbound {\nnamespace {\n}  // namespace\nclass Chart : Base {\n};\n}  // namespace meshbound");
+  EXPECT_EQ(joined(types_defined_twice(root_)), "meshbound::Chart: defined in src/bvh/c.cpp and src/mesh/a.h\n");
 }
 
 TEST_F(Layering, RefusesAFileWithoutALicence) {

@@ -40,7 +40,7 @@ class ChartSurface {
   [[nodiscard]] TriangleMesh mesh_of(const std::vector<std::uint32_t>& triangles) const;
 
   const TriangleMesh& mesh_;
-  Charts charts_;
+  ChartPartition charts_;
   std::vector<Vec3> positions_;
   std::optional<PositionTable> at_position_;
   std::vector<std::vector<std::uint32_t>> corners_at_;    ///< by first vertex at a position

@@ -96,7 +96,7 @@ void check_sizes(const MeshAttributes& attributes, std::size_t triangles) {
 }
 
 /// Numbers the charts: triangles connected across edges that are no seams.
-void number_charts(Charts& charts) {
+void number_charts(ChartPartition& charts) {
   const std::size_t triangles = charts.neighbours.size();
   charts.chart_of.assign(triangles, no_index);
   std::vector<std::uint32_t> open;
@@ -120,10 +120,10 @@ void number_charts(Charts& charts) {
 
 }  // namespace
 
-Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes, NormalSeams normal_seams) {
+ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes, NormalSeams normal_seams) {
   const std::size_t triangles = mesh.triangles.size();
   check_sizes(attributes, triangles);
-  Charts result;
+  ChartPartition result;
   const std::vector<Vec3> positions = positions_of(mesh);
   result.first = first_at_position(positions);
   result.neighbours = edge_neighbours(positions, mesh.triangles);
@@ -142,7 +142,7 @@ Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes, Normal
 }
 
 std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes) {
-  const Charts all = charts(mesh, attributes);
+  const ChartPartition all = charts(mesh, attributes);
   std::vector<Edge> edges;
   const bool has_borders = has_chart_borders(attributes);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

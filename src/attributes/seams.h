@@ -9,7 +9,7 @@
 namespace meshbound {
 
 /// The charts of a mesh: sets of triangles connected without crossing a seam.
-struct Charts {
+struct ChartPartition {
   std::vector<std::uint32_t> chart_of;  ///< by triangle
   std::uint32_t count = 0;
   std::vector<std::array<std::uint32_t, 3>> neighbours;  ///< by triangle and edge: across it, `no_index` at borders
@@ -21,7 +21,7 @@ struct Charts {
 enum class NormalSeams : bool { Ignored, Counted };
 
 /// Throws `InvalidInput` if the attributes are for another number of triangles. O(n log n).
-[[nodiscard]] Charts charts(const TriangleMesh& mesh, const MeshAttributes& attributes,
+[[nodiscard]] ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes,
                             NormalSeams normal_seams = NormalSeams::Ignored);
 
 }  // namespace meshbound

@@ -45,7 +45,7 @@ SearchMemory inherited_by_original(const SearchMemory& memory, const Successors&
   result.proofs.resize(memory.proofs.size());
   std::vector<std::uint32_t> used;
   for (std::uint32_t s = 0; s < memory.proofs.size(); ++s) {
-    const Proof& proof = memory.proofs[s];
+    const TriangleProof& proof = memory.proofs[s];
     const std::uint32_t* const faces = proof.count == 1 ? &proof.at : memory.faces.data() + proof.at;
     used.clear();
     for (std::uint32_t i = 0; i < proof.count && next.slot[faces[i]] != no_slot; ++i)

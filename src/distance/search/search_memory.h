@@ -30,7 +30,7 @@ struct FoundCovers {
 
 /// No point of a triangle of A is further than `bound` from the union of some triangles of B. True for as long as those
 /// stay where they are, whatever becomes of the rest of B.
-struct Proof {
+struct TriangleProof {
   double bound = std::numeric_limits<double>::infinity();  ///< model units, rounding included
   std::uint32_t count = 0;                                 ///< of those triangles
   std::uint32_t at = 0;  ///< the slot of the only one, or where their slots begin in `SearchMemory::faces`
@@ -47,11 +47,11 @@ struct StartPoint {
 struct SearchMemory {
   bool rigid = false;  ///< true: only the poses of both models change, so a front is kept instead of proofs
   NodeFront front;
-  bool names_faces = true;           ///< false: B never changes, so proofs need not say what they rest on
-  std::vector<Proof> proofs;         ///< by A's slot
-  std::vector<std::uint32_t> faces;  ///< slots of B
-  std::vector<std::uint32_t> hints;  ///< by A's vertex: a slot of B near it, or `no_slot`
-  std::optional<StartPoint> start;   ///< the furthest point found
+  bool names_faces = true;            ///< false: B never changes, so proofs need not say what they rest on
+  std::vector<TriangleProof> proofs;  ///< by A's slot
+  std::vector<std::uint32_t> faces;   ///< slots of B
+  std::vector<std::uint32_t> hints;   ///< by A's vertex: a slot of B near it, or `no_slot`
+  std::optional<StartPoint> start;    ///< the furthest point found
 
   /// Without proofs and without a front, for a model A of that size. `rigid` stays as it is.
   void reset(const Bvh::Data& a);
