@@ -22,12 +22,13 @@ bool ChangeProver::prove(const Split& split, Region& region) {
   const auto is_near_original = [&](const EditLog::Stamp& stamp) { return is_near(stamp.face); };
   if (is_covered && std::all_of(stamps.begin(), stamps.end(), is_near_original)) return true;
   ++unproven;
-  lost_point_ = is_covered ? std::nullopt : worker.lost_point();
   undo_last(state_, region);
   return false;
 }
 
 bool ChangeProver::met_seam() const { return workers_.of_thread(thread_).meets_seam(); }
+
+const std::optional<Vec3>& ChangeProver::lost_point() const { return workers_.of_thread(thread_).lost_point(); }
 
 void ChangeProver::accept(Region& region) {
   ++proven;

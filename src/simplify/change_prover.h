@@ -25,7 +25,7 @@ class ChangeProver {
   /// Whether the last change failed, but might have been proven with the help of faces of other regions.
   [[nodiscard]] bool met_seam() const;
   /// Why the last change failed, if it left a point of the original too far from the faces: that point.
-  [[nodiscard]] const std::optional<Vec3>& lost_point() const { return lost_point_; }
+  [[nodiscard]] const std::optional<Vec3>& lost_point() const;
   void accept(Region& region);
   /// Proves all unproven changes of the region together; they must lie around one place. False if that fails: they are
   /// then still unproven.
@@ -40,7 +40,6 @@ class ChangeProver {
   ProofWorkers& workers_;
   std::size_t thread_;
   std::vector<std::uint32_t> changed_;  ///< faces changed by a group
-  std::optional<Vec3> lost_point_;
 };
 
 }  // namespace meshbound

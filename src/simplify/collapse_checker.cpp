@@ -200,10 +200,8 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
   }
   if (state_.limit > 0) {
     std::optional<Vec3> point = proposer_.placement(edge, 1, point_in_frame(wanted));
-    for (int proofs = 1; point; ++proofs) {
+    for (; point; point = proposer_.next_placement(prover_.lost_point(), *point))
       if (prove(*point, question)) return admitted_->point;
-      point = proofs < Proposer::max_proofs ? proposer_.placement_near(prover_.lost_point(), *point) : std::nullopt;
-    }
   }
   refused_at = region().clock + 1;
   refused_ = question;

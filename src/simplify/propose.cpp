@@ -19,6 +19,9 @@ namespace {
 /// of many collapses is still to come.
 constexpr int max_minimax_steps = 4, max_minimax_steps_together = 2;
 
+/// Placements of one edge that are worth a proof. With 8 there are 0.04% fewer faces, with 2 there are 0.5% more.
+constexpr int max_proofs = 4;
+
 /// For most edges so many samples show that no placement fits.
 constexpr std::size_t few_samples = 24;
 
@@ -263,6 +266,7 @@ void Proposer::begin_star(double share) {
         GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
   full_limit_ = limit_around() * internal::sample_fault;
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
+  proofs_failed_ = 0;
   gathered_ = false;
   strays_.clear();
   placed_.reset();
@@ -270,8 +274,8 @@ void Proposer::begin_star(double share) {
   is_together_ = share < 1;
 }
 
-std::optional<Vec3> Proposer::placement_near(const std::optional<Vec3>& lost_point, Vec3 refuted) {
-  if (!moves_ || !lost_point) return std::nullopt;
+std::optional<Vec3> Proposer::next_placement(const std::optional<Vec3>& lost_point, Vec3 refuted) {
+  if (++proofs_failed_ == max_proofs || !moves_ || !lost_point) return std::nullopt;
   samples_.add_point(*lost_point);
   samples_.compare(faces_);
   return minimax(refuted);

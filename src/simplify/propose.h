@@ -60,10 +60,9 @@ class Proposer {
   /// How far samples were from the best placement of the edge refused last, in tolerances; 0 where that is not known.
   [[nodiscard]] float deviation() const { return deviation_; }
   /// Another placement for the edge asked for last, as the proof of the collapse to `refuted` has found that it leaves
-  /// this point of the original too far from the faces. Absent where there is no such point, or no such placement.
-  [[nodiscard]] std::optional<Vec3> placement_near(const std::optional<Vec3>& lost_point, Vec3 refuted);
-  /// Placements of one edge that are worth a proof. With 8 there are 0.04% fewer faces, with 2 there are 0.5% more.
-  static constexpr int max_proofs = 4;
+  /// this point of the original too far from the faces. Absent where there is no such point or no such placement, or
+  /// where enough have been refuted.
+  [[nodiscard]] std::optional<Vec3> next_placement(const std::optional<Vec3>& lost_point, Vec3 refuted);
   /// Makes the collapse found last.
   void collapse(Region& region, Vec3 point);
   /// Assigns the samples to the faces that this collapse leaves, once it is final.
@@ -115,6 +114,7 @@ class Proposer {
   double limit_ = 0, full_limit_ = 0;  ///< what samples may reach, and all of the tolerance
   bool is_together_ = false;           ///< proofs are still to come
   bool moves_ = false;                 ///< the vertex may stand anywhere
+  int proofs_failed_ = 0;              ///< of collapses of this edge
   bool gathered_ = false;              ///< samples of the star are in `samples_`
   std::optional<Vec3> placed_;         ///< where the vertex is in `faces_`
   std::vector<Stray> found_;           ///< points too far from the original that `fits` found last

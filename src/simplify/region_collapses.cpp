@@ -56,10 +56,8 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   std::optional<Vec3> point = proposer_.placement(edge, limits_.share, wanted);
   const bool point_found = point.has_value();
   if (point_found) list_edges();
-  for (int proofs = 1; point; ++proofs) {
+  for (; point; point = proposer_.next_placement(prover_->lost_point(), *point))
     if (make(*point)) return true;
-    point = proofs < Proposer::max_proofs ? proposer_.placement_near(prover_->lost_point(), *point) : std::nullopt;
-  }
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
   state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
