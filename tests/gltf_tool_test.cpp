@@ -2,8 +2,11 @@
 // The tools with glTF through their command lines: scenes in, scenes out, and what Khronos' validator says of them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "gltf_file.h"
@@ -227,6 +230,69 @@ TEST_F(GltfTool, WritesAllLevelsIntoOneFileAndATileset) {
             2);
 }
 
+/// The numbers of a vertex of a triangle: position, texture coordinate, normal and all named attributes.
+std::vector<double> values_at(const MeshFile& file, std::size_t triangle, std::size_t corner) {
+  std::vector<double> values;
+  const Eigen::Vector3d& p = file.mesh.vertices[file.mesh.triangles[triangle][corner]];
+  values.insert(values.end(), p.begin(), p.end());
+  for (const CornerAttribute* attribute : {&file.attributes.texture_coordinates, &file.attributes.normals}) {
+    const Eigen::Vector3d& value = attribute->values[attribute->index[triangle][corner]];
+    values.insert(values.end(), value.begin(), value.end());
+  }
+  for (const NamedAttribute& named : file.attributes.named) {
+    const auto first = named.values.begin() + static_cast<std::ptrdiff_t>(named.index[triangle][corner] * named.width);
+    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(named.width));
+  }
+  return values;
+}
+
+/// By triangle, in their order: what `values_at` has of the corners.
+std::vector<std::array<std::vector<double>, 3>> triangles_of(const std::string& path) {
+  ReadOptions options;
+  options.attributes = true;
+  const MeshFile file = read_mesh(path, options);
+  std::vector<std::array<std::vector<double>, 3>> triangles;
+  for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t)
+    triangles.push_back({values_at(file, t, 0), values_at(file, t, 1), values_at(file, t, 2)});
+  return triangles;
+}
+
+/// Normals differ from vertex to vertex, and along the line between the halves of the sheet from one side to the other.
+TEST_F(GltfTool, SharesTheVerticesOfTheOriginalAmongLevelsOfASubset) {
+  GltfFile scene = sheets(24);
+  scene.json["scenes"][0]["nodes"] = {0, 2};
+  std::vector<float> normals;
+  for (std::size_t v = 0; v < 25 * 25; ++v)
+    for (std::size_t k = 0; k < 3; ++k) normals.push_back(v % 3 == k ? 1 : 0);
+  scene.json["meshes"][0]["primitives"][1]["attributes"]["NORMAL"] = scene.add_floats(normals, 3);
+  scene.write(in("in.glb"));
+  ASSERT_EQ(run_tool(LOD_CHAIN, {in("in.glb"), in("lods"), "--levels", "0.005,0.02,0.08", "--format", "glb", "--glb",
+                                 in("all.glb"), "--placement", "subset"})
+                .exit_code,
+            0);
+  std::set<std::vector<double>> of_original;
+  for (const auto& triangle : triangles_of(in("in.glb"))) of_original.insert(triangle.begin(), triangle.end());
+  const test::GlbContent all = test::glb_content(content_of(in("all.glb")));
+  ASSERT_EQ(all.json["meshes"].size(), 3U);
+  const GltfJson& shared = all.json["meshes"][0]["primitives"][0]["attributes"];
+  for (std::size_t level = 0; level < 3; ++level) {
+    for (const GltfJson& primitive : all.json["meshes"][level]["primitives"])
+      EXPECT_EQ(primitive["attributes"], shared);
+    // The level alone, as its own file has it.
+    GltfFile alone{all.json, all.bytes};
+    alone.json["nodes"][0]["mesh"] = level;
+    alone.write(in("level.glb"));
+    const auto triangles = triangles_of(in("level.glb"));
+    EXPECT_EQ(triangles, triangles_of(in("lods/lod_" + std::to_string(level) + ".glb")));
+    for (const auto& triangle : triangles)
+      for (const std::vector<double>& vertex : triangle) EXPECT_TRUE(of_original.contains(vertex));
+  }
+  // Each once: what the finest level has, and normals that only a coarser one needs.
+  const std::size_t stored = all.json["accessors"][shared["POSITION"].get<std::size_t>()]["count"];
+  EXPECT_LE(stored, of_original.size());
+  EXPECT_LT(content_of(in("all.glb")).size(), content_of(in("lods/lod_0.glb")).size() * 3 / 2);
+}
+
 TEST_F(GltfTool, PassesTheValidator) {
   ASSERT_EQ(simplify("in.glb", "out.glb").exit_code, 0);
   ASSERT_EQ(simplify("out.glb", "out.gltf").exit_code, 0);
@@ -237,8 +303,12 @@ TEST_F(GltfTool, PassesTheValidator) {
                      {in("in.glb"), in("lods"), "--levels", "0.01,0.05", "--format", "glb", "--glb", in("all.glb")})
                 .exit_code,
             0);
-  const auto errors =
-      test::gltf_errors({in("in.glb"), in("out.glb"), in("out.gltf"), in("new.glb"), in("bare.glb"), in("all.glb")});
+  ASSERT_EQ(run_tool(LOD_CHAIN, {in("in.glb"), in("lods"), "--levels", "0.01,0.05", "--format", "glb", "--placement",
+                                 "subset", "--glb", in("shared.glb")})
+                .exit_code,
+            0);
+  const auto errors = test::gltf_errors(
+      {in("in.glb"), in("out.glb"), in("out.gltf"), in("new.glb"), in("bare.glb"), in("all.glb"), in("shared.glb")});
   if (!errors) GTEST_SKIP() << "node or the validator of glTF is not on this machine: datasets/fetch brings the latter";
   EXPECT_EQ(*errors, "0 errors\n");
 }

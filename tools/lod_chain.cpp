@@ -334,7 +334,8 @@ void Run::publish() {
   const std::vector<std::filesystem::path> stale = stale_files();
   if (one_file_) {
     const PixelError limit{report_.view ? report_.view->pixels : 1, screen_height()};
-    write_levels(*one_file_, outputs_, original_, attributes_, limit);
+    const auto vertices = options_.placement == "subset" ? LevelVertices::Shared : LevelVertices::Apart;
+    write_levels(*one_file_, outputs_, original_, attributes_, limit, vertices);
     one_file_->complete();
   }
   const UninterruptedScope together;

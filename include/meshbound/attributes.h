@@ -88,8 +88,10 @@ struct MeshAttributes {
 /// its values on each side of the line are those of the original on this side. Any other vertex takes the values that
 /// the original has at the closest point of the same chart, where a chart is what hangs together without crossing a
 /// seam. Normals are taken at the closest point of the chart for each corner, a little inside its triangle, so that
-/// sharp edges stay sharp; corners around a vertex share their mean where they are nearly alike. Values are a guide for
-/// the eye: nothing is proven of them.
+/// sharp edges stay sharp; corners around a vertex share their mean where they are nearly alike. Where every vertex of
+/// the level stands at its source, as with `CollapsePlacements::Subset`, each corner takes all its values from one
+/// corner of the original, so that levels can share a vertex buffer. Values are a guide for the eye: nothing is proven
+/// of them.
 ///
 /// Throws `InvalidInput` as `seams`. O(n log n).
 [[nodiscard]] MeshAttributes transferred_attributes(const TriangleMesh& original, const MeshAttributes& attributes,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "attributes/chart_surface.h"
 #include "attributes/sectors.h"
+#include "mesh/first_use.h"
 #include "meshbound/simplify.h"
 
 namespace meshbound {
@@ -64,6 +66,16 @@ Eigen::Vector3d direction(const std::array<Eigen::Vector3d, 3>& corners) {
   return u.cross((corners[2] - corners[0]).stableNormalized()).stableNormalized();
 }
 
+/// Whether every vertex of a level is known to stand where its source does, but for the rounding to floats.
+bool stands_on_vertices(const TriangleMesh& original, const SimplifiedLevel& level) {
+  if (level.source_vertex.size() != level.mesh.vertices.size()) return false;
+  for (std::size_t v = 0; v < level.mesh.vertices.size(); ++v) {
+    const Eigen::Vector3d &p = level.mesh.vertices[v], &source = original.vertices[level.source_vertex[v]];
+    if (p != source && p != source.cast<float>().cast<double>()) return false;
+  }
+  return true;
+}
+
 class Transfer {
  public:
   Transfer(const TriangleMesh& mesh, const MeshAttributes& attributes, const SimplifiedLevel& level)
@@ -71,6 +83,7 @@ class Transfer {
         original_(mesh, attributes),
         from_(attributes),
         level_(level),
+        keeps_vertices_(stands_on_vertices(mesh, level)),
         on_line_(level.mesh.vertices.size(), 0) {
     for (const Edge& edge : level.lines)
       for (const std::uint32_t v : edge) on_line_[v] = 1;
@@ -100,9 +113,10 @@ class Transfer {
     return {from.names, by_source_triangle(from.index)};
   }
 
-  [[nodiscard]] Eigen::Vector3d position(std::uint32_t corner) const {
-    return level_.mesh.vertices[level_.mesh.triangles[corner / 3][corner % 3]];
+  [[nodiscard]] std::uint32_t vertex(std::uint32_t corner) const {
+    return level_.mesh.triangles[corner / 3][corner % 3];
   }
+  [[nodiscard]] Eigen::Vector3d position(std::uint32_t corner) const { return level_.mesh.vertices[vertex(corner)]; }
   [[nodiscard]] Eigen::Vector3d point_inside(std::uint32_t corner, double share) const {
     const Triangle& t = level_.mesh.triangles[corner / 3];
     const auto& v = level_.mesh.vertices;
@@ -151,29 +165,34 @@ class Transfer {
 
   WeightedPoint point_of_sector(const std::vector<std::uint32_t>& corners) {
     const std::uint32_t c = corners.front();
-    if (on_line_[level_.mesh.triangles[c / 3][c % 3]] != 0) {
-      if (const auto point = point_on_line(corners)) return *point;
+    if (keeps_vertices_ || on_line_[vertex(c)] != 0) {
+      if (const auto of_original = corner_of_original(corners))
+        return {*of_original / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(*of_original % 3))};
     }
     return original_.closest(chart(c), position(c));
   }
 
+  /// The corners of the original where a corner stands.
+  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(std::uint32_t corner) const {
+    return original_.corners_at(keeps_vertices_ ? original_mesh_.vertices[level_.source_vertex[vertex(corner)]]
+                                                : position(corner));
+  }
+
   /// Among the corners of the original at the position, in the same chart, the one whose triangle is nearest to the
-  /// sector. All of them have equal values unless the chart touches itself along the line.
-  std::optional<WeightedPoint> point_on_line(const std::vector<std::uint32_t>& corners) const {
+  /// sector. All of them have equal values unless the chart touches itself along a line.
+  [[nodiscard]] std::optional<std::uint32_t> corner_of_original(const std::vector<std::uint32_t>& corners) const {
     const Eigen::Vector3d p = position(corners.front());
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
     for (const std::uint32_t c : corners) way += (point_inside(c, 1) - p).stableNormalized();
     double best = -HUGE_VAL;
-    std::optional<WeightedPoint> point;
-    for (const std::uint32_t c : original_.corners_at(p)) {
+    std::optional<std::uint32_t> found;
+    for (const std::uint32_t c : corners_at(corners.front())) {
       if (original_.chart_of(c / 3) != chart(corners.front())) continue;
       const auto t = original_.corners(c / 3);
       const double alike = ((t[0] + t[1] + t[2]) / 3 - p).stableNormalized().dot(way);
-      if (!(alike > best)) continue;
-      best = alike;
-      point = WeightedPoint{c / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(c % 3))};
+      if (alike > best) best = alike, found = c;
     }
-    return point;
+    return found;
   }
 
   [[nodiscard]] Eigen::Vector3d normal_at(const WeightedPoint& at) const {
@@ -214,6 +233,10 @@ class Transfer {
     ChartSurface smooth(original_mesh_, from_, NormalSeams::Counted);
     std::vector<Eigen::Vector3d> by_corner;
     for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) by_corner.push_back(normal_of(c, smooth));
+    return keeps_vertices_ ? normals_of_vertices(by_corner) : shared_means(by_corner);
+  }
+
+  [[nodiscard]] CornerAttribute shared_means(const std::vector<Eigen::Vector3d>& by_corner) const {
     CornerAttribute result;
     result.index = no_values();
     const auto is_smooth = [&](std::uint32_t i, std::uint32_t j) {
@@ -229,10 +252,62 @@ class Transfer {
     return result;
   }
 
+  /// For each corner, the normal most like the given one among the corners of the original at its vertex that have the
+  /// other values of its sector.
+  [[nodiscard]] CornerAttribute normals_of_vertices(const std::vector<Eigen::Vector3d>& by_corner) const {
+    CornerAttribute result;
+    result.index = no_values();
+    FirstUse number_of(from_.normals.values.size());
+    for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
+      const auto of_original = corner_of_original(corners);
+      if (!of_original) continue;
+      for (const std::uint32_t c : corners) {
+        const std::uint32_t normal = normal_most_like(by_corner[c], *of_original, corners_at(c));
+        if (normal != none) result.index[c / 3][c % 3] = number_of(normal);
+      }
+    }
+    for (const std::uint32_t normal : number_of.used()) result.values.push_back(from_.normals.values[normal]);
+    return result;
+  }
+
+  /// The index of a normal of `candidates`, corners of the original that have all other values of `corner`; `none`
+  /// where these have no normal.
+  [[nodiscard]] std::uint32_t normal_most_like(const Eigen::Vector3d& given, std::uint32_t corner,
+                                               const std::vector<std::uint32_t>& candidates) const {
+    double best = -HUGE_VAL;
+    std::uint32_t found = none;
+    for (const std::uint32_t c : candidates) {
+      const std::uint32_t normal = from_.normals.index[c / 3][c % 3];
+      if (normal == none || !has_equal_values(corner, c)) continue;
+      const double alike = given.dot(from_.normals.values[normal]);
+      if (alike > best) best = alike, found = normal;
+    }
+    return found;
+  }
+
+  /// Whether two corners of the original have the same chart, texture coordinates and named attributes.
+  [[nodiscard]] bool has_equal_values(std::uint32_t a, std::uint32_t b) const {
+    const auto is_equal = [&](const std::vector<Triangle>& index, const auto& value) {
+      if (index.empty()) return true;
+      const std::uint32_t i = index[a / 3][a % 3], j = index[b / 3][b % 3];
+      return i == j || (i != none && j != none && value(i) == value(j));
+    };
+    return original_.chart_of(a / 3) == original_.chart_of(b / 3) &&
+           is_equal(from_.texture_coordinates.index,
+                    [&](std::size_t i) { return from_.texture_coordinates.values[i]; }) &&
+           std::all_of(from_.named.begin(), from_.named.end(), [&](const NamedAttribute& named) {
+             return is_equal(named.index, [&](std::size_t i) {
+               return Eigen::Map<const Eigen::VectorXd>(named.values.data() + i * named.width,
+                                                        static_cast<Eigen::Index>(named.width));
+             });
+           });
+  }
+
   const TriangleMesh& original_mesh_;
   ChartSurface original_;
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
+  bool keeps_vertices_;                ///< every vertex of the level is one of the original
   std::vector<std::uint8_t> on_line_;  ///< by vertex
 };
 

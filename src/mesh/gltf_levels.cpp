@@ -6,78 +6,163 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
+
+#include "mesh/gltf_attributes.h"
+#include "mesh/gltf_buffer.h"
+#include "mesh/gltf_references.h"
 
 namespace meshbound {
 namespace {
 
-constexpr std::size_t alignment = 4;  // bytes: of every buffer view
+constexpr int mode_triangles = 4;  // of a primitive
 
-class LevelMerger {
+/// The properties of the vertices of a primitive by name, as `visit_properties` has them.
+using Properties = std::map<std::string, const GltfAccessor*>;
+
+/// Vertices with properties that are stored alike, each once.
+class VertexTable {
  public:
-  explicit LevelMerger(const GltfContent& finest) : result_(finest) {}
-
-  /// Copies a mesh of a level into the result and returns its number there.
-  std::size_t mesh(const GltfContent& level, std::size_t number) {
-    GltfJson mesh = level.json["meshes"][number];
-    for (GltfJson& primitive : mesh["primitives"]) {
-      if (primitive.contains("indices")) primitive["indices"] = accessor(level, primitive["indices"]);
-      take_accessors(level, primitive["attributes"]);
-      if (primitive.contains("targets"))
-        for (GltfJson& target : primitive["targets"]) take_accessors(level, target);
+  /// Adds vertices and returns their numbers in the table.
+  std::vector<std::uint32_t> add(const Properties& properties) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t v = 0; v < properties.begin()->second->count; ++v) {
+      std::string vertex;
+      for (const auto& [name, property] : properties)
+        vertex.append(reinterpret_cast<const char*>(element(*property, v)), property->numbers.width * sizeof(double));
+      const auto [at, is_new] = number_of_.try_emplace(std::move(vertex), static_cast<std::uint32_t>(size()));
+      numbers.push_back(at->second);
+      if (is_new) append(properties, v);
     }
-    result_.json["meshes"].push_back(std::move(mesh));
-    return result_.json["meshes"].size() - 1;
+    return numbers;
   }
 
-  std::size_t add_node(GltfJson node) {
-    result_.json["nodes"].push_back(std::move(node));
-    return result_.json["nodes"].size() - 1;
+  [[nodiscard]] std::size_t size() const { return number_of_.size(); }
+
+  void write(GltfBuffer& buffer) {
+    for (const auto& [name, column] : columns_)
+      accessor_of_[name] =
+          buffer.add_accessor(column.numbers, column.values, name == "POSITION" || name.ends_with("/POSITION"));
   }
 
-  GltfJson& json() { return result_.json; }
-
-  GltfContent finish() {
-    GltfJson& used = result_.json["extensionsUsed"];
-    if (std::find(used.begin(), used.end(), "MSFT_lod") == used.end()) used.push_back("MSFT_lod");
-    result_.bytes.resize((result_.bytes.size() + alignment - 1) / alignment * alignment);
-    result_.json["buffers"][0]["byteLength"] = result_.bytes.size();
-    return std::move(result_);
+  /// Makes the vertices those of a primitive, after `write`.
+  void show_in(GltfJson& primitive) const {
+    for (auto& item : primitive["attributes"].items()) item.value() = accessor_of_.at(item.key());
+    if (!primitive.contains("targets")) return;
+    for (std::size_t k = 0; k < primitive["targets"].size(); ++k)
+      for (auto& item : primitive["targets"][k].items()) item.value() = accessor_of_.at(target_name(k, item.key()));
   }
 
  private:
-  void take_accessors(const GltfContent& level, GltfJson& properties) {
-    for (auto& item : properties.items()) item.value() = accessor(level, item.value());
+  static const double* element(const GltfAccessor& property, std::size_t vertex) {
+    return property.values.data() + vertex * property.numbers.width;
   }
 
-  std::size_t accessor(const GltfContent& level, const GltfJson& number) {
-    const auto [at, is_new] = accessors_.try_emplace({&level, number.get<std::size_t>()}, 0);
-    if (!is_new) return at->second;
-    GltfJson copy = level.json["accessors"][at->first.second];
-    if (copy.contains("bufferView")) copy["bufferView"] = view(level, copy["bufferView"]);
-    if (copy.contains("sparse"))
-      for (const char* const part : {"indices", "values"})
-        copy["sparse"][part]["bufferView"] = view(level, copy["sparse"][part]["bufferView"]);
-    result_.json["accessors"].push_back(std::move(copy));
-    return at->second = result_.json["accessors"].size() - 1;
+  void append(const Properties& properties, std::size_t vertex) {
+    for (const auto& [name, property] : properties) {
+      GltfAccessor& column = columns_[name];
+      column.numbers = property->numbers;
+      const double* const first = element(*property, vertex);
+      column.values.insert(column.values.end(), first, first + property->numbers.width);
+    }
   }
 
-  std::size_t view(const GltfContent& level, const GltfJson& number) {
-    const auto [at, is_new] = views_.try_emplace({&level, number.get<std::size_t>()}, 0);
-    if (!is_new) return at->second;
-    GltfJson copy = level.json["bufferViews"][at->first.second];
-    result_.bytes.resize((result_.bytes.size() + alignment - 1) / alignment * alignment);
-    const std::size_t offset = copy.value("byteOffset", std::size_t{0});
-    copy["byteOffset"] = result_.bytes.size();
-    result_.bytes += std::string_view(level.bytes).substr(offset, copy["byteLength"].get<std::size_t>());
-    result_.json["bufferViews"].push_back(std::move(copy));
-    return at->second = result_.json["bufferViews"].size() - 1;
+  std::map<std::string, GltfAccessor> columns_;               ///< by name of the property
+  std::map<std::string, std::size_t> accessor_of_;            ///< by name of the property: its number in the file
+  std::unordered_map<std::string, std::uint32_t> number_of_;  ///< by the bytes of all numbers of a vertex
+};
+
+class LevelMerger {
+ public:
+  LevelMerger(const std::vector<GltfLevel>& levels, LevelVertices vertices)
+      : levels_(levels), vertices_(vertices), json_(levels.front().document.json) {}
+
+  /// Takes a mesh of a level, which stands for mesh `finest` of the finest level, and returns its number in the result.
+  std::size_t mesh(std::size_t level, std::size_t number, std::size_t finest) {
+    const GltfJson& mesh = levels_[level].document.json["meshes"][number];
+    const std::size_t result = level == 0 ? number : json_["meshes"].size() + coarser_.size();
+    if (level > 0) coarser_.push_back(mesh);
+    for (std::size_t i = 0; i < mesh["primitives"].size(); ++i)
+      take_primitive(levels_[level], mesh["primitives"][i], finest, {result, i});
+    return result;
   }
 
-  using Key = std::pair<const GltfContent*, std::size_t>;
-  GltfContent result_;
-  std::map<Key, std::size_t> accessors_, views_;  ///< by level and number in that level: number in the result
+  std::size_t add_node(GltfJson node) {
+    json_["nodes"].push_back(std::move(node));
+    return json_["nodes"].size() - 1;
+  }
+
+  GltfJson& json() { return json_; }
+
+  GltfContent finish() {
+    GltfJson& used = json_["extensionsUsed"];
+    if (std::find(used.begin(), used.end(), "MSFT_lod") == used.end()) used.push_back("MSFT_lod");
+    GltfBuffer buffer(json_, levels_.front().document.buffers);
+    std::vector<const GltfJson*> replaced;
+    for (const Primitive& p : primitives_)
+      if (p.mesh < json_["meshes"].size()) replaced.push_back(&json_["meshes"][p.mesh]["primitives"][p.number]);
+    buffer.free_accessors(accessors_used_only_by(replaced, json_));
+    for (GltfJson& mesh : coarser_) json_["meshes"].push_back(std::move(mesh));
+    for (auto& [key, table] : tables_) table.write(buffer);
+    for (const Primitive& p : primitives_) {
+      GltfJson& primitive = json_["meshes"][p.mesh]["primitives"][p.number];
+      p.table->show_in(primitive);
+      primitive["indices"] = buffer.add_indices(p.triangles, p.table->size());
+    }
+    std::string bytes = buffer.finish();
+    return {std::move(json_), std::move(bytes)};
+  }
+
+ private:
+  /// A primitive of the result, and its triangles by vertices of a table.
+  struct Primitive {
+    std::size_t mesh = 0, number = 0;
+    VertexTable* table = nullptr;
+    std::vector<Triangle> triangles = {};
+  };
+
+  /// Lines and points are those of the original in every level, and so are their accessors.
+  void take_primitive(const GltfLevel& level, const GltfJson& primitive, std::size_t finest, Primitive to) {
+    if (primitive.value("mode", mode_triangles) != mode_triangles) return;
+    AccessorCache accessors(level.source, level.document);
+    Properties properties;
+    std::string layout;
+    visit_properties(primitive, [&](const std::string& name, const GltfJson& number) {
+      const GltfAccessor& property = *(properties[name] = &accessors.at(number.get<std::size_t>()));
+      layout += name + ' ' + std::to_string(static_cast<int>(property.numbers.component)) +
+                std::to_string(property.numbers.width) + (property.numbers.normalized ? "n " : " ");
+    });
+    if (properties.empty()) return;
+    const std::size_t count = properties.begin()->second->count;
+    for (const auto& [name, property] : properties)
+      if (property->count != count) level.source.fail("the properties of a primitive have different counts");
+    const bool is_shared = vertices_ == LevelVertices::Shared;
+    to.table = &tables_[{finest, layout, is_shared ? 0 : to.mesh, is_shared ? 0 : to.number}];
+    const std::vector<std::uint32_t> numbers = to.table->add(properties);
+    std::vector<std::uint32_t> corners = numbers;
+    if (const auto indices = number_in(primitive, "indices")) {
+      corners.clear();
+      for (const double vertex : accessors.at(*indices).values) {
+        if (!(vertex < static_cast<double>(count))) level.source.fail("a primitive lacks a vertex that it refers to");
+        corners.push_back(numbers[static_cast<std::size_t>(vertex)]);
+      }
+    }
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+      to.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    primitives_.push_back(std::move(to));
+  }
+
+  /// By mesh of the finest level and layout; where levels do not share them, also by mesh and primitive of the result.
+  using TableKey = std::tuple<std::size_t, std::string, std::size_t, std::size_t>;
+
+  const std::vector<GltfLevel>& levels_;
+  LevelVertices vertices_;
+  GltfJson json_;
+  std::vector<GltfJson> coarser_;  ///< meshes of coarser levels, which follow those of the finest
+  std::map<TableKey, VertexTable> tables_;
+  std::vector<Primitive> primitives_;
 };
 
 /// Redirects animations of the node's morph weights to node `mesh_is_at`, if given. Returns whether the node is
@@ -115,31 +200,36 @@ std::size_t node_of_levels(LevelMerger& merger, std::size_t node) {
 
 }  // namespace
 
-GltfContent with_levels(const std::vector<GltfContent>& levels, const std::vector<NodeCoverage>& nodes) {
-  LevelMerger merger(levels.front());
+GltfContent with_levels(const std::vector<GltfLevel>& levels, const std::vector<NodeCoverage>& nodes,
+                        LevelVertices vertices) {
+  LevelMerger merger(levels, vertices);
   // By level and mesh of that level: mesh of the result.
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of;
+  const auto mesh_at = [&](std::size_t level, std::size_t number, std::size_t finest) {
+    const auto [at, is_new] = mesh_of.try_emplace({level, number}, 0);
+    if (is_new) at->second = merger.mesh(level, number, finest);
+    return at->second;
+  };
   for (const NodeCoverage& covered : nodes) {
-    if (!levels.front().json["nodes"][covered.node].contains("mesh")) continue;
+    const auto finest = number_in(levels.front().document.json["nodes"][covered.node], "mesh");
+    if (!finest) continue;
+    mesh_at(0, *finest, *finest);
     const std::size_t node = node_of_levels(merger, covered.node);
     GltfJson ids = GltfJson::array();
     for (std::size_t level = 1; level < levels.size(); ++level) {
-      const GltfJson& there = levels[level].json["nodes"][covered.node];
       GltfJson coarser = merger.json()["nodes"][node];
       for (const char* const key : {"mesh", "extensions", "extras", "name"}) coarser.erase(key);
-      if (there.contains("mesh")) {
-        const std::pair key(level, there["mesh"].get<std::size_t>());
-        if (!mesh_of.contains(key)) mesh_of[key] = merger.mesh(levels[level], key.second);
-        coarser["mesh"] = mesh_of[key];
+      if (const auto mesh = number_in(levels[level].document.json["nodes"][covered.node], "mesh")) {
+        coarser["mesh"] = mesh_at(level, *mesh, *finest);
       } else {
         for (const char* const key : {"skin", "weights"}) coarser.erase(key);
       }
       ids.push_back(merger.add_node(std::move(coarser)));
     }
-    GltfJson& finest = merger.json()["nodes"][node];
-    finest["extensions"]["MSFT_lod"] = {{"ids", std::move(ids)}};
-    if (!finest.contains("extras") || finest["extras"].is_object())
-      finest["extras"]["MSFT_screencoverage"] = covered.shares;
+    GltfJson& shown = merger.json()["nodes"][node];
+    shown["extensions"]["MSFT_lod"] = {{"ids", std::move(ids)}};
+    if (!shown.contains("extras") || shown["extras"].is_object())
+      shown["extras"]["MSFT_screencoverage"] = covered.shares;
   }
   return merger.finish();
 }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "mesh/gltf_content.h"
 #include "mesh/gltf_document.h"
 #include "mesh/gltf_primitives.h"
+#include "mesh/gltf_references.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
@@ -27,56 +27,18 @@ namespace {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
-/// The value of a member that refers to an item of an array of the document, if there is one.
-std::optional<std::size_t> number_in(const GltfJson& object, const char* key) {
-  const auto found = object.is_object() ? object.find(key) : object.end();
-  if (!object.is_object() || found == object.end() || !found->is_number_unsigned()) return std::nullopt;
-  return found->get<std::size_t>();
-}
-
-/// Calls visit(accessor) for each accessor that a primitive refers to.
-template <class Visit>
-void visit_accessors(const GltfJson& primitive, const Visit& visit) {
-  if (const auto indices = number_in(primitive, "indices")) visit(*indices);
-  const auto visit_properties = [&](const GltfJson& properties) {
-    if (!properties.is_object()) return;
-    for (const auto& item : properties.items())
-      if (item.value().is_number_unsigned()) visit(item.value().template get<std::size_t>());
-  };
-  if (primitive.contains("attributes")) visit_properties(primitive["attributes"]);
-  if (primitive.contains("targets"))
-    for (const GltfJson& target : primitive["targets"]) visit_properties(target);
-}
-
-/// The items of an array that is a member of an object; none where there is no such array.
-const GltfJson& items_of(const GltfJson& object, const char* key) {
-  static const GltfJson nothing = GltfJson::array();
-  if (!object.is_object()) return nothing;
-  const auto found = object.find(key);
-  return found != object.end() && found->is_array() ? *found : nothing;
-}
-
 /// How the properties of a primitive of the document are stored.
 GltfLayout layout_of(const GltfJson& document, const GltfJson& primitive) {
   GltfLayout layout;
-  const auto add = [&](const std::string& name, const GltfJson& number) {
+  visit_properties(primitive, [&](const std::string& name, const GltfJson& number) {
     if (name == "POSITION" || !number.is_number_unsigned()) return;
     const GltfJson& accessor = document["accessors"][number.get<std::size_t>()];
     static constexpr std::array<const char*, 4> types = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const auto type = std::find(types.begin(), types.end(), accessor["type"].get<std::string>());
     layout[name] = {static_cast<GltfComponent>(accessor["componentType"].get<int>()),
                     accessor.value("normalized", false), static_cast<std::size_t>(type - types.begin()) + 1};
-  };
-  for (const auto& item : primitive["attributes"].items()) add(item.key(), item.value());
-  std::size_t number = 0;
-  for (const GltfJson& target : items_of(primitive, "targets")) {
-    for (const auto& item : target.items()) {
-      const std::string name = target_name(number, item.key());
-      add(name, item.value());
-      if (layout.contains(name) && item.key() == "POSITION") layout[name] = {GltfComponent::Float, false, 3};
-    }
-    ++number;
-  }
+    if (target_property(name).semantic == "POSITION") layout[name] = {GltfComponent::Float, false, 3};
+  });
   return layout;
 }
 
@@ -129,23 +91,9 @@ class DocumentEdit {
 
   /// Accessors to which only the replaced primitives refer.
   [[nodiscard]] std::vector<std::size_t> accessors_to_free() {
-    std::set<std::size_t> freed;
-    std::set<const GltfJson*> replaced;
-    for (const std::uint32_t part : replaced_) {
-      replaced.insert(&primitive(part));
-      visit_accessors(primitive(part), [&](std::size_t accessor) { freed.insert(accessor); });
-    }
-    const auto keep = [&](std::optional<std::size_t> accessor) {
-      if (accessor) freed.erase(*accessor);
-    };
-    for (const GltfJson& mesh : items_of(json_, "meshes"))
-      for (const GltfJson& other : items_of(mesh, "primitives"))
-        if (!replaced.contains(&other)) visit_accessors(other, keep);
-    for (const GltfJson& animation : items_of(json_, "animations"))
-      for (const GltfJson& sampler : items_of(animation, "samplers"))
-        keep(number_in(sampler, "input")), keep(number_in(sampler, "output"));
-    for (const GltfJson& skin : items_of(json_, "skins")) keep(number_in(skin, "inverseBindMatrices"));
-    return {freed.begin(), freed.end()};
+    std::vector<const GltfJson*> replaced;
+    for (const std::uint32_t part : replaced_) replaced.push_back(&primitive(part));
+    return accessors_used_only_by(replaced, json_);
   }
 
   /// A primitive without triangles and a mesh without primitives are not valid: both are removed.

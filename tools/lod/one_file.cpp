@@ -8,7 +8,6 @@
 
 #include "mesh/file_bytes.h"
 #include "mesh/gltf_document.h"
-#include "mesh/gltf_levels.h"
 #include "mesh/writers.h"
 
 namespace meshbound::tools {
@@ -41,17 +40,17 @@ NodeCoverage coverage(std::size_t node, double size, const std::vector<GatedOutp
 }  // namespace
 
 void write_levels(AtomicFile& file, const std::vector<GatedOutput>& outputs, const TriangleMesh& original,
-                  const MeshAttributes& attributes, const PixelError& limit) {
-  std::vector<GltfContent> levels;
+                  const MeshAttributes& attributes, const PixelError& limit, LevelVertices vertices) {
+  std::vector<FileBytes> files;
+  std::vector<GltfLevel> levels;
   for (const GatedOutput& output : outputs) {
-    const FileBytes bytes(output.staged());
-    GltfDocument document = read_gltf_document({output.path(), bytes.bytes(), 0, {}, false});
-    levels.push_back({std::move(document.json), document.buffers.empty() ? "" : std::move(document.buffers.front())});
+    const MeshSource source{output.path(), files.emplace_back(output.staged()).bytes(), 0, {}, false};
+    levels.push_back({source, read_gltf_document(source)});
   }
   std::vector<NodeCoverage> nodes;
   for (const auto& [node, size] : sizes_of_nodes(original, attributes))
     nodes.push_back(coverage(node, size, outputs, limit));
-  write_gltf(file, FileFormat::Glb, with_levels(levels, nodes));
+  write_gltf(file, FileFormat::Glb, with_levels(levels, nodes, vertices));
 }
 
 }  // namespace meshbound::tools

@@ -4,6 +4,7 @@
 
 #include "common/gated_output.h"
 #include "mesh/atomic_file.h"
+#include "mesh/gltf_levels.h"
 #include "meshbound/attributes.h"
 
 namespace meshbound::tools {
@@ -18,6 +19,6 @@ struct PixelError {
 /// screen below which the proven error of a level covers at most so many pixels. `original` and `attributes` tell how
 /// large what each node shows is. Throws `IoError`, `InvalidInput`.
 void write_levels(AtomicFile& file, const std::vector<GatedOutput>& outputs, const TriangleMesh& original,
-                  const MeshAttributes& attributes, const PixelError& limit);
+                  const MeshAttributes& attributes, const PixelError& limit, LevelVertices vertices);
 
 }  // namespace meshbound::tools

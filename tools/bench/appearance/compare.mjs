@@ -8,7 +8,7 @@ import { mkdir, readFile } from 'node:fs/promises';
 import { basename, join } from 'node:path';
 
 import { simplifyByMeshopt } from './meshopt.mjs';
-import { faceCount, readObj, writeObj } from './obj.mjs';
+import { faceCount, linesOf, readObj, writeLines, writeObj } from './obj.mjs';
 import { pictureErrors } from './render.mjs';
 
 const [, , tools, chromium, folder, share, ...models] = process.argv;
@@ -25,21 +25,34 @@ async function byMeshopt(mesh, faces) {
   return levels;
 }
 
-async function measured(original, level) {
-  const json = `${level}.json`;
-  execFileSync(join(tools, 'hausdorff_distance'),
-    [original, level, '--texture', '--error-bound', '0.01%', '--json', json, '--quiet'], { stdio: 'ignore' });
-  const { a, distance, texture } = JSON.parse(await readFile(json, 'utf8'));
+async function distances(a, b, more = []) {
+  const json = `${b}.json`;
+  execFileSync(join(tools, 'hausdorff_distance'), [a, b, ...more, '--error-bound', '0.01%', '--json', json, '--quiet'],
+    { stdio: 'ignore' });
+  return JSON.parse(await readFile(json, 'utf8'));
+}
+
+async function measured(model, level) {
+  const files = [];
+  for (const path of [model, level]) {
+    const mesh = await readObj(path);
+    const lines = linesOf(mesh);
+    if (lines.length === 0) continue;
+    files.push(join(folder, `${basename(path, '.obj')}_lines.obj`));
+    await writeLines(files.at(-1), mesh, lines);
+  }
+  const { a, distance, texture } = await distances(model, level, ['--texture']);
+  const lines = files.length === 2 ? (await distances(...files)).distance.upper : NaN;
   const percent = (length) => (100 * length) / a.bbox_diagonal;
-  return { distance: percent(distance.upper), texture: percent(texture.upper) };
+  return { distance: percent(distance.upper), lines: percent(lines), texture: percent(texture.upper) };
 }
 
 const row = (cells) => console.log(`| ${cells.join(' | ')} |`);
 const digits = (number) => number.toPrecision(3);
 
 await mkdir(folder, { recursive: true });
-row(['model', 'faces', 'ours, meshoptimizer', 'distance', 'texture moves', 'mean difference of a pixel']);
-row(['---', '---', '---', '---', '---', '---']);
+row(['model', 'faces', 'ours, meshoptimizer', 'distance', 'lines', 'texture moves', 'mean difference of a pixel']);
+row(['---', '---', '---', '---', '---', '---', '---']);
 let won = 0;
 for (const model of models) {
   const name = basename(model, '.obj');
@@ -59,7 +72,8 @@ for (const model of models) {
   const [our, their] = [await measured(model, ours), await measured(model, theirs)];
   if (error < errors[best]) ++won;
   row([name, faceCount(original), `${faceCount(level)}, ${faceCount(others[best])}`,
-    `${digits(our.distance)}%, ${digits(their.distance)}%`, `${digits(our.texture)}%, ${digits(their.texture)}%`,
+    `${digits(our.distance)}%, ${digits(their.distance)}%`, `${digits(our.lines)}%, ${digits(their.lines)}%`,
+    `${digits(our.texture)}%, ${digits(their.texture)}%`,
     `${digits(error)}, ${digits(errors[best])}`]);
 }
 console.log(`\nOurs looks more like the original on ${won} of ${models.length} models.`);

@@ -52,4 +52,34 @@ export async function writeObj(path, mesh) {
   await writeFile(path, `${lines.join('\n')}\n`);
 }
 
+/**
+ * The lines of a mesh, as pairs of vertices: edges that do not have exactly two triangles of one material with the same
+ * texture coordinates at both ends.
+ */
+export function linesOf(mesh) {
+  const numbers = (list, width, vertex) => list.slice(width * vertex, width * (vertex + 1)).join(' ');
+  const place = (vertex) => numbers(mesh.positions, 3, vertex);
+  const edges = new Map();
+  for (const { name, indices } of mesh.parts) {
+    for (let corner = 0; corner < indices.length; ++corner) {
+      const next = corner % 3 === 2 ? corner - 2 : corner + 1;
+      const ends = [indices[corner], indices[next]].sort((a, b) => (place(a) < place(b) ? -1 : 1));
+      const key = ends.map(place).join('/');
+      const side = [name, ...ends.map((vertex) => numbers(mesh.coordinates, 2, vertex))].join('/');
+      edges.set(key, { ends, sides: [...(edges.get(key)?.sides ?? []), side] });
+    }
+  }
+  return [...edges.values()]
+    .filter(({ sides }) => sides.length !== 2 || sides[0] !== sides[1])
+    .map(({ ends }) => ends);
+}
+
+/** Writes pairs of vertices as triangles without area, of which the distance is that of the lines. */
+export async function writeLines(path, mesh, lines) {
+  const text = [];
+  lines.flat().forEach((vertex) => text.push(`v ${mesh.positions.slice(3 * vertex, 3 * vertex + 3).join(' ')}`));
+  lines.forEach((_, i) => text.push(`f ${2 * i + 1} ${2 * i + 2} ${2 * i + 2}`));
+  await writeFile(path, `${text.join('\n')}\n`);
+}
+
 export const faceCount = (mesh) => mesh.parts.reduce((sum, part) => sum + part.indices.length / 3, 0);
