@@ -18,6 +18,7 @@
 #include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 #include "numeric/numbers_below.h"
+#include "numeric/ranked_numbers.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/equal_positions.h"
 #include "tiles/measure_in_tiles.h"
@@ -119,6 +120,15 @@ TEST_F(Stored, AFullDiskIsAnErrorThatNamesTheFolder) {
   EXPECT_THROW(for (std::uint64_t i = 0; i < 300000; ++i) items.append(i), IoError);
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old);
+}
+
+TEST(RankedNumbers, AreSortedAndFindTheirIndices) {
+  RankedNumbers numbers;
+  for (const std::uint32_t n : {70000u, 64u, 4095u, 0u, 4096u, 63u, 64u, 4294967294u, 70000u, 1u}) numbers.add(n);
+  const std::vector<std::uint32_t> expected{0, 1, 63, 64, 4095, 4096, 70000, 4294967294};
+  ASSERT_EQ(numbers.ranked(), expected);
+  for (std::uint32_t i = 0; i < expected.size(); ++i) EXPECT_EQ(numbers.index_of(expected[i]), i);
+  EXPECT_TRUE(RankedNumbers().ranked().empty());
 }
 
 TEST_F(Stored, APartIsThatOfTheMeshInMemory) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "numeric/ranked_numbers.h"
+
 namespace meshbound {
 
 void MeshInMemory::read_vertices(std::size_t first, std::span<Vec3> to) const {
@@ -22,21 +24,17 @@ MeshPart part_of(const StoredMesh& whole, std::span<const std::uint32_t> triangl
   part.mesh.triangles =
       gathered<Triangle>(triangles, whole.triangle_count(),
                          [&](std::size_t first, std::span<Triangle> to) { whole.read_triangles(first, to); });
-  part.vertices.reserve(3 * triangles.size());
+  RankedNumbers vertices;
   for (const Triangle& corners : part.mesh.triangles)
-    part.vertices.insert(part.vertices.end(), corners.begin(), corners.end());
-  std::sort(part.vertices.begin(), part.vertices.end());
-  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
-  part.vertices.shrink_to_fit();
+    for (const std::uint32_t v : corners) vertices.add(v);
+  part.vertices = vertices.ranked();
   const std::vector<Vec3> positions =
       gathered<Vec3>(part.vertices, whole.vertex_count(),
                      [&](std::size_t first, std::span<Vec3> to) { whole.read_vertices(first, to); });
   part.mesh.vertices.reserve(positions.size());
   for (const Vec3& p : positions) part.mesh.vertices.push_back(to_eigen(p));
   for (Triangle& corners : part.mesh.triangles)
-    for (std::uint32_t& v : corners)
-      v = static_cast<std::uint32_t>(std::lower_bound(part.vertices.begin(), part.vertices.end(), v) -
-                                     part.vertices.begin());
+    for (std::uint32_t& v : corners) v = vertices.index_of(v);
   return part;
 }
 
