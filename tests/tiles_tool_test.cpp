@@ -165,6 +165,19 @@ TEST_F(TileScratch, GoesWithACertificateThatVerifies) {
   EXPECT_TRUE(std::filesystem::is_empty(in("ends")));
 }
 
+TEST_F(TileScratch, ResultIsCertifiedByItsMeasurementToo) {
+  const std::string a = in("torus.ply"), b = in("whole.ply"), certificate = in("measured.cert");
+  const ToolRun exceeded = run_tool(
+      HAUSDORFF_DISTANCE, {a, b, "--tolerance", "0.01%", "--memory", "2G", "--certificate", certificate, "--quiet"});
+  EXPECT_EQ(exceeded.exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(certificate));
+  const ToolRun within =
+      run_tool(HAUSDORFF_DISTANCE, {a, b, "--tolerance", "0.3%", "--memory", "2G", "--certificate", certificate});
+  ASSERT_EQ(within.exit_code, 0) << within.err;
+  const ToolRun verified = run_tool(VERIFY_CERTIFICATE, {a, b, certificate, "--tolerance", "0.3%"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
 TEST_F(TileScratch, ResumesARunThatWasKilledWithTheSameResult) {
   kill_run(in("killed"));
   const ToolRun run = simplify("resumed.ply", {"--scratch", in("killed"), "--resume"});

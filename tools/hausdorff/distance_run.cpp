@@ -81,15 +81,21 @@ Answer searched_answer(const Question& question, const TriangleMesh& a, const Tr
   }
 }
 
+/// The threads that work on tiles within the memory. A proof takes as much as what makes a mesh that it is of.
+int threads_on_tiles(const Arguments& arguments, const StoredMesh& a, const StoredMesh& b) {
+  if (arguments.memory.empty()) return arguments.common.threads;
+  return threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
+                        a.triangle_count() + b.triangle_count(), TileOptions{arguments.tile_triangles},
+                        arguments.certificate.empty() ? cost_of_measuring : cost_of_simplifying,
+                        arguments.common.threads);
+}
+
 /// As `searched_answer`, tile by tile.
 Answer answer_by_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b, const Arguments& arguments,
                        const Stopwatch& watch) {
   ProgressBar bar("measuring", arguments.common.quiet);
   DistanceOptions options = engine_options(arguments, watch, bar);
-  if (!arguments.memory.empty())
-    options.threads = threads_within(parse_memory("--memory", arguments.memory), "--memory " + arguments.memory,
-                                     a.triangle_count() + b.triangle_count(), TileOptions{arguments.tile_triangles},
-                                     cost_of_measuring, options.threads);
+  options.threads = threads_on_tiles(arguments, a, b);
   return answer_in_tiles(question, a, b, options, *arguments.workers);
 }
 
@@ -115,6 +121,14 @@ struct Meshes {
   }
 };
 
+std::optional<Certificate> certificate_of(const Arguments& arguments, const Meshes& meshes, double tolerance,
+                                          CertificateOptions options) {
+  if (arguments.workers == nullptr) return build_certificate(meshes.a, meshes.b, tolerance, options);
+  const StoredMesh &a = *meshes.stored_a, &b = *meshes.stored_b;
+  options.threads = threads_on_tiles(arguments, a, b);
+  return arguments.workers->certify(a, b, tolerance, options);
+}
+
 /// Writes the proof of tolerances that were found to hold, that of the texture where there is one. False if there was
 /// no time for it.
 bool write_certificate(AtomicFile& file, const Arguments& arguments, const Meshes& meshes, double tolerance,
@@ -125,7 +139,7 @@ bool write_certificate(AtomicFile& file, const Arguments& arguments, const Meshe
   options.cancel = &interrupted();
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   options.seconds = seconds_left(arguments.common, watch);
-  auto certificate = build_certificate(meshes.a, meshes.b, tolerance, options);
+  auto certificate = certificate_of(arguments, meshes, tolerance, options);
   if (!certificate) return false;
   if (texture_tolerance) {
     options.seconds = seconds_left(arguments.common, watch);

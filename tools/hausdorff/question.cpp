@@ -17,7 +17,7 @@ namespace {
 
 /// What needs trees of whole meshes, so that it does not go with --memory.
 constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
-    {"--poses", "--nearest", "--texture", "--certificate", "--heatmap", "--heatmap-original", "--image", "--report"});
+    {"--poses", "--nearest", "--texture", "--heatmap", "--heatmap-original", "--image", "--report"});
 
 /// What speaks of one of these.
 constexpr std::array options_without_use_for_tiles =
