@@ -186,6 +186,14 @@ TEST(SimplifyInTiles, GivesTheSameBitsFromPackedResults) {
   }
 }
 
+TEST(SimplifyInTiles, PacksHardlyAnyBytesWhereNothingChanges) {
+  const TriangleMesh mesh = datasets::terrain(1, 120, 7);
+  PackingRunner packing;
+  const SimplifyResult same = simplify_in_tiles(mesh, share_of_diagonal(mesh, 1e-9), TileOptions{2000}, packing);
+  EXPECT_EQ(same.last().mesh.triangles.size(), mesh.triangles.size());
+  EXPECT_LE(packing.size(), mesh.triangles.size() / 4);  // of all passes and the measurement
+}
+
 TEST(CompactBytes, GiveBackWhatWasWritten) {
   CompactWriter writer;
   const std::vector<std::uint64_t> numbers{0, 1, 127, 128, 300, ~std::uint64_t{0}};

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <limits>
 #include <new>
+#include <span>
 #include <thread>
 
 #include "meshbound/error.h"
@@ -31,10 +32,10 @@ void wait_asleep(MPI_Request& request) {
   }
 }
 
-/// Waits for a transfer that is under way, which only advances while both sides look at it.
-void wait_awake(MPI_Request& request) {
+/// Waits for transfers that are under way, which only advance while both sides look at them.
+void wait_awake(std::span<MPI_Request> requests) {
   for (int done = 0;;) {
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
     if (done != 0) return;
     ::sched_yield();
   }
@@ -123,19 +124,35 @@ void Communicator::broadcast(std::string& bytes, int root) {
   broadcast(bytes.data(), bytes.size(), root);
 }
 
+void Communicator::start_broadcast(char* bytes, std::size_t size, int root, std::vector<MPI_Request>& under_way) {
+  for (std::size_t first = 0; first < size; first += max_message)
+    MPI_Ibcast(bytes + first, static_cast<int>(std::min(max_message, size - first)), MPI_BYTE, root, ranks_,
+               &under_way.emplace_back(MPI_REQUEST_NULL));
+}
+
 void Communicator::broadcast(char* bytes, std::size_t size, int root) {
-  for (std::size_t first = 0; first < size; first += max_message) {
-    MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Ibcast(bytes + first, static_cast<int>(std::min(max_message, size - first)), MPI_BYTE, root, ranks_, &request);
-    wait_awake(request);
-  }
+  std::vector<MPI_Request> under_way;
+  start_broadcast(bytes, size, root, under_way);
+  wait_awake(under_way);
   if (rank_ == root) *bytes_sent_ += size * static_cast<std::uint64_t>(size_ - 1);
 }
 
 std::vector<std::string> Communicator::all_gather(std::string bytes) {
   std::vector<std::string> all(static_cast<std::size_t>(size_));
+  const std::uint64_t own = bytes.size();
+  std::vector<std::uint64_t> sizes(all.size());
+  MPI_Request sized = MPI_REQUEST_NULL;
+  MPI_Iallgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, ranks_, &sized);
+  wait_asleep(sized);
   all[static_cast<std::size_t>(rank_)] = std::move(bytes);
-  for (int root = 0; root < size_; ++root) broadcast(all[static_cast<std::size_t>(root)], root);
+  std::vector<MPI_Request> under_way;
+  for (int root = 0; root < size_; ++root) {
+    std::string& of_root = all[static_cast<std::size_t>(root)];
+    of_root.resize(sizes[static_cast<std::size_t>(root)]);
+    start_broadcast(of_root.data(), of_root.size(), root, under_way);
+  }
+  wait_awake(under_way);
+  *bytes_sent_ += (sizeof own + own) * static_cast<std::uint64_t>(size_ - 1);
   return all;
 }
 
@@ -169,7 +186,7 @@ std::string Communicator::receive_from(int from) {
   for (std::size_t first = 0; first < bytes.size(); first += max_message) {
     MPI_Irecv(bytes.data() + first, static_cast<int>(std::min(max_message, bytes.size() - first)), MPI_BYTE, from,
               bytes_tag, ranks_, &request);
-    wait_awake(request);
+    wait_awake({&request, 1});
   }
   return bytes;
 }

@@ -69,6 +69,7 @@ class Communicator {
     MPI_Comm ranks;
   };
   Communicator(Owned ranks, std::shared_ptr<std::uint64_t> bytes_sent);
+  void start_broadcast(char* bytes, std::size_t size, int root, std::vector<MPI_Request>& under_way);
   void send(const std::string& bytes, int to);
   [[nodiscard]] std::string receive_from(int from);
 

@@ -99,6 +99,22 @@ class TileCoder {
     return coded;
   }
 
+  /// Chances of numbers that are mostly what is expected.
+  struct ExpectedChances {
+    std::array<BitChance, 2> is_expected;
+    bool was_expected = true;
+    NumberChances step;
+  };
+  /// A number below `size`: the expected one, or a step from another. `expected` may be `no_index`.
+  std::uint32_t expected_or_step(ExpectedChances& chances, std::uint32_t expected, std::uint32_t from,
+                                 std::uint32_t value, std::size_t size) {
+    if (expected != no_index) {
+      chances.was_expected = coder_.bit(chances.is_expected[chances.was_expected ? 1 : 0], value == expected);
+      if (chances.was_expected) return expected;
+    }
+    return step(chances.step, from, value, size);
+  }
+
   /// Numbers below `size`, at most `max_count` of them.
   void steps(std::vector<std::uint32_t>& numbers, std::size_t max_count, std::size_t size) {
     numbers.resize(number(numbers.size(), max_count));
@@ -131,25 +147,35 @@ class TileCoder {
     }
   }
 
+  /// Most triangles are what they were, and many others have some of their corners.
   void triangles() {
-    const std::size_t count = start_.mesh.triangles.size();
-    steps(output_.source_triangle, count, count);
+    const TriangleMesh& from = start_.mesh;
+    steps(output_.source_triangle, from.triangles.size(), from.triangles.size());
     output_.proven.mesh.triangles.resize(output_.source_triangle.size());
     output_.proven.near.resize(output_.source_triangle.size());
-    NumberChances near, corner;
-    std::uint32_t near_before = 0, corner_before = 0;
+    std::vector<std::uint32_t> vertex_now(from.vertices.size(), no_index);
+    for (std::uint32_t v = 0; v < output_.source_vertex.size(); ++v) vertex_now[output_.source_vertex[v]] = v;
+    ExpectedChances corners, near;
+    std::uint32_t corner_before = 0;
     for (std::size_t i = 0; i < output_.source_triangle.size(); ++i) {
-      std::uint32_t& n = output_.proven.near[i];
-      near_before = n = step(near, near_before, n, start_.cover.size());
-      for (std::uint32_t& v : output_.proven.mesh.triangles[i])
-        corner_before = v = step(corner, corner_before, v, output_.proven.mesh.vertices.size());
+      const std::uint32_t source = output_.source_triangle[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::uint32_t& v = output_.proven.mesh.triangles[i][k];
+        std::uint32_t& expected = vertex_now[from.triangles[source][k]];
+        v = expected_or_step(corners, expected, corner_before, v, output_.proven.mesh.vertices.size());
+        corner_before = expected = v;  // a vertex is mostly replaced by one and the same around it
+      }
+      const std::uint32_t expected = start_.near[source];
+      output_.proven.near[i] = expected_or_step(near, expected, expected, output_.proven.near[i], start_.cover.size());
     }
   }
 
   void covers() {
-    now_.assign(start_.mesh.triangles.size(), no_index);
-    for (std::uint32_t i = 0; i < output_.source_triangle.size(); ++i) now_[output_.source_triangle[i]] = i;
-    if (start_.is_original) neighbours_ = neighbours_of_triangles(start_.mesh);
+    triangle_now_.assign(start_.mesh.triangles.size(), no_index);
+    for (std::uint32_t i = 0; i < output_.source_triangle.size(); ++i) triangle_now_[output_.source_triangle[i]] = i;
+    beside_before_ = neighbours_of_triangles(start_.mesh);
+    beside_now_ = neighbours_of_triangles(output_.proven.mesh);
+    last_of_.assign(start_.mesh.triangles.size(), no_index);
     NumberLists coded;
     for (std::uint32_t t = 0; t < start_.cover.size(); ++t) {
       if (!start_.cover[t].empty()) {
@@ -157,7 +183,7 @@ class TileCoder {
         if constexpr (!Coder::reads) list_.assign(output_.proven.cover[t].begin(), output_.proven.cover[t].end());
         cover(t, coded);
         coded.numbers.insert(coded.numbers.end(), list_.begin(), list_.end());
-        last_coded_ = t;
+        last_of_[start_.cover[t][0]] = last_coded_ = t;
       }
       coded.end_list();
     }
@@ -167,11 +193,12 @@ class TileCoder {
   /// Codes `list_`, what covers an original: mostly the same triangles as before, or as cover an original beside it.
   void cover(std::uint32_t t, const NumberLists& coded) {
     find_expected(t);
-    was_expected_ =
-        coder_.bit(as_expected_[expected_.empty() ? 1 : 0][was_expected_ ? 1 : 0], are_same(list_, expected_));
-    if (was_expected_) {
-      list_ = expected_;
-      return;
+    if (!expected_.empty()) {
+      was_expected_ = coder_.bit(as_expected_[was_expected_ ? 1 : 0], are_same(list_, expected_));
+      if (was_expected_) {
+        list_ = expected_;
+        return;
+      }
     }
     find_candidates(t, coded);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -185,38 +212,41 @@ class TileCoder {
   /// What covered it, by the numbers of the result; empty where one of these triangles has gone.
   void find_expected(std::uint32_t t) {
     expected_.clear();
-    for (const std::uint32_t before : start_.cover[t]) expected_.push_back(now_[before]);
+    for (const std::uint32_t before : start_.cover[t]) expected_.push_back(triangle_now_[before]);
     if (std::find(expected_.begin(), expected_.end(), no_index) != expected_.end()) expected_.clear();
   }
 
-  /// The covers of the neighbours that have been coded, the last one first, and of the original before.
+  /// The last covers that have been coded: for originals that the same triangle of the start covered, for those of each
+  /// triangle beside it, and for any.
   void find_candidates(std::uint32_t t, const NumberLists& coded) {
     candidates_.clear();
     const auto add = [&](std::uint32_t other) {
+      if (other == no_index) return;
       const auto cover = coded[other];
-      if (cover.empty()) return;
       for (const auto& known : candidates_)
         if (are_same(known, cover)) return;
       candidates_.push_back(cover);
     };
     beside_ = 0;
-    if (start_.is_original) {
-      for (const std::uint32_t other : neighbours_[t]) {
-        if (other >= t || start_.cover[other].empty()) continue;  // `no_index` is beyond all
-        add(other);
-        ++beside_;
-      }
-    }
-    if (last_coded_ != no_index) add(last_coded_);
+    const auto add_last_of = [&](std::uint32_t triangle) {
+      if (triangle == no_index || last_of_[triangle] == no_index) return;
+      add(last_of_[triangle]);
+      ++beside_;
+    };
+    const std::uint32_t before = start_.cover[t][0];
+    add_last_of(before);
+    for (const std::uint32_t other : beside_before_[before]) add_last_of(other);
+    add(last_coded_);
   }
 
-  /// Triangles of the candidates by their place among them, others by steps.
+  /// Triangles of the candidates, or beside these, by their place among them; others by steps.
   void cover_anew() {
     known_.clear();
     for (const auto& candidate : candidates_)
-      for (const std::uint32_t f : candidate)
-        if (std::find(known_.begin(), known_.end(), f) == known_.end()) known_.push_back(f);
+      for (const std::uint32_t f : candidate) know(f);
     list_.resize(coder_.number(sizes_, list_.size(), output_.source_triangle.size()));
+    const std::size_t near = known_.size();
+    for (std::size_t i = 0; i < near; ++i) know_beside(known_[i]);
     std::uint32_t before = known_.empty() ? 0 : known_[0];
     for (std::uint32_t& f : list_) {
       const auto place = static_cast<std::size_t>(std::find(known_.begin(), known_.end(), f) - known_.begin());
@@ -225,10 +255,18 @@ class TileCoder {
         f = known_[coder_.number(places_, place, known_.size() - 1)];
       } else {
         f = step(steps_, before, f, output_.source_triangle.size());
-        known_.push_back(f);
+        know(f);
+        know_beside(f);
       }
       before = f;
     }
+  }
+  void know(std::uint32_t f) {
+    if (std::find(known_.begin(), known_.end(), f) == known_.end()) known_.push_back(f);
+  }
+  void know_beside(std::uint32_t f) {
+    for (const std::uint32_t other : beside_now_[f])
+      if (other != no_index) know(other);
   }
 
   Coder& coder_;
@@ -237,15 +275,16 @@ class TileCoder {
   NumberChances facts_;
 
   // Scratch memory for covers:
-  std::vector<std::uint32_t> now_;  ///< by triangle of the start: its number in the result
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;
+  std::vector<std::uint32_t> triangle_now_;  ///< by triangle of the start: its number in the result
+  std::vector<std::array<std::uint32_t, 3>> beside_before_, beside_now_;
+  std::vector<std::uint32_t> last_of_;  ///< by triangle of the start: the last original coded that it covered
   std::vector<std::uint32_t> list_, expected_, known_;
-  std::vector<std::span<const std::uint32_t>> candidates_;  ///< at most 4
-  std::size_t beside_ = 0;                                  ///< neighbours that have been coded
+  std::vector<std::span<const std::uint32_t>> candidates_;  ///< at most 5
+  std::size_t beside_ = 0;  ///< of the covers tried, those of the same triangle or one beside it
   std::uint32_t last_coded_ = no_index;
   bool was_expected_ = false;
-  std::array<std::array<BitChance, 2>, 2> as_expected_;
-  std::array<std::array<std::array<BitChance, 4>, 5>, 4> as_candidate_;
+  std::array<BitChance, 2> as_expected_;
+  std::array<std::array<std::array<BitChance, 5>, 6>, 5> as_candidate_;
   NumberChances sizes_, places_, steps_;
   BitChance is_known_;
 };

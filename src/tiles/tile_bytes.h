@@ -12,6 +12,7 @@ namespace meshbound {
 /// What a tile started from, as far as it says what to expect of the result. All numbers are those of the tile.
 struct TileStart {
   TriangleMesh mesh;
+  std::vector<std::uint32_t> near;  ///< as in `ProvenMesh`
   NumberLists cover;         ///< by original: triangles of `mesh` near it; empty where the tile does not cover it anew
   bool is_original = false;  ///< `mesh` is the original
 };

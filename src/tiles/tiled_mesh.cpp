@@ -8,6 +8,7 @@
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/ranked_numbers.h"
 #include "simplify/ended_by.h"
 #include "tiles/equal_positions.h"
 
@@ -70,7 +71,7 @@ class TiledMesh::Jobs : public TileJobs {
     return bytes;
   }
   [[nodiscard]] TileStart start_of(MeshPart part, const TileNumbers& numbers) const {
-    return {std::move(part.mesh), numbers.cover, mesh_.is_original_};
+    return {std::move(part.mesh), mesh_.near_of(numbers), numbers.cover, mesh_.is_original_};
   }
 
   TiledMesh& mesh_;
@@ -264,9 +265,9 @@ MeshPart TiledMesh::find_numbers(std::uint32_t tile, TileNumbers& numbers) const
   if (is_original_) {
     numbers.originals = numbers.triangles;
   } else {
-    numbers.originals = (*originals_)[tile];
-    std::sort(numbers.originals.begin(), numbers.originals.end());
-    numbers.originals.erase(std::unique(numbers.originals.begin(), numbers.originals.end()), numbers.originals.end());
+    RankedNumbers originals;
+    for (const std::uint32_t t : (*originals_)[tile]) originals.add(t);
+    numbers.originals = originals.ranked();
   }
   numbers.cover = cover_of(tile, numbers);
   return part;
@@ -288,13 +289,21 @@ NumberLists TiledMesh::cover_of(std::uint32_t tile, const TileNumbers& numbers) 
   return lists;
 }
 
+/// By triangle of a tile: an original of the tile near it.
+std::vector<std::uint32_t> TiledMesh::near_of(const TileNumbers& numbers) const {
+  if (is_original_) return numbers_below(numbers.triangles.size());
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t f : numbers.triangles) near.push_back(index_in(numbers.originals, proven_.near[f]));
+  return near;
+}
+
 TileInput TiledMesh::input_of(const MeshPart& part, const TileNumbers& numbers) const {
   if (is_original_) return {part.mesh, std::nullopt, locked(numbers.vertices)};
   TileInput input{part_of(original_, numbers.originals).mesh, ProvenMesh(), locked(numbers.vertices)};
   ProvenMesh& start = *input.start;
   start.mesh = part.mesh;
   start.cover = numbers.cover;
-  for (const std::uint32_t f : numbers.triangles) start.near.push_back(index_in(numbers.originals, proven_.near[f]));
+  start.near = near_of(numbers);
   for (std::size_t k = 0; k < numbers.originals.size(); ++k) start.is_covered.push_back(numbers.cover[k].empty());
   return input;
 }

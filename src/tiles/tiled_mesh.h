@@ -98,6 +98,7 @@ class TiledMesh {
   void stay(const Triangle& corners, bool is_seam);
   MeshPart find_numbers(std::uint32_t tile, TileNumbers& numbers) const;
   [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const TileNumbers& numbers) const;
+  [[nodiscard]] std::vector<std::uint32_t> near_of(const TileNumbers& numbers) const;
   [[nodiscard]] TileInput input_of(const MeshPart& part, const TileNumbers& numbers) const;
   [[nodiscard]] std::vector<bool> locked(const std::vector<std::uint32_t>& vertices) const;
   [[nodiscard]] TileResult take(const TileNumbers& numbers, TileOutput output);

@@ -112,7 +112,14 @@ void pack(CompactWriter& to, const StoredMesh& stored) {
   to.number(mesh.vertices.size());
   for (const Eigen::Vector3d& p : mesh.vertices)
     for (int k = 0; k < 3; ++k) to.raw(p[k]);
-  to.raw(mesh.triangles);
+  to.number(mesh.triangles.size());
+  std::uint32_t before = 0;
+  for (const Triangle& corners : mesh.triangles) {
+    for (const std::uint32_t v : corners) {
+      to.step(before, v);
+      before = v;
+    }
+  }
 }
 
 TriangleMesh unpack_mesh(CompactReader& from) {
@@ -120,7 +127,10 @@ TriangleMesh unpack_mesh(CompactReader& from) {
   mesh.vertices.resize(static_cast<std::size_t>(from.number()));
   for (Eigen::Vector3d& p : mesh.vertices)
     for (int k = 0; k < 3; ++k) from.raw(p[k]);
-  from.raw(mesh.triangles);
+  mesh.triangles.resize(static_cast<std::size_t>(from.number()));
+  std::uint32_t before = 0;
+  for (Triangle& corners : mesh.triangles)
+    for (std::uint32_t& v : corners) before = v = from.step(before);
   return mesh;
 }
 
