@@ -87,7 +87,8 @@ bool may_use_cgal(const SourceFile& file) {
 }
 
 bool may_use_mpi(const SourceFile& file) {
-  for (const char* prefix : {"include/meshbound/mpi.h", "src/mpi/", "tools/mpi/", "tests/", "examples/"})
+  for (const char* prefix :
+       {"include/meshbound/mpi.h", "src/mpi/", "tools/mpi/", "tools/bench/ranks/", "tests/", "examples/"})
     if (starts_with(file.path, prefix)) return true;
   return false;
 }
