@@ -161,6 +161,18 @@ TEST(TextureDeviation, FindsTheMiddleBetweenTwoCandidates) {
   expect_value(measured(a, joined(above, below), 1e-6).a_to_b.bounds, 0.5, 1e-6);
 }
 
+/// The middles are nothing beside a square that has moved by 10, which comes last.
+TEST(TextureDeviation, LooksRoughlyAtFirst) {
+  const auto slope = [](double z) { return [z](double s, double t) { return Corner{{0, 0, z * s + t}, {s, t}}; }; };
+  const TexturedMesh below = grid(1, [](double s, double t) { return Corner{{0, 0, t - (0.9 - s)}, {s, t}}; });
+  const auto apart = [](double z) { return [z](double s, double t) { return Corner{{s, t, z}, {s + 3, t}}; }; };
+  const TexturedMesh a = joined(grid(3, slope(0)), grid(1, apart(0)));
+  const TexturedMesh b = joined(joined(grid(1, slope(1)), below), grid(1, apart(10)));
+  const OneSidedTextureDeviation found = measured(a, b, 1e-6).a_to_b;
+  expect_value(found.bounds, 10, 1e-6);
+  EXPECT_LT(found.pieces, 1000U);
+}
+
 TEST(TextureDeviation, MeasuresWhatIsCoveredAndSaysWhatIsNot) {
   const TexturedMesh half = grid(2, [](double s, double t) { return Corner{{s / 2, t, 0.125}, {s / 2, t}}; });
   const TextureDeviation found = measured(grid(3, flat), half);

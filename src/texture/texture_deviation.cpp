@@ -47,8 +47,8 @@ class Direction {
     pairs_.assign(bounds_.size(), 0);
     look_at_near();
     find_lower_bound();
-    refine(unknown());
-    refine(open());
+    refine(unknown(), rough_error_bound());
+    refine(open(), goal_.error_bound);
     if (!witness_) find_witness();
     OneSidedTextureDeviation result;
     result.bounds = {goal_.lower, goal_.lower};
@@ -143,25 +143,32 @@ class Direction {
   void find_lower_bound() {
     std::vector<std::size_t> worst = open();
     worst.resize(std::min(worst.size(), first_batch));
-    refine(worst);
+    refine(worst, rough_error_bound());
+  }
+
+  /// As long as the lower bound is far too low, rough bounds suffice: they tell where the deviation is largest. With a
+  /// tolerance each triangle beyond it counts.
+  [[nodiscard]] double rough_error_bound() const {
+    return options_.tolerance ? goal_.error_bound : std::max(goal_.error_bound, reach_);
   }
 
   /// Refines triangles in batches. Every triangle of a batch starts from the lower bound before the batch, so that
   /// results do not depend on the number of threads.
-  void refine(std::span<const std::size_t> order) {
+  void refine(std::span<const std::size_t> order, double error_bound) {
     constexpr std::size_t growth = 4, max_batch = 4096;
     std::size_t batch = first_batch;
     for (std::size_t done = 0; done < order.size(); batch = std::min(growth * batch, max_batch)) {
       const std::size_t count = std::min(batch, order.size() - done);
-      refine_batch(order.subspan(done, count));
+      refine_batch(order.subspan(done, count), error_bound);
       done += count;
     }
   }
 
-  void refine_batch(std::span<const std::size_t> triangles) {
+  void refine_batch(std::span<const std::size_t> triangles, double error_bound) {
     std::vector<TriangleDeviation> found(triangles.size());
     std::vector<std::optional<TextureWitness>> witnesses(triangles.size());
     DeviationGoal goal = goal_;
+    goal.error_bound = error_bound;
     if (options_.tolerance) {
       goal.lower = std::min(goal.lower, *options_.tolerance - goal.error_bound);
       goal.silent = *options_.tolerance;
@@ -180,7 +187,7 @@ class Direction {
       if (found[k].pieces == 0) continue;
       bounds_[triangles[k]] = found[k].bounds;
       shares_[triangles[k]] = found[k].uncovered;
-      is_refined_[triangles[k]] = 1;
+      is_refined_[triangles[k]] = error_bound == goal_.error_bound ? 1 : 0;
       gave_up_ = gave_up_ || found[k].gave_up;
       pieces_ += found[k].pieces;
       if (exceeds(found[k]) && witnesses[k]) exceeding_.push_back(*witnesses[k]);
