@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -15,9 +17,12 @@
 #include "bvh/build.h"
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
+#include "geometry/hilbert.h"
 #include "meshbound/error.h"
+#include "numeric/vector_code.h"
 #include "reference/exact_distance.h"
 #include "reference/small_meshes.h"
+#include "setting.h"
 
 namespace {
 
@@ -224,6 +229,68 @@ TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+/// Coordinates of either sign around zero, zeros of both signs and triangles without area among them.
+TriangleMesh soup_around_zero() {
+  const double values[] = {-1, -1e-3, -1e-300, -0.0, 0.0, 1e-300, 1e-3, 1};
+  std::mt19937 random(13);
+  const auto value = [&] { return values[random() % 8]; };
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    for (int k = 0; k < 3; ++k) mesh.vertices.emplace_back(value(), value(), value());
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+TEST(Bvh, IsTheSameWithAndWithoutVectorCode) {
+  if (!uses_avx2()) GTEST_SKIP() << "this machine has no AVX2";
+  std::vector<TriangleMesh> meshes{icosphere(5), scaled(icosphere(3), 1e200), fan(5000), soup_around_zero()};
+  for (std::uint32_t n = 1; n < 70; ++n) meshes.push_back(soup_of(n));
+  for (const TriangleMesh& mesh : meshes) {
+    const Bvh with_vectors(mesh);
+    const test::Setting portable(internal::portable_kernels, true);
+    expect_same(with_vectors.data(), Bvh(mesh).data());
+  }
+}
+
+TEST(Bvh, ItsNormalsAreUnitVectorsAcrossTheTrianglesOrZero) {
+  for (const TriangleMesh& mesh : {icosphere(3), soup_of(101), soup_around_zero()}) {
+    const Bvh bvh(mesh);
+    const Bvh::Data& data = bvh.data();
+    expect_boxes_hold_their_triangles(data);
+    ASSERT_EQ(data.normals.size(), data.triangle_count());
+    for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot) {
+      const auto t = triangle_at(data, slot);
+      const Vec3 normal = cross(t.ab, t.ac);
+      const double scale = length(normal) > 0 ? 1 / length(normal) : 0;
+      EXPECT_EQ(data.normals[slot][0], static_cast<float>(normal.x * scale));
+      EXPECT_EQ(data.normals[slot][1], static_cast<float>(normal.y * scale));
+      EXPECT_EQ(data.normals[slot][2], static_cast<float>(normal.z * scale));
+    }
+  }
+}
+
+TEST(HilbertIndex, GoesThroughEachCellOnceAndFromEachToOneBesideIt) {
+  for (const int bits : {1, 2, 3, 4, 5}) {
+    const std::uint32_t side = 1U << bits, cells = side * side * side;
+    std::vector<std::array<int, 3>> way(cells, {-1, -1, -1});
+    for (std::uint32_t cell = 0; cell < cells; ++cell) {
+      const std::uint32_t x = cell % side, y = cell / side % side, z = cell / side / side;
+      const std::uint64_t index = hilbert_index(x, y, z, bits);
+      ASSERT_LT(index, cells);
+      ASSERT_EQ(way[index][0], -1);
+      way[index] = {static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
+      for (const int more : {1, 2, 8, 16})  // the curve of a finer grid goes through these cells in the same order
+        ASSERT_EQ(hilbert_index(x << more, y << more, z << more, bits + more) >> 3 * more, index);
+    }
+    for (std::uint32_t i = 1; i < cells; ++i) {
+      int apart = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) apart += std::abs(way[i][axis] - way[i - 1][axis]);
+      ASSERT_EQ(apart, 1) << bits << " bits, cell " << i;
+    }
+  }
+}
+
 TEST(Bvh, ItsErrorIsTheLargestRoundingOfItsVertices) {
   TriangleMesh mesh = scaled(icosphere(5), 1000);
   mesh.vertices[700].x() = 3e-308;  // denormal in the working frame
@@ -234,6 +301,23 @@ TEST(Bvh, ItsErrorIsTheLargestRoundingOfItsVertices) {
     for (const Vector3d& v : mesh.vertices) largest = std::max(largest, data.frame.rounding_of({v.x(), v.y(), v.z()}));
     EXPECT_GT(largest, 0);
     EXPECT_EQ(data.frame.error, largest);
+  }
+}
+
+TEST(FrameMap, GivesTheRoundingsOfItsFrame) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const double size : {1e-310, 1e-300, 1e-3, 1.0, 3e7, 1e300}) {
+    for (const double offset : {0.0, 1e9}) {
+      const Vec3 middle{offset * size, 0, 0}, half{size, size, size};
+      const Frame frame = frame_for_box(middle - half, middle + half);
+      const FrameMap map(frame);
+      for (int i = 0; i < 1000; ++i) {
+        Vec3 p = middle + Vec3{size * unit(random), size * unit(random), 0};
+        if (i % 3 == 0) p.y = std::ldexp(unit(random), -1050 - i % 30) * (i % 2 == 0 ? 1 : size);
+        ASSERT_EQ(map.rounding_of(p), frame.rounding_of(p)) << size << ' ' << offset << ' ' << p.y;
+      }
+    }
   }
 }
 

@@ -47,8 +47,7 @@ Array<std::uint32_t> seam_positions(const Bvh::Data& data);
 
 /// Fills `neighbours`. `first_vertex`: as `place_vertices` returned it.
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
-void build_normals(Bvh::Data& data);
-void build_nodes(Bvh::Data& data);
+void build_nodes_and_normals(Bvh::Data& data);
 
 /// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.
 Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);

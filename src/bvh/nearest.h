@@ -45,17 +45,22 @@ inline Double4 coordinates(const Vec3& v) {
 #endif
 }
 
+/// Four points, each given by its `coordinates`, lane by lane.
+inline Vec<Double4> lanes(const std::array<Double4, 4>& p) {
+#if defined(__AVX2__)
+  const __m256d xz_low = _mm256_unpacklo_pd(p[0], p[1]), y_low = _mm256_unpackhi_pd(p[0], p[1]),
+                xz_high = _mm256_unpacklo_pd(p[2], p[3]), y_high = _mm256_unpackhi_pd(p[2], p[3]);
+  return {_mm256_permute2f128_pd(xz_low, xz_high, 0x20), _mm256_permute2f128_pd(y_low, y_high, 0x20),
+          _mm256_permute2f128_pd(xz_low, xz_high, 0x31)};
+#else
+  return {Double4{p[0][0], p[1][0], p[2][0], p[3][0]}, Double4{p[0][1], p[1][1], p[2][1], p[3][1]},
+          Double4{p[0][2], p[1][2], p[2][2], p[3][2]}};
+#endif
+}
+
 /// Four points, lane by lane.
 inline Vec<Double4> gather4(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-#if defined(__AVX2__)
-  const Double4 p4 = coordinates(p), q4 = coordinates(q), r4 = coordinates(r), s4 = coordinates(s);
-  const __m256d xz_pq = _mm256_unpacklo_pd(p4, q4), y_pq = _mm256_unpackhi_pd(p4, q4),
-                xz_rs = _mm256_unpacklo_pd(r4, s4), y_rs = _mm256_unpackhi_pd(r4, s4);
-  return {_mm256_permute2f128_pd(xz_pq, xz_rs, 0x20), _mm256_permute2f128_pd(y_pq, y_rs, 0x20),
-          _mm256_permute2f128_pd(xz_pq, xz_rs, 0x31)};
-#else
-  return {Double4{p.x, q.x, r.x, s.x}, Double4{p.y, q.y, r.y, s.y}, Double4{p.z, q.z, r.z, s.z}};
-#endif
+  return lanes({coordinates(p), coordinates(q), coordinates(r), coordinates(s)});
 }
 
 /// Four triangles by their slots, lane by lane. Their corners are gathered: storing a copy for each block made testing

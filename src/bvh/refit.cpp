@@ -118,8 +118,7 @@ void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
   with_team(static_cast<int>(useful_threads(options.threads, moved.triangle_count())), [&] {
     move_vertices(*next, moved);
     turn_triangles(*next, turned);
-    build_normals(*next);
-    build_nodes(*next);
+    build_nodes_and_normals(*next);
   });
   data_ = std::move(next);
 }

@@ -51,9 +51,9 @@ class Renumbering {
     // By one thread: each thread's own heap would have to grow first.
     for (std::uint32_t r = 0; r < runs_; ++r) {
       run_[r].local.resize(mesh_.vertex_count());
-      run_[r].used.resize(std::min<std::size_t>(mesh_.vertex_count(), std::size_t{3} * (begin(r + 1) - begin(r))));
-      run_[r].rank.resize(r > 0 ? run_[r].used.size() : 0);
-      run_[r].positions.resize(r > 0 ? run_[r].used.size() : 0);
+      run_[r].used.resize(max_used(r) + 1);  // what is no new vertex is written behind the last one
+      run_[r].rank.resize(r > 0 ? max_used(r) : 0);
+      run_[r].positions.resize(r > 0 ? max_used(r) : 0);
       run_[r].seen.resize(runs_ > 1 ? mesh_.vertex_count() / 64 + 1 : 0);
     }
     std::vector<std::uint32_t> first_vertex(runs_ + 1, 0);
@@ -76,6 +76,9 @@ class Renumbering {
     for_each_task(runs_, [&](std::size_t r) { work(static_cast<std::uint32_t>(r)); });
   }
 
+  [[nodiscard]] std::size_t max_used(std::uint32_t r) const {
+    return std::min<std::size_t>(mesh_.vertex_count(), std::size_t{3} * (begin(r + 1) - begin(r)));
+  }
   [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
 
   /// Works in batches, in passes that do not depend on what was fetched just before: the processor then waits for many
@@ -101,13 +104,15 @@ class Renumbering {
     run.used.resize(count);
   }
 
-  /// Returns the number of vertices that have a number then.
+  /// Returns the number of vertices that have a number then. Without a branch on whether this one is new, which would
+  /// be guessed wrong one time in six.
   std::uint32_t number_vertex(Run& run, std::uint32_t v, std::uint32_t count) const {
-    if (run.local[v] != unused) return count;
-    run.local[v] = count;
+    const std::uint32_t known = run.local[v];
+    const bool is_new = known == unused;
+    run.local[v] = is_new ? count : known;
     run.used[count] = v;
     if (runs_ > 1) run.seen[v / 64] |= std::uint64_t{1} << v % 64;
-    return count + 1;
+    return count + static_cast<std::uint32_t>(is_new);
   }
 
   /// Fetches the positions of the vertices with the local numbers from `from` to below `to`.
@@ -118,7 +123,7 @@ class Renumbering {
     }
     double rounding = run.rounding;
     for (std::uint32_t i = from; i < to; ++i) {
-      rounding = std::max(rounding, data_.frame.rounding_of(positions[i]));
+      rounding = std::max(rounding, to_working_.rounding_of(positions[i]));
       positions[i] = to_working_(positions[i]);
     }
     run.rounding = rounding;

@@ -55,7 +55,7 @@ class PointQueries {
     const PointDistance found = measure_(data_, p, roundings, hint_);
     hint_ = found.nearest.slot;
     Goal goal;
-    set_slack(goal, magnitude, data_.frame.error + data_.frame.rounding_of(model));
+    set_slack(goal, magnitude, data_.frame.error + map_.rounding_of(model));
     const double upper = goal.proven_upper(found.nearest.squared, 0);
     return {{to_eigen(map_.to_model(p - found.offset)), data_.triangle_of_slot[found.nearest.slot]},
             {map_.length_down(std::max(0.0, goal.proven_lower(found.separated, 0))), map_.length_up(upper)}};

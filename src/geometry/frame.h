@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "geometry/vec3.h"
 
@@ -36,12 +38,19 @@ class FrameMap {
   explicit FrameMap(const Frame& frame)
       : frame_(frame),
         scale_(frame.exponent > -1023 && frame.exponent < 1023 ? power_of_two(-frame.exponent) : 0),
-        unit_(scale_ != 0 ? power_of_two(frame.exponent) : 0) {}
+        unit_(scale_ != 0 ? power_of_two(frame.exponent) : 0),
+        is_exact_from_(frame.center.x == 0 && frame.center.y == 0 && frame.center.z == 0 && scale_ != 0
+                           ? power_of_two(std::max(frame.exponent, 0) - 1021)
+                           : std::numeric_limits<double>::infinity()) {}
   [[nodiscard]] Vec3 operator()(const Vec3& p) const {
     return scale_ != 0 ? scale_ * (p - frame_.center) : frame_.to_working(p);
   }
   [[nodiscard]] Vec3 to_model(const Vec3& w) const {
     return scale_ != 0 ? unit_ * w + frame_.center : frame_.to_model(w);
+  }
+  /// The error made by mapping p, as a length in working units.
+  [[nodiscard]] double rounding_of(const Vec3& p) const {
+    return is_exact(p.x) & is_exact(p.y) & is_exact(p.z) ? 0 : frame_.rounding_of(p);
   }
   [[nodiscard]] double length_up(double working) const {
     const double model = unit_ * working;
@@ -53,13 +62,16 @@ class FrameMap {
   }
 
  private:
+  [[nodiscard]] bool is_exact(double x) const { return (x == 0) | (std::fabs(x) >= is_exact_from_); }
+
   static double power_of_two(int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
   }
 
   Frame frame_;
-  double scale_;  ///< 2^-exponent, or 0 where that or its inverse is not a normal number
-  double unit_;   ///< 2^exponent, or 0 where that or its inverse is not a normal number
+  double scale_;          ///< 2^-exponent, or 0 where that or its inverse is not a normal number
+  double unit_;           ///< 2^exponent, or 0 where that or its inverse is not a normal number
+  double is_exact_from_;  ///< coordinates of this magnitude or more lose nothing; infinite where that is not known
 };
 
 /// The frame for a model within the box [lo, hi] (model units, finite).

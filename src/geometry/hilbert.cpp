@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/hilbert.h"
 
+#include <cstddef>
+
 namespace meshbound {
 namespace {
 
@@ -39,39 +41,47 @@ constexpr std::array<std::array<Step, 8>, 24> make_table() {
 
 constexpr auto table = make_table();
 
-/// Two levels of the curve in one step, by state and two bits of each coordinate (column: bits 0-1 are x, 2-3 y, 4-5
-/// z).
-constexpr std::array<std::array<Step, 64>, 24> make_double_table() {
-  std::array<std::array<Step, 64>, 24> result{};
-  for (unsigned state = 0; state < 24; ++state) {
-    for (unsigned cell = 0; cell < 64; ++cell) {
-      const Step upper = table[state][(cell >> 1 & 1U) | (cell >> 3 & 1U) << 1 | (cell >> 5 & 1U) << 2];
-      const Step lower = table[upper.state][(cell & 1U) | (cell >> 2 & 1U) << 1 | (cell >> 4 & 1U) << 2];
-      result[state][cell] = {static_cast<std::uint8_t>(upper.digit << 3 | lower.digit), lower.state};
+/// Two levels of the curve in one step. Index: 64 times the state, and two bits of each coordinate, interleaved. Entry:
+/// 64 times the next state, and the position along the curve inside the cell of two levels before.
+constexpr auto double_table = [] {
+  std::array<std::uint16_t, std::size_t{24} * 64> result{};
+  for (std::size_t state = 0; state < 24; ++state) {
+    for (std::size_t cell = 0; cell < 64; ++cell) {
+      const Step upper = table[state][cell >> 3], lower = table[upper.state][cell & 7U];
+      result[64 * state + cell] = static_cast<std::uint16_t>(64 * lower.state + 8 * upper.digit + lower.digit);
     }
   }
   return result;
-}
+}();
 
-constexpr auto double_table = make_double_table();
+/// A grid of an odd number of levels is the first octant of one with a level more: from this state, the curve begins
+/// there in state 0.
+constexpr unsigned before_first = 2;
+static_assert(table[before_first][0].digit == 0 && table[before_first][0].state == 0);
+
+/// By a byte: bit i of it as bit 3 i.
+constexpr auto spread_bytes = [] {
+  std::array<std::uint32_t, 256> result{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte)
+    for (std::uint32_t i = 0; i < 8; ++i) result[byte] |= (byte >> i & 1U) << 3 * i;
+  return result;
+}();
+
+/// Bit i of `x`, which is below 2^21, as bit 3 i.
+std::uint64_t spread(std::uint32_t x) {
+  return spread_bytes[x & 255U] | std::uint64_t{spread_bytes[x >> 8 & 255U]} << 24 |
+         std::uint64_t{spread_bytes[x >> 16]} << 48;
+}
 
 }  // namespace
 
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bits) {
+  const std::uint64_t cells = spread(x) | spread(y) << 1 | spread(z) << 2;
   std::uint64_t index = 0;
-  unsigned state = 0;
-  int bit = bits;
-  if (bit % 2 != 0) {
-    --bit;
-    const Step step = table[state][(x >> bit & 1U) | (y >> bit & 1U) << 1 | (z >> bit & 1U) << 2];
-    index = step.digit;
-    state = step.state;
-  }
-  while (bit > 0) {
-    bit -= 2;
-    const Step step = double_table[state][(x >> bit & 3U) | (y >> bit & 3U) << 2 | (z >> bit & 3U) << 4];
-    index = index << 6 | step.digit;
-    state = step.state;
+  std::size_t entry = bits % 2 != 0 ? std::size_t{64} * before_first : 0;
+  for (int bit = 3 * (bits + bits % 2) - 6; bit >= 0; bit -= 6) {
+    entry = double_table[(entry & ~std::size_t{63}) | (cells >> bit & 63U)];
+    index = index << 6 | (entry & 63U);
   }
   return index;
 }

@@ -14,6 +14,7 @@ inline namespace MESHBOUND_ISA {
 
 using Double4 = double __attribute__((vector_size(32)));
 using Mask4 = decltype(Double4{} < Double4{});  // what a comparison gives: the type differs between compilers
+using Float4 = float __attribute__((vector_size(16)));
 using Float8 = float __attribute__((vector_size(32)));
 using Mask8 = decltype(Float8{} < Float8{});
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// `BuildLeaves`. Compiled once per instruction set (numeric/isa.h).
+#pragma once
+#include <algorithm>
+
+#include "bvh/leaf_kernel.h"
+#include "bvh/nearest.h"
+#include "bvh/node_boxes.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+inline void store_normals(Bvh::Data& data, std::uint32_t block, const CornerTriangle<Double4>& t) {
+  const Vec<Double4> normal = cross(t.ab, t.ac);
+  const Double4 norm = square_root(squared_length(normal)), scale = select(norm > 0.0, 1.0 / norm, Double4{});
+  const Vec<Double4> unit = scale * normal;
+  const std::uint32_t first = block * block_width, count = std::min(block_width, data.triangle_count() - first);
+  for (std::uint32_t i = 0; i < count; ++i)
+    data.normals[first + i] = {static_cast<float>(unit.x[i]), static_cast<float>(unit.y[i]),
+                               static_cast<float>(unit.z[i])};
+}
+
+inline void build_leaf(Bvh::Data& data, std::uint32_t block, BvhNode& node) {
+  const std::array<std::uint32_t, block_width> slots = slots_of_block(data, block);
+  std::array<std::array<Double4, block_width>, 3> corners;
+  for (std::size_t i = 0; i < block_width; ++i)
+    for (std::size_t k = 0; k < 3; ++k) corners[k][i] = coordinates(data.vertices[data.corners[slots[i]][k]]);
+  Double4 lo = corners[0][0], hi = lo;
+  for (const auto& of_triangles : corners) {
+    for (const Double4& corner : of_triangles) {
+      lo = minimum(lo, corner);
+      hi = maximum(hi, corner);
+    }
+  }
+  set_child(node, block % node_width, lo, hi);
+  const Vec<Double4> a = lanes(corners[0]);
+  store_normals(data, block, {a, lanes(corners[1]) - a, lanes(corners[2]) - a});
+}
+
+inline void build_leaves(Bvh::Data& data, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    BvhNode& node = data.nodes[data.level_begin[1] + i];
+    for (std::uint32_t k = 0; k < node_width; ++k) {
+      const auto block = static_cast<std::uint32_t>(i) * node_width + k;
+      if (block < data.block_count())
+        build_leaf(data, block, node);
+      else
+        set_empty(node, k);
+    }
+  }
+}
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound
