@@ -50,7 +50,7 @@ class FrameMap {
   }
   /// The error made by mapping p, as a length in working units.
   [[nodiscard]] double rounding_of(const Vec3& p) const {
-    return is_exact(p.x) & is_exact(p.y) & is_exact(p.z) ? 0 : frame_.rounding_of(p);
+    return is_exact(p.x) && is_exact(p.y) && is_exact(p.z) ? 0 : frame_.rounding_of(p);
   }
   [[nodiscard]] double length_up(double working) const {
     const double model = unit_ * working;
@@ -62,7 +62,7 @@ class FrameMap {
   }
 
  private:
-  [[nodiscard]] bool is_exact(double x) const { return (x == 0) | (std::fabs(x) >= is_exact_from_); }
+  [[nodiscard]] bool is_exact(double x) const { return x == 0 || std::fabs(x) >= is_exact_from_; }
 
   static double power_of_two(int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
