@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "fuzz/choices.h"
@@ -82,7 +83,7 @@ bool all_have_area(const TexturedMesh& mesh) {
 /// No point is further away than `upper`, and those further away than the tolerance belong to triangles that are
 /// listed.
 void check_samples(const OneSidedTextureDeviation& found, const TexturedMesh& a, const TexturedMesh& b,
-                   double tolerance) {
+                   const std::optional<double>& tolerance) {
   static const std::vector<RationalWeights> samples = sample_weights();
   for (const TexturedTriangle& t : a.triangles) {
     const bool is_listed = std::any_of(found.exceeding.begin(), found.exceeding.end(),
@@ -92,7 +93,7 @@ void check_samples(const OneSidedTextureDeviation& found, const TexturedMesh& a,
       if (!squared) continue;
       require(std::isinf(found.bounds.upper) || reference::compare_root(*squared, found.bounds.upper) <= 0,
               "a point is further away than upper");
-      require(is_listed || reference::compare_root(*squared, tolerance) <= 0,
+      require(is_listed || !tolerance || reference::compare_root(*squared, *tolerance) <= 0,
               "a triangle beyond the tolerance is missing");
     }
   }
@@ -129,7 +130,7 @@ void check_uncovered(const Bounds& uncovered, const TexturedMesh& a, const Textu
 }
 
 void check_direction(const OneSidedTextureDeviation& found, const TexturedMesh& a, const TexturedMesh& b,
-                     double error_bound, double tolerance) {
+                     double error_bound, const std::optional<double>& tolerance) {
   require(found.bounds.lower >= 0 && found.bounds.lower <= found.bounds.upper, "0 <= lower <= upper");
   require(found.outcome != Outcome::Converged || found.bounds.upper - found.bounds.lower <= error_bound,
           "converged, but the interval is wider than the error bound");
@@ -165,15 +166,16 @@ void check_texture(Bytes content) {
   options.threads = 1;
   options.max_pieces = 200;
   options.error_bound = std::ldexp(size, -(static_cast<int>(how) % 48));
-  options.tolerance = std::ldexp(size, -(static_cast<int>(source.below(16))));
+  if (const auto halvings = static_cast<int>(source.below(24)); halvings < 16)
+    options.tolerance = std::ldexp(size, -halvings);
   TextureDeviation found;
   try {
     found = texture_deviation(a, b, options);
   } catch (const InvalidInput&) {
     return;  // a coordinate that is not finite
   }
-  check_direction(found.a_to_b, a, b, *options.error_bound, *options.tolerance);
-  check_direction(found.b_to_a, b, a, *options.error_bound, *options.tolerance);
+  check_direction(found.a_to_b, a, b, *options.error_bound, options.tolerance);
+  check_direction(found.b_to_a, b, a, *options.error_bound, options.tolerance);
   if (is_moderate(a) && is_moderate(b)) {
     check_uncovered(found.a_to_b.uncovered, a, b);
     check_uncovered(found.b_to_a.uncovered, b, a);
