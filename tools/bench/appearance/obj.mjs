@@ -17,7 +17,7 @@ export async function readObj(path) {
     if (known !== undefined) return known;
     const at = key.split('/').map((text) => Number(text || 0));
     const resolve = (list, index) => list[index < 0 ? list.length + index : index - 1];
-    mesh.positions.push(...resolve(lists.v, at[0]));
+    mesh.positions.push(...resolve(lists.v, at[0]).slice(0, 3)); // a colour may follow
     mesh.coordinates.push(...(resolve(lists.vt, at[1] || 0) ?? [0, 0]).slice(0, 2));
     mesh.normals.push(...(resolve(lists.vn, at[2] || 0) ?? [0, 0, 0]));
     vertexOf.set(key, vertexOf.size);
