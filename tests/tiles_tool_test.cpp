@@ -15,7 +15,9 @@
 namespace {
 
 using meshbound::testing_tools::content_of;
+using meshbound::testing_tools::run_shell;
 using meshbound::testing_tools::run_tool;
+using meshbound::testing_tools::shell_quoted;
 using meshbound::testing_tools::TemporaryFolder;
 using meshbound::testing_tools::ToolRun;
 using Json = nlohmann::json;
@@ -94,6 +96,18 @@ TEST_F(Tiles, DoNotGoWithWhatNeedsTheWholeMesh) {
     EXPECT_EQ(run.exit_code, 2) << more[0];
     EXPECT_FALSE(std::filesystem::exists(in_folder("none.ply")));
   }
+}
+
+TEST_F(Tiles, HaveABenchmarkOfLargeMeshesThatEndsWithinOnSmallOnes) {
+  const std::string tools = std::filesystem::path(SIMPLIFY_WITH_BOUND).parent_path().parent_path();
+  const ToolRun run = run_shell(MESHBOUND_SOURCE_DIR "/tools/bench/large/run --share 0.0005 --tools " +
+                                    shell_quoted(tools) + " --scratch " + shell_quoted(in_folder("")),
+                                100);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string within = "| within |";
+  std::size_t runs = 0;
+  for (std::size_t at = run.out.find(within); at != std::string::npos; at = run.out.find(within, at + 1)) ++runs;
+  EXPECT_EQ(runs, 7u) << run.out;
 }
 
 TEST_F(Tiles, EndAtTheTimeLimitWithAMeshThatHolds) {
