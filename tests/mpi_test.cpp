@@ -104,7 +104,7 @@ TEST_F(ToolsOverRanks, GiveTheFileOfOneProcessAndSayWhatTheySent) {
     EXPECT_EQ(report["collapses"], alone["collapses"]);
     EXPECT_EQ(report["communication"]["ranks"], ranks);
     EXPECT_EQ(report["communication"]["input_bytes"], 0);  // each rank reads the file
-    EXPECT_LE(report["communication"]["bytes"].get<std::uint64_t>(), (ranks - 1) * 8 * input / 100)
+    EXPECT_LE(report["communication"]["bytes"].get<std::uint64_t>(), (ranks - 1) * 6 * input / 100)
         << ranks << " ranks";
   }
 }

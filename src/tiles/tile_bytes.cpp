@@ -244,15 +244,16 @@ class TileCoder {
     known_.clear();
     for (const auto& candidate : candidates_)
       for (const std::uint32_t f : candidate) know(f);
-    list_.resize(coder_.number(sizes_, list_.size(), output_.source_triangle.size()));
+    list_.resize(coder_.number(sizes_[candidates_.size()], list_.size(), output_.source_triangle.size()));
     const std::size_t near = known_.size();
     for (std::size_t i = 0; i < near; ++i) know_beside(known_[i]);
     std::uint32_t before = known_.empty() ? 0 : known_[0];
-    for (std::uint32_t& f : list_) {
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      std::uint32_t& f = list_[i];
       const auto place = static_cast<std::size_t>(std::find(known_.begin(), known_.end(), f) - known_.begin());
       if (coder_.bit(is_known_, place < known_.size())) {
         if (known_.empty()) CompactReader::fail();
-        f = known_[coder_.number(places_, place, known_.size() - 1)];
+        f = known_[coder_.number(places_[std::min<std::size_t>(i, 2)], place, known_.size() - 1)];
       } else {
         f = step(steps_, before, f, output_.source_triangle.size());
         know(f);
@@ -285,7 +286,9 @@ class TileCoder {
   bool was_expected_ = false;
   std::array<BitChance, 2> as_expected_;
   std::array<std::array<std::array<BitChance, 5>, 6>, 5> as_candidate_;
-  NumberChances sizes_, places_, steps_;
+  std::array<NumberChances, 6> sizes_;   ///< by how many candidates there are
+  std::array<NumberChances, 3> places_;  ///< of the first triangle of a cover, the second one and others
+  NumberChances steps_;
   BitChance is_known_;
 };
 

@@ -2,6 +2,7 @@
 #include "mpi/rank_workers.h"
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <functional>
 #include <utility>
@@ -107,8 +108,7 @@ DistanceOptions unpack_distance(CompactReader& from) {
   return options;
 }
 
-void pack(CompactWriter& to, const StoredMesh& stored) {
-  const TriangleMesh mesh = loaded(stored);
+void pack(CompactWriter& to, const TriangleMesh& mesh) {
   to.number(mesh.vertices.size());
   for (const Eigen::Vector3d& p : mesh.vertices)
     for (int k = 0; k < 3; ++k) to.raw(p[k]);
@@ -120,6 +120,11 @@ void pack(CompactWriter& to, const StoredMesh& stored) {
       before = v;
     }
   }
+}
+
+template <class T>
+bool have_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 TriangleMesh unpack_mesh(CompactReader& from) {
@@ -219,20 +224,20 @@ class Follower {
   /// A file that is no mesh leaves no mesh here and ends rank 0.
   void read(CompactReader& from) {
     const std::string path(from.text());
-    auto mesh = std::make_unique<MeshInSpace>(space(from));
+    auto mesh = std::make_unique<MeshInSpace>(space_in(from.text()));
     (void)read_together(ranks_, path, {}, *mesh, {});
     meshes_.push_back(std::move(mesh));
   }
 
   void take(CompactReader& from) {
-    const StoreSpace space = this->space(from);
+    const StoreSpace space = space_in(from.text());
     meshes_.push_back(std::make_unique<MeshInSpace>(space, unpack_mesh(from)));
   }
 
   /// Where this rank keeps meshes: in the folder of --scratch, or in one of its own.
-  [[nodiscard]] static StoreSpace space(CompactReader& from) {
+  [[nodiscard]] static StoreSpace space_in(std::string_view scratch) {
     TileSetting setting;
-    setting.scratch = from.text();
+    setting.scratch = scratch;
     return space_of(setting);
   }
 
@@ -245,7 +250,9 @@ class Follower {
     const std::string folder(from.text()), key(from.text());
     std::optional<TileScratch> scratch;
     if (!key.empty()) scratch.emplace(folder, key, true, false);
-    (void)decimate_together(ranks_, original, options, tiles, scratch);
+    const Decimated decimated = decimate_together(ranks_, original, options, tiles, scratch);
+    ranks_.do_together(
+        [&] { meshes_.push_back(std::make_unique<MeshInSpace>(space_in(folder), decimated.result.last().mesh)); });
   }
 
   void measure(Command which, CompactReader& from) {
@@ -301,8 +308,11 @@ MeshFile RankWorkers::read(const std::string& path, const StopToken& stop, MeshI
   return file;
 }
 
-/// Sends a mesh that the others have not read. They keep it until the end.
-std::uint64_t RankWorkers::share(const StoredMesh& mesh) {
+/// Sends a mesh that the others neither have read nor have as a result. They keep it until the end.
+std::uint64_t RankWorkers::share(const StoredMesh& stored) {
+  const TriangleMesh mesh = loaded(stored);
+  if (result_ && have_same_bits(mesh.vertices, result_->vertices) && have_same_bits(mesh.triangles, result_->triangles))
+    return number_of_result_;
   CompactWriter message = command(Command::Take);
   message.text(setting_.scratch);
   pack(message, mesh);
@@ -333,6 +343,8 @@ SimplifyResult RankWorkers::decimate(const StoredMesh& original, const SimplifyO
   tell(ranks_, message);
   return together(ranks_, [&] {
     auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, scratch);
+    ranks_.do_together([&] { result_ = result.last().mesh; });
+    number_of_result_ = shared_++;
     reused_tiles_ += reused;
     return std::move(result);
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 
 #include "common/tile_workers.h"
@@ -31,7 +32,7 @@ class RankWorkers : public TileWorkers {
   enum class Command : std::uint8_t;
 
  private:
-  [[nodiscard]] std::uint64_t share(const StoredMesh& mesh);
+  [[nodiscard]] std::uint64_t share(const StoredMesh& stored);
   [[nodiscard]] std::uint64_t number_of(const StoredMesh& mesh);
   void tell_measurement(Command which, const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options);
 
@@ -39,6 +40,8 @@ class RankWorkers : public TileWorkers {
   TileSetting setting_;
   std::map<const StoredMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
   std::uint64_t shared_ = 0;                         ///< meshes that the others have
+  std::optional<TriangleMesh> result_;               ///< of the last decimation, which the others have too
+  std::uint64_t number_of_result_ = 0;               ///< that they know it by
 };
 
 /// The other ranks: do what rank 0 says until it calls `dismiss`, and return the exit code that it gives.
