@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <random>
 #include <set>
 
 #include "datasets/analytic_meshes.h"
@@ -190,7 +191,6 @@ TEST_P(Decimation, TakesTheSameWayForEveryInputAndOption) {
   }
 }
 
-/// Each goes on from the one before: half as many edges are tried as in a run for each, with no more proofs.
 /// A placement that leaves a point of the original, or of an edge, too far away is tried again with that point: 1,433
 /// and 1,408 faces are left, 1,467 and 1,470 without the points that proofs find, 1,506 and 1,491 without those of
 /// edges.
@@ -202,6 +202,19 @@ TEST_P(Decimation, PlacesVerticesByWhatProofsHaveFound) {
   EXPECT_LT(result.last().faces(), 1450U);
 }
 
+/// The planes of a noisy original are tilted every way, and so many come together that they refuse what the samples
+/// would allow: 320 faces are left if quadrics are never renewed, 234 as it is.
+TEST_P(Decimation, IsNotHeldBackByTheNoiseOfTheOriginal) {
+  TriangleMesh noisy = datasets::icosphere(1, 6);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> factor(0.993, 1.007);
+  for (Eigen::Vector3d& p : noisy.vertices) p *= factor(random);
+  const SimplifyResult result = simplify_with_bound(noisy, options(0.02));
+  EXPECT_TRUE(holds(noisy, result.last()));
+  EXPECT_LT(result.last().faces(), 270U);
+}
+
+/// Each goes on from the one before: half as many edges are tried as in a run for each, with no more proofs.
 TEST_P(Decimation, OfSeveralLevelsCostsLessThanOneForEach) {
   for (const TriangleMesh& shape : {datasets::icosphere(1, 5), datasets::terrain(1, 60, 3)}) {
     const std::vector<double> tolerances = {0.0025, 0.005, 0.01, 0.02};

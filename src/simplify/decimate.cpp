@@ -59,7 +59,9 @@ class Run {
     if (state_.faces == 0) return ended_by_;
     if (state_.tried_tolerance != goal_.tolerance) prove_together();
     prove_one_by_one();
-    if (goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.proven_changes) refine();
+    const bool is_high = goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.proven_changes;
+    if (!has_ended() && renew_quadrics(is_high ? Again::All : Again::FarBeyond)) prove_one_by_one();
+    if (is_high) refine();
     return ended_by_;
   }
 
@@ -73,6 +75,8 @@ class Run {
   [[nodiscard]] std::size_t proposed() const;
   std::size_t prove_and_repair();
   void prove_one_by_one();
+  enum class Again { All, FarBeyond };
+  bool renew_quadrics(Again edges);
   void refine();
   void in_regions(Split split, const Work& work);
   [[nodiscard]] bool is_global() const { return goal_.target_faces > 0 || goal_.on_exceed == OnExceed::Stop; }
@@ -244,6 +248,23 @@ void Run::prove_one_by_one() {
   }
 }
 
+/// Gives each vertex the planes of the mesh that is left. Its quadric had all planes of the original that have come
+/// together, with their noise; by the new planes an edge that was far beyond the tolerance may be near it. Returns
+/// whether so many edges are open again that it is worth a pass.
+bool Run::renew_quadrics(Again edges) {
+  state_.reset_quadrics();
+  const ArrayMesh& mesh = state_.mesh;
+  std::size_t open = 0;
+  for (Corner e = 0; e < state_.refused_at.size(); ++e) {
+    if (mesh.is_removed(e / 3) || mesh.edge(e) != e) continue;
+    const bool has_changed = std::max(state_.touched[mesh.start(e)], state_.touched[mesh.end(e)]) > 0;
+    if (edges == Again::FarBeyond && !(has_changed && is_far_beyond(state_.deviation[e]))) continue;
+    state_.refused_at[e] = 0;
+    ++open;
+  }
+  return static_cast<double>(open) > min_gain_of_pass * static_cast<double>(state_.faces);
+}
+
 /// Moves vertices and flips edges to make room for further collapses.
 void Run::refine() {
   if (has_ended()) return;
@@ -283,6 +304,7 @@ bool take_back(DecimationState& state, const Unproven& refuted, std::size_t dept
     proof.reopen(repaired.faces);
   }
   proof.commit();
+  state.reset_quadrics();  // those of vertices that came back are unknown
   threads.together.restored += restored;
   return restored > 0;
 }

@@ -297,7 +297,7 @@ void Decimation::set_texture() {
                           state_->mesh, state_->lines, state_->source_triangle, vertices_, original_.triangles,
                           tolerance);
   state_->texture->limit = share_of_texture_tolerance * tolerance;
-  state_->quadrics = vertex_quadrics(state_->mesh, PlaneWeights::Area);
+  state_->reset_quadrics();
 }
 
 void Decimation::note_turned_faces() {

@@ -174,6 +174,11 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
 }
 
+void DecimationState::reset_quadrics() {
+  quadrics = {};
+  quadrics = vertex_quadrics(mesh, texture ? PlaneWeights::Area : PlaneWeights::Equal);
+}
+
 void DecimationState::set_samples(double for_tolerance) {
   const double spacing = spacing_of_samples * for_tolerance;
   samples = starts_as_original ? Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing)

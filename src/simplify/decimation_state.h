@@ -160,6 +160,8 @@ struct DecimationState {
                   ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                   CoverAssignment cover_of);
+  /// Gives each vertex the planes of the faces that are around it now.
+  void reset_quadrics();
   /// Takes samples for proposals of this tolerance.
   void set_samples(double for_tolerance);
   /// Largest distance between samples on an edge of the original, in tolerances: with samples further apart, a face may
