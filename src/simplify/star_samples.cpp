@@ -18,7 +18,7 @@ constexpr std::size_t max_outside = 8;
 /// Samples of a star above which it is thinned out.
 constexpr std::size_t max_samples = 96;
 /// One sample may represent two if the original rises by no more than this between them, in tolerances.
-constexpr double max_deviation_of_pair = 0.2;
+constexpr double max_deviation_of_pair = 0.1;
 /// Cells along the curve that pairs them, as a power of two: a few thousand to an axis.
 constexpr int curve_bits = 12;
 

@@ -275,21 +275,21 @@ class LongCalls(unittest.TestCase):
         program = (
             "import os, signal, sys, test_meshbound, meshbound\n"
             "def threads(): return len(os.listdir('/proc/self/task'))\n"
-            "before = threads()\n"
+            "mesh, before, told = test_meshbound.sheet(500, 5), threads(), []\n"
+            "def progress(fraction):\n"
+            "    if not told: told.append(print('started', flush=True))\n"
             "def interrupt(*_):\n"
             "    print('during the call' if threads() > before else 'after it', flush=True)\n"
             "    raise KeyboardInterrupt\n"
             "signal.signal(signal.SIGINT, interrupt)\n"
-            "print('started', flush=True)\n"
             "try:\n"
-            "    meshbound.simplify(test_meshbound.sheet(500, 5), '0.02%', effort='high')\n"
+            "    meshbound.simplify(mesh, '0.02%', effort='high', progress=progress)\n"
             "except KeyboardInterrupt:\n"
             "    sys.exit(42)\n"
         )
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
         with subprocess.Popen([sys.executable, "-c", program], env=environment, stdout=subprocess.PIPE) as child:
             self.assertEqual(child.stdout.readline(), b"started\n")
-            threading.Event().wait(0.3)
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.stdout.readline(), b"during the call\n")
             self.assertEqual(child.wait(60), 42)
