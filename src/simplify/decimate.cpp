@@ -60,8 +60,12 @@ class Run {
     if (state_.tried_tolerance != goal_.tolerance) prove_together();
     prove_one_by_one();
     const bool is_high = goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.proven_changes;
-    if (!has_ended() && renew_quadrics(is_high ? Again::All : Again::FarBeyond)) prove_one_by_one();
-    if (is_high) refine();
+    if (!has_ended() && renew_quadrics()) prove_one_by_one();
+    if (is_high) {
+      std::fill(state_.refused_at.begin(), state_.refused_at.end(), 0);
+      prove_one_by_one();
+      refine();
+    }
     return ended_by_;
   }
 
@@ -75,8 +79,7 @@ class Run {
   [[nodiscard]] std::size_t proposed() const;
   std::size_t prove_and_repair();
   void prove_one_by_one();
-  enum class Again { All, FarBeyond };
-  bool renew_quadrics(Again edges);
+  [[nodiscard]] bool renew_quadrics();
   void refine();
   void in_regions(Split split, const Work& work);
   [[nodiscard]] bool is_global() const { return goal_.target_faces > 0 || goal_.on_exceed == OnExceed::Stop; }
@@ -249,16 +252,19 @@ void Run::prove_one_by_one() {
 }
 
 /// Gives each vertex the planes of the mesh that is left. Its quadric had all planes of the original that have come
-/// together, with their noise; by the new planes an edge that was far beyond the tolerance may be near it. Returns
-/// whether so many edges are open again that it is worth a pass.
-bool Run::renew_quadrics(Again edges) {
-  state_.reset_quadrics();
+/// together, with their noise. Edges that only the old planes refused are open again. Returns whether they are so many
+/// that it is worth a pass.
+bool Run::renew_quadrics() {
   const ArrayMesh& mesh = state_.mesh;
-  std::size_t open = 0;
+  std::vector<Corner> refused;
   for (Corner e = 0; e < state_.refused_at.size(); ++e) {
-    if (mesh.is_removed(e / 3) || mesh.edge(e) != e) continue;
-    const bool has_changed = std::max(state_.touched[mesh.start(e)], state_.touched[mesh.end(e)]) > 0;
-    if (edges == Again::FarBeyond && !(has_changed && is_far_beyond(state_.deviation[e]))) continue;
+    if (mesh.is_removed(e / 3) || mesh.edge(e) != e || !is_far_beyond(state_.deviation[e])) continue;
+    if (is_refused_by_planes(state_, e)) refused.push_back(e);
+  }
+  state_.reset_quadrics();
+  std::size_t open = 0;
+  for (const Corner e : refused) {
+    if (is_refused_by_planes(state_, e)) continue;
     state_.refused_at[e] = 0;
     ++open;
   }

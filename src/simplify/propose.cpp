@@ -394,6 +394,14 @@ bool Proposer::is_inside(Corner edge) const {
   return owned_around(state_.mesh.start(edge)) && owned_around(state_.mesh.end(edge));
 }
 
+bool is_refused_by_planes(const DecimationState& state, Corner edge) {
+  const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
+  const Quadric &of_a = state.quadrics[a], &of_b = state.quadrics[b];
+  const double cost = best_placement(of_a, of_b, state.mesh.position(a), state.mesh.position(b)).cost;
+  const double max_deviation = max_deviation_from_planes * state.limit;
+  return cost > max_deviation * max_deviation * (of_a.planes() + of_b.planes());
+}
+
 float edge_cost(const DecimationState& state, Corner edge) {
   const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
   const OnLines on_lines = state.lines.allowed(state.mesh, edge);

@@ -41,6 +41,9 @@ void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star
 /// The cost of a collapse by the quadrics of its ends.
 [[nodiscard]] float edge_cost(const DecimationState& state, Corner edge);
 
+/// Whether the planes in the quadrics of an edge refuse it without a look at samples.
+[[nodiscard]] bool is_refused_by_planes(const DecimationState& state, Corner edge);
+
 /// Tries changes against the samples around them, and makes them. One for each thread.
 class Proposer {
  public:
