@@ -22,6 +22,6 @@ enum class NormalSeams : bool { Ignored, Counted };
 
 /// Throws `InvalidInput` if the attributes are for another number of triangles. O(n log n).
 [[nodiscard]] ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes,
-                            NormalSeams normal_seams = NormalSeams::Ignored);
+                                    NormalSeams normal_seams = NormalSeams::Ignored);
 
 }  // namespace meshbound

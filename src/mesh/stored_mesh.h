@@ -106,7 +106,8 @@ struct MeshPart {
   std::vector<std::uint32_t> vertices;  ///< by vertex of the part: its number in the whole, ascending
 };
 
-/// O(n) for n triangles, and 1 / 4096 for each vertex of the whole. Numbers near one another are best given one after the other.
+/// O(n) for n triangles, and 1 / 4096 for each vertex of the whole. Numbers near one another are best given one after
+/// the other.
 [[nodiscard]] MeshPart part_of(const StoredMesh& whole, std::span<const std::uint32_t> triangles);
 
 /// All of a mesh in memory.
