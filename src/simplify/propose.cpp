@@ -39,6 +39,11 @@ constexpr double hopeful_deviation = 1.05;
 /// A placement is good enough where distances are this share of the limit: closest points move with it.
 constexpr double good_share = 0.9;
 
+/// Root mean square of the distances of an edge's best placement from the planes in the quadrics of its ends.
+double deviation_from_planes(const Placement& best, const Quadric& of_a, const Quadric& of_b) {
+  return std::sqrt(std::max(0.0, best.cost) / (of_a.planes() + of_b.planes()));
+}
+
 /// Whether the two faces that stay are those of a tetrahedron: they have three vertices in common.
 bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
   return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
@@ -241,8 +246,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
   tried_ = wanted ? *wanted : best.point;
   by_bound_ = true;
-  const double planes = state_.quadrics[kept].planes() + state_.quadrics[gone].planes();
-  const double deviation = std::sqrt(std::max(0.0, best.cost) / planes);
+  const double deviation = deviation_from_planes(best, state_.quadrics[kept], state_.quadrics[gone]);
   if (!wanted && deviation > max_deviation_from_planes * full_limit_) {
     deviation_ = static_cast<float>(deviation / (max_deviation_from_planes * full_limit_)) * far_beyond;
     return std::nullopt;
@@ -397,9 +401,8 @@ bool Proposer::is_inside(Corner edge) const {
 bool is_refused_by_planes(const DecimationState& state, Corner edge) {
   const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
   const Quadric &of_a = state.quadrics[a], &of_b = state.quadrics[b];
-  const double cost = best_placement(of_a, of_b, state.mesh.position(a), state.mesh.position(b)).cost;
-  const double max_deviation = max_deviation_from_planes * state.limit;
-  return cost > max_deviation * max_deviation * (of_a.planes() + of_b.planes());
+  const Placement best = best_placement(of_a, of_b, state.mesh.position(a), state.mesh.position(b));
+  return deviation_from_planes(best, of_a, of_b) > max_deviation_from_planes * state.limit;
 }
 
 float edge_cost(const DecimationState& state, Corner edge) {
