@@ -3,13 +3,17 @@
 # build goes into reading the same headers hundreds of times. None of our own, so that a change of one compiles again only
 # what includes it.
 
-# Compiler caches as launchers cannot cache what is compiled with them.
+# Compiler caches as launchers cannot cache what is compiled with them; whoever has one builds often, file by file.
 if(CMAKE_CXX_COMPILER_LAUNCHER OR DEFINED ENV{EM_COMPILER_WRAPPER})
-  set(MESHBOUND_PRECOMPILED_HEADERS_DEFAULT OFF)
+  set(MESHBOUND_FIRST_BUILD OFF)
 else()
-  set(MESHBOUND_PRECOMPILED_HEADERS_DEFAULT ON)
+  set(MESHBOUND_FIRST_BUILD ON)
 endif()
-option(MESHBOUND_PRECOMPILED_HEADERS "Compile the common headers of other projects once" ${MESHBOUND_PRECOMPILED_HEADERS_DEFAULT})
+option(MESHBOUND_PRECOMPILED_HEADERS "Compile the common headers of other projects once" ${MESHBOUND_FIRST_BUILD})
+if(PROJECT_IS_TOP_LEVEL)
+  option(CMAKE_UNITY_BUILD "Compile several files of a folder as one" ${MESHBOUND_FIRST_BUILD})
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 16 CACHE STRING "The largest number of files that are compiled as one")
+endif()
 
 set(MESHBOUND_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <fstream> <functional>
   <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <thread> <unordered_map> <utility>

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "attributes/sectors.h"
 #include "mesh/gltf_document.h"
 #include "mesh/gltf_primitives.h"
 #include "meshbound/attributes.h"
@@ -21,11 +22,6 @@ bool moves_nothing(const MeshAttributes& attributes) {
   return attributes.document == nullptr ||
          std::all_of(attributes.document->placed.begin(), attributes.document->placed.end(),
                      [](const PlacedMesh& placed) { return placed.placement.is_identity(); });
-}
-
-Edge sorted(Edge edge) {
-  std::sort(edge.begin(), edge.end());
-  return edge;
 }
 
 }  // namespace

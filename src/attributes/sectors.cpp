@@ -10,11 +10,6 @@
 namespace meshbound {
 namespace {
 
-Edge sorted(Edge edge) {
-  std::sort(edge.begin(), edge.end());
-  return edge;
-}
-
 std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 }  // namespace

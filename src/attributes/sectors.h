@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -7,6 +8,12 @@
 #include "meshbound/simplify.h"
 
 namespace meshbound {
+
+/// The edge with its smaller vertex first.
+[[nodiscard]] inline Edge sorted(Edge edge) {
+  std::sort(edge.begin(), edge.end());
+  return edge;
+}
 
 /// Whether two corners at one vertex, of triangles with a common edge there, may be in one sector.
 using MayJoin = std::function<bool(std::uint32_t, std::uint32_t)>;

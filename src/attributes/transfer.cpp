@@ -7,12 +7,11 @@
 #include "attributes/chart_surface.h"
 #include "attributes/sectors.h"
 #include "mesh/first_use.h"
+#include "mesh/no_value.h"
 #include "meshbound/simplify.h"
 
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 /// Where a corner belongs is looked up at a point this share of the way from the corner to the middle of its triangle.
 constexpr double share_inside = 0.1;

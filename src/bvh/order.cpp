@@ -120,7 +120,7 @@ void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end,
 }
 
 /// Triangles whose corners are fetched before any of them is worked on: the processor then waits for many at a time.
-constexpr std::size_t batch = 64;
+constexpr std::size_t fetched_at_once = 64;
 
 Vec3 corner_sum(const MeshView& mesh, std::size_t triangle) {
   Vec3 sum;
@@ -146,9 +146,9 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::s
   other.resize(n);
   const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::min(std::max(x * scale, 0.0), cells)); };
   for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
-    std::array<Vec3, batch> sums;
-    for (std::size_t first = begin; first < end; first += batch) {
-      const std::size_t taken = std::min(batch, end - first);
+    std::array<Vec3, fetched_at_once> sums;
+    for (std::size_t first = begin; first < end; first += fetched_at_once) {
+      const std::size_t taken = std::min(fetched_at_once, end - first);
       for (std::size_t i = 0; i < taken; ++i) sums[i] = corner_sum(mesh, first + i);
       for (std::size_t i = 0; i < taken; ++i) {
         const Vec3 centroid = to_working((1.0 / 3) * sums[i]) - box.lo;

@@ -13,7 +13,7 @@
 namespace meshbound {
 namespace {
 
-constexpr std::uint32_t batch = 32;
+constexpr std::uint32_t hashed_at_once = 32;
 
 /// The vertices at each position; only of those that are put in. Open addressing, at most three quarters full.
 class TornPositions {
@@ -27,10 +27,10 @@ class TornPositions {
   template <class Wanted, class Use>
   void for_each_hashed(Wanted&& wanted, Use&& use) {
     const auto count = static_cast<std::uint32_t>(vertices_.size());
-    std::array<std::uint32_t, batch> vertex, entry;
+    std::array<std::uint32_t, hashed_at_once> vertex, entry;
     for (std::uint32_t v = 0; v < count;) {
       std::uint32_t size = 0;
-      for (; v < count && size < batch; ++v) {
+      for (; v < count && size < hashed_at_once; ++v) {
         if (!wanted(v)) continue;
         vertex[size] = v;
         entry[size] = static_cast<std::uint32_t>(position_hash(position_key(vertices_[v])) >> shift_);

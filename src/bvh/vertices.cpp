@@ -17,8 +17,8 @@ constexpr std::uint32_t of_earlier_run = 0xffffffff;
 /// Most runs that pay: every run has a table of all vertices.
 constexpr std::size_t max_runs = 16;
 
-/// Triangles of a batch: their data fits into the first-level cache.
-constexpr std::uint32_t batch = 64;
+/// Their data fits into the first-level cache.
+constexpr std::uint32_t triangles_at_once = 64;
 
 struct Run {
   explicit Run(Arena& scratch)
@@ -87,11 +87,11 @@ class Renumbering {
     Run& run = run_[r];
     std::fill(run.local.begin(), run.local.end(), unused);
     Vec3* const positions = r == 0 ? data_.vertices.data() : run.positions.data();
-    std::array<Triangle, batch> triangles;
+    std::array<Triangle, triangles_at_once> triangles;
     std::uint32_t count = 0;
     const std::uint32_t end = begin(r + 1);
-    for (std::uint32_t slot = begin(r); slot < end; slot += batch) {
-      const std::uint32_t size = std::min(batch, end - slot), known = count;
+    for (std::uint32_t slot = begin(r); slot < end; slot += triangles_at_once) {
+      const std::uint32_t size = std::min(triangles_at_once, end - slot), known = count;
       for (std::uint32_t i = 0; i < size; ++i) triangles[i] = mesh_.triangle(data_.triangle_of_slot[slot + i]);
       for (std::uint32_t i = 0; i < size; ++i)
         for (const std::uint32_t v : triangles[i]) __builtin_prefetch(&run.local[v]);

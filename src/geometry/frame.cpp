@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/magnitude.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -17,8 +18,6 @@ constexpr double far_offset = 8;
 
 /// For a model that is a single point: smaller than any other model in its neighbourhood.
 constexpr int point_exponent = -1020;
-
-double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 Vec3 scaled(const Vec3& v, int exponent) {
   return {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
@@ -79,13 +78,14 @@ double Frame::working_length_down(double model) const {
 
 Frame frame_for_box(const Vec3& lo, const Vec3& hi) {
   Frame frame;
-  const double size = largest(hi - lo), reach = std::max(largest(lo), largest(hi));
+  const double size = largest_magnitude_of(hi - lo),
+               reach = std::max(largest_magnitude_of(lo), largest_magnitude_of(hi));
   if (reach > far_offset * size) {
     frame.center = size > 0 ? Vec3{coarse_center(lo.x, hi.x, size), coarse_center(lo.y, hi.y, size),
                                    coarse_center(lo.z, hi.z, size)}
                             : lo;
   }
-  const double radius = std::max(largest(lo - frame.center), largest(hi - frame.center));
+  const double radius = std::max(largest_magnitude_of(lo - frame.center), largest_magnitude_of(hi - frame.center));
   frame.exponent = point_exponent;
   if (radius > 0) std::frexp(radius, &frame.exponent);
   return frame;

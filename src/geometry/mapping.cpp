@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/eigen_vec3.h"
+#include "geometry/magnitude.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 
@@ -14,8 +15,6 @@ namespace {
 /// Rotations that are composed in doubles drift from orthonormal by about u a step; a matrix further off than this is a
 /// mistake (a scale, a shear), not drift.
 constexpr double max_drift = 1e-9;
-
-double largest(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
 /// Spectral norm of R^T R - I, bounded by the Frobenius norm plus the rounding of its 9 entries (3 products each).
 double drift_of(const Eigen::Isometry3d& pose) {
@@ -35,12 +34,12 @@ Mapping shift_and_scale(const Frame& from, const Frame& to, double drift) {
   Mapping map;
   const double scale = std::ldexp(1.0, from.exponent - to.exponent);
   map.translation = to.to_working(from.center);
-  map.is_identity = scale == 1 && largest(map.translation) == 0;
+  map.is_identity = scale == 1 && largest_magnitude_of(map.translation) == 0;
   map.rows[0] = {scale, 0, 0};
   map.rows[1] = {0, scale, 0};
   map.rows[2] = {0, 0, scale};
-  map.magnitude = std::max(1.0, scale + largest(map.translation));
-  const bool exact = largest(map.translation) == 0;
+  map.magnitude = std::max(1.0, scale + largest_magnitude_of(map.translation));
+  const bool exact = largest_magnitude_of(map.translation) == 0;
   map.error = (exact ? 0 : to.rounding_of(from.center) + 8 * unit_roundoff * map.magnitude) + 8 * drift * map.magnitude;
   return map;
 }
@@ -62,10 +61,10 @@ Mapping mapping_between(const Frame& from, const Eigen::Isometry3d& from_pose, c
     map.rows[row] = {scale * rotation(row, 0), scale * rotation(row, 1), scale * rotation(row, 2)};
   map.translation = {std::ldexp(moved.x(), -to.exponent), std::ldexp(moved.y(), -to.exponent),
                      std::ldexp(moved.z(), -to.exponent)};
-  map.magnitude = std::max(1.0, 2 * scale + largest(map.translation));
+  map.magnitude = std::max(1.0, 2 * scale + largest_magnitude_of(map.translation));
   // Largest intermediate of the translation, target units: each of its at most 12 roundings costs u times that.
   const double reach = from_pose.translation().cwiseAbs().maxCoeff() + to_pose.translation().cwiseAbs().maxCoeff() +
-                       2 * largest(from.center) + 2 * largest(to.center);
+                       2 * largest_magnitude_of(from.center) + 2 * largest_magnitude_of(to.center);
   const double total = map.magnitude + 2 * std::ldexp(reach, -to.exponent);
   map.error = (64 * unit_roundoff + 8 * drift) * total;
   return map;

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/no_value.h"
+
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 /// Numbers in a colour: red, green, blue and opacity, which is 1 where the file gives none.
 constexpr std::size_t colour_width = 4;

@@ -5,13 +5,12 @@
 #include <charconv>
 #include <string_view>
 
+#include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 class PrimitiveWriter {
  public:

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/no_value.h"
+
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 /// An index of the file counted from 0; -1 for none. `count` values have been read so far.
 std::int64_t from_zero(std::int64_t index, std::size_t count) {

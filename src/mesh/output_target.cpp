@@ -15,7 +15,7 @@
 namespace meshbound {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+[[noreturn]] void refuse_to_write(const std::filesystem::path& path, const std::string& reason) {
   throw IoError(path.string() + ": cannot write: " + reason);
 }
 
@@ -51,8 +51,9 @@ bool grants_writing(const std::filesystem::path& path, const struct stat& status
 
 void require_folder(const std::filesystem::path& named, const std::filesystem::path& folder) {
   std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) refuse(named, "no such folder: " + folder.string());
-  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) refuse(named, "the folder is not writable");
+  if (!std::filesystem::is_directory(folder, error)) refuse_to_write(named, "no such folder: " + folder.string());
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    refuse_to_write(named, "the folder is not writable");
 }
 
 }  // namespace
@@ -72,17 +73,17 @@ OutputTarget output_target(const std::filesystem::path& path) {
   target.path = follow_links(path);
   struct stat status {};
   if (::stat(target.path.c_str(), &status) != 0) {
-    if (errno != ENOENT && errno != ENOTDIR) refuse(path, std::strerror(errno));
+    if (errno != ENOENT && errno != ENOTDIR) refuse_to_write(path, std::strerror(errno));
     require_folder(path, folder_of(target.path));
     return target;
   }
-  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder; name a file in it");
+  if (S_ISDIR(status.st_mode)) refuse_to_write(path, "it is a folder; name a file in it");
   target.descriptor = descriptor_named(target.path);
   target.is_stream =
       target.descriptor >= 0 || S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode) || S_ISFIFO(status.st_mode);
-  if (!target.is_stream && !S_ISREG(status.st_mode)) refuse(path, "it is neither a file nor a device");
+  if (!target.is_stream && !S_ISREG(status.st_mode)) refuse_to_write(path, "it is neither a file nor a device");
   if (target.descriptor < 0 && !grants_writing(target.path, status))
-    refuse(path, "it is write-protected; change its mode or name another file");
+    refuse_to_write(path, "it is write-protected; change its mode or name another file");
   if (target.is_stream) return target;
   target.replaced = {status.st_mode & 07777, status.st_uid, status.st_gid};
   require_folder(path, folder_of(target.path));

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "mesh/no_value.h"
+
 namespace meshbound {
 namespace {
 
@@ -48,8 +50,6 @@ double full_intensity(PlyType type) {
   if (type == PlyType::Float32 || type == PlyType::Float64) return 1;
   return type == PlyType::UInt16 || type == PlyType::Int16 ? 65535 : 255;
 }
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 }  // namespace
 

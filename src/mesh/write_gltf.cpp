@@ -18,14 +18,13 @@
 #include "mesh/gltf_document.h"
 #include "mesh/gltf_primitives.h"
 #include "mesh/gltf_references.h"
+#include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 /// How the properties of a primitive of the document are stored.
 GltfLayout layout_of(const GltfJson& document, const GltfJson& primitive) {

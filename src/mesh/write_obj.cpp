@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 
+#include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 #include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 void put_values(AtomicFile& file, const MeshAttributes& attributes) {
   for (const Eigen::Vector3d& uv : attributes.texture_coordinates.values) {

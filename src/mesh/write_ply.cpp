@@ -6,14 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
 #include "numeric/numbers_below.h"
 
 namespace meshbound {
 namespace {
-
-constexpr std::uint32_t none = CornerAttribute::none;
 
 enum class Kind { Double, Float, Byte };
 

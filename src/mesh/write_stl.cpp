@@ -8,20 +8,20 @@
 namespace meshbound {
 namespace {
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using FacetCorners = std::array<Eigen::Vector3d, 3>;
 
-Corners rounded_corners(const TriangleMesh& mesh, const Triangle& t) {
+FacetCorners rounded_corners(const TriangleMesh& mesh, const Triangle& t) {
   return {rounded_to_float(mesh.vertices[t[0]]), rounded_to_float(mesh.vertices[t[1]]),
           rounded_to_float(mesh.vertices[t[2]])};
 }
 
 /// Unit normal, or zero for a triangle without one. The corners are floats, so nothing can overflow in double.
-Eigen::Vector3d normal_of(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized(); }
+Eigen::Vector3d normal_of(const FacetCorners& c) { return (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized(); }
 
 void write_text(AtomicFile& file, const TriangleMesh& mesh) {
   file.write("solid meshbound\n");
   for (const Triangle& t : mesh.triangles) {
-    const Corners corners = rounded_corners(mesh, t);
+    const FacetCorners corners = rounded_corners(mesh, t);
     file.write("facet normal ");
     put(file, rounded_to_float(normal_of(corners)), '\n');
     file.write("outer loop\n");
@@ -44,7 +44,7 @@ void write_binary(AtomicFile& file, const TriangleMesh& mesh) {
   file.write(header);
   put_little_endian(file, static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const Triangle& t : mesh.triangles) {
-    const Corners corners = rounded_corners(mesh, t);
+    const FacetCorners corners = rounded_corners(mesh, t);
     put_floats(file, normal_of(corners));
     for (const Eigen::Vector3d& p : corners) put_floats(file, p);
     put_little_endian(file, std::uint16_t{0});

@@ -14,14 +14,14 @@
 namespace meshbound {
 namespace {
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using InputCorners = std::array<Eigen::Vector3d, 3>;
 
-Corners corners_of(const MeshView& mesh, std::size_t triangle) {
+InputCorners corners_of(const MeshView& mesh, std::size_t triangle) {
   const Triangle t = mesh.triangle(triangle);
   return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
 }
 
-Eigen::AlignedBox3d box_of(const Corners& corners) {
+Eigen::AlignedBox3d input_box(const InputCorners& corners) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : corners) box.extend(p);
   return box;
@@ -34,13 +34,13 @@ class TriangleSet {
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) keys_.push_back(key(corners_of(mesh, t)));
     std::sort(keys_.begin(), keys_.end());
   }
-  [[nodiscard]] bool contains(const Corners& corners) const {
+  [[nodiscard]] bool contains(const InputCorners& corners) const {
     return std::binary_search(keys_.begin(), keys_.end(), key(corners));
   }
 
  private:
   using Key = std::array<std::array<double, 3>, 3>;
-  static Key key(const Corners& corners) {
+  static Key key(const InputCorners& corners) {
     Key key{};
     for (std::size_t i = 0; i < 3; ++i) key[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
     std::sort(key.begin(), key.end());
@@ -68,8 +68,8 @@ FaceToleranceCheck check_face_tolerances(const MeshView& original, std::span<con
   std::vector<Eigen::AlignedBox3d> boxes(original.triangle_count());
   std::uint32_t hint = 0;
   for (std::uint32_t t = 0; t < boxes.size(); ++t) {
-    const Corners corners = corners_of(original, t);
-    boxes[t] = box_of(corners);
+    const InputCorners corners = corners_of(original, t);
+    boxes[t] = input_box(corners);
     if (unchanged_in_simplified.contains(corners)) continue;
     const Verdict verdict = to_simplified.triangle_within(corners, std::min(tolerance, tolerances[t]), hint);
     if (verdict != Verdict::Within) return {verdict, t, std::nullopt};
@@ -78,9 +78,9 @@ FaceToleranceCheck check_face_tolerances(const MeshView& original, std::span<con
   Proximity to_original(original_tree);
   hint = 0;
   for (std::uint32_t t = 0; t < simplified.triangle_count(); ++t) {
-    const Corners corners = corners_of(simplified, t);
+    const InputCorners corners = corners_of(simplified, t);
     if (unchanged_in_original.contains(corners)) continue;
-    const double limit = local.sufficient_around(box_of(corners), tolerance);
+    const double limit = local.sufficient_around(input_box(corners), tolerance);
     if (to_original.triangle_within(corners, limit, hint) != Verdict::Within)
       return {Verdict::Undecided, std::nullopt, t};
   }

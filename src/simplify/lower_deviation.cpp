@@ -7,7 +7,7 @@ namespace meshbound {
 namespace {
 
 /// The curvature across the normal vanishes where the surface is flat; this share of the mean one is added to all.
-constexpr double damping = 1e-3;
+constexpr double newton_damping = 1e-3;
 constexpr double shorter_step = 0.35;
 /// Longest step, as a share of the mean length of the edges.
 constexpr double max_step = 0.5;
@@ -25,7 +25,7 @@ Vec3 newton_step(const DeviationSums& sums) {
   curvature << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2];
   const double mean = curvature.trace() / 3;
   if (!(mean > 0)) return {0, 0, 0};
-  curvature.diagonal().array() += damping * mean;
+  curvature.diagonal().array() += newton_damping * mean;
   const Eigen::Vector3d step =
       -curvature.ldlt().solve(Eigen::Vector3d(sums.gradient[0], sums.gradient[1], sums.gradient[2]));
   return {step.x(), step.y(), step.z()};

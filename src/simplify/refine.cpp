@@ -25,7 +25,7 @@ constexpr std::size_t min_vertices_refined = 1000;
 /// A round that removes a smaller share of the faces is the last one, but for the first rounds: a few hundred faces may
 /// stay the same for one and fall again.
 constexpr double min_gain_of_round = 0.025;
-constexpr int min_rounds = 3, max_rounds = 12;
+constexpr int min_refine_rounds = 3, max_refine_rounds = 12;
 
 /// From the second round on, a shaken vertex is moved this share of the way to the mean of its neighbours, plus a
 /// random offset of up to `jitter` times an edge. Without this the search ends in the next local minimum, with 5 to 8%
@@ -226,11 +226,11 @@ void refine(DecimationState& state, const RefinementGoal& goal, DecimationThread
   std::vector<std::unique_ptr<Refiner>> refiners;
   for (std::size_t k = 0; k < threads.proposers.size(); ++k)
     refiners.push_back(std::make_unique<Refiner>(state, *threads.proposers[k], *threads.provers[k]));
-  for (int round = 0; round < max_rounds && state.faces > goal.target_faces && !goal.stop(); ++round) {
+  for (int round = 0; round < max_refine_rounds && state.faces > goal.target_faces && !goal.stop(); ++round) {
     const std::size_t before = state.faces;
     refine_round(state, refiners, round, goal);
     const auto gain = static_cast<double>(before - state.faces);
-    if (round + 1 >= min_rounds && gain < min_gain_of_round * static_cast<double>(before)) break;
+    if (round + 1 >= min_refine_rounds && gain < min_gain_of_round * static_cast<double>(before)) break;
   }
 }
 

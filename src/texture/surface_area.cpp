@@ -26,7 +26,7 @@ int exponent_of(const TexturedMesh& mesh) {
 }
 
 /// x in units of 2^exponent; a value that underflows has an error.
-Approximate scaled(double x, int exponent) {
+Approximate at_exponent(double x, int exponent) {
   const double value = std::ldexp(x, -exponent);
   return {value, std::fabs(value) < Approximate::small && x != 0 ? Approximate::tiny : 0};
 }
@@ -36,9 +36,9 @@ Approximate area(const Corners& corners, int exponent) {
   std::array<Approximate, 3> ab, ac;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    const Approximate from = scaled(corners[0][axis], exponent);
-    ab[i] = scaled(corners[1][axis], exponent) - from;
-    ac[i] = scaled(corners[2][axis], exponent) - from;
+    const Approximate from = at_exponent(corners[0][axis], exponent);
+    ab[i] = at_exponent(corners[1][axis], exponent) - from;
+    ac[i] = at_exponent(corners[2][axis], exponent) - from;
   }
   double squares = 0, error = 0;
   bool is_zero = true;

@@ -233,7 +233,7 @@ class Direction {
   std::uint64_t pieces_ = 0;
 };
 
-void check(const TexturedMesh& mesh) {
+void check_finite(const TexturedMesh& mesh) {
   for (const TexturedTriangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k)
       if (!t.corners[k].allFinite() || !t.coordinates[k].allFinite())
@@ -253,8 +253,8 @@ double diagonal_of(const TexturedMesh& mesh) {
 TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
                                    const TextureDeviationOptions& options) {
   check_floating_point_model();
-  check(a);
-  check(b);
+  check_finite(a);
+  check_finite(b);
   const double error_bound = options.error_bound.value_or(default_share * diagonal_of(a));
   if (!(error_bound >= 0)) throw InvalidInput("the error bound must be a length in model units, 0 or more");
   if (options.tolerance && !(*options.tolerance >= 0))

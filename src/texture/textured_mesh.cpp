@@ -2,15 +2,14 @@
 #include <map>
 #include <string>
 
+#include "mesh/no_value.h"
 #include "meshbound/error.h"
 #include "meshbound/texture_deviation.h"
 
 namespace meshbound {
 namespace {
 
-constexpr std::uint32_t none = CornerAttribute::none;
-
-void check(const TriangleMesh& mesh, const MeshAttributes& attributes, const char* name) {
+void check_attributes(const TriangleMesh& mesh, const MeshAttributes& attributes, const char* name) {
   if (attributes.texture_coordinates.empty())
     throw InvalidInput(std::string(name) + " has no texture coordinates, so there is no texture deviation to measure");
   for (const std::size_t size : {attributes.texture_coordinates.index.size(), attributes.materials.index.size()})
@@ -61,8 +60,8 @@ TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attri
 
 std::array<TexturedMesh, 2> textured_meshes(const TriangleMesh& a, const MeshAttributes& a_attributes,
                                             const TriangleMesh& b, const MeshAttributes& b_attributes) {
-  check(a, a_attributes, "A");
-  check(b, b_attributes, "B");
+  check_attributes(a, a_attributes, "A");
+  check_attributes(b, b_attributes, "B");
   MaterialNumbers materials(!a_attributes.materials.empty() && !b_attributes.materials.empty());
   TexturedMesh first = textured_mesh(a, a_attributes, materials);
   return {std::move(first), textured_mesh(b, b_attributes, materials)};

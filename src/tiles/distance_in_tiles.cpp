@@ -37,7 +37,7 @@ constexpr double first_reach = 1e-2, min_reach = 1e-5;
 constexpr std::size_t tiles_of_first_batch = 8;
 
 /// How far around a tile B is searched: the first reach, and the smallest one after it. Model units.
-struct Reach {
+struct SearchReach {
   double first, min;
 };
 
@@ -45,7 +45,7 @@ struct Reach {
 class TiledSearch {
  public:
   TiledSearch(const StoredMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
-              const Reach& reach, StopToken::Clock::time_point start)
+              const SearchReach& reach, StopToken::Clock::time_point start)
       : a_(a),
         b_(b),
         options_(options),
@@ -148,7 +148,7 @@ class TiledSearch {
   const StoredMesh& a_;
   const Clusters& b_;
   DistanceOptions options_;
-  Reach reach_;
+  SearchReach reach_;
   StopToken::Clock::time_point start_;
   StoredLists tiles_;
 };
@@ -184,7 +184,7 @@ class TiledMeasurement {
   DistanceOptions options_;
   TileOptions tiles_;
   JobRunner& runner_;
-  Reach reach_{};
+  SearchReach reach_{};
   StopToken::Clock::time_point start_ = StopToken::Clock::now();
 };
 

@@ -123,10 +123,10 @@ void check_uncovered(const Bounds& uncovered, const TexturedMesh& a, const Textu
     least += area(t) * std::max(0.0, 1 - sum.get_d());
     most += area(t) * (1 - largest.get_d());
   }
-  constexpr double slack = 1e-9;
+  constexpr double margin = 1e-9;
   if (!std::isnormal(all)) return;
-  require(uncovered.upper >= least / all - slack, "more is uncovered than upper");
-  require(uncovered.lower <= most / all + slack, "less is uncovered than lower");
+  require(uncovered.upper >= least / all - margin, "more is uncovered than upper");
+  require(uncovered.lower <= most / all + margin, "less is uncovered than lower");
 }
 
 void check_direction(const OneSidedTextureDeviation& found, const TexturedMesh& a, const TexturedMesh& b,

@@ -39,7 +39,7 @@ struct Motion {
   ExitCode exit_code = ExitDone;
 };
 
-void check_paths(const Arguments& arguments) {
+void check_motion_paths(const Arguments& arguments) {
   require_distinct_files({{"A", arguments.a}, {"B", arguments.b}, {"--poses", arguments.poses}},
                          {{"--json", arguments.common.json}});
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
@@ -137,7 +137,7 @@ void print(const Motion& motion) {
 ExitCode run_motion(const Arguments& arguments) {
   Stopwatch watch;
   const TypedLengths lengths = parse_lengths(arguments);
-  check_paths(arguments);
+  check_motion_paths(arguments);
   const std::vector<Eigen::Isometry3d> poses = read_poses(arguments.poses);
   const bool with_checksums = !arguments.common.json.empty();
   Motion motion;

@@ -10,10 +10,10 @@
 namespace meshbound::verify {
 namespace {
 
-constexpr int deepest_cut = 36;         ///< twelve halvings of the weight of each corner
-constexpr int weight_bits = 40;         ///< levels are multiples of 2^-40
-constexpr std::size_t max_rest = 256;   ///< pieces of what is not covered
-constexpr std::size_t block_size = 32;  ///< triangles of a block of the index
+constexpr int deepest_texture_cut = 36;  ///< twelve halvings of the weight of each corner
+constexpr int weight_bits = 40;          ///< levels are multiples of 2^-40
+constexpr std::size_t max_rest = 256;    ///< pieces of what is not covered
+constexpr std::size_t block_size = 32;   ///< triangles of a block of the index
 
 /// Clips that a proof may cost: few bytes could ask for many. Real proofs needed 5 to 23 for each byte and triangle.
 constexpr std::uint64_t min_work = 65536, work_per_unit = 256;
@@ -88,7 +88,7 @@ class TextureCheck {
       check_leaf(piece, word - 1);
       return;
     }
-    if (depth == deepest_cut) fail("is cut too often");
+    if (depth == deepest_texture_cut) fail("is cut too often");
     ++result_.cuts;
     const auto corner = static_cast<std::size_t>(depth % 3);
     const std::int64_t middle = low[corner] + (std::int64_t{1} << (weight_bits - 1 - depth / 3));

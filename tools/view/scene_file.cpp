@@ -13,12 +13,12 @@
 namespace meshbound::tools {
 namespace {
 
-using Json = nlohmann::json;
+using SceneJson = nlohmann::json;
 
 /// A value and where it stands in the file, for messages.
 class Place {
  public:
-  Place(const Json& value, std::string where) : value_(value), where_(std::move(where)) {}
+  Place(const SceneJson& value, std::string where) : value_(value), where_(std::move(where)) {}
 
   [[noreturn]] void refuse(const std::string& reason) const {
     throw InvalidInput(where_ + (where_.back() == ' ' ? "" : ": ") + reason);
@@ -74,7 +74,7 @@ class Place {
   }
 
  private:
-  const Json& value_;
+  const SceneJson& value_;
   std::string where_;
 };
 
@@ -127,10 +127,10 @@ ViewCamera screen_of(const Place& place) {
 SceneFile read_scene(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path)) throw IoError("--scene: cannot read " + path);
-  Json document;
+  SceneJson document;
   try {
-    document = Json::parse(file);
-  } catch (const Json::parse_error& error) {
+    document = SceneJson::parse(file);
+  } catch (const SceneJson::parse_error& error) {
     throw InvalidInput(path + ": byte " + std::to_string(error.byte) + ": this is no JSON");
   }
   const Place root(document, path + ": ");
@@ -142,7 +142,7 @@ SceneFile read_scene(const std::string& path) {
     scene.models.push_back((std::filesystem::path(path).parent_path() / model.text()).string());
   if (scene.models.empty()) root.at("models").refuse("there is none");
   for (const Place& instance : root.at("instances").list()) scene.instances.push_back(instance_of(instance, scene));
-  const Json no_screen = Json::object();
+  const SceneJson no_screen = SceneJson::object();
   const ViewCamera screen = screen_of(root.has("screen") ? root.at("screen") : Place(no_screen, path + ": screen"));
   for (const Place& camera : root.at("cameras").list()) scene.cameras.push_back(camera_of(camera, screen));
   if (scene.cameras.empty()) root.at("cameras").refuse("there is none");

@@ -28,14 +28,14 @@ constexpr std::size_t opened_at_once = 4;
 /// A question costs at most a query, a few microseconds: a task of two costs more than handing it to a thread.
 constexpr std::size_t questions_per_task = 2;
 
-struct NodeOfA {
+struct QueuedNode {
   double bound_squared;  ///< of the distance of all its triangles to B
   std::uint32_t level;
   std::uint32_t index;
   std::uint32_t slot;        ///< the triangle of B that gives the bound
   bool is_of_front = false;  ///< the bound is one of an earlier search, and is to be found anew before it is opened
 
-  bool operator<(const NodeOfA& other) const {
+  bool operator<(const QueuedNode& other) const {
     if (bound_squared != other.bound_squared) return bound_squared < other.bound_squared;
     return level != other.level ? level < other.level : index > other.index;
   }
@@ -142,7 +142,7 @@ class NodeCulling {
     search_.offer_known_upper(search_.b().frame.length_up(largest));
   }
 
-  void add_to_front(const NodeOfA& node) {
+  void add_to_front(const QueuedNode& node) {
     if (front_ == nullptr) return;
     new_front_.push_back({search_.goal().proven_upper(node.bound_squared, 0), node.level, node.index, node.slot});
   }
@@ -151,7 +151,7 @@ class NodeCulling {
   void open_worst() {
     questions_.clear();
     for (std::size_t opened = 0; opened < opened_at_once && !queue_.empty(); queue_.pop()) {
-      const NodeOfA& node = queue_.top();
+      const QueuedNode& node = queue_.top();
       if (node.bound_squared <= kernel_.accepted_squared()) {
         kernel_.accept(node.bound_squared);
         record(node);
@@ -165,7 +165,7 @@ class NodeCulling {
 
   /// Asks for the bounds of the children of a node, or of itself where its bound is an old one. A leaf is too far for
   /// its size: its vertices may raise the lower bound.
-  void open(const NodeOfA& node) {
+  void open(const QueuedNode& node) {
     if (node.is_of_front) {
       questions_.push_back({.level = node.level, .index = node.index, .slot = node.slot});
       return;
@@ -217,7 +217,7 @@ class NodeCulling {
     }
   }
 
-  void record(const NodeOfA& node) {
+  void record(const QueuedNode& node) {
     if (!search_.recorder().is_on()) return;
     const auto [begin, end] = slots_below(a_, node.level, node.index);
     for (std::uint32_t slot = begin; slot < end; ++slot)
@@ -234,7 +234,7 @@ class NodeCulling {
   const Bvh::Data& a_;
   const Remaining& remaining_;
   SearchKernel& kernel_;  ///< of the thread that heads the team
-  std::priority_queue<NodeOfA> queue_;
+  std::priority_queue<QueuedNode> queue_;
   std::vector<Question> questions_;
   std::vector<std::uint32_t> left_;
   NodeFront* front_ = nullptr;  ///< of the search before, replaced in the end; null: none is kept

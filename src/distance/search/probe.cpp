@@ -10,7 +10,7 @@ namespace meshbound {
 namespace {
 
 constexpr std::uint32_t max_vertices = 64, centroids = 16;
-constexpr std::uint32_t vertices_per_chunk = 16;
+constexpr std::uint32_t probes_per_chunk = 16;
 constexpr std::uint32_t min_triangles = 128;  ///< below it the centroids' queries cost more than their bound saves
 
 /// Offers the furthest point of the earlier search, which often is the furthest one still, and returns whether it lies
@@ -59,7 +59,7 @@ bool probe(OneSidedSearch& search) {
   const std::size_t n = search.a().vertices.size(), count = std::min<std::size_t>(max_vertices, n);
   const auto probed = [&](std::size_t i) { return static_cast<std::uint32_t>(i * n / count); };
   std::array<Nearest, max_vertices> nearest;
-  for_each_range(count, vertices_per_chunk, [&](std::size_t begin, std::size_t end) {
+  for_each_range(count, probes_per_chunk, [&](std::size_t begin, std::size_t end) {
     std::uint32_t hint = 0;
     for (std::size_t i = begin; i < end; ++i) {
       nearest[i] = search.own_kernel().nearest(search.vertex(probed(i)), hint, 0);

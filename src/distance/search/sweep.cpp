@@ -5,11 +5,11 @@
 namespace meshbound {
 namespace {
 
-constexpr std::uint32_t triangles_per_chunk = 512;  ///< each chunk begins with a query
+constexpr std::uint32_t swept_per_chunk = 512;  ///< each chunk begins with a query
 
 /// Triangles between two looks at the clock: each may take a tenth of a millisecond where thousands of triangles are
 /// equally near.
-constexpr std::uint32_t steps_between_looks = 16;
+constexpr std::uint32_t triangles_between_looks = 16;
 
 void sweep_chunk(const OneSidedSearch& search, const Remaining& remaining, SearchKernel& kernel, std::uint32_t begin,
                  std::uint32_t end, Found& found) {
@@ -22,7 +22,7 @@ void sweep_chunk(const OneSidedSearch& search, const Remaining& remaining, Searc
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t slot = remaining.slot(i);
     if (!remaining.holds(slot)) continue;
-    if (i % steps_between_looks == 0 && search.goal().out_of_time()) worth_testing = 0;
+    if (i % triangles_between_looks == 0 && search.goal().out_of_time()) worth_testing = 0;
     if (worth_testing <= 0) {
       found.open.push_back({0, slot, no_slot});
       continue;
@@ -58,7 +58,7 @@ void sweep_chunk(const OneSidedSearch& search, const Remaining& remaining, Searc
 Remaining sweep(OneSidedSearch& search, Remaining remaining) {
   if (search.decided() || search.exhausted() || remaining.is_list()) return remaining;
   const OneSidedSearch::Batches batches{
-      .per_chunk = triangles_per_chunk, .first = 256, .max_chunks = 256, .from = 0, .to = 0.1};
+      .per_chunk = swept_per_chunk, .first = 256, .max_chunks = 256, .from = 0, .to = 0.1};
   const std::vector<OpenTriangle> open = search.run_chunks(
       remaining.size(), batches, [&](SearchKernel& kernel, std::uint32_t begin, std::uint32_t end, Found& found) {
         sweep_chunk(search, remaining, kernel, begin, end, found);

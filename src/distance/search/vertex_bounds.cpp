@@ -13,7 +13,7 @@ constexpr std::uint32_t triangles_per_chunk = 256;  ///< cheap bounds
 
 /// Queries between two looks at the clock: each may take a tenth of a millisecond where thousands of triangles are
 /// equally near.
-constexpr std::uint32_t steps_between_looks = 16;
+constexpr std::uint32_t queries_between_looks = 16;
 
 /// The vertices of listed triangles, ascending. Their number decides the cost where whole nodes were culled: there
 /// flags would touch all vertices for nothing.
@@ -43,7 +43,7 @@ void query_chunk(const OneSidedSearch& search, const VertexDistances& vertices, 
   bool hurried = search.exhausted();
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t v = vertices.asked_all ? i : vertices.asked[i];
-    if (i % steps_between_looks == 0) hurried = hurried || search.goal().out_of_time();
+    if (i % queries_between_looks == 0) hurried = hurried || search.goal().out_of_time();
     if (const std::uint32_t before = search.hint_before(v); before != no_slot) hint = before;
     const double enough = hurried ? std::numeric_limits<double>::infinity() : kernel.accepted_squared();
     const Nearest nearest = kernel.nearest(search.vertex(v), hint, enough);
