@@ -151,10 +151,16 @@ TEST(CoverAssignment, KeepsBothSidesOfTheRelationThroughCoversOfAnySize) {
   std::vector<std::set<std::uint32_t>> expected(originals);
   std::mt19937 random(3);
   for (int step = 0; step < 2000; ++step) {
-    const auto t = static_cast<std::uint32_t>(random() % originals);
-    expected[t].clear();
-    for (auto k = random() % 7; k > 0; --k) expected[t].insert(static_cast<std::uint32_t>(random() % faces));
-    cover.assign(t, std::vector<std::uint32_t>(expected[t].begin(), expected[t].end()));
+    std::set<std::uint32_t> chosen;
+    for (auto k = random() % 5; k > 0; --k) chosen.insert(static_cast<std::uint32_t>(random() % originals));
+    const std::vector<std::uint32_t> together(chosen.begin(), chosen.end());
+    std::vector<std::vector<std::uint32_t>> covers;
+    for (const std::uint32_t t : together) {
+      expected[t].clear();
+      for (auto k = random() % 7; k > 0; --k) expected[t].insert(static_cast<std::uint32_t>(random() % faces));
+      covers.emplace_back(expected[t].begin(), expected[t].end());
+    }
+    cover.assign(together, [&](std::size_t i) { return std::span<const std::uint32_t>(covers[i]); });
   }
   for (std::uint32_t t = 0; t < originals; ++t) {
     const auto ids = cover.faces_of(t);

@@ -115,7 +115,6 @@ class Decompression {
   }
 
  private:
-  static constexpr std::size_t mode_triangles = 4, mode_strip = 5;
   static constexpr std::int64_t indices_identifier = -1;
 
   /// What an accessor holds: the attribute with this identifier, or the indices, of the mesh compressed in a view.
@@ -167,8 +166,8 @@ class Decompression {
   }
 
   void use_compressed_data(GltfJson& json, const GltfValue& primitive, const GltfValue& extension) {
-    const std::size_t mode = primitive.integer_or("mode", mode_triangles);
-    if (mode != mode_triangles && mode != mode_strip)
+    const std::size_t mode = primitive.integer_or("mode", GltfMode::triangles);
+    if (mode != GltfMode::triangles && mode != GltfMode::strip)
       extension.fail("only triangles and strips of triangles can be compressed");
     const std::size_t view = extension.at("bufferView").index(root_.count("bufferViews"), "buffer views");
     const DracoMesh& mesh = decoded_mesh(view, extension);
@@ -192,7 +191,7 @@ class Decompression {
   void use_compressed_indices(GltfJson& json, const GltfValue& primitive, const DracoMesh& mesh, const Origin& origin,
                               std::size_t mode) {
     const std::size_t count = 3 * mesh.triangle_count();
-    if (mode == mode_strip || !primitive.find("indices")) {
+    if (mode == GltfMode::strip || !primitive.find("indices")) {
       json_["accessors"].push_back(
           {{"componentType", static_cast<int>(GltfComponent::UInt32)}, {"count", count}, {"type", "SCALAR"}});
       json["indices"] = json_["accessors"].size() - 1;

@@ -49,6 +49,11 @@ struct PlacedObjects {
 /// beyond their buffer. `buffers` must outlive them.
 [[nodiscard]] std::string_view bytes_of(const GltfValue& located, const std::vector<std::string>& buffers);
 
+/// The "mode" of primitives that consist of triangles; one that names none has the first.
+struct GltfMode {
+  static constexpr std::size_t triangles = 4, strip = 5, fan = 6;
+};
+
 /// Properties of the vertices of a primitive, "POSITION" and the like.
 enum class GltfComponent { Int8 = 5120, UInt8 = 5121, Int16 = 5122, UInt16 = 5123, UInt32 = 5125, Float = 5126 };
 

@@ -3,9 +3,11 @@
 #include "mesh/gltf_levels.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -17,8 +19,6 @@
 namespace meshbound {
 namespace {
 
-constexpr int mode_triangles = 4;  // of a primitive
-
 /// The properties of the vertices of a primitive by name, as `visit_properties` has them.
 using Properties = std::map<std::string, const GltfAccessor*>;
 
@@ -29,17 +29,18 @@ class VertexTable {
   std::vector<std::uint32_t> add(const Properties& properties) {
     std::vector<std::uint32_t> numbers;
     for (std::size_t v = 0; v < properties.begin()->second->count; ++v) {
-      std::string vertex;
-      for (const auto& [name, property] : properties)
-        vertex.append(reinterpret_cast<const char*>(element(*property, v)), property->numbers.width * sizeof(double));
-      const auto [at, is_new] = number_of_.try_emplace(std::move(vertex), static_cast<std::uint32_t>(size()));
-      numbers.push_back(at->second);
-      if (is_new) append(properties, v);
+      const std::size_t hash = hash_of(properties, v);
+      const auto [begin, end] = numbers_of_.equal_range(hash);
+      const auto found = std::find_if(begin, end, [&](const auto& at) { return is_stored(properties, v, at.second); });
+      numbers.push_back(found != end ? found->second : static_cast<std::uint32_t>(size()));
+      if (found != end) continue;
+      append(properties, v);
+      numbers_of_.emplace(hash, numbers.back());
     }
     return numbers;
   }
 
-  [[nodiscard]] std::size_t size() const { return number_of_.size(); }
+  [[nodiscard]] std::size_t size() const { return numbers_of_.size(); }
 
   void write(GltfBuffer& buffer) {
     for (const auto& [name, column] : columns_)
@@ -60,6 +61,24 @@ class VertexTable {
     return property.values.data() + vertex * property.numbers.width;
   }
 
+  /// The numbers of a vertex as bytes: two of them are alike where all bits are.
+  static std::string_view bytes(const GltfAccessor& property, std::size_t vertex) {
+    return {reinterpret_cast<const char*>(element(property, vertex)), property.numbers.width * sizeof(double)};
+  }
+
+  static std::size_t hash_of(const Properties& properties, std::size_t vertex) {
+    std::size_t hash = 0;
+    for (const auto& [name, property] : properties)
+      hash = 31 * hash + std::hash<std::string_view>()(bytes(*property, vertex));
+    return hash;
+  }
+
+  [[nodiscard]] bool is_stored(const Properties& properties, std::size_t vertex, std::size_t number) const {
+    return std::all_of(properties.begin(), properties.end(), [&](const auto& named) {
+      return bytes(*named.second, vertex) == bytes(columns_.at(named.first), number);
+    });
+  }
+
   void append(const Properties& properties, std::size_t vertex) {
     for (const auto& [name, property] : properties) {
       GltfAccessor& column = columns_[name];
@@ -69,9 +88,9 @@ class VertexTable {
     }
   }
 
-  std::map<std::string, GltfAccessor> columns_;               ///< by name of the property
-  std::map<std::string, std::size_t> accessor_of_;            ///< by name of the property: its number in the file
-  std::unordered_map<std::string, std::uint32_t> number_of_;  ///< by the bytes of all numbers of a vertex
+  std::map<std::string, GltfAccessor> columns_;                     ///< by name of the property
+  std::map<std::string, std::size_t> accessor_of_;                  ///< by name of the property: its number in the file
+  std::unordered_multimap<std::size_t, std::uint32_t> numbers_of_;  ///< by hash: vertices of the table
 };
 
 class LevelMerger {
@@ -125,7 +144,7 @@ class LevelMerger {
 
   /// Lines and points are those of the original in every level, and so are their accessors.
   void take_primitive(const GltfLevel& level, const GltfJson& primitive, std::size_t finest, Primitive to) {
-    if (primitive.value("mode", mode_triangles) != mode_triangles) return;
+    if (primitive.value("mode", GltfMode::triangles) != GltfMode::triangles) return;
     AccessorCache accessors(level.source, level.document);
     Properties properties;
     std::string layout;

@@ -21,20 +21,18 @@
 namespace meshbound {
 namespace {
 
-enum Mode : std::size_t { Triangles = 4, Strip = 5, Fan = 6 };
-
 /// Triangles of a primitive with this drawing mode, from the vertex of each corner.
 std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& corners, std::size_t mode) {
   std::vector<Triangle> triangles;
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const bool joins_runs = mode != Triangles && (a == b || b == c || c == a);
+    const bool joins_runs = mode != GltfMode::triangles && (a == b || b == c || c == a);
     if (!joins_runs) triangles.push_back({a, b, c});
   };
-  const std::size_t step = mode == Triangles ? 3 : 1;
+  const std::size_t step = mode == GltfMode::triangles ? 3 : 1;
   for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
-    if (mode == Fan)
+    if (mode == GltfMode::fan)
       add(corners[i + 1], corners[i + 2], corners[0]);
-    else if (mode == Strip && i % 2 == 1)
+    else if (mode == GltfMode::strip && i % 2 == 1)
       add(corners[i], corners[i + 2], corners[i + 1]);
     else
       add(corners[i], corners[i + 1], corners[i + 2]);
@@ -84,8 +82,8 @@ class GltfReader {
     const GltfValue primitives = mesh.at("primitives");
     for (std::uint32_t i = 0; i < primitives.size(); ++i) {
       const GltfValue primitive = primitives.item(i);
-      const std::size_t mode = primitive.integer_or("mode", Triangles);
-      if (mode < Triangles || mode > Fan || !primitive.at("attributes").find("POSITION"))
+      const std::size_t mode = primitive.integer_or("mode", GltfMode::triangles);
+      if (mode < GltfMode::triangles || mode > GltfMode::fan || !primitive.at("attributes").find("POSITION"))
         assembler_.ignore_element();
       else
         read_primitive(primitive, mode, number, i, group);
@@ -106,7 +104,7 @@ class GltfReader {
     else
       count_attributes(primitive, positions.count, assembler_.dropped());
     if (document_->placed[placed].has_skin || primitive.count("targets") > 0) ++rest_pose_parts_;
-    if (mode != Triangles) ++decoded_strips_;
+    if (mode != GltfMode::triangles) ++decoded_strips_;
     const bool is_mirrored = placement.is_mirrored();
     for (Triangle t : triangles_of(corners_of(primitive, positions.count), mode)) {
       if (is_mirrored) std::swap(t[1], t[2]);

@@ -212,13 +212,9 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
 std::uint32_t CollapseChecker::Impl::commit() {
   if (!admitted_) throw Error("a collapse that was not admitted: ask the collapse checker first");
   prover_.accept(region());
-  proposer_.assign_samples(region());
+  proposer_.settle(region());
   const std::uint32_t kept = proposer_.star().kept;
   model_[kept] = admitted_->point;
-  state_.mesh.for_each_corner(kept, [&](Corner c) {
-    state_.refused_at[state_.mesh.edge(c)] = state_.refused_at[state_.mesh.edge(previous_corner(c))] = 0;
-    return true;
-  });
   admitted_.reset();
   refused_.reset();
   ++counts.performed;

@@ -147,11 +147,11 @@ class ProofWorkers::Worker {
   /// Whether `cover_change` failed, but might have found a cover with the help of faces of other regions.
   [[nodiscard]] bool meets_seam() const { return meets_seam_; }
   void assign_covers(CoverAssignment& cover) {
-    for (std::size_t i = 0; i < affected_.size(); ++i) {
+    cover.assign(affected_, [&](std::size_t i) {
       ids_.clear();
       take(used_[i], ids_);
-      cover.assign(affected_[i], ids_);
-    }
+      return std::span<const std::uint32_t>(ids_);
+    });
   }
 
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
@@ -171,8 +171,10 @@ class ProofWorkers::Worker {
     return true;
   }
   void assign_group(CoverAssignment& cover) const {
-    for (std::size_t i = 0, begin = 0; i < affected_.size(); begin = ends_[i++])
-      cover.assign(affected_[i], std::span(ids_).subspan(begin, ends_[i] - begin));
+    cover.assign(affected_, [&](std::size_t i) {
+      const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+      return std::span(ids_).subspan(begin, ends_[i] - begin);
+    });
   }
 
  private:

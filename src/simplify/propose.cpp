@@ -366,8 +366,7 @@ void Proposer::collapse(Region& region, Vec3 point) {
   apply_collapse(state_, region, star_, point);
 }
 
-/// Gives each sample to the face that was found nearest to it.
-void Proposer::assign_samples(Region& region) {
+void Proposer::settle(Region& region) {
   DecimationState& s = state_;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   for (const std::uint32_t face : star_.removed) s.samples.clear(face);
@@ -380,6 +379,7 @@ void Proposer::assign_samples(Region& region) {
   s.touched[kept] = region.clock;
   s.mesh.for_each_corner(kept, [&](Corner c) {
     s.touched[s.mesh.end(c)] = s.touched[s.mesh.apex(c)] = region.clock;
+    s.refused_at[s.mesh.edge(c)] = s.refused_at[s.mesh.edge(previous_corner(c))] = 0;
     return true;
   });
 }

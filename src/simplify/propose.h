@@ -68,8 +68,8 @@ class Proposer {
   [[nodiscard]] std::optional<Vec3> next_placement(const std::optional<Vec3>& lost_point, Vec3 refuted);
   /// Makes the collapse found last.
   void collapse(Region& region, Vec3 point);
-  /// Assigns the samples to the faces that this collapse leaves, once it is final.
-  void assign_samples(Region& region);
+  /// Once this collapse is final: gives the samples to the faces that it leaves, and opens the edges around it again.
+  void settle(Region& region);
   [[nodiscard]] const EdgeStar& star() const { return star_; }
 
   struct Counts {

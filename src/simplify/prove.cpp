@@ -100,8 +100,13 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
 }
 
 void Proof::commit() {
-  for (std::uint32_t i = 0; i < originals_.size(); ++i)
-    if (originals_[i] != ArrayMesh::none) state_.cover.assign(originals_[i], draft(i));
+  std::vector<std::uint32_t> originals, indices;
+  for (std::uint32_t i = 0; i < originals_.size(); ++i) {
+    if (originals_[i] == ArrayMesh::none) continue;
+    originals.push_back(originals_[i]);
+    indices.push_back(i);
+  }
+  state_.cover.assign(originals, [&](std::size_t i) { return draft(indices[i]); });
   if (state_.proven_changes)
     for (const EditLog& log : state_.logs) state_.proven_changes->add(log);
   std::fill(state_.stamp.begin(), state_.stamp.end(), 0);

@@ -74,8 +74,8 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
       continue;
     }
     for (const std::uint32_t f : component) state.samples.clear(f);
+    state.cover.assign(originals, [&](std::size_t i) { return std::span<const std::uint32_t>(covers[i]); });
     for (std::size_t i = 0; i < originals.size(); ++i) {
-      state.cover.assign(originals[i], covers[i]);
       for (const std::uint32_t v : state.triangles[originals[i]]) {
         const std::uint32_t at = state.samples.face_of(v);
         if (at != Samples::none && state.mesh.is_removed(at)) state.samples.give_to(v, covers[i].front());

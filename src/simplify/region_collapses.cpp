@@ -37,11 +37,7 @@ bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[m
 bool RegionCollapses::make(Vec3 point) {
   proposer_.collapse(region_, point);
   if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_)) return false;
-  proposer_.assign_samples(region_);
-  mesh().for_each_corner(kept(), [&](Corner c) {
-    state_.refused_at[mesh().edge(c)] = state_.refused_at[mesh().edge(previous_corner(c))] = 0;
-    return true;
-  });
+  proposer_.settle(region_);
   return true;
 }
 

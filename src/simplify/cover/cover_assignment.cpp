@@ -10,41 +10,46 @@ bool contains(std::span<const std::uint32_t> ids, std::uint32_t id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-void remove_from(CoverAssignment::Ids& ids, std::uint32_t id) {
-  const auto at = std::find(ids.begin(), ids.end(), id);
-  *at = ids.back();
-  ids.pop_back();
-  if (ids.empty()) CoverAssignment::Ids().swap(ids);  // faces that vanish must not keep memory
-}
-
 }  // namespace
 
-void CoverAssignment::assign(std::uint32_t original, std::span<const std::uint32_t> faces) {
-  const std::span<const std::uint32_t> current = faces_of(original);
-  for (const std::uint32_t face : current) {
-    if (!contains(faces, face)) remove_from(originals_of_[face], original);
+void CoverAssignment::Faces::set(std::span<const std::uint32_t> faces) {
+  if (size == faces.size() && size > 1) {
+    std::copy(faces.begin(), faces.end(), many);
+    return;
   }
+  std::uint32_t* list = nullptr;
+  if (faces.size() > 1) {
+    list = new std::uint32_t[faces.size()];
+    std::copy(faces.begin(), faces.end(), list);
+  }
+  if (size > 1) delete[] many;
+  size = static_cast<std::uint32_t>(faces.size());
+  if (list != nullptr)
+    many = list;
+  else if (!faces.empty())
+    only = faces[0];
+}
+
+void CoverAssignment::replace(std::uint32_t original, std::span<const std::uint32_t> faces, Ids& left) {
+  const std::span<const std::uint32_t> current = faces_of(original);
+  for (const std::uint32_t face : current)
+    if (!contains(faces, face) && (left.empty() || left.back() != face)) left.push_back(face);
   for (const std::uint32_t face : faces) {
     if (contains(current, face)) continue;
     reserve_face(face);
     originals_of_[face].push_back(original);
   }
-  Faces& at = faces_of_[original];
-  if (at.size == faces.size() && at.size > 1) {
-    std::copy(faces.begin(), faces.end(), at.many);
-    return;
+  faces_of_[original].set(faces);
+}
+
+void CoverAssignment::remove_from_lists(Ids& left) {
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  for (const std::uint32_t face : left) {
+    Ids& ids = originals_of_[face];
+    std::erase_if(ids, [&](std::uint32_t original) { return !contains(faces_of(original), face); });
+    if (ids.empty()) Ids().swap(ids);  // faces that vanish must not keep memory
   }
-  std::uint32_t* many = nullptr;
-  if (faces.size() > 1) {
-    many = new std::uint32_t[faces.size()];
-    std::copy(faces.begin(), faces.end(), many);
-  }
-  if (at.size > 1) delete[] at.many;
-  at.size = static_cast<std::uint32_t>(faces.size());
-  if (many != nullptr)
-    at.many = many;
-  else if (!faces.empty())
-    at.only = faces[0];
 }
 
 }  // namespace meshbound

@@ -30,10 +30,23 @@ class CoverAssignment {
     return originals_of_[face];
   }
 
-  /// Replaces the cover of `original`. The faces must have been reserved where other threads assign as well.
-  void assign(std::uint32_t original, std::span<const std::uint32_t> faces);
+  /// Replaces the covers of some originals by cover_of(0), cover_of(1), ..., in their order, each face once. The faces
+  /// must have been reserved where other threads assign as well. Linear in what the faces that lose an original cover.
+  template <class CoverOf>
+  void assign(std::span<const std::uint32_t> originals, const CoverOf& cover_of) {
+    Ids left;  // faces that lose an original
+    for (std::size_t i = 0; i < originals.size(); ++i) replace(originals[i], cover_of(i), left);
+    remove_from_lists(left);
+  }
+  void assign(std::uint32_t original, std::span<const std::uint32_t> faces) {
+    assign({&original, 1}, [&](std::size_t) { return faces; });
+  }
 
  private:
+  /// Replaces the cover of an original, which stays in the lists of the faces that it has `left`.
+  void replace(std::uint32_t original, std::span<const std::uint32_t> faces, Ids& left);
+  void remove_from_lists(Ids& left);
+
   /// Most covers have one face.
   struct Faces {
     std::uint32_t size = 0;
@@ -47,6 +60,7 @@ class CoverAssignment {
     ~Faces() {
       if (size > 1) delete[] many;
     }
+    void set(std::span<const std::uint32_t> faces);
   };
 
   std::vector<Faces> faces_of_;

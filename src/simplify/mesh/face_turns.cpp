@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geometry/point_triangle.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
@@ -20,15 +21,15 @@ double squared_distance(const std::array<Vec3, 3>& t, Vec3 p) {
 }  // namespace
 
 FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, double max_degrees)
-    : is_turned_over_(std::move(is_turned_over)),
-      min_cosine_(std::cos(max_degrees / 180 * std::numbers::pi)),
-      first_(start.face_count(), none) {
+    : lists(start.face_count()),
+      is_turned_over_(std::move(is_turned_over)),
+      min_cosine_(std::cos(max_degrees / 180 * std::numbers::pi)) {
   for (std::uint32_t f = 0; f < start.face_count(); ++f) {
     const std::array<Vec3, 3> corners = start.triangle(f);
     const Vec3 unit = normal(f, corners);
     if (squared_length(unit) == 0) continue;
-    samples_.push_back({(1.0 / 3) * (corners[0] + corners[1] + corners[2]), unit, none});
-    give_to(static_cast<std::uint32_t>(samples_.size() - 1), f);
+    samples_.push_back({(1.0 / 3) * (corners[0] + corners[1] + corners[2]), unit});
+    lists.add(f);
   }
 }
 
@@ -42,18 +43,18 @@ Vec3 FaceTurns::normal(std::uint32_t face, const std::array<Vec3, 3>& corners) c
 void FaceTurns::give_back(const ArrayMesh& mesh, std::span<const std::uint32_t> faces) {
   std::vector<std::uint32_t> samples;
   for (const std::uint32_t f : faces) {
-    for (std::uint32_t s = first_[f]; s != none; s = samples_[s].following) samples.push_back(s);
-    clear(f);
+    lists.for_each(f, [&](std::uint32_t s) { samples.push_back(s); });
+    lists.clear(f);
   }
   for (const std::uint32_t s : samples) {
     double least = HUGE_VAL;
-    std::uint32_t nearest = none;
+    std::uint32_t nearest = no_index;
     for (const std::uint32_t f : faces) {
       if (mesh.is_removed(f)) continue;
       const double squared = squared_distance(mesh.triangle(f), samples_[s].at);
-      if (nearest == none || squared < least) least = squared, nearest = f;
+      if (nearest == no_index || squared < least) least = squared, nearest = f;
     }
-    give_to(s, nearest);
+    lists.give_to(s, nearest);
   }
 }
 
@@ -62,8 +63,7 @@ void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32
   samples_.clear();
   removed_.assign(removed.begin(), removed.end());
   const auto add_samples = [&](std::uint32_t face) {
-    for (std::uint32_t s = turns_.first(face); s != FaceTurns::none; s = turns_.sample(s).following)
-      samples_.push_back(s);
+    turns_.lists.for_each(face, [&](std::uint32_t s) { samples_.push_back(s); });
   };
   for (const Corner c : moved) {
     faces_.push_back({{Vec3{}, mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))}, {}, c / 3});
@@ -97,9 +97,9 @@ bool TurnGuard::holds(Vec3 point) {
 }
 
 void TurnGuard::give_samples(FaceTurns& turns) {
-  for (const Face& face : faces_) turns.clear(face.number);
-  for (const std::uint32_t f : removed_) turns.clear(f);
-  for (const std::uint32_t s : samples_) turns.give_to(s, faces_[nearest(turns.sample(s))].number);
+  for (const Face& face : faces_) turns.lists.clear(face.number);
+  for (const std::uint32_t f : removed_) turns.lists.clear(f);
+  for (const std::uint32_t s : samples_) turns.lists.give_to(s, faces_[nearest(turns.sample(s))].number);
 }
 
 }  // namespace meshbound

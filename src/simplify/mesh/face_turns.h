@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/sample_lists.h"
 
 namespace meshbound {
 
@@ -15,23 +16,14 @@ namespace meshbound {
 /// at once.
 class FaceTurns {
  public:
-  static constexpr std::uint32_t none = ArrayMesh::none;
-
   struct Sample {
-    Vec3 at, normal;                 ///< a unit vector
-    std::uint32_t following = none;  ///< next sample of the same face
+    Vec3 at, normal;  ///< a unit vector
   };
 
   /// `start` is the original, but for faces that are turned over. Faces without area have no sample. O(n).
   FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, double max_degrees);
 
   [[nodiscard]] const Sample& sample(std::uint32_t s) const { return samples_[s]; }
-  [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
-  void clear(std::uint32_t face) { first_[face] = none; }
-  void give_to(std::uint32_t s, std::uint32_t face) {
-    samples_[s].following = first_[face];
-    first_[face] = s;
-  }
   /// Assigns the samples of faces that an undone collapse has just restored to the nearest of them.
   void give_back(const ArrayMesh& mesh, std::span<const std::uint32_t> faces);
 
@@ -40,11 +32,12 @@ class FaceTurns {
   /// Whether two unit normals are within the tolerance of each other.
   [[nodiscard]] bool allows(Vec3 before, Vec3 after) const { return dot(before, after) >= min_cosine_; }
 
+  SampleLists lists;
+
  private:
   std::vector<std::uint8_t> is_turned_over_;  ///< by face: its corners run the other way than in results
   double min_cosine_;
   std::vector<Sample> samples_;
-  std::vector<std::uint32_t> first_;  ///< by face: its first sample
 };
 
 /// Compares the samples around a collapse with the faces as they would be. Each thread needs its own.

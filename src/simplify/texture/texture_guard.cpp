@@ -78,10 +78,10 @@ void TextureGuard::begin(const TexturedStar& star) {
   matches_.clear();
   area_before_.clear();
   const auto add_samples = [&](std::uint32_t face) {
-    for (std::uint32_t s = map_.first(face); s != TextureMap::none; s = map_.sample(s).following) {
+    map_.lists.for_each(face, [&](std::uint32_t s) {
       samples_.push_back(s);
       charts_.push_back(map_.chart(face));
-    }
+    });
   };
   for (const Corner c : star.moved) {
     const std::uint32_t f = c / 3;
@@ -438,17 +438,16 @@ void TextureGuard::apply(TextureMap& map) const {
 
 void TextureGuard::give_samples(TextureMap& map) const {
   if (!accepted_) return;
-  for (const Face& face : faces_) map.clear(face.number);
-  for (const std::uint32_t f : star_.removed) map.clear(f);
-  for (std::size_t i = 0; i < samples_.size(); ++i) map.give_to(samples_[i], faces_[matches_[i].face].number);
+  for (const Face& face : faces_) map.lists.clear(face.number);
+  for (const std::uint32_t f : star_.removed) map.lists.clear(f);
+  for (std::size_t i = 0; i < samples_.size(); ++i) map.lists.give_to(samples_[i], faces_[matches_[i].face].number);
 }
 
 void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const std::uint32_t> faces) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> samples;  // each with its chart
   for (const std::uint32_t f : faces) {
-    for (std::uint32_t s = map.first(f); s != TextureMap::none; s = map.sample(s).following)
-      samples.emplace_back(s, map.chart(f));
-    map.clear(f);
+    map.lists.for_each(f, [&](std::uint32_t s) { samples.emplace_back(s, map.chart(f)); });
+    map.lists.clear(f);
   }
   for (const auto& [s, chart] : samples) {
     double least = HUGE_VAL;
@@ -462,7 +461,7 @@ void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const s
         (void)closest_on_outline(corners, map.sample(s).coordinate, squared);
       if (best == TextureMap::none || squared < least) least = squared, best = f;
     }
-    map.give_to(s, best);
+    map.lists.give_to(s, best);
   }
 }
 

@@ -86,7 +86,7 @@ double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t 
 TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,
                        const std::vector<std::uint32_t>& triangle_of_face, const std::vector<Vec3>& vertices,
                        const std::vector<std::array<std::uint32_t, 3>>& triangles, double spacing)
-    : atlas_(std::move(atlas)), coordinates_(3 * start.face_count()), first_(start.face_count(), none) {
+    : lists(start.face_count()), atlas_(std::move(atlas)), coordinates_(3 * start.face_count()) {
   for (std::uint32_t f = 0; f < start.face_count(); ++f) {
     const std::uint32_t t = triangle_of_face[f];
     material_.push_back(atlas_.material(t));
@@ -123,8 +123,8 @@ void TextureMap::number_charts(const ArrayMesh& start, const FeatureLines& lines
 }
 
 void TextureMap::add_sample(std::uint32_t face, Vec3 at, const Eigen::Vector2d& coordinate, bool is_on_line) {
-  samples_.push_back({at, coordinate, none, is_on_line});
-  give_to(static_cast<std::uint32_t>(samples_.size() - 1), face);
+  samples_.push_back({at, coordinate, is_on_line});
+  lists.add(face);
 }
 
 /// Takes one sample for each set of corners at a vertex that are connected without crossing a line.

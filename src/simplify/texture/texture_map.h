@@ -11,6 +11,7 @@
 #include "simplify/cover/box_tree.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/feature_lines.h"
+#include "simplify/mesh/sample_lists.h"
 
 namespace meshbound {
 
@@ -60,7 +61,6 @@ class TextureMap {
   struct Sample {
     Vec3 at;
     Eigen::Vector2d coordinate;
-    std::uint32_t following = none;  ///< next sample of the same face
     bool is_on_line = false;
   };
 
@@ -86,15 +86,9 @@ class TextureMap {
   [[nodiscard]] std::uint32_t material(std::uint32_t face) const { return material_[face]; }
 
   [[nodiscard]] const Sample& sample(std::uint32_t s) const { return samples_[s]; }
-  [[nodiscard]] std::uint32_t first(std::uint32_t face) const { return first_[face]; }
-  /// Empties the list of samples of the face; the caller must assign these samples to other faces of the chart.
-  void clear(std::uint32_t face) { first_[face] = none; }
-  void give_to(std::uint32_t s, std::uint32_t face) {
-    samples_[s].following = first_[face];
-    first_[face] = s;
-  }
 
-  double limit = 0;  ///< largest distance that the texture may move at a sample, model units
+  SampleLists lists;  ///< samples may only be given to faces of their chart
+  double limit = 0;   ///< largest distance that the texture may move at a sample, model units
 
  private:
   void number_charts(const ArrayMesh& start, const FeatureLines& lines);
@@ -106,7 +100,6 @@ class TextureMap {
   std::vector<Eigen::Vector2d> coordinates_;     ///< by corner
   std::vector<std::uint32_t> chart_, material_;  ///< by face
   std::vector<Sample> samples_;
-  std::vector<std::uint32_t> first_;  ///< by face: its first sample
 };
 
 /// Barycentric coordinates of a point in a triangle of the texture; nothing where that has no area.
