@@ -18,7 +18,7 @@
 #include "meshbound/mesh_view.h"
 
 namespace meshbound::datasets {
-namespace {
+namespace analytic_meshes_test {
 
 /// How often each directed edge occurs.
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_edges(const TriangleMesh& mesh) {
@@ -182,5 +182,5 @@ TEST(AnalyticMeshes, ImpossibleShapesAreRefused) {
   EXPECT_THROW(mesh_of_size("klein-bottle", 5000), InvalidInput);
 }
 
-}  // namespace
+}  // namespace analytic_meshes_test
 }  // namespace meshbound::datasets

@@ -11,7 +11,7 @@
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/propose.h"
 
-namespace {
+namespace array_mesh_test {
 
 using meshbound::ArrayMesh;
 using meshbound::Corner;
@@ -231,4 +231,4 @@ TEST(EdgeStar, RefusesWhatWouldNotLeaveAManifold) {
   }
 }
 
-}  // namespace
+}  // namespace array_mesh_test

@@ -20,7 +20,7 @@
 #include "temporary_folder.h"
 
 namespace meshbound {
-namespace {
+namespace attributes_test {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
@@ -297,5 +297,5 @@ TEST(TransferredAttributes, OfRealModelsAreFoundAtEveryCorner) {
   if (found == 0) GTEST_SKIP() << "no real meshes on this machine";
 }
 
-}  // namespace
+}  // namespace attributes_test
 }  // namespace meshbound

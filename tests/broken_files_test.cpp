@@ -13,7 +13,7 @@
 #include "meshbound/mesh_view.h"
 
 namespace meshbound::test {
-namespace {
+namespace broken_files_test {
 
 struct Readable {
   const char* name;
@@ -173,5 +173,5 @@ TEST(BrokenFiles, CutAnywhereAreReadOrRefused) {
   }
 }
 
-}  // namespace
+}  // namespace broken_files_test
 }  // namespace meshbound::test

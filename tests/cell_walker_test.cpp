@@ -15,7 +15,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace cell_walker_test {
 
 using Eigen::Vector3d;
 using namespace reference;
@@ -195,5 +195,5 @@ TEST(CellWalking, WhatTheWalkLeavesIsSubdivided) {
   EXPECT_LE(std::sqrt(bounds.upper_squared()), bounds.lower().lower + goal.error_bound);
 }
 
-}  // namespace
+}  // namespace cell_walker_test
 }  // namespace meshbound

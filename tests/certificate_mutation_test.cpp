@@ -20,7 +20,7 @@
 #include "verify/verifier.h"
 
 namespace meshbound {
-namespace {
+namespace certificate_mutation_test {
 
 using Bytes = std::vector<std::uint8_t>;
 using test::put;
@@ -488,5 +488,5 @@ TEST(CertificateMutation, SealedAgainAFlippedBitOfTheHeaderIsRejectedOrAWeakerTr
   }
 }
 
-}  // namespace
+}  // namespace certificate_mutation_test
 }  // namespace meshbound

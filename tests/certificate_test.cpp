@@ -18,7 +18,7 @@
 #include "verify/verifier.h"
 
 namespace meshbound {
-namespace {
+namespace certificate_test {
 
 struct Pair {
   std::string name;
@@ -278,5 +278,5 @@ TEST(Certificate, HoldsForFetchedMeshes) {
   }
 }
 
-}  // namespace
+}  // namespace certificate_test
 }  // namespace meshbound

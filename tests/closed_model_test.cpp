@@ -14,7 +14,7 @@
 #include "solids.h"
 
 namespace meshbound {
-namespace {
+namespace closed_model_test {
 
 using namespace reference;
 using namespace solids;
@@ -173,5 +173,5 @@ TEST(ClosedModel, RefusesWhatIsNoMesh) {
   EXPECT_THROW(ClosedModel{mesh}, InvalidInput);
 }
 
-}  // namespace
+}  // namespace closed_model_test
 }  // namespace meshbound

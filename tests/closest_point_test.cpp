@@ -20,7 +20,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace closest_point_test {
 
 using Eigen::Vector3d;
 using namespace reference;
@@ -210,5 +210,5 @@ TEST(ClosestPoints, RefuseWhatOneQueryIsRefusedFor) {
   }
 }
 
-}  // namespace
+}  // namespace closest_point_test
 }  // namespace meshbound

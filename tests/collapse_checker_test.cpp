@@ -18,7 +18,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace collapse_checker_test {
 
 using Eigen::Vector3d;
 
@@ -304,5 +304,5 @@ TEST(CollapseChecker, RefusesWhatIsNoManifoldAndTolerancesThatAreNoLengths) {
   EXPECT_THROW((void)checker.admits(0, 99, {0, 0, 0}), InvalidInput);
 }
 
-}  // namespace
+}  // namespace collapse_checker_test
 }  // namespace meshbound

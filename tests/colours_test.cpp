@@ -10,7 +10,7 @@
 #include "temporary_folder.h"
 
 namespace meshbound {
-namespace {
+namespace colours_test {
 
 constexpr std::uint32_t none = CornerAttribute::none;
 
@@ -157,5 +157,5 @@ TEST_F(Colours, DifferAcrossSeams) {
   EXPECT_EQ(found.size(), 1U) << "the edge between the two colours; colours do not keep borders where they are";
 }
 
-}  // namespace
+}  // namespace colours_test
 }  // namespace meshbound

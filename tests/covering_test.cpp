@@ -7,7 +7,7 @@
 #include <numeric>
 
 namespace meshbound {
-namespace {
+namespace covering_test {
 
 TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -77,5 +77,5 @@ TEST(Covering, ByTwoSheets) {
   EXPECT_FALSE(is_covered(triangles));
 }
 
-}  // namespace
+}  // namespace covering_test
 }  // namespace meshbound

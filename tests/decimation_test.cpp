@@ -22,7 +22,7 @@
 #include "simplify_options.h"
 
 namespace meshbound {
-namespace {
+namespace decimation_test {
 
 using test::Setting;
 using test::within;
@@ -303,5 +303,5 @@ TEST_P(Decimation, GivesTheSameMeshWithAndWithoutVectorCode) {
 INSTANTIATE_TEST_SUITE_P(With, Decimation, testing::ValuesIn(test::drivers()),
                          [](const auto& driver) { return driver.param.name; });
 
-}  // namespace
+}  // namespace decimation_test
 }  // namespace meshbound

@@ -19,7 +19,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace deviation_map_test {
 
 using namespace reference;
 using Eigen::Vector3d;
@@ -245,5 +245,5 @@ TEST(Deviations, EndWhenTheyAreTold) {
   EXPECT_THROW((void)deviation_statistics(mesh, other, {}, options), Stopped);
 }
 
-}  // namespace
+}  // namespace deviation_map_test
 }  // namespace meshbound

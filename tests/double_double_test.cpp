@@ -10,7 +10,7 @@
 #include "reference/point_triangle_cases.h"
 
 namespace meshbound {
-namespace {
+namespace double_double_test {
 
 using reference::Random;
 
@@ -56,5 +56,5 @@ TEST(DoubleDouble, OperationsKeepAHundredBits) {
   EXPECT_FALSE(more < one);
 }
 
-}  // namespace
+}  // namespace double_double_test
 }  // namespace meshbound

@@ -14,7 +14,7 @@
 #include "simplify/repair.h"
 
 namespace meshbound {
-namespace {
+namespace exceed_check_test {
 
 struct Case {
   const char* name;
@@ -68,5 +68,5 @@ TEST(ExceedCheck, SaysWhatTheWholeMeshSays) {
   EXPECT_GT(holds, 3U);
 }
 
-}  // namespace
+}  // namespace exceed_check_test
 }  // namespace meshbound

@@ -15,7 +15,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace face_tolerances_test {
 
 constexpr double fine = 0.002, coarse = 0.03;
 
@@ -154,5 +154,5 @@ TEST(FaceTolerances, RefuseWrongNumbers) {
   EXPECT_THROW((void)check_face_tolerances(sphere, half_fine(sphere), infinity, sphere), InvalidInput);
 }
 
-}  // namespace
+}  // namespace face_tolerances_test
 }  // namespace meshbound

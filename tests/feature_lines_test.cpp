@@ -23,7 +23,7 @@
 #include "simplify_options.h"
 
 namespace meshbound {
-namespace {
+namespace feature_lines_test {
 
 using Point = std::array<double, 3>;
 using test::within;
@@ -262,5 +262,5 @@ TEST(FeatureLines, OfRealMeshesStayWithinATenthOfTheTolerance) {
   if (found == 0) GTEST_SKIP() << "no real meshes on this machine";
 }
 
-}  // namespace
+}  // namespace feature_lines_test
 }  // namespace meshbound

@@ -18,7 +18,7 @@
 #include "mesh_files.h"
 
 namespace meshbound::test {
-namespace {
+namespace io_test {
 
 struct Target {
   const char* name;
@@ -331,5 +331,5 @@ TEST(Reading, RefusesAnEmptyFileOfEveryFormat) {
   for (const char* name : {"m.off", "m.obj", "m.ply", "m.stl"}) EXPECT_CONTAINS(refusal(name, ""), "empty");
 }
 
-}  // namespace
+}  // namespace io_test
 }  // namespace meshbound::test

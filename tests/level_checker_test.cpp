@@ -15,7 +15,7 @@
 #include "reference/brute_force.h"
 #include "reference/small_meshes.h"
 
-namespace {
+namespace level_checker_test {
 
 using namespace meshbound;
 using namespace meshbound::reference;
@@ -296,4 +296,4 @@ TEST(LevelChecker, MeasuresLevelsOfAnyScaleAndPlace) {
   }
 }
 
-}  // namespace
+}  // namespace level_checker_test

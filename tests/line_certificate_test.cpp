@@ -14,7 +14,7 @@
 #include "verify/verifier.h"
 
 namespace meshbound {
-namespace {
+namespace line_certificate_test {
 
 using Bytes = std::vector<std::uint8_t>;
 using test::sealed;
@@ -207,5 +207,5 @@ TEST(LineCertificate, WhatAForgerChangesIsRejectedOrTrue) {
   EXPECT_LT(accepted, 500U);
 }
 
-}  // namespace
+}  // namespace line_certificate_test
 }  // namespace meshbound

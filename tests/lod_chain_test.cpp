@@ -14,7 +14,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace lod_chain_test {
 
 LodOptions one_thread() {
   LodOptions options;
@@ -147,5 +147,5 @@ TEST(LodChain, RefusesTolerancesThatDoNotGrowAndOptionsThatAreNotItsOwn) {
   EXPECT_THROW((void)chain.next(0.05), InvalidInput);
 }
 
-}  // namespace
+}  // namespace lod_chain_test
 }  // namespace meshbound

@@ -12,7 +12,7 @@
 #include "meshbound/error.h"
 #include "reference/small_meshes.h"
 
-namespace {
+namespace manifold_soup_test {
 
 using meshbound::InvalidInput;
 using meshbound::manifold_soup;
@@ -305,4 +305,4 @@ TEST(ManifoldSoup, IsAManifoldForTheSharedMeshes) {
   }
 }
 
-}  // namespace
+}  // namespace manifold_soup_test

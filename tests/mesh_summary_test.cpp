@@ -8,7 +8,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace mesh_summary_test {
 
 TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
@@ -86,5 +86,5 @@ TEST(MeshSummary, OfNothingIsEmpty) {
   EXPECT_TRUE(used_bounding_box(TriangleMesh{}).isEmpty());
 }
 
-}  // namespace
+}  // namespace mesh_summary_test
 }  // namespace meshbound

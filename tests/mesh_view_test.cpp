@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace meshbound {
-namespace {
+namespace mesh_view_test {
 
 /// Corners of the unit square, two triangles.
 const std::vector<double> doubles = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -63,5 +63,5 @@ TEST(MeshViewOfInt, RefusesNegativeIndices) {
   EXPECT_THROW(validate(MeshView(doubles, indices)), InvalidInput);
 }
 
-}  // namespace
+}  // namespace mesh_view_test
 }  // namespace meshbound

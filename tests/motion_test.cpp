@@ -12,7 +12,7 @@
 #include "random_poses.h"
 #include "reference/small_meshes.h"
 
-namespace {
+namespace motion_test {
 
 using namespace meshbound;
 using Eigen::Isometry3d;
@@ -214,4 +214,4 @@ TEST(MovingPair, AgreesWithColdAnswersForSoups) {
   }
 }
 
-}  // namespace
+}  // namespace motion_test

@@ -11,7 +11,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace normal_deviation_test {
 
 /// A square around the z axis, turned by an angle about the x axis.
 TriangleMesh square(double degrees, double half = 1) {
@@ -90,5 +90,5 @@ TEST(NormalDeviation, RefusesAToleranceThatIsNone) {
   EXPECT_THROW((void)measured(square(0), square(0), std::nan("")), InvalidInput);
 }
 
-}  // namespace
+}  // namespace normal_deviation_test
 }  // namespace meshbound

@@ -16,7 +16,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace one_sided_hausdorff_distance_test {
 
 using Eigen::Vector3d;
 using namespace reference;
@@ -510,5 +510,5 @@ TEST(OneSidedDistance, ToAPointFarAwayIsConvergedOnlyWhereItIsNarrowEnough) {
   EXPECT_EQ(check_one_sided_tolerance(from, to, 2e9).a_to_b.outcome, Outcome::Converged);
 }
 
-}  // namespace
+}  // namespace one_sided_hausdorff_distance_test
 }  // namespace meshbound

@@ -18,7 +18,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace paper_test {
 
 using reference::both;
 using reference::brute_force_one_sided;
@@ -490,5 +490,5 @@ TEST(Paper, Table2_culling_rates_and_Fig9_phases_are_reported) {
   }
 }
 
-}  // namespace
+}  // namespace paper_test
 }  // namespace meshbound

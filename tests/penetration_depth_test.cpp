@@ -16,7 +16,7 @@
 #include "solids.h"
 
 namespace meshbound {
-namespace {
+namespace penetration_depth_test {
 
 using namespace reference;
 using namespace solids;
@@ -459,5 +459,5 @@ TEST(PenetrationDepth, EndsWhenCancelled) {
   EXPECT_THROW((void)penetration_depth(model, {model, motion({0.5, 0.4, 0.3})}, options), Interrupted);
 }
 
-}  // namespace
+}  // namespace penetration_depth_test
 }  // namespace meshbound

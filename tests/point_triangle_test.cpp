@@ -18,7 +18,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace point_triangle_test {
 
 using Eigen::Vector3d;
 using reference::CaseFamily;
@@ -190,5 +190,5 @@ TEST(ClosestPoint, RefusesQueriesThatAreNotFinite) {
   EXPECT_THROW((void)closest_point(bvh, Vector3d(4 * largest_coordinate, 0, 0)), InvalidInput);
 }
 
-}  // namespace
+}  // namespace point_triangle_test
 }  // namespace meshbound

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace prepared_triangle_test {
 
 using namespace meshbound;
 
@@ -38,4 +38,4 @@ TEST(PreparedTriangle, GivesWhatClosestOnTriangleGivesToTheLastBit) {
   }
 }
 
-}  // namespace
+}  // namespace prepared_triangle_test

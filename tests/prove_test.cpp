@@ -21,7 +21,7 @@
 #include "simplify/repair.h"
 
 namespace meshbound {
-namespace {
+namespace prove_test {
 
 using Eigen::Vector3d;
 
@@ -262,5 +262,5 @@ TEST(ForwardCover, NamesThePointThatNoFaceHolds) {
   EXPECT_EQ(cover.lost_point()->x, 3);
 }
 
-}  // namespace
+}  // namespace prove_test
 }  // namespace meshbound

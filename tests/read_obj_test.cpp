@@ -6,7 +6,7 @@
 #include "mesh_files.h"
 
 namespace meshbound::test {
-namespace {
+namespace read_obj_test {
 
 const std::string three_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -120,5 +120,5 @@ TEST(ReadObj, KeepsAMessageToOnePrintableLine) {
   EXPECT_EQ(line.find('\x1b'), std::string::npos);
 }
 
-}  // namespace
+}  // namespace read_obj_test
 }  // namespace meshbound::test

@@ -6,7 +6,7 @@
 #include "mesh_files.h"
 
 namespace meshbound::test {
-namespace {
+namespace read_off_test {
 
 const std::string three_vertices = "0 0 0\n1 0 0\n0 1 0\n";
 const std::string triangle = "OFF\n3 1 0\n" + three_vertices + "3 0 1 2\n";
@@ -137,5 +137,5 @@ TEST(ReadOff, NeverCrashesOnATruncatedFile) {
     EXPECT_NE(refused(triangle.substr(0, size)), "") << size;
 }
 
-}  // namespace
+}  // namespace read_off_test
 }  // namespace meshbound::test

@@ -10,7 +10,7 @@
 #include "mesh_files.h"
 
 namespace meshbound::test {
-namespace {
+namespace read_ply_test {
 
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string corners = "property list uchar int vertex_indices\n";
@@ -285,5 +285,5 @@ TEST(ReadPly, NeverCrashesOnATruncatedFile) {
   for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(refused(whole.substr(0, size)), "") << size;
 }
 
-}  // namespace
+}  // namespace read_ply_test
 }  // namespace meshbound::test

@@ -11,7 +11,7 @@
 #include "mesh_files.h"
 
 namespace meshbound::test {
-namespace {
+namespace read_stl_test {
 
 const std::string facet =
     "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
@@ -140,5 +140,5 @@ TEST(ReadStl, NeverCrashesOnATruncatedFile) {
   for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(refused(bytes.substr(0, size)), "") << size;
 }
 
-}  // namespace
+}  // namespace read_stl_test
 }  // namespace meshbound::test

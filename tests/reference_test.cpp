@@ -12,7 +12,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound::reference {
-namespace {
+namespace reference_test {
 
 using Eigen::Vector3d;
 
@@ -97,5 +97,5 @@ TEST(HardMesh, SeamsAndSoupsAreTheSurfaceThatTheyWereCutFrom) {
   EXPECT_TRUE(same_surface(sphere, cut));
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace meshbound::reference

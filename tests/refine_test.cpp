@@ -13,7 +13,7 @@
 #include "simplify/regions.h"
 #include "simplify/relaxed_collapse.h"
 
-namespace {
+namespace refine_test {
 
 using namespace meshbound;
 
@@ -167,4 +167,4 @@ TEST(SlowRefine, GivesTheSameForAnyNumberOfThreads) {
   EXPECT_LE(distance_upper(torus, results[0], 2e-3), 2e-3);
 }
 
-}  // namespace
+}  // namespace refine_test

@@ -14,7 +14,7 @@
 #include "meshbound/error.h"
 #include "reference/small_meshes.h"
 
-namespace {
+namespace refit_test {
 
 using namespace meshbound;
 using namespace meshbound::reference;
@@ -169,4 +169,4 @@ TEST(Refit, FiguresGrowthOfTheBoxes) {
   EXPECT_TRUE(std::isfinite(tree.growth()));
 }
 
-}  // namespace
+}  // namespace refit_test

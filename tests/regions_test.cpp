@@ -23,7 +23,7 @@
 #include "simplify_options.h"
 
 namespace meshbound {
-namespace {
+namespace regions_test {
 
 SimplifyOptions within(double tolerance) {
   SimplifyOptions options = test::within(tolerance);
@@ -318,5 +318,5 @@ TEST_P(Regions, ShowTheirProgressInTheCallingThreadAndPassOnWhatItThrows) {
 INSTANTIATE_TEST_SUITE_P(With, Regions, testing::ValuesIn(test::drivers()),
                          [](const auto& driver) { return driver.param.name; });
 
-}  // namespace
+}  // namespace regions_test
 }  // namespace meshbound

@@ -12,7 +12,7 @@
 #include "random_poses.h"
 #include "scene/world_box.h"
 
-namespace {
+namespace scene_test {
 
 using namespace meshbound;
 using Eigen::Isometry3d;
@@ -284,4 +284,4 @@ TEST(WorldBox, TouchesTheModelOnEverySide) {
   }
 }
 
-}  // namespace
+}  // namespace scene_test

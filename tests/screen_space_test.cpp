@@ -10,7 +10,7 @@
 #include "meshbound/error.h"
 
 namespace meshbound {
-namespace {
+namespace screen_space_test {
 
 constexpr double right_angle = std::numbers::pi / 2;
 
@@ -56,5 +56,5 @@ TEST(ScreenSpace, RefusesWhatIsNoView) {
   EXPECT_THROW((void)min_view_distance({1080, 1}, 1, nan), InvalidInput);
 }
 
-}  // namespace
+}  // namespace screen_space_test
 }  // namespace meshbound

@@ -13,7 +13,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace seam_test {
 
 using Eigen::Vector3d;
 using namespace reference;
@@ -177,5 +177,5 @@ TEST(Seams, RefitMayTearThemApart) {
   EXPECT_TRUE(same_adjacency(tree, Bvh(square)));
 }
 
-}  // namespace
+}  // namespace seam_test
 }  // namespace meshbound

@@ -15,7 +15,7 @@
 #include "meshbound/transform.h"
 #include "random_poses.h"
 
-namespace {
+namespace similarity_test {
 
 using namespace meshbound;
 using Eigen::Vector3d;
@@ -242,4 +242,4 @@ TEST(Similarity, RefusesWhatHasNoShape) {
   EXPECT_NO_THROW(Shape{segment});
 }
 
-}  // namespace
+}  // namespace similarity_test

@@ -7,7 +7,7 @@
 #include "verify/verifier.h"
 
 namespace meshbound {
-namespace {
+namespace simplify_certificate_test {
 
 TEST(SimplifyWithBound, GivesEachLevelItsCertificate) {
   const TriangleMesh original = datasets::torus(1, 0.3, 40, 16);
@@ -24,5 +24,5 @@ TEST(SimplifyWithBound, GivesEachLevelItsCertificate) {
   }
 }
 
-}  // namespace
+}  // namespace simplify_certificate_test
 }  // namespace meshbound

@@ -19,7 +19,7 @@
 #include "simplify/kernel/kernels.h"
 
 namespace meshbound {
-namespace {
+namespace simplify_kernels_test {
 
 using Eigen::Vector3d;
 
@@ -269,5 +269,5 @@ TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
   }
 }
 
-}  // namespace
+}  // namespace simplify_kernels_test
 }  // namespace meshbound

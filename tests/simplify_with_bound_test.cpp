@@ -16,7 +16,7 @@
 #include "simplify_options.h"
 
 namespace meshbound {
-namespace {
+namespace simplify_with_bound_test {
 
 using test::manifold_shapes;
 using test::Shape;
@@ -402,5 +402,5 @@ const auto name_of_driver = [](const auto& driver) { return driver.param.name; }
 INSTANTIATE_TEST_SUITE_P(With, SimplifyWithBound, testing::ValuesIn(test::drivers()), name_of_driver);
 INSTANTIATE_TEST_SUITE_P(With, Pruning, testing::ValuesIn(test::drivers()), name_of_driver);
 
-}  // namespace
+}  // namespace simplify_with_bound_test
 }  // namespace meshbound

@@ -10,7 +10,7 @@
 
 #include "reference/small_meshes.h"
 
-namespace {
+namespace spatial_order_test {
 
 using meshbound::spatial_order;
 using meshbound::SpatialOrder;
@@ -78,4 +78,4 @@ TEST(SpatialOrder, ComparesPointsByTheirCoordinates) {
   EXPECT_FALSE(is_before({-0.0, 0, 0}, {0, -0.0, 0}));
 }
 
-}  // namespace
+}  // namespace spatial_order_test

@@ -25,7 +25,7 @@
 #include "tiles/tile_cut.h"
 
 namespace meshbound {
-namespace {
+namespace stored_mesh_test {
 
 /// A folder of its own, removed at the end.
 class Stored : public testing::Test {
@@ -287,5 +287,5 @@ TEST_F(Stored, TilesOfAStoredMeshGiveTheBitsOfOneInMemory) {
   EXPECT_EQ(distance.b_to_a.witness.nearest.triangle, expected.b_to_a.witness.nearest.triangle);
 }
 
-}  // namespace
+}  // namespace stored_mesh_test
 }  // namespace meshbound

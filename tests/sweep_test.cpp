@@ -21,7 +21,7 @@
 #include "meshbound/simplify.h"
 
 namespace meshbound {
-namespace {
+namespace sweep_test {
 
 namespace fs = std::filesystem;
 
@@ -136,5 +136,5 @@ TEST(SlowPartsSweep, DecidesSevenPartsAtSevenTolerancesInStlAndPly) {
   EXPECT_EQ(undecided, 0) << "the lines above that begin with 'undecided' name them";
 }
 
-}  // namespace
+}  // namespace sweep_test
 }  // namespace meshbound

@@ -15,7 +15,7 @@
 #include "verify/verifier.h"
 
 namespace meshbound {
-namespace {
+namespace texture_certificate_test {
 
 using Bytes = std::vector<std::uint8_t>;
 using test::sealed;
@@ -356,5 +356,5 @@ TEST(TextureCertificate, ThatCostsFarMoreThanItsBytesIsRefused) {
   EXPECT_EQ(rejection(14), "the proof about the texture costs too much to check");
 }
 
-}  // namespace
+}  // namespace texture_certificate_test
 }  // namespace meshbound

@@ -14,7 +14,7 @@
 #include "reference/texture_oracle.h"
 
 namespace meshbound {
-namespace {
+namespace texture_deviation_test {
 
 using Random = std::mt19937_64;
 
@@ -447,5 +447,5 @@ TEST(TexturedMeshes, TellMaterialsApartByName) {
   EXPECT_THROW((void)textured_meshes(mesh, a, mesh, {}), InvalidInput);
 }
 
-}  // namespace
+}  // namespace texture_deviation_test
 }  // namespace meshbound

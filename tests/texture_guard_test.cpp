@@ -12,7 +12,7 @@
 #include "meshbound/texture_deviation.h"
 
 namespace meshbound {
-namespace {
+namespace texture_guard_test {
 
 using Coordinates = std::array<Eigen::Vector2d, 3>;
 
@@ -264,5 +264,5 @@ TEST(TextureGuard, RefusesWhatDoesNotFitTheMesh) {
   EXPECT_THROW((void)simplify_with_bound(square.mesh, options), InvalidInput);
 }
 
-}  // namespace
+}  // namespace texture_guard_test
 }  // namespace meshbound

@@ -23,7 +23,7 @@
 #include "tiles/tile_cut.h"
 
 namespace meshbound {
-namespace {
+namespace tiles_test {
 
 SimplifyOptions share_of_diagonal(const TriangleMesh& mesh, double share) {
   SimplifyOptions options;
@@ -461,5 +461,5 @@ TEST(DistanceInTiles, RefusesLengthsThatAreNone) {
   EXPECT_THROW((void)hausdorff_distance_in_tiles(cube, cube, options), InvalidInput);
 }
 
-}  // namespace
+}  // namespace tiles_test
 }  // namespace meshbound

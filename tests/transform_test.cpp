@@ -12,7 +12,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace transform_test {
 
 using Eigen::Affine3d;
 using Eigen::Vector3d;
@@ -118,5 +118,5 @@ TEST(Widened, ContainsEveryNumberThatNear) {
   EXPECT_EQ(unknown.upper, std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace transform_test
 }  // namespace meshbound

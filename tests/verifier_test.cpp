@@ -17,7 +17,7 @@
 #include "verify/parity_check.h"
 
 namespace meshbound::verify {
-namespace {
+namespace verifier_test {
 
 using Bytes = std::vector<std::uint8_t>;
 using Random = std::mt19937_64;
@@ -414,5 +414,5 @@ TEST(Certificate, OfAnyLengthIsReadWithoutHarm) {
   }
 }
 
-}  // namespace
+}  // namespace verifier_test
 }  // namespace meshbound::verify

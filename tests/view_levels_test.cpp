@@ -14,7 +14,7 @@
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 
-namespace {
+namespace view_levels_test {
 
 using namespace meshbound;
 using Eigen::Affine3d;
@@ -196,4 +196,4 @@ TEST_F(Tori, WhatCannotBeIsRefused) {
   EXPECT_THROW((void)view_tolerance(camera, 1, unit_box, at({0, 0, -5})), InvalidInput);
 }
 
-}  // namespace
+}  // namespace view_levels_test

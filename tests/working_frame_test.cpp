@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace working_frame_test {
 
 using Eigen::Vector3d;
 using meshbound::WorkingFrame;
@@ -51,4 +51,4 @@ TEST(WorkingFrame, MovesNoPointFurtherThanItSays) {
   }
 }
 
-}  // namespace
+}  // namespace working_frame_test
