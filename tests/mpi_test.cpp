@@ -3,7 +3,9 @@
 // process that speaks and writes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -49,6 +51,89 @@ TEST(TilesOverRanks, ReadFilesByRanges) {
     ASSERT_EQ(run_tool(GENERATE_MESH, {"torus", "--output", folder / name, "--size", "3000"}).exit_code, 0);
     const ToolRun run = run_ranks(3, TILES_OVER_RANKS, {"read", folder / name});
     EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
+  }
+}
+
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// A binary PLY of a row of triangles with normals, materials before the vertices, and faces that have a quality.
+std::string strip_ply(std::size_t triangles) {
+  std::string file = "ply\nformat binary_little_endian 1.0\nelement material 2\nproperty uchar red\nelement vertex " +
+                     std::to_string(triangles + 2) +
+                     "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nelement face " +
+                     std::to_string(triangles) +
+                     "\nproperty list uchar int vertex_indices\nproperty float quality\nend_header\n";
+  file += "ab";
+  for (std::size_t v = 0; v < triangles + 2; ++v)
+    file += bytes_of<float>({static_cast<float>(v), static_cast<float>(v % 2), 0, 1});
+  for (int t = 0; t < static_cast<int>(triangles); ++t)
+    file += '\3' + bytes_of<int>({t, t + 1, t + 2}) + bytes_of<float>({0.5});
+  return file;
+}
+
+constexpr std::size_t strip_face = 1 + 3 * 4 + 4;  // bytes
+
+/// A binary STL of a row of triangles, of which every third has attribute bytes.
+std::string strip_stl(std::size_t triangles) {
+  std::string file(80, ' ');
+  file += bytes_of<std::uint32_t>({static_cast<std::uint32_t>(triangles)});
+  for (std::size_t t = 0; t < triangles; ++t) {
+    file += bytes_of<float>({0, 0, 1});
+    for (std::size_t v = t; v < t + 3; ++v)  // 0 and -0 are one coordinate
+      file += bytes_of<float>({static_cast<float>(v % 50), static_cast<float>(v % 2), t % 2 == 0 ? 0.0F : -0.0F});
+    file += bytes_of<std::uint16_t>({static_cast<std::uint16_t>(t % 3)});
+  }
+  return file;
+}
+
+std::string with(std::string file, std::size_t at, const std::string& bytes) {
+  return file.replace(at, bytes.size(), bytes);
+}
+
+TEST(FilesOverRanks, AreReadInSharesOrAsAWhole) {
+  const TemporaryFolder folder;
+  const std::string ply = strip_ply(1000), stl = strip_stl(1000), nan = bytes_of<float>({NAN});
+  const std::size_t faces = ply.size() - 1000 * strip_face, records = 84;
+  const std::size_t in_the_middle = faces + 700 * strip_face;
+  struct Case {
+    std::string name, content;
+    bool in_shares;
+  };
+  // One face of four corners and one of two take as many bytes as two triangles.
+  const std::string four_and_two = '\4' + bytes_of<int>({1, 2, 3, 4}) + bytes_of<float>({0.5}) + '\2' +
+                                   bytes_of<int>({1, 2}) + bytes_of<float>({0.5});
+  const std::vector<Case> cases{{"strip.ply", ply, true},
+                                {"strip.stl", stl, true},
+                                {"one.ply", strip_ply(1), true},  // some ranks have nothing
+                                {"one.stl", strip_stl(1), true},
+                                {"line end.ply", ply + "\n", false},
+                                {"polygon.ply", with(ply, in_the_middle, four_and_two), false},
+                                {"index.ply", with(ply, in_the_middle + 1, bytes_of<int>({5000})), false},
+                                {"not a number.ply", with(ply, faces - 16, nan), false},
+                                {"short.ply", ply.substr(0, ply.size() - 5), false},
+                                {"long.ply", ply + "abc", false},
+                                {"no faces.ply", strip_ply(0), false},
+                                {"not a number.stl", with(stl, records + 500 * 50 + 12, nan), false},
+                                {"short.stl", stl.substr(0, stl.size() - 51), false},
+                                {"text.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", false}};
+  for (const auto& [name, content, in_shares] : cases) {
+    std::ofstream(folder / name, std::ios::binary) << content;
+    for (const int ranks : {1, 2, 3, 4}) {
+      if (!in_shares && ranks != 3) continue;
+      const ToolRun run = run_ranks(ranks, TILES_OVER_RANKS, {in_shares ? "read-shares" : "read-whole", folder / name});
+      EXPECT_EQ(run.exit_code, 0) << name << ", " << ranks << " ranks: " << run.err;
+    }
+  }
+}
+
+TEST(FilesOverRanks, HaveTheBytesThatOneProcessWrites) {
+  for (const int ranks : {1, 2, 3, 4}) {
+    const TemporaryFolder folder;
+    const ToolRun run = run_ranks(ranks, TILES_OVER_RANKS, {"write", folder / ""});
+    EXPECT_EQ(run.exit_code, 0) << ranks << " ranks: " << run.err;
   }
 }
 
@@ -105,6 +190,29 @@ TEST_F(ToolsOverRanks, GiveTheFileOfOneProcessAndSayWhatTheySent) {
     EXPECT_EQ(report["communication"]["ranks"], ranks);
     EXPECT_EQ(report["communication"]["input_bytes"], 0);  // each rank reads the file
     EXPECT_LE(report["communication"]["bytes"].get<std::uint64_t>(), (ranks - 1) * 6 * input / 100)
+        << ranks << " ranks";
+  }
+}
+
+/// What is written is other than the result in its bits, but all ranks know it: nothing more is sent.
+TEST_F(ToolsOverRanks, ReadAndWriteStlAsOneProcess) {
+  ASSERT_EQ(run_tool(GENERATE_MESH, {"torus", "--output", in("torus.stl"), "--size", "60000"}).exit_code, 0);
+  const std::vector<std::string> arguments{in("torus.stl"),    in("out.stl"), "--tolerance", "0.3%",        "--quiet",
+                                           "--tile-triangles", "4000",        "--json",      in("out.json")};
+  std::vector<std::string> serial = arguments;
+  serial.insert(serial.end(), {"--memory", "4G"});
+  ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, serial).exit_code, 0);
+  const std::string written = content_of(in("out.stl"));
+  const Json alone = Json::parse(content_of(in("out.json")));
+  for (const std::uint64_t ranks : {1, 2, 3, 4}) {
+    const ToolRun run = run_ranks(static_cast<int>(ranks), SIMPLIFY_WITH_BOUND_MPI, arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(content_of(in("out.stl")), written) << ranks << " ranks";
+    const Json report = Json::parse(content_of(in("out.json")));
+    EXPECT_EQ(report["distance"], alone["distance"]);
+    EXPECT_EQ(report["original"], alone["original"]);  // also the checksum of the file
+    EXPECT_LE(report["communication"]["bytes"].get<std::uint64_t>(),
+              (ranks - 1) * 3 * std::filesystem::file_size(in("torus.stl")) / 100)
         << ranks << " ranks";
   }
 }
@@ -215,10 +323,12 @@ struct Stage {
   const char* rank;   ///< that is killed: "head" or "tail" of them all
   bool has_tiles;     ///< results of tiles are kept by then
 };
-const Stage stages[] = {{"starting", "[ $(pgrep -c -P $run) = 3 ]", "tail", false},
-                        {"the first pass", "[ -e $scratch/*/0-3 ]", "head", true},
-                        {"a later pass", "ls $scratch/*/1-* >$scratch/ls 2>&1", "tail", true},
-                        {"measuring", "find /proc/[0-9]*/fd -lname \"$out/*\" 2>/dev/null | grep -q .", "head", false}};
+const Stage stages[] = {
+    {"starting", "[ $(pgrep -c -P $run) = 3 ]", "tail", false},
+    {"reading", "find /proc/[0-9]*/fd -lname \"$scratch/*\" 2>/dev/null | grep -q .", "tail", false},
+    {"the first pass", "[ -e $scratch/*/0-3 ]", "head", true},
+    {"a later pass", "ls $scratch/*/1-* >$scratch/ls 2>&1", "tail", true},
+    {"writing or measuring", "find /proc/[0-9]*/fd -lname \"$out/*\" 2>/dev/null | grep -q .", "head", false}};
 
 TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTiles) {
   for (const Stage& stage : stages) {
@@ -239,7 +349,7 @@ TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTi
 
 TEST_F(FaultsOverRanks, ThatAreAFullDiskOfOneRankAreSaidOnceAndCanBeResumed) {
   // No result of a tile fits, or none of what passes share.
-  for (const auto& [stage, size] : {std::pair(1, "100"), std::pair(2, "200000")}) {
+  for (const auto& [stage, size] : {std::pair(2, "100"), std::pair(3, "200000")}) {
     SCOPED_TRACE(stages[stage].name);
     const std::string scratch = in("full");
     std::filesystem::create_directories(scratch);
@@ -261,6 +371,17 @@ TEST_F(FaultsOverRanks, ThatAreNoRoomForTheResultAreSaidOnce) {
                 "for rank in $ranks; do prlimit --fsize=2000000 --pid $rank; done", scratch, "result.obj", "0.001%");
   expect_refused_together(run);
   EXPECT_NE(run.err.find("result.obj"), std::string::npos) << run.err;
+}
+
+/// Each rank writes a share of a PLY; that of the last one does not fit.
+TEST_F(FaultsOverRanks, ThatAreNoRoomForTheShareOfARankAreSaidOnce) {
+  const std::string scratch = in("no room for a share");
+  std::filesystem::create_directories(scratch);
+  const ToolRun run =
+      disturbed("ls " + shell_quoted(scratch) + "/*/0-3 >" + shell_quoted(in("ls")) + " 2>&1",
+                "prlimit --fsize=1300000 --pid $(echo $ranks | cut -d ' ' -f 3)", scratch, "result.ply", "0.001%");
+  expect_refused_together(run);
+  EXPECT_NE(run.err.find("result.ply: cannot write: File too large"), std::string::npos) << run.err;
 }
 
 /// Open MPI itself needs files of more than 4 MB.
@@ -304,15 +425,21 @@ TEST(SlurmScripts, AreScriptsOfTheShell) {
 TEST_F(FaultsOverRanks, AreSaidInOneLineOfTheTool) {
   std::filesystem::copy_file(in("torus.ply"), in("short.ply"));
   std::filesystem::resize_file(in("short.ply"), 500000);
-  const std::vector<std::vector<std::string>> wrong{{in("short.ply"), in("none.ply")},
-                                                    {in("not there.ply"), in("none.ply")},
-                                                    {in("torus.ply"), in("no folder/none.ply")},
-                                                    {in("torus.ply"), in("torus.ply")}};
+  std::ofstream(in("short.stl"), std::ios::binary) << strip_stl(1000).substr(0, 40000);
+  const std::string ply = strip_ply(1000);
+  std::ofstream(in("wrong.ply"), std::ios::binary) << with(ply, ply.size() - strip_face, "\5");
+  const std::vector<std::vector<std::string>> wrong{
+      {in("short.ply"), in("none.ply")},           {in("short.stl"), in("none.ply")},
+      {in("wrong.ply"), in("none.ply")},           {in("not there.ply"), in("none.ply")},
+      {in("torus.ply"), in("no folder/none.ply")}, {in("torus.ply"), in("torus.ply")}};
   for (std::vector<std::string> arguments : wrong) {
     arguments.insert(arguments.end(), {"--tolerance", "1%"});
     const ToolRun run = run_ranks(3, SIMPLIFY_WITH_BOUND_MPI, arguments);
     expect_refused_together(run);
     EXPECT_FALSE(std::filesystem::exists(in("none.ply")));
+    arguments.insert(arguments.end(), {"--memory", "4G"});
+    const std::string said = run_tool(SIMPLIFY_WITH_BOUND, arguments).err.substr(sizeof "simplify_with_bound" - 1);
+    EXPECT_NE(run.err.find(said), std::string::npos) << run.err << "alone" << said;
   }
 }
 

@@ -123,12 +123,12 @@ TEST_F(Stored, AFullDiskIsAnErrorThatNamesTheFolder) {
 }
 
 TEST(RankedNumbers, AreSortedAndFindTheirIndices) {
-  RankedNumbers numbers;
-  for (const std::uint32_t n : {70000u, 64u, 4095u, 0u, 4096u, 63u, 64u, 4294967294u, 70000u, 1u}) numbers.add(n);
+  const RankedNumbers numbers(
+      std::vector<std::vector<std::uint32_t>>{{70000, 64, 4095, 0}, {}, {4096, 63, 64, 4294967294, 70000, 1}});
   const std::vector<std::uint32_t> expected{0, 1, 63, 64, 4095, 4096, 70000, 4294967294};
-  ASSERT_EQ(numbers.ranked(), expected);
+  ASSERT_EQ(numbers.ascending(), expected);
   for (std::uint32_t i = 0; i < expected.size(); ++i) EXPECT_EQ(numbers.index_of(expected[i]), i);
-  EXPECT_TRUE(RankedNumbers().ranked().empty());
+  EXPECT_TRUE(RankedNumbers(std::vector<Triangle>()).ascending().empty());
 }
 
 TEST_F(Stored, APartIsThatOfTheMeshInMemory) {

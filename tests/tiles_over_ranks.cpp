@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "datasets/analytic_meshes.h"
+#include "mesh/readers.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mpi.h"
 #include "mpi/rank_runner.h"
+#include "mpi/read_shares.h"
 
 namespace meshbound {
 namespace {
@@ -71,6 +73,66 @@ void read(const std::string& path) {
   try {
     (void)mpi::read_mesh(path + ".not.ply", MPI_COMM_WORLD);
     expect(false, "an exception for a file that is not there");
+  } catch (const IoError&) {
+  }
+}
+
+/// What is read, on rank 0 with what else a file tells, or why nothing is.
+template <class Read>
+std::string outcome(const Read& read) {
+  try {
+    MeshInSpace mesh({std::filesystem::temp_directory_path()});
+    const MeshFile file = read(mesh);
+    std::string text;
+    mesh.for_each_vertex([&](std::uint32_t, const Eigen::Vector3d& p) {
+      text.append(reinterpret_cast<const char*>(p.data()), sizeof p);
+    });
+    mesh.for_each_triangle(
+        [&](std::uint32_t, const Triangle& t) { text.append(reinterpret_cast<const char*>(t.data()), sizeof t); });
+    if (rank != 0) return text;
+    for (const std::size_t count : {file.triangulated_polygons, file.ignored_elements, file.dropped.normals,
+                                    file.dropped.facet_attributes, file.dropped.colours, file.dropped.other_properties})
+      text += ' ' + std::to_string(count);
+    return text;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// Whether ranks read shares of this file, and that they find what one process does.
+void read_into_one_copy(const std::string& path, bool in_shares) {
+  mpi::Communicator ranks(MPI_COMM_WORLD);
+  std::string bytes_seen;
+  FileWindow::Reader reader;
+  if (rank == 0) reader = [&](std::string_view bytes) { bytes_seen += bytes; };
+  const std::string alone = outcome([&](MeshInSpace& into) { return meshbound::read_mesh_into(path, {}, into); });
+  const std::string together =
+      outcome([&](MeshInSpace& into) { return mpi::read_mesh_into(ranks, path, {}, into, reader); });
+  expect(together == alone, "the same mesh, or the same error");
+  const FileShare share{static_cast<std::size_t>(ranks.rank()), static_cast<std::size_t>(ranks.size())};
+  MeshInSpace own({std::filesystem::temp_directory_path()});
+  const bool has_shares = counts_for_shares(path, {}) && read_share(path, share, {}, own);
+  expect(ranks.any(!has_shares) != in_shares, "that ranks read shares");
+  if (in_shares && rank == 0) expect(bytes_seen.size() == std::filesystem::file_size(path), "that all bytes are seen");
+}
+
+/// Writes next to what one process writes. The folder is the second word of the command line.
+void write(const std::filesystem::path& folder) {
+  const TriangleMesh mesh = datasets::mesh_of_size("uv-sphere", 3000);
+  const auto content = [](const std::filesystem::path& path) { return std::string(FileBytes(path).bytes()); };
+  WriteOptions plain, floats, text;
+  floats.single_precision = true;
+  text.ascii = true;
+  for (const std::string name : {"mesh.ply", "mesh.stl", "mesh.obj"})
+    for (const WriteOptions& options : {plain, floats, text}) {
+      mpi::write_mesh(folder / name, mesh, MPI_COMM_WORLD, options);
+      if (rank != 0) continue;
+      write_mesh(folder / ("alone-" + name), mesh, options);
+      expect(content(folder / name) == content(folder / ("alone-" + name)), "the same bytes");
+    }
+  try {
+    mpi::write_mesh(folder / "not there" / "mesh.ply", mesh, MPI_COMM_WORLD);
+    expect(false, "an exception for a folder that is not there");
   } catch (const IoError&) {
   }
 }
@@ -151,6 +213,9 @@ int main(int argc, char** argv) {
   if (test_case == "simplify") simplify();
   if (test_case == "measure") measure();
   if (test_case == "read" && argc > 2) read(argv[2]);
+  if (test_case == "read-shares" && argc > 2) read_into_one_copy(argv[2], true);
+  if (test_case == "read-whole" && argc > 2) read_into_one_copy(argv[2], false);
+  if (test_case == "write" && argc > 2) write(argv[2]);
   if (test_case == "hand-out") hand_out();
   if (test_case == "fail") fail();
   MPI_Finalize();

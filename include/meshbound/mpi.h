@@ -25,6 +25,11 @@ namespace meshbound::mpi {
 /// same path, and all ranks exchange these ranges. (r - 1) times the size of the file is sent for r ranks.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, MPI_Comm ranks, const ReadOptions& options = {});
 
+/// As `meshbound::write_mesh` of a mesh that all ranks have, with the same bytes: the ranks of rank 0's machine each
+/// write a range of a binary PLY or STL, rank 0 any other file. It appears under its name when all have written theirs.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MPI_Comm ranks,
+                const WriteOptions& options = {});
+
 /// As `meshbound::simplify_in_tiles`. Ranks may have different numbers of threads, limits of time and flags to cancel:
 /// the first limit that comes ends the tiles of its rank, and the run once all ranks have finished the pass.
 [[nodiscard]] SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options,

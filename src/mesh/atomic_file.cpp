@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "mesh/file_stop.h"
-#include "mesh/unnamed_file.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -40,14 +39,22 @@ void hand_over(int fd, const OutputTarget::Owner& owner) {
 AtomicFile::AtomicFile(std::filesystem::path path, Stream stream, const StopToken& stop)
     : path_(std::move(path)), target_(output_target(path_)), stream_(stream), stop_(stop) {}
 
+AtomicFile::AtomicFile(std::filesystem::path path, const SharedFile& shared) : path_(std::move(path)) {
+  make_buffer();
+  fd_ = open_shared_file(shared, O_WRONLY);
+  if (fd_ < 0) fail(errno);
+}
+
 AtomicFile::~AtomicFile() {
   if (fd_ >= 0) ::close(fd_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
+void AtomicFile::make_buffer() { buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size); }
+
 void AtomicFile::open() {
   if (fd_ >= 0) return;
-  buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size);
+  make_buffer();
   if (target_.is_stream && stream_ == Stream::Direct) return open_stream();
   open_staged(target_.is_stream ? std::filesystem::temp_directory_path() : target_.path.parent_path());
   if (target_.replaced) hand_over(fd_, *target_.replaced);
@@ -98,6 +105,19 @@ char* AtomicFile::room(std::size_t size) {
   return buffer_.get() + filled_;
 }
 
+void AtomicFile::seek(std::uint64_t offset) {
+  open();
+  flush();
+  if (::lseek(fd_, static_cast<off_t>(offset), SEEK_SET) < 0) fail(errno);
+}
+
+SharedFile AtomicFile::share() {
+  open();
+  const SharedFile file = shared_file(fd_);
+  if (file.descriptor < 0) fail(errno);
+  return file;
+}
+
 /// Network file systems report a full disk only when a descriptor is closed. That of a file without a name is all there
 /// is of it, so a copy is closed.
 void AtomicFile::complete() {
@@ -130,7 +150,7 @@ void AtomicFile::send_staged() {
   const int staged = ::open(staged_.c_str(), O_RDONLY | O_CLOEXEC);
   if (staged < 0) fail(errno);
   if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  buffer_ = std::make_unique_for_overwrite<char[]>(buffer_size);
+  make_buffer();
   try {
     open_stream();
     ssize_t count = 0;

@@ -8,6 +8,7 @@
 
 #include "mesh/output_target.h"
 #include "mesh/temporary_files.h"
+#include "mesh/unnamed_file.h"
 #include "meshbound/stop_token.h"
 
 namespace meshbound {
@@ -29,6 +30,8 @@ class AtomicFile {
   /// Checks that `path` can be written to (see `output_target`) and touches nothing yet. Writing throws `Interrupted`
   /// or `Stopped` as `stop` says.
   explicit AtomicFile(std::filesystem::path path, Stream stream = Stream::Direct, const StopToken& stop = {});
+  /// The file of another process, which alone commits it; `path` is for messages.
+  AtomicFile(std::filesystem::path path, const SharedFile& shared);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -43,6 +46,12 @@ class AtomicFile {
   [[nodiscard]] char* room(std::size_t size);
   void use(const char* end) { filled_ = static_cast<std::size_t>(end - buffer_.get()); }
 
+  /// What is written next stands at this byte of the file, which is no stream.
+  void seek(std::uint64_t offset);
+
+  /// Where other processes of this user on this machine write to the same file, each its own bytes, until `complete`.
+  [[nodiscard]] SharedFile share();
+
   /// Ends the writing: every byte has reached the file from here on. Call once.
   void complete();
 
@@ -54,6 +63,7 @@ class AtomicFile {
 
  private:
   void open();
+  void make_buffer();
   void open_staged(const std::filesystem::path& folder);
   void open_stream();
   [[nodiscard]] std::filesystem::path list_temporary_name(const std::filesystem::path& folder);

@@ -2,7 +2,6 @@
 #include "mesh/byte_store.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,7 +11,6 @@
 #include <string>
 #include <utility>
 
-#include "mesh/unnamed_file.h"
 #include "meshbound/error.h"
 
 namespace meshbound {
@@ -33,20 +31,15 @@ ByteStore::ByteStore(const StoreSpace& space) : space_(space) {
 }
 
 ByteStore::ByteStore(const StoreSpace& space, const SharedBytes& shared) : space_(space), written_(shared.size) {
-  const std::filesystem::path path = path_of_descriptor(static_cast<pid_t>(shared.process), shared.descriptor);
-  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  fd_ = open_shared_file(shared.file, O_RDWR);
   if (fd_ < 0) fail("open", errno);
-  struct stat status {};
-  if (::fstat(fd_, &status) == 0 && status.st_dev == shared.device && status.st_ino == shared.inode) return;
-  ::close(fd_);
-  fail("open", ENOENT);
 }
 
 SharedBytes ByteStore::share() {
   write_chunk();
-  struct stat status {};
-  if (::fstat(fd_, &status) != 0) fail("find", errno);
-  return {::getpid(), fd_, status.st_dev, status.st_ino, written_};
+  const SharedFile file = shared_file(fd_);
+  if (file.descriptor < 0) fail("find", errno);
+  return {file, written_};
 }
 
 ByteStore::~ByteStore() {

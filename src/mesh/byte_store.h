@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "mesh/unnamed_file.h"
+
 namespace meshbound {
 
 /// Where the large arrays of a run are kept.
@@ -13,11 +15,9 @@ struct StoreSpace {
   std::filesystem::path folder;  ///< for files that have no name there, so that no ending leaves any; empty: in memory
 };
 
-/// Where other processes of this user on this machine find the file of a store.
+/// Where other processes of this user on this machine find the first bytes of a store.
 struct SharedBytes {
-  std::int64_t process = 0;
-  std::int32_t descriptor = 0;
-  std::uint64_t device = 0, inode = 0;  ///< of the file, so that no other one is taken for it
+  SharedFile file;
   std::uint64_t size = 0;
 };
 
@@ -26,8 +26,8 @@ class ByteStore {
  public:
   /// Throws `IoError` where the folder takes no files.
   explicit ByteStore(const StoreSpace& space);
-  /// The bytes of a store of another process, for reading; the other store may go meanwhile. Throws `IoError` where its
-  /// file cannot be opened.
+  /// The bytes of a store of another process, which may go meanwhile; what is appended stands in the same file behind
+  /// `shared.size`. Throws `IoError` where the file cannot be opened.
   ByteStore(const StoreSpace& space, const SharedBytes& shared);
   ~ByteStore();
   ByteStore(ByteStore&& other) noexcept;
@@ -38,7 +38,7 @@ class ByteStore {
   /// The range must have been appended. Throws `IoError`.
   void read(std::uint64_t first, void* to, std::size_t size) const;
   [[nodiscard]] std::uint64_t size() const { return written_ + filled_; }
-  /// For a store in a folder, to which nothing is appended from here on. Throws `IoError`.
+  /// For a store in a folder: everything that was appended is in the file from here on. Throws `IoError`.
   [[nodiscard]] SharedBytes share();
 
  private:

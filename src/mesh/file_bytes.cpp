@@ -66,6 +66,10 @@ FileWindow::FileWindow(const std::filesystem::path& path, const StopToken& stop,
 
 std::string_view FileWindow::at(std::size_t offset, std::size_t count) {
   constexpr std::size_t room = std::size_t{1} << 22;
+  if (!reader_ && offset > first_ + bytes_.size()) {
+    bytes_.clear();
+    first_ = offset;
+  }
   while (first_ + bytes_.size() < std::min(offset + count, size())) {
     const std::size_t end = first_ + bytes_.size();
     const std::size_t gone = std::min(offset - first_, bytes_.size());

@@ -48,10 +48,11 @@ class FileBytes {
   std::size_t size_ = 0;
 };
 
-/// The bytes of a regular file from its start to its end, some megabytes of it in memory at a time.
+/// The bytes of a regular file from its start to its end, some megabytes of it in memory at a time. Without a reader,
+/// bytes that are stepped over are not read.
 class FileWindow {
  public:
-  /// Gets all bytes that `at` reads, in order, each once.
+  /// Gets all bytes up to those that `at` has been asked for, in order, each once.
   using Reader = std::function<void(std::string_view)>;
 
   /// Throws as `FileBytes`, as does `at`.

@@ -96,4 +96,10 @@ MeshFile MeshAssembler::finish() {
   return std::move(file_);
 }
 
+std::optional<MeshFile> MeshAssembler::finish_share() {
+  give();
+  if (!suspects_.empty() || file_.triangulated_polygons > 0 || file_.ignored_elements > 0) return std::nullopt;
+  return std::move(file_);
+}
+
 }  // namespace meshbound

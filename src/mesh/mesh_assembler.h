@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,9 @@ class MeshAssembler {
   /// Returns the mesh, without what the source's sink has taken, and leaves the assembler empty. Throws `InvalidInput`
   /// when there are no triangles or one uses a coordinate that is not finite or beyond `largest_coordinate`.
   [[nodiscard]] MeshFile finish();
+  /// For a share of a file: gives the rest to the sink. Nothing where the whole file must be seen to tell what it
+  /// holds: where a face was no triangle or a vertex has an unusable coordinate.
+  [[nodiscard]] std::optional<MeshFile> finish_share();
 
  private:
   static constexpr std::size_t look_interval = 1 << 16;  // vertices or triangles: read in some milliseconds

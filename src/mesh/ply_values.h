@@ -122,6 +122,9 @@ class BinaryPlyValues {
 
   void end_element() {}
 
+  /// Goes on with the value at `offset`, which must not be before this one.
+  void seek(std::size_t offset) { look_at(offset); }
+
   /// Whether the data ends here; line ends after it, which text tools add, are allowed.
   [[nodiscard]] bool at_end() {
     for (; remaining() > 0; look_at(behind_))

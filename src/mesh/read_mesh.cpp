@@ -2,6 +2,7 @@
 #include "mesh/file_bytes.h"
 #include "mesh/gltf_scene.h"
 #include "mesh/readers.h"
+#include "meshbound/error.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
@@ -48,6 +49,20 @@ MeshFile parsed(const MeshSource& given) {
   }
 }
 
+/// What `read` makes of a file that is read by ranges; nothing for any other file, and where `read` refuses it.
+template <class Result, class Read>
+std::optional<Result> from_ranges(const std::filesystem::path& path, const StopToken& stop, MeshInSpace* into,
+                                  const Read& read) {
+  const FileBytes start(path, stop, start_of_file);
+  FileWindow window(path, stop);
+  if (!is_read_by_ranges(path, start.bytes(), window.size())) return std::nullopt;
+  try {
+    return read(MeshSource{path, start.bytes(), 0, stop, false, &window, into});
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
@@ -86,6 +101,20 @@ MeshFile read_mesh_into(const std::filesystem::path& path, const StopToken& stop
   const FileBytes all(path, stop);
   if (reader) reader(all.bytes());
   return parse_mesh_into(path, all.bytes(), stop, into);
+}
+
+std::optional<MeshCounts> counts_for_shares(const std::filesystem::path& path, const StopToken& stop) {
+  const auto counts = from_ranges<MeshCounts>(path, stop, nullptr, [](const MeshSource& source) {
+    return format_of(source.path) == FileFormat::Stl ? stl_counts(source) : ply_counts(source);
+  });
+  return counts && counts->triangles > 0 ? counts : std::nullopt;
+}
+
+std::optional<MeshFile> read_share(const std::filesystem::path& path, const FileShare& share, const StopToken& stop,
+                                   MeshInSpace& into) {
+  return from_ranges<MeshFile>(path, stop, &into, [&](const MeshSource& source) {
+    return format_of(source.path) == FileFormat::Stl ? read_stl_share(source, share) : read_ply_share(source, share);
+  });
 }
 
 }  // namespace meshbound

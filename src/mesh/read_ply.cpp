@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,15 +37,7 @@ class PlyReader {
     for (const PlyElement& element : header_.elements) {
       refuse_count_beyond_file(element);
       count_attributes(element, source_.with_attributes, assembler_.dropped());
-      if (element.name == "vertex") {
-        read_vertices(element);
-      } else if (element.name == "face") {
-        read_lists(element, false);
-      } else if (element.name == "tristrips") {
-        read_lists(element, true);
-      } else {
-        skip_element(element);
-      }
+      read_element(element);
     }
     if (!values_.at_end()) values_.fail("the file goes on after the last element that its header declares");
     assembler_.dropped().texture_coordinates += texture_numbers_ / 2;
@@ -54,7 +47,34 @@ class PlyReader {
     return file;
   }
 
+  /// Reads a share of each element, where an item of the element takes `sizes[i]` bytes.
+  std::optional<MeshFile> read_share(const FileShare& share, const std::vector<std::size_t>& sizes) {
+    reserve();
+    std::size_t begin = header_.end;
+    for (std::size_t i = 0; i < sizes.size(); begin += header_.elements[i].count * sizes[i], ++i) {
+      PlyElement element = header_.elements[i];
+      count_attributes(element, false, assembler_.dropped());
+      values_.seek(begin + share.begin(element.count) * sizes[i]);
+      element.count = share.size(element.count);
+      read_element(element);
+    }
+    assembler_.dropped().materials += header_.texture_files;
+    return assembler_.finish_share();
+  }
+
  private:
+  void read_element(const PlyElement& element) {
+    if (element.name == "vertex") {
+      read_vertices(element);
+    } else if (element.name == "face") {
+      read_lists(element, false);
+    } else if (element.name == "tristrips") {
+      read_lists(element, true);
+    } else {
+      skip_element(element);
+    }
+  }
+
   void reserve() {
     std::size_t faces = 0;
     for (const PlyElement& element : header_.elements) {
@@ -218,13 +238,55 @@ class PlyReader {
   std::vector<double> texture_coordinates_;  // of the face being read
 };
 
+PlyReader<BinaryPlyValues> binary_reader(const MeshSource& source, const PlyHeader& header) {
+  const std::endian order = header.format == PlyFormat::LittleEndian ? std::endian::little : std::endian::big;
+  return PlyReader(source, header, BinaryPlyValues(source, header.end, order));
+}
+
+/// By element of a binary file: bytes of each item, if all faces are triangles. Nothing where there are other lists, or
+/// the elements do not end where the file does.
+std::optional<std::vector<std::size_t>> item_sizes(const PlyHeader& header, std::size_t size_of_file) {
+  std::vector<std::size_t> sizes;
+  std::size_t end = header.end;
+  for (const PlyElement& element : header.elements) {
+    std::size_t& size = sizes.emplace_back(0);
+    for (const PlyProperty& p : element.properties) {
+      if (p.is_list && (element.name != "face" || !lists_corners(p))) return std::nullopt;
+      size += p.is_list ? size_of(p.count_type) + 3 * size_of(p.type) : size_of(p.type);
+    }
+    if (size > 0 && element.count > (size_of_file - end) / size) return std::nullopt;
+    end += element.count * size;
+  }
+  if (end != size_of_file) return std::nullopt;
+  return sizes;
+}
+
 }  // namespace
 
 MeshFile read_ply(const MeshSource& source) {
   const PlyHeader header = read_ply_header(source);
   if (header.format == PlyFormat::Ascii) return PlyReader(source, header, AsciiPlyValues(source, header.end)).read();
-  const std::endian order = header.format == PlyFormat::LittleEndian ? std::endian::little : std::endian::big;
-  return PlyReader(source, header, BinaryPlyValues(source, header.end, order)).read();
+  return binary_reader(source, header).read();
+}
+
+std::optional<MeshCounts> ply_counts(const MeshSource& source) {
+  const PlyHeader header = read_ply_header(source);
+  if (!item_sizes(header, source.size())) return std::nullopt;
+  MeshCounts counts{0, 0};
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "vertex") counts.vertices = element.count;
+    if (element.name != "face") continue;
+    if (counts.triangles > 0) return std::nullopt;  // shares of two lists are not in the order of the file
+    counts.triangles = element.count;
+  }
+  return counts;
+}
+
+std::optional<MeshFile> read_ply_share(const MeshSource& source, const FileShare& share) {
+  const PlyHeader header = read_ply_header(source);
+  const auto sizes = item_sizes(header, source.size());
+  if (!sizes) return std::nullopt;
+  return binary_reader(source, header).read_share(share, *sizes);
 }
 
 }  // namespace meshbound

@@ -124,12 +124,11 @@ std::size_t declared_triangles(std::string_view start) {
   return load_little_endian<std::uint32_t>(start.data() + count_offset);
 }
 
-MeshFile read_binary(const MeshSource& source) {
-  MeshAssembler assembler(source, Position::Byte);
+void read_records(const MeshSource& source, const FileShare& share, MeshAssembler& assembler) {
   WeldedCorners corners(assembler);
-  const std::size_t count = declared_triangles(source.bytes);
-  assembler.reserve(count / 2, count);  // a closed surface has half as many vertices as triangles
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t count = declared_triangles(source.bytes), end = share.end(count);
+  assembler.reserve(share.size(count) / 2, share.size(count));  // a closed surface has half as many vertices
+  for (std::size_t i = share.begin(count); i < end; ++i) {
     std::array<std::uint32_t, 3> triangle;
     const char* const record = source.at(records_offset + i * record_size, record_size).data();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -145,6 +144,11 @@ MeshFile read_binary(const MeshSource& source) {
     assembler.add_polygon(triangle);
     if (load_little_endian<std::uint16_t>(record + attribute_offset) != 0) ++assembler.dropped().facet_attributes;
   }
+}
+
+MeshFile read_binary(const MeshSource& source) {
+  MeshAssembler assembler(source, Position::Byte);
+  read_records(source, {}, assembler);
   return assembler.finish();
 }
 
@@ -177,6 +181,17 @@ MeshFile read_stl(const MeshSource& source) {
   source.fail_at_byte(count_offset, "the header declares " + std::to_string(count) + " triangles, which take " +
                                         std::to_string(records_offset + count * record_size) +
                                         " bytes, but the file has " + std::to_string(source.bytes.size()));
+}
+
+std::optional<MeshCounts> stl_counts(const MeshSource& source) {
+  if (!is_binary_stl(source.bytes, source.size())) return std::nullopt;
+  return MeshCounts{std::nullopt, declared_triangles(source.bytes)};
+}
+
+std::optional<MeshFile> read_stl_share(const MeshSource& source, const FileShare& share) {
+  MeshAssembler assembler(source, Position::Byte);
+  read_records(source, share, assembler);
+  return assembler.finish_share();
 }
 
 }  // namespace meshbound

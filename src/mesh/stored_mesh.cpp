@@ -24,10 +24,8 @@ MeshPart part_of(const StoredMesh& whole, std::span<const std::uint32_t> triangl
   part.mesh.triangles =
       gathered<Triangle>(triangles, whole.triangle_count(),
                          [&](std::size_t first, std::span<Triangle> to) { whole.read_triangles(first, to); });
-  RankedNumbers vertices;
-  for (const Triangle& corners : part.mesh.triangles)
-    for (const std::uint32_t v : corners) vertices.add(v);
-  part.vertices = vertices.ranked();
+  const RankedNumbers vertices(part.mesh.triangles);
+  part.vertices = vertices.ascending();
   const std::vector<Vec3> positions =
       gathered<Vec3>(part.vertices, whole.vertex_count(),
                      [&](std::size_t first, std::span<Vec3> to) { whole.read_vertices(first, to); });

@@ -68,6 +68,12 @@ class MeshInMemory : public StoredMesh {
 /// Where other processes of this user on this machine find a mesh.
 struct SharedMesh {
   SharedBytes vertices, triangles;
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertices.size / sizeof(Vec3); }
+  /// Its first items.
+  [[nodiscard]] SharedMesh with_counts(std::size_t vertex_count, std::size_t triangle_count) const {
+    return {{vertices.file, vertex_count * sizeof(Vec3)}, {triangles.file, triangle_count * sizeof(Triangle)}};
+  }
 };
 
 /// A mesh in a space, of which it keeps no more than buffers in memory.
@@ -80,9 +86,10 @@ class MeshInSpace : public StoredMesh {
   }
   void append(std::span<const Eigen::Vector3d> vertices);
   void append(std::span<const Triangle> triangles) { triangles_.append(triangles); }
-  /// Once it is complete. Throws `IoError`.
+  /// Everything that was appended is there for others from here on. Throws `IoError`.
   [[nodiscard]] SharedMesh share() { return {vertices_.share(), triangles_.share()}; }
-  /// Makes this the mesh of another process. Throws as `ByteStore`.
+  /// Makes this the mesh of another process; what is appended stands behind it in the same files. Throws as
+  /// `ByteStore`.
   void use(const SharedMesh& shared) {
     vertices_ = {space_, shared.vertices};
     triangles_ = {space_, shared.triangles};

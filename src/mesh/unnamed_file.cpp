@@ -2,8 +2,10 @@
 #include "mesh/unnamed_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <string>
 
 namespace meshbound {
@@ -20,6 +22,23 @@ int open_unnamed_file(const std::filesystem::path& folder, mode_t mode) {
 
 std::filesystem::path path_of_descriptor(pid_t process, int descriptor) {
   return "/proc/" + std::to_string(process) + "/fd/" + std::to_string(descriptor);
+}
+
+SharedFile shared_file(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) return {.descriptor = -1};
+  return {::getpid(), descriptor, status.st_dev, status.st_ino};
+}
+
+int open_shared_file(const SharedFile& file, int flags) {
+  const std::filesystem::path path = path_of_descriptor(static_cast<pid_t>(file.process), file.descriptor);
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return -1;
+  const SharedFile opened = shared_file(descriptor);
+  if (opened.device == file.device && opened.inode == file.inode) return descriptor;
+  ::close(descriptor);
+  errno = ENOENT;
+  return -1;
 }
 
 bool give_name(int descriptor, const std::filesystem::path& name) {

@@ -89,6 +89,21 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Trian
   }
 }
 
+bool is_written_in_shares(const std::filesystem::path& path, const WriteOptions& options) {
+  const FileFormat format = format_of(path);
+  return !options.ascii && (format == FileFormat::Ply || format == FileFormat::Stl);
+}
+
+void write_share(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                 const WriteOptions& options, const FileShare& share) {
+  const FileFormat format = format_of(path);
+  refuse_unwritable(path, format, mesh, options);
+  if (format == FileFormat::Stl)
+    write_stl_share(file, mesh, share);
+  else
+    write_ply_share(file, mesh, options, share);
+}
+
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options,
                 const MeshAttributes& attributes) {
   (void)format_of(path);  // an unknown extension is the better message where both are wrong

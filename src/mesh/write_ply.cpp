@@ -33,9 +33,21 @@ class PlyWriter {
   }
 
   void write() {
-    write_header();
-    for (std::size_t v = 0; v < vertex_count(); ++v) write_vertex(v);
-    for (const Triangle& t : triangles()) write_triangle(t);
+    file_.write(header());
+    write_vertices({});
+    write_triangles({});
+  }
+
+  /// Of a binary file without columns.
+  void write_share(const FileShare& share) {
+    const std::size_t vertex_size = 3 * (options_.single_precision ? sizeof(float) : sizeof(double));
+    constexpr std::size_t triangle_size = 1 + 3 * sizeof(std::uint32_t);
+    const std::string header = this->header();
+    if (share.index == 0) file_.write(header);
+    file_.seek(header.size() + share.begin(vertex_count()) * vertex_size);
+    write_vertices(share);
+    file_.seek(header.size() + vertex_count() * vertex_size + share.begin(triangles().size()) * triangle_size);
+    write_triangles(share);
   }
 
  private:
@@ -83,7 +95,16 @@ class PlyWriter {
     return columns_.empty() ? mesh_.triangles : split_.triangles;
   }
 
-  void write_header() {
+  void write_vertices(const FileShare& share) {
+    for (std::size_t v = share.begin(vertex_count()); v < share.end(vertex_count()); ++v) write_vertex(v);
+  }
+
+  void write_triangles(const FileShare& share) {
+    const std::vector<Triangle>& all = triangles();
+    for (std::size_t t = share.begin(all.size()); t < share.end(all.size()); ++t) write_triangle(all[t]);
+  }
+
+  [[nodiscard]] std::string header() const {
     static constexpr std::array<const char*, 3> types = {"double", "float", "uchar"};
     const bool fits_int = vertex_count() <= std::numeric_limits<std::int32_t>::max();
     std::string header = std::string("ply\nformat ") + (options_.ascii ? "ascii" : "binary_little_endian") +
@@ -92,8 +113,8 @@ class PlyWriter {
       header += std::string("property ") + (options_.single_precision ? "float " : "double ") + axis + "\n";
     for (const Column& column : columns_)
       header += std::string("property ") + types[static_cast<std::size_t>(column.kind)] + ' ' + column.name + "\n";
-    file_.write(header + "element face " + std::to_string(mesh_.triangles.size()) + "\nproperty list uchar " +
-                (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n");
+    return header + "element face " + std::to_string(mesh_.triangles.size()) + "\nproperty list uchar " +
+           (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
   }
 
   void write_vertex(std::size_t v) {
@@ -148,6 +169,10 @@ class PlyWriter {
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
                const MeshAttributes& attributes) {
   PlyWriter(file, mesh, options, attributes).write();
+}
+
+void write_ply_share(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options, const FileShare& share) {
+  PlyWriter(file, mesh, options, {}).write_share(share);
 }
 
 }  // namespace meshbound

@@ -38,13 +38,16 @@ void put_floats(AtomicFile& file, const Eigen::Vector3d& p) {
   for (const double x : p) put_little_endian(file, static_cast<float>(x));
 }
 
-void write_binary(AtomicFile& file, const TriangleMesh& mesh) {
+void write_header(AtomicFile& file, const TriangleMesh& mesh) {
   std::string header = "binary STL by meshbound";  // must not start with "solid"
   header.resize(80);
   file.write(header);
   put_little_endian(file, static_cast<std::uint32_t>(mesh.triangles.size()));
-  for (const Triangle& t : mesh.triangles) {
-    const FacetCorners corners = rounded_corners(mesh, t);
+}
+
+void write_records(AtomicFile& file, const TriangleMesh& mesh, const FileShare& share) {
+  for (std::size_t i = share.begin(mesh.triangles.size()); i < share.end(mesh.triangles.size()); ++i) {
+    const FacetCorners corners = rounded_corners(mesh, mesh.triangles[i]);
     put_floats(file, normal_of(corners));
     for (const Eigen::Vector3d& p : corners) put_floats(file, p);
     put_little_endian(file, std::uint16_t{0});
@@ -57,8 +60,16 @@ void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& o
   if (options.ascii) {
     write_text(file, mesh);
   } else {
-    write_binary(file, mesh);
+    write_header(file, mesh);
+    write_records(file, mesh, {});
   }
+}
+
+void write_stl_share(AtomicFile& file, const TriangleMesh& mesh, const FileShare& share) {
+  constexpr std::size_t header_size = 84, record_size = 50;  // bytes
+  if (share.index == 0) write_header(file, mesh);
+  file.seek(header_size + share.begin(mesh.triangles.size()) * record_size);
+  write_records(file, mesh, share);
 }
 
 }  // namespace meshbound

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "mesh/atomic_file.h"
+#include "mesh/file_share.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
@@ -16,12 +17,20 @@ struct GltfContent;
 void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
                 const WriteOptions& options, const MeshAttributes& attributes = {});
 
+/// Whether several processes can write a mesh without attributes together: as binary PLY or STL.
+[[nodiscard]] bool is_written_in_shares(const std::filesystem::path& path, const WriteOptions& options);
+/// Writes a share of what `write_mesh` does for such a mesh, where it belongs in the file.
+void write_share(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                 const WriteOptions& options, const FileShare& share);
+
 // One writer per format, for a mesh that `write_mesh` has found to be valid and within the range of the format.
 void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes);
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes);
 void write_ply(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options,
                const MeshAttributes& attributes);
+void write_ply_share(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options, const FileShare& share);
 void write_stl(AtomicFile& file, const TriangleMesh& mesh, const WriteOptions& options);
+void write_stl_share(AtomicFile& file, const TriangleMesh& mesh, const FileShare& share);
 void write_gltf(AtomicFile& file, FileFormat format, const TriangleMesh& mesh, const MeshAttributes& attributes);
 void write_gltf(AtomicFile& file, FileFormat format, GltfContent content);
 

@@ -2,16 +2,15 @@
 #include "mpi/read_ranges.h"
 
 #include "mesh/file_bytes.h"
+#include "mesh/file_share.h"
 #include "meshbound/error.h"
 #include "tiles/compact_bytes.h"
 
 namespace meshbound::mpi {
 namespace {
 
-/// Where the range of a rank begins; that of the rank behind the last one is where the file ends.
-std::size_t begin_of_range(std::size_t size, int rank, int ranks) {
-  const auto r = static_cast<std::size_t>(rank), n = static_cast<std::size_t>(ranks);
-  return size / n * r + size % n * r / n;
+FileShare share_of(int rank, const Communicator& ranks) {
+  return {static_cast<std::size_t>(rank), static_cast<std::size_t>(ranks.size())};
 }
 
 std::uint64_t size_of_file(const std::filesystem::path& path) {
@@ -30,8 +29,8 @@ std::string read_ranges(Communicator& ranks, const std::filesystem::path& path, 
   std::string bytes;
   ranks.do_together([&] {
     bytes.resize(size);
-    const std::size_t first = begin_of_range(size, ranks.rank(), ranks.size());
-    const std::size_t count = begin_of_range(size, ranks.rank() + 1, ranks.size()) - first;
+    const FileShare share = share_of(ranks.rank(), ranks);
+    const std::size_t first = share.begin(size), count = share.size(size);
     const FileBytes range(path, stop, count, first);
     if (range.bytes().size() != count)
       throw IoError(path.string() + ": cannot read: rank " + std::to_string(ranks.rank()) +
@@ -39,8 +38,8 @@ std::string read_ranges(Communicator& ranks, const std::filesystem::path& path, 
     range.bytes().copy(bytes.data() + first, count);
   });
   for (int rank = 0; rank < ranks.size(); ++rank) {
-    const std::size_t first = begin_of_range(size, rank, ranks.size());
-    ranks.broadcast(bytes.data() + first, begin_of_range(size, rank + 1, ranks.size()) - first, rank);
+    const FileShare share = share_of(rank, ranks);
+    ranks.broadcast(bytes.data() + share.begin(size), share.size(size), rank);
   }
   return bytes;
 }

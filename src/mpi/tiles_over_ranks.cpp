@@ -3,6 +3,7 @@
 #include "meshbound/mpi.h"
 #include "mpi/rank_runner.h"
 #include "mpi/read_ranges.h"
+#include "mpi/write_shares.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
 
@@ -12,6 +13,21 @@ MeshFile read_mesh(const std::filesystem::path& path, MPI_Comm ranks, const Read
   (void)format_of(path);
   Communicator communicator(ranks);
   return parse_mesh(path, read_ranges(communicator, path, {options.deadline, options.cancel}), options);
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, MPI_Comm ranks,
+                const WriteOptions& options) {
+  Communicator communicator(ranks);
+  std::optional<AtomicFile> file;
+  communicator.do_together([&] {
+    (void)format_of(path);  // an unknown extension is the better message where both are wrong
+    const StopToken stop{options.deadline, options.cancel};
+    if (communicator.rank() == 0) file.emplace(path, AtomicFile::Stream::Staged, stop);
+  });
+  write_mesh(communicator, file ? &*file : nullptr, path, mesh, options);
+  communicator.do_together([&] {
+    if (file) file->commit();
+  });
 }
 
 SimplifyResult simplify_in_tiles(const TriangleMesh& original, const SimplifyOptions& options, MPI_Comm ranks,

@@ -265,9 +265,7 @@ MeshPart TiledMesh::find_numbers(std::uint32_t tile, TileNumbers& numbers) const
   if (is_original_) {
     numbers.originals = numbers.triangles;
   } else {
-    RankedNumbers originals;
-    for (const std::uint32_t t : (*originals_)[tile]) originals.add(t);
-    numbers.originals = originals.ranked();
+    numbers.originals = RankedNumbers(std::array{(*originals_)[tile]}).ascending();
   }
   numbers.cover = cover_of(tile, numbers);
   return part;

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "processor_time.h"
+
 namespace meshbound::bench {
 namespace {
 
@@ -47,9 +49,7 @@ void write_all(int file, const void* data, std::size_t size) {
 
 double cpu_seconds_of(pid_t child) {
   clockid_t clock{};
-  timespec used{};
-  if (::clock_getcpuclockid(child, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
-  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+  return ::clock_getcpuclockid(child, &clock) == 0 ? processor_seconds(clock) : 0;
 }
 
 /// Everything until the other end closes; false when the child has used its seconds first. RLIMIT_CPU would do it

@@ -3,23 +3,21 @@
 
 #include <CGAL/version.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <thread>
+
+#include "processor_time.h"
 
 namespace meshbound::bench {
 namespace {
 
-double process_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+double process_cpu_seconds() { return processor_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 std::string processor_name() {
   std::ifstream info("/proc/cpuinfo");

@@ -72,8 +72,10 @@ void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, c
   lines_ = line_mesh(mesh, lines);
   if (precision() == Precision::Single && !attributes.document)
     for (Eigen::Vector3d& p : lines_.vertices) p = rounded_to_float(p);
-  // Where a document places parts in frames of their own, floats are rounded there.
-  write_mesh(*file_, path_, attributes.document ? mesh : rounded_for(path_, mesh, options_), options_, attributes);
+  if (workers_ != nullptr)
+    workers_->write(*file_, path_, mesh, options_);
+  else  // where a document places parts in frames of their own, floats are rounded there
+    write_mesh(*file_, path_, attributes.document ? mesh : rounded_for(path_, mesh, options_), options_, attributes);
   file_->complete();
 }
 

@@ -46,6 +46,10 @@ class GatedOutput {
   /// Precision of the coordinates in the file. A mesh that has this precision already is written without any rounding.
   [[nodiscard]] Precision precision() const;
 
+  /// Has these workers write meshes, which then have neither lines nor attributes; null: this process does. They must
+  /// outlive this.
+  void write_by(TileWorkers* workers) { workers_ = workers; }
+
   /// Makes the verdict include the distance from these lines; null: no lines. They must outlive this.
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
@@ -121,6 +125,7 @@ class GatedOutput {
   TriangleMesh lines_;  ///< of what was written
   std::optional<HausdorffDistance> line_distance_;
   MeshSummary summary_;
+  TileWorkers* workers_ = nullptr;
 };
 
 }  // namespace meshbound::tools

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "common/tile_scratch.h"
+#include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "tiles/certificate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
@@ -19,6 +20,11 @@ StoreSpace space_of(const TileSetting& setting) {
   }
   const char* const folder = std::getenv("TMPDIR");
   return {folder != nullptr && *folder != '\0' ? folder : "/var/tmp"};
+}
+
+void TileWorkers::write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                        const WriteOptions& options) {
+  write_mesh(file, path, rounded_for(path, mesh, options), options);
 }
 
 MeshFile LocalTileWorkers::read(const std::string& path, const StopToken& stop, MeshInSpace& into,

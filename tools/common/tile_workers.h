@@ -3,10 +3,12 @@
 #include <optional>
 #include <string>
 
+#include "mesh/atomic_file.h"
 #include "mesh/readers.h"
 #include "mesh/stored_mesh.h"
 #include "meshbound/certificate.h"
 #include "meshbound/distance.h"
+#include "meshbound/io.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
@@ -37,6 +39,9 @@ class TileWorkers {
   /// As `read_mesh_into`; `into` must outlive this.
   [[nodiscard]] virtual MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
                                       const FileWindow::Reader& reader) = 0;
+  /// Writes the mesh that `rounded_for` returns into a file that the caller commits.
+  virtual void write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                     const WriteOptions& options);
   /// Where meshes are to be kept for these workers.
   [[nodiscard]] const StoreSpace& space() const { return space_; }
 

@@ -19,6 +19,9 @@ std::optional<int> run_rank(mpi::Communicator& ranks, const std::string& tool,
   if (ranks.rank() == 0) {
     const int code = run(ranks);
     if (has_lost_step()) return std::nullopt;
+    // Everything is said and written. Once another rank has returned a code that is not 0, mpirun sends this one
+    // SIGTERM.
+    static const UninterruptedScope ending;
     dismiss(ranks, code);
     return code;
   }

@@ -8,12 +8,15 @@
 #include <utility>
 
 #include "common/memory.h"
+#include "common/sha256.h"
 #include "common/standard_streams.h"
 #include "common/tile_scratch.h"
 #include "decimation/drivers.h"
-#include "mesh/readers.h"
+#include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "mpi/rank_runner.h"
+#include "mpi/read_shares.h"
+#include "mpi/write_shares.h"
 #include "tiles/certificate_in_tiles.h"
 #include "tiles/compact_bytes.h"
 #include "tiles/measure_in_tiles.h"
@@ -26,6 +29,7 @@ enum class RankWorkers::Command : std::uint8_t {
   LimitMemory,
   Read,
   Take,
+  Write,
   Decimate,
   Measure,
   MeasureOneSide,
@@ -122,9 +126,15 @@ void pack(CompactWriter& to, const TriangleMesh& mesh) {
   }
 }
 
-template <class T>
-bool have_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+std::string checksum_of(const TriangleMesh& mesh) {
+  const auto bytes = [](const auto& items) {
+    return std::string_view(reinterpret_cast<const char*>(items.data()), items.size() * sizeof items[0]);
+  };
+  Sha256 sum;
+  sum.add(std::to_string(mesh.vertices.size()) + ",");
+  sum.add(bytes(mesh.vertices));
+  sum.add(bytes(mesh.triangles));
+  return sum.digits();
 }
 
 TriangleMesh unpack_mesh(CompactReader& from) {
@@ -139,32 +149,9 @@ TriangleMesh unpack_mesh(CompactReader& from) {
   return mesh;
 }
 
-/// The first rank of each machine reads the file, and the others there use its copy. All throw what one of them throws,
-/// and where they do not find the same mesh.
 MeshFile read_together(Communicator& ranks, const std::string& path, const StopToken& stop, MeshInSpace& into,
                        const FileWindow::Reader& reader) {
-  return together(ranks, [&] {
-    Communicator here = ranks.on_this_machine();
-    const bool reads = here.rank() == 0;
-    MeshFile file;
-    SharedMesh copy;
-    ranks.do_together([&] {
-      if (!reads) return;
-      file = read_mesh_into(path, stop, into, reader);
-      copy = into.share();
-    });
-    here.broadcast(reinterpret_cast<char*>(&copy), sizeof copy, 0);
-    ranks.do_together([&] {
-      if (!reads) into.use(copy);
-    });
-    CompactWriter found;
-    found.number(into.vertex_count());
-    found.number(into.triangle_count());
-    const std::vector<std::string> all = ranks.all_gather(found.take());
-    if (std::adjacent_find(all.begin(), all.end(), std::not_equal_to<>()) != all.end())
-      throw InvalidInput(path + ": the ranks do not find the same mesh; use a folder that all ranks see alike");
-    return file;
-  });
+  return together(ranks, [&] { return mpi::read_mesh_into(ranks, path, stop, into, reader); });
 }
 
 Decimated decimate_together(Communicator& ranks, const StoredMesh& original, const SimplifyOptions& options,
@@ -206,6 +193,8 @@ class Follower {
         return read(from);
       case Command::Take:
         return take(from);
+      case Command::Write:
+        return write(from);
       case Command::Decimate:
         return decimate(from);
       case Command::Measure:
@@ -232,6 +221,19 @@ class Follower {
   void take(CompactReader& from) {
     const StoreSpace space = space_in(from.text());
     meshes_.push_back(std::make_unique<MeshInSpace>(space, unpack_mesh(from)));
+  }
+
+  /// Puts what can be read back in the place of the mesh.
+  void write(CompactReader& from) {
+    const std::filesystem::path path(from.text());
+    const StoreSpace space = space_in(from.text());
+    WriteOptions options;
+    from.raw(options.single_precision);
+    std::unique_ptr<MeshInSpace>& mesh = meshes_.at(from.number());
+    TriangleMesh rounded;
+    ranks_.do_together([&] { rounded = rounded_for(path, loaded(*mesh), options); });
+    mpi::write_mesh(ranks_, nullptr, path, rounded, options);
+    ranks_.do_together([&] { mesh = std::make_unique<MeshInSpace>(space, rounded); });
   }
 
   /// Where this rank keeps meshes: in the folder of --scratch, or in one of its own.
@@ -311,8 +313,7 @@ MeshFile RankWorkers::read(const std::string& path, const StopToken& stop, MeshI
 /// Sends a mesh that the others neither have read nor have as a result. They keep it until the end.
 std::uint64_t RankWorkers::share(const StoredMesh& stored) {
   const TriangleMesh mesh = loaded(stored);
-  if (result_ && have_same_bits(mesh.vertices, result_->vertices) && have_same_bits(mesh.triangles, result_->triangles))
-    return number_of_result_;
+  if (checksum_of(mesh) == checksum_of_result_) return number_of_result_;
   CompactWriter message = command(Command::Take);
   message.text(setting_.scratch);
   pack(message, mesh);
@@ -343,10 +344,28 @@ SimplifyResult RankWorkers::decimate(const StoredMesh& original, const SimplifyO
   tell(ranks_, message);
   return together(ranks_, [&] {
     auto [result, reused] = decimate_together(ranks_, original, options, setting_.tiles, scratch);
-    ranks_.do_together([&] { result_ = result.last().mesh; });
+    ranks_.do_together([&] { checksum_of_result_ = checksum_of(result.last().mesh); });
     number_of_result_ = shared_++;
     reused_tiles_ += reused;
     return std::move(result);
+  });
+}
+
+void RankWorkers::write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+                        const WriteOptions& options) {
+  if (!is_written_in_shares(path, options) || checksum_of(mesh) != checksum_of_result_)
+    return TileWorkers::write(file, path, mesh, options);
+  CompactWriter message = command(Command::Write);
+  message.text(path.string());
+  message.text(setting_.scratch);
+  message.raw(options.single_precision);
+  message.number(number_of_result_);
+  tell(ranks_, message);
+  together(ranks_, [&] {
+    TriangleMesh rounded;
+    ranks_.do_together([&] { rounded = rounded_for(path, mesh, options); });
+    mpi::write_mesh(ranks_, &file, path, rounded, options);
+    ranks_.do_together([&] { checksum_of_result_ = checksum_of(rounded); });
   });
 }
 

@@ -20,6 +20,9 @@ class RankWorkers : public TileWorkers {
 
   [[nodiscard]] MeshFile read(const std::string& path, const StopToken& stop, MeshInSpace& into,
                               const FileWindow::Reader& reader) override;
+  /// The other ranks of this machine write with this one what is the last result, in formats that allow it.
+  void write(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
+             const WriteOptions& options) override;
   [[nodiscard]] SimplifyResult decimate(const StoredMesh& original, const SimplifyOptions& options) override;
   [[nodiscard]] HausdorffDistance measure(const StoredMesh& a, const StoredMesh& b,
                                           const DistanceOptions& options) override;
@@ -40,7 +43,7 @@ class RankWorkers : public TileWorkers {
   TileSetting setting_;
   std::map<const StoredMesh*, std::uint64_t> kept_;  ///< number that the others know the mesh by
   std::uint64_t shared_ = 0;                         ///< meshes that the others have
-  std::optional<TriangleMesh> result_;               ///< of the last decimation, which the others have too
+  std::string checksum_of_result_;                   ///< of the last decimation, which the others have too
   std::uint64_t number_of_result_ = 0;               ///< that they know it by
 };
 

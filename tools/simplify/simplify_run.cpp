@@ -217,6 +217,7 @@ void Run::open_outputs() {
     }
   }
   outputs_.emplace_back(options_.output, stop(), options_.write);
+  outputs_.back().write_by(options_.workers);
   if (options_.deviation.has_any()) deviation_.emplace(options_.deviation);
   if (options_.certificate.empty()) return;
   const StopToken signals{.cancel = &interrupted_};

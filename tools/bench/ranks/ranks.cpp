@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -18,6 +17,7 @@
 #include "datasets/analytic_meshes.h"
 #include "meshbound/mesh_summary.h"
 #include "mpi/rank_runner.h"
+#include "processor_time.h"
 #include "tiles/compact_bytes.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/tile_jobs.h"
@@ -26,11 +26,7 @@ namespace {
 
 using namespace meshbound;
 
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+double processor_seconds() { return bench::processor_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
