@@ -38,7 +38,7 @@ class PlyWriter {
     write_triangles({});
   }
 
-  /// Of a binary file without columns.
+  /// Writes a share of the file, which must be binary and without columns.
   void write_share(const FileShare& share) {
     const std::size_t vertex_size = 3 * (options_.single_precision ? sizeof(float) : sizeof(double));
     constexpr std::size_t triangle_size = 1 + 3 * sizeof(std::uint32_t);

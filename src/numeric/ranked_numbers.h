@@ -13,7 +13,7 @@ namespace meshbound {
 /// which only those with a number of the set exist. O(n + max / 4096) for n numbers up to `max`, sorted or not.
 class RankedNumbers {
  public:
-  /// Of lists of numbers, in any order and as often as they come.
+  /// Takes the numbers of some lists, which may be in any order and come more than once.
   template <class Lists>
   explicit RankedNumbers(const Lists& lists) {
     for (const auto& list : lists)
