@@ -28,7 +28,7 @@ std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const 
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t index = attribute.index[at.triangle][k];
-    if (index == none) return std::nullopt;
+    if (index == no_value) return std::nullopt;
     value += at.weights[static_cast<Eigen::Index>(k)] * attribute.values[index];
   }
   return value;
@@ -37,7 +37,7 @@ std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const 
 /// Appends the value of an attribute at a point to `values`; false if a corner of its triangle has none.
 bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std::vector<double>& values) {
   const Triangle& index = attribute.index[at.triangle];
-  if (index[0] == none || index[1] == none || index[2] == none) return false;
+  if (index[0] == no_value || index[1] == no_value || index[2] == no_value) return false;
   const auto number = [&](std::size_t corner, std::size_t i) {
     return attribute.values[index[corner] * attribute.width + i];
   };
@@ -126,7 +126,7 @@ class Transfer {
     return original_.chart_of(level_.source_triangle[corner / 3]);
   }
   [[nodiscard]] std::vector<Triangle> no_values() const {
-    return std::vector<Triangle>(level_.mesh.triangles.size(), {none, none, none});
+    return std::vector<Triangle>(level_.mesh.triangles.size(), {no_value, no_value, no_value});
   }
 
   /// Texture coordinates and named attributes: one value for all corners of a sector.
@@ -262,7 +262,7 @@ class Transfer {
       if (!of_original) continue;
       for (const std::uint32_t c : corners) {
         const std::uint32_t normal = normal_most_like(by_corner[c], *of_original, corners_at(c));
-        if (normal != none) result.index[c / 3][c % 3] = number_of(normal);
+        if (normal != no_value) result.index[c / 3][c % 3] = number_of(normal);
       }
     }
     for (const std::uint32_t normal : number_of.used()) result.values.push_back(from_.normals.values[normal]);
@@ -274,10 +274,10 @@ class Transfer {
   [[nodiscard]] std::uint32_t normal_most_like(const Eigen::Vector3d& given, std::uint32_t corner,
                                                const std::vector<std::uint32_t>& candidates) const {
     double best = -HUGE_VAL;
-    std::uint32_t found = none;
+    std::uint32_t found = no_value;
     for (const std::uint32_t c : candidates) {
       const std::uint32_t normal = from_.normals.index[c / 3][c % 3];
-      if (normal == none || !has_equal_values(corner, c)) continue;
+      if (normal == no_value || !has_equal_values(corner, c)) continue;
       const double alike = given.dot(from_.normals.values[normal]);
       if (alike > best) best = alike, found = normal;
     }
@@ -289,7 +289,7 @@ class Transfer {
     const auto is_equal = [&](const std::vector<Triangle>& index, const auto& value) {
       if (index.empty()) return true;
       const std::uint32_t i = index[a / 3][a % 3], j = index[b / 3][b % 3];
-      return i == j || (i != none && j != none && value(i) == value(j));
+      return i == j || (i != no_value && j != no_value && value(i) == value(j));
     };
     return original_.chart_of(a / 3) == original_.chart_of(b / 3) &&
            is_equal(from_.texture_coordinates.index,

@@ -68,9 +68,9 @@ void GltfAttributes::begin_primitive(const GltfValue& primitive, const NodePlace
   part_ = part;
   group_ = group;
   const auto material = primitive.find("material");
-  material_ = material ? static_cast<std::uint32_t>(material->index(material_count_, "materials")) : none;
-  texture_coordinates_ = normals_ = none;
-  std::fill(named_.begin(), named_.end(), none);
+  material_ = material ? static_cast<std::uint32_t>(material->index(material_count_, "materials")) : no_value;
+  texture_coordinates_ = normals_ = no_value;
+  std::fill(named_.begin(), named_.end(), no_value);
   const GltfValue attributes = primitive.at("attributes");
   for (const auto& [semantic, unused] : attributes.json().items()) {
     const GltfValue accessor = attributes.at(semantic.c_str());
@@ -133,8 +133,8 @@ void GltfAttributes::use_named(const std::string& name, std::string_view semanti
     if (is_skinning(semantic)) made.interpolation = Interpolation::Nearest;
     if (name == "TANGENT") made.interpolation = Interpolation::Direction;
     made.has_seams = !is_skinning(semantic) && !is_direction(semantic);
-    made.index.assign(all_.part.size(), {none, none, none});
-    named_.push_back(none);
+    made.index.assign(all_.part.size(), {no_value, no_value, no_value});
+    named_.push_back(no_value);
   }
   NamedAttribute& to = all_.named[number->second];
   if (!is_colour(semantic) && to.width != from.numbers.width)
@@ -151,7 +151,7 @@ void GltfAttributes::use_named(const std::string& name, std::string_view semanti
 
 void GltfAttributes::add_triangle(const Triangle& corners) {
   const auto numbers = [&](std::uint32_t first) {
-    if (first == none) return Triangle{none, none, none};
+    if (first == no_value) return Triangle{no_value, no_value, no_value};
     return Triangle{first + corners[0], first + corners[1], first + corners[2]};
   };
   all_.texture_coordinates.index.push_back(numbers(texture_coordinates_));
@@ -170,9 +170,10 @@ void GltfAttributes::name_missing_materials() {
     return;
   }
   const auto unnamed = static_cast<std::uint32_t>(all_.materials.names.size());
-  if (std::find(all_.materials.index.begin(), all_.materials.index.end(), none) == all_.materials.index.end()) return;
+  if (std::find(all_.materials.index.begin(), all_.materials.index.end(), no_value) == all_.materials.index.end())
+    return;
   all_.materials.names.emplace_back("default");
-  std::replace(all_.materials.index.begin(), all_.materials.index.end(), none, unnamed);
+  std::replace(all_.materials.index.begin(), all_.materials.index.end(), no_value, unnamed);
 }
 
 MeshAttributes GltfAttributes::finish() {

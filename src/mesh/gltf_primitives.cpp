@@ -57,7 +57,7 @@ class PrimitiveWriter {
 
   [[nodiscard]] bool has_all(const std::vector<Triangle>& index) const {
     for (std::size_t v = 0; v < vertices_.corners.size(); ++v)
-      if (vertices_.value(index, v) == none) return false;
+      if (vertices_.value(index, v) == no_value) return false;
     return true;
   }
 

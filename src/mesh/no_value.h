@@ -5,6 +5,6 @@
 namespace meshbound {
 
 /// Index of a corner without a value.
-inline constexpr std::uint32_t none = CornerAttribute::none;
+inline constexpr std::uint32_t no_value = CornerAttribute::none;
 
 }  // namespace meshbound

@@ -15,17 +15,19 @@ std::int64_t from_zero(std::int64_t index, std::size_t count) {
 }
 
 std::uint32_t checked(std::int64_t index, std::size_t count) {
-  return index >= 0 && index < static_cast<std::int64_t>(count) ? static_cast<std::uint32_t>(index) : none;
+  return index >= 0 && index < static_cast<std::int64_t>(count) ? static_cast<std::uint32_t>(index) : no_value;
 }
 
 bool has_values(const std::vector<Triangle>& index) {
-  return std::any_of(index.begin(), index.end(), [](const Triangle& t) { return t != Triangle{none, none, none}; });
+  return std::any_of(index.begin(), index.end(), [](const Triangle& t) {
+    return t != Triangle{no_value, no_value, no_value};
+  });
 }
 
 /// A positive index may refer to a value further down in the file, so indices are checked at the end.
 void check_indices(CornerAttribute& attribute) {
   for (Triangle& t : attribute.index)
-    for (std::uint32_t& i : t) i = checked(i == none ? -1 : std::int64_t{i}, attribute.values.size());
+    for (std::uint32_t& i : t) i = checked(i == no_value ? -1 : std::int64_t{i}, attribute.values.size());
   if (!has_values(attribute.index)) attribute = {};
 }
 
@@ -36,7 +38,7 @@ void ObjAttributes::add_value(std::string_view keyword, const Eigen::Vector3d& v
 }
 
 void ObjAttributes::add_colour(std::size_t vertex, const Eigen::Vector3d& colour) {
-  colour_of_.resize(vertex, none);
+  colour_of_.resize(vertex, no_value);
   colour_of_.push_back(static_cast<std::uint32_t>(colours_.values.size() / colours_.width));
   colours_.values.insert(colours_.values.end(), colour.begin(), colour.end());
 }
@@ -44,7 +46,7 @@ void ObjAttributes::add_colour(std::size_t vertex, const Eigen::Vector3d& colour
 void ObjAttributes::take_colours(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles) {
     Triangle& index = colours_.index.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) index[k] = t[k] < colour_of_.size() ? colour_of_[t[k]] : none;
+    for (std::size_t k = 0; k < 3; ++k) index[k] = t[k] < colour_of_.size() ? colour_of_[t[k]] : no_value;
   }
   attributes_.named.push_back(std::move(colours_));
 }
@@ -72,8 +74,8 @@ void ObjAttributes::end_polygon() {
     Triangle texture, normal;
     const std::size_t fan[] = {0, i - 1, i};
     for (std::size_t k = 0; k < 3; ++k) {
-      texture[k] = checked(corners_[fan[k]].texture_coordinate, none);
-      normal[k] = checked(corners_[fan[k]].normal, none);
+      texture[k] = checked(corners_[fan[k]].texture_coordinate, no_value);
+      normal[k] = checked(corners_[fan[k]].normal, no_value);
     }
     attributes_.texture_coordinates.index.push_back(texture);
     attributes_.normals.index.push_back(normal);

@@ -159,11 +159,12 @@ void PlyAttributes::end_face(std::size_t corners, const std::vector<double>& tex
   for (std::size_t i = 0; has_coordinates && i < corners; ++i)
     values.emplace_back(texture_coordinates[2 * i], texture_coordinates[2 * i + 1], 0);
   for (std::uint32_t i = 2; i < corners; ++i)
-    corner_texture_.push_back(has_coordinates ? Triangle{first, first + i - 1, first + i} : Triangle{none, none, none});
+    corner_texture_.push_back(has_coordinates ? Triangle{first, first + i - 1, first + i}
+                                              : Triangle{no_value, no_value, no_value});
 }
 
 MeshAttributes PlyAttributes::finish(const std::vector<Triangle>& triangles) {
-  const Triangle nothing = {none, none, none};
+  const Triangle nothing = {no_value, no_value, no_value};
   if (has_texture_) all_.texture_coordinates.index = triangles;
   if (has_normals_) all_.normals.index = triangles;
   for (NamedAttribute& named : all_.named) named.index = triangles;

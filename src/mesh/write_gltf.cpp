@@ -195,14 +195,14 @@ GltfContent new_document(const TriangleMesh& mesh, const MeshAttributes& given) 
                    {"nodes", GltfJson::array({{{"mesh", 0}}})}};
   std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_of;  // by material
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    triangles_of[attributes.materials.empty() ? none : attributes.materials.index[t]].push_back(t);
+    triangles_of[attributes.materials.empty() ? no_value : attributes.materials.index[t]].push_back(t);
   const std::vector<std::string> no_buffers;
   GltfBuffer buffer(json, no_buffers);
   GltfJson primitives = GltfJson::array();
   for (const auto& [material, triangles] : triangles_of) {
     GltfJson primitive = GltfJson::object();
     write_primitive(buffer, primitive, mesh, attributes, triangles, {}, layout);
-    if (material != none) primitive["material"] = material;
+    if (material != no_value) primitive["material"] = material;
     primitives.push_back(std::move(primitive));
   }
   json["meshes"] = GltfJson::array({{{"primitives", std::move(primitives)}}});

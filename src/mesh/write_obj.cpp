@@ -22,7 +22,7 @@ void put_values(AtomicFile& file, const MeshAttributes& attributes) {
 
 /// Writes the label of triangle t where it differs from that of the triangle before.
 void put_label(AtomicFile& file, const TriangleLabels& labels, std::size_t t, const char* keyword) {
-  if (labels.empty() || labels.index[t] == none || (t > 0 && labels.index[t - 1] == labels.index[t])) return;
+  if (labels.empty() || labels.index[t] == no_value || (t > 0 && labels.index[t - 1] == labels.index[t])) return;
   file.write(keyword);
   file.write(labels.names[labels.index[t]]);
   file.write("\n");
@@ -30,7 +30,7 @@ void put_label(AtomicFile& file, const TriangleLabels& labels, std::size_t t, co
 
 /// Writes v, v/vt, v//vn or v/vt/vn, and then `after`.
 void put_corner(AtomicFile& file, std::uint32_t vertex, std::uint32_t texture, std::uint32_t normal, char after) {
-  const bool has_texture = texture != none, has_normal = normal != none;
+  const bool has_texture = texture != no_value, has_normal = normal != no_value;
   put(file, std::uint64_t{vertex} + 1, has_texture || has_normal ? '/' : after);
   if (has_texture) put(file, std::uint64_t{texture} + 1, has_normal ? '/' : after);
   if (!has_normal) return;
@@ -52,8 +52,8 @@ std::vector<Triangle> put_vertices(AtomicFile& file, const TriangleMesh& mesh, c
   for (std::size_t v = 0; v < vertices.corners.size(); ++v) {
     file.write("v ");
     const std::uint32_t colour = vertices.value(colours->index, v);
-    put(file, mesh.vertices[vertices.source(mesh, v)], colour == none ? '\n' : ' ');
-    if (colour == none) continue;
+    put(file, mesh.vertices[vertices.source(mesh, v)], colour == no_value ? '\n' : ' ');
+    if (colour == no_value) continue;
     const double* const rgb = colours->values.data() + colour * colours->width;
     put(file, Eigen::Vector3d(rgb[0], rgb[1], rgb[2]), '\n');
   }
@@ -67,7 +67,7 @@ void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes&
   const std::vector<Triangle> triangles = put_vertices(file, mesh, colours_of(attributes));
   put_values(file, attributes);
   const auto value = [](const CornerAttribute& attribute, std::size_t t, std::size_t k) {
-    return attribute.empty() ? none : attribute.index[t][k];
+    return attribute.empty() ? no_value : attribute.index[t][k];
   };
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     put_label(file, attributes.groups, t, "");

@@ -123,7 +123,7 @@ class PlyWriter {
       write_number(options_.single_precision ? Kind::Float : Kind::Double, p[k], k == 2 && columns_.empty());
     for (const Column& column : columns_) {
       const std::uint32_t value = split_.value(*column.index, v);
-      write_number(column.kind, value == none ? 0 : column.values[value], &column == &columns_.back());
+      write_number(column.kind, value == no_value ? 0 : column.values[value], &column == &columns_.back());
     }
   }
 

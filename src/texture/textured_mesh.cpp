@@ -24,7 +24,7 @@ class MaterialNumbers {
   std::uint32_t of(const TriangleLabels& materials, std::size_t triangle) {
     if (!are_told_apart_) return 0;
     const std::uint32_t index = materials.index[triangle];
-    const std::string name = index == none ? std::string() : materials.names[index];
+    const std::string name = index == no_value ? std::string() : materials.names[index];
     return numbers_.try_emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
   }
 
@@ -42,9 +42,9 @@ TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attri
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.corners[k] = mesh.vertices[mesh.triangles[t][k]];
       const std::uint32_t index = uv.index[t][k];
-      is_textured = is_textured && index != none;
+      is_textured = is_textured && index != no_value;
       triangle.coordinates[k] = Eigen::Vector2d::Zero();
-      if (index != none) triangle.coordinates[k] = uv.values[index].head<2>();
+      if (index != no_value) triangle.coordinates[k] = uv.values[index].head<2>();
     }
     triangle.triangle = static_cast<std::uint32_t>(t);
     triangle.material = materials.of(attributes.materials, t);
