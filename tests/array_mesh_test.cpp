@@ -8,6 +8,7 @@
 #include <string>
 
 #include "datasets/analytic_meshes.h"
+#include "numeric/no_index.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/propose.h"
 
@@ -17,6 +18,7 @@ using meshbound::ArrayMesh;
 using meshbound::Corner;
 using meshbound::EdgeStar;
 using meshbound::next_corner;
+using meshbound::no_index;
 using meshbound::previous_corner;
 using meshbound::TriangleMesh;
 using meshbound::Vec3;
@@ -63,7 +65,7 @@ void expect_valid(const ArrayMesh& mesh) {
     expected[mesh.vertex(c)].push_back(c);
     edges.emplace_back(mesh.start(c), mesh.end(c));
     const Corner twin = mesh.twin(c);
-    if (twin == ArrayMesh::none) continue;
+    if (twin == no_index) continue;
     ASSERT_FALSE(mesh.is_removed(twin / 3));
     ASSERT_EQ(mesh.twin(twin), c);
     ASSERT_EQ(mesh.start(twin), mesh.end(c));
@@ -78,7 +80,7 @@ void expect_valid(const ArrayMesh& mesh) {
     bool at_border = false;
     ASSERT_TRUE(mesh.for_each_corner(v, [&](Corner c) {
       visited.push_back(c);
-      at_border = at_border || mesh.twin(c) == ArrayMesh::none || mesh.twin(previous_corner(c)) == ArrayMesh::none;
+      at_border = at_border || mesh.twin(c) == no_index || mesh.twin(previous_corner(c)) == no_index;
       return visited.size() <= expected[v].size();
     }));
     std::sort(visited.begin(), visited.end());
@@ -129,7 +131,7 @@ class Changes {
 
   bool can_flip(Corner edge) {
     const Corner other = mesh_.twin(edge);
-    if (other == ArrayMesh::none || mesh_.apex(edge) == mesh_.apex(other)) return false;
+    if (other == no_index || mesh_.apex(edge) == mesh_.apex(other)) return false;
     for (const std::uint32_t v : {mesh_.start(edge), mesh_.end(edge)}) {
       std::size_t faces = 0;
       mesh_.for_each_corner(v, [&](Corner) { return ++faces < 4; });
@@ -211,7 +213,7 @@ TEST(ArrayMesh, EdgesHaveOneNumberFromBothSides) {
   const ArrayMesh mesh = array_mesh(datasets::terrain(1, 5, 1));
   for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
     EXPECT_TRUE(mesh.edge(c) == c || mesh.edge(c) == mesh.twin(c));
-    if (mesh.twin(c) != ArrayMesh::none) {
+    if (mesh.twin(c) != no_index) {
       EXPECT_EQ(mesh.edge(c), mesh.edge(mesh.twin(c)));
     }
   }
@@ -225,7 +227,7 @@ TEST(EdgeStar, RefusesWhatWouldNotLeaveAManifold) {
   // Two triangles: the inner edge joins two borders, and the faces at an outer one hang on by one edge only.
   const ArrayMesh two = array_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}}});
   for (Corner c = 0; c < 6; ++c) {
-    if (two.twin(c) != ArrayMesh::none) {
+    if (two.twin(c) != no_index) {
       EXPECT_FALSE(star.gather(two, c));
     }
   }

@@ -17,11 +17,12 @@
 #include "datasets/analytic_meshes.h"
 #include "decimation_states.h"
 #include "meshbound/cgal/lod_chain.h"
+#include "numeric/no_index.h"
 #include "reference/small_meshes.h"
 #include "simplify_options.h"
 
 namespace meshbound::cgal {
-namespace {
+namespace edge_collapse_driver_test {
 
 using test::within;
 
@@ -174,7 +175,7 @@ class LookingDriver : public CollapseDriver {
     }
     for (const auto e : region.mesh.edges())
       valid = valid && corner_between(mesh, region.vertex[region.mesh.vertex(e, 0)],
-                                      region.vertex[region.mesh.vertex(e, 1)]) != ArrayMesh::none;
+                                      region.vertex[region.mesh.vertex(e, 1)]) != no_index;
     sizes.insert(faces);
   }
   mutable bool valid = true;
@@ -242,5 +243,5 @@ TEST(EdgeCollapseDriver, LeavesSuchRegionsToTheQueueOfTheCore) {
   EXPECT_NE(of_mesh(driver.get(), terrain), of_mesh(nullptr, terrain)) << "elsewhere the order differs a little";
 }
 
-}  // namespace
+}  // namespace edge_collapse_driver_test
 }  // namespace meshbound::cgal

@@ -19,6 +19,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
+#include "numeric/no_index.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify_options.h"
 
@@ -195,10 +196,10 @@ TEST(FeatureLines, AreAsBeforeWhenCollapsesAreTakenBack) {
   };
   const std::vector<std::uint32_t> before = state();
   const std::uint32_t tooth = 3, left = 2, right = 4;
-  Corner edge = ArrayMesh::none;
+  Corner edge = no_index;
   for (Corner c = 0; c < 3 * mesh.face_count(); ++c)
     if (mesh.start(c) == left && mesh.end(c) == tooth) edge = c;
-  ASSERT_NE(edge, ArrayMesh::none);
+  ASSERT_NE(edge, no_index);
   ASSERT_EQ(lines.allowed(mesh, edge), OnLines::AtEitherEnd);
   // Without the tooth the line from `left` to `right` passes it at its height; without `left` the one from the tooth to
   // the vertex before passes `left` at that height's share.

@@ -7,9 +7,10 @@
 
 #include "manifold_soup_cases.h"
 #include "meshbound/cgal/surface_mesh.h"
+#include "numeric/no_index.h"
 #include "simplify/mesh/manifold_soup.h"
 
-namespace {
+namespace manifold_soup_cgal_test {
 
 using meshbound::ManifoldSoup;
 using meshbound::TriangleMesh;
@@ -29,7 +30,7 @@ testing::AssertionResult cgal_agrees(const TriangleMesh& soup) {
   std::size_t borders = 0, without_twin = 0;
   for (const auto h : mesh.halfedges()) borders += mesh.is_border(h) ? 1 : 0;
   for (const auto& twins : manifold.twin)
-    without_twin += static_cast<std::size_t>(std::count(twins.begin(), twins.end(), meshbound::no_twin));
+    without_twin += static_cast<std::size_t>(std::count(twins.begin(), twins.end(), meshbound::no_index));
   if (borders != without_twin) return testing::AssertionFailure() << borders << " borders, not " << without_twin;
   return testing::AssertionSuccess();
 }
@@ -54,4 +55,4 @@ TEST(ManifoldSoupInCgal, IsAPolygonMeshForTheSharedMeshes) {
   }
 }
 
-}  // namespace
+}  // namespace manifold_soup_cgal_test

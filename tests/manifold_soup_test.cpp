@@ -10,6 +10,7 @@
 
 #include "manifold_soup_cases.h"
 #include "meshbound/error.h"
+#include "numeric/no_index.h"
 #include "reference/small_meshes.h"
 
 namespace manifold_soup_test {
@@ -17,7 +18,7 @@ namespace manifold_soup_test {
 using meshbound::InvalidInput;
 using meshbound::manifold_soup;
 using meshbound::ManifoldSoup;
-using meshbound::no_twin;
+using meshbound::no_index;
 using meshbound::Triangle;
 using meshbound::TriangleMesh;
 
@@ -50,7 +51,7 @@ std::uint32_t twin(const ManifoldSoup& soup, std::uint32_t corner) { return soup
 
 std::size_t borders(const ManifoldSoup& soup) {
   std::size_t count = 0;
-  for (std::uint32_t c = 0; c < 3 * soup.faces.size(); ++c) count += twin(soup, c) == no_twin;
+  for (std::uint32_t c = 0; c < 3 * soup.faces.size(); ++c) count += twin(soup, c) == no_index;
   return count;
 }
 
@@ -61,7 +62,7 @@ std::string edge_defect(const ManifoldSoup& soup) {
     if (!corner_of.emplace(edge(soup, c), c).second) return "directed edge twice at corner " + std::to_string(c);
   for (const auto& [ends, corner] : corner_of) {
     const auto opposite = corner_of.find({ends.second, ends.first});
-    if (twin(soup, corner) != (opposite == corner_of.end() ? no_twin : opposite->second))
+    if (twin(soup, corner) != (opposite == corner_of.end() ? no_index : opposite->second))
       return "the twin of corner " + std::to_string(corner);
   }
   return {};
@@ -84,8 +85,8 @@ std::string vertex_defect(const ManifoldSoup& soup) {
       open.pop_back();
       const std::uint32_t leaving = twin(soup, c), entering = twin(soup, face + (c + 2) % 3);
       std::vector<std::uint32_t> beside;
-      if (leaving != no_twin) beside.push_back(leaving - leaving % 3 + (leaving + 1) % 3);
-      if (entering != no_twin) beside.push_back(entering);
+      if (leaving != no_index) beside.push_back(leaving - leaving % 3 + (leaving + 1) % 3);
+      if (entering != no_index) beside.push_back(entering);
       for (const std::uint32_t next : beside)
         if (corners_at[v].erase(next) != 0) open.push_back(next);
     }
@@ -264,8 +265,8 @@ TEST(ManifoldSoup, KeepsRepetitionsThatLookDifferentOnSheetsOfTheirOwn) {
   EXPECT_EQ(both.vertex_of.size(), 8U);
   for (std::uint32_t f = 0; f < 4; ++f)
     for (const std::uint32_t twin : both.twin[f])
-      EXPECT_TRUE(twin == no_twin || twin / 3 / 2 == f / 2) << "faces of two sheets are joined";
-  EXPECT_EQ(std::count(both.twin[2].begin(), both.twin[2].end(), no_twin), 2);
+      EXPECT_TRUE(twin == no_index || twin / 3 / 2 == f / 2) << "faces of two sheets are joined";
+  EXPECT_EQ(std::count(both.twin[2].begin(), both.twin[2].end(), no_index), 2);
   const ManifoldSoup one = manifold_soup(soup, repeated);
   EXPECT_EQ(one.dropped_triangles, 2U);
   EXPECT_EQ(one.vertex_of.size(), 4U);

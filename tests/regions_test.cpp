@@ -19,6 +19,7 @@
 #include "meshbound/lod_chain.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/simplify.h"
+#include "numeric/no_index.h"
 #include "reference/small_meshes.h"
 #include "simplify_options.h"
 
@@ -44,7 +45,7 @@ constexpr std::size_t min_vertices = 4000;
 std::vector<std::size_t> sizes(const Split& split) {
   std::vector<std::size_t> sizes(split.regions.size(), 0);
   for (const std::uint32_t r : split.region_of) {
-    if (r != ArrayMesh::none) ++sizes[r];
+    if (r != no_index) ++sizes[r];
   }
   return sizes;
 }

@@ -98,8 +98,8 @@ class Partition {
 void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end, std::size_t parts) {
   // Clearing the counters of the digits costs more than this many items; those of one key are in the order of their
   // indices, which stand in the lower bits.
-  constexpr std::size_t max_compared = 256;
-  if (items.size() <= max_compared) {
+  constexpr std::size_t max_sorted_by_comparison = 256;
+  if (items.size() <= max_sorted_by_comparison) {
     std::sort(items.begin(), items.end());
     return;
   }
@@ -152,8 +152,8 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::s
       for (std::size_t i = 0; i < taken; ++i) sums[i] = corner_sum(mesh, first + i);
       for (std::size_t i = 0; i < taken; ++i) {
         const Vec3 centroid = to_working((1.0 / 3) * sums[i]) - box.lo;
-        const std::uint64_t place = hilbert_index(cell(centroid.x), cell(centroid.y), cell(centroid.z), bits);
-        items[first + i] = place << index_bits | (first + i);
+        const std::uint64_t along_curve = hilbert_index(cell(centroid.x), cell(centroid.y), cell(centroid.z), bits);
+        items[first + i] = along_curve << index_bits | (first + i);
       }
     }
   });

@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "bvh/build.h"
+#include "numeric/no_index.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
 
-constexpr std::uint32_t unused = 0xffffffff;
 constexpr std::uint32_t of_earlier_run = 0xffffffff;
 
 /// Most runs that pay: every run has a table of all vertices.
@@ -85,7 +85,7 @@ class Renumbering {
   /// entries at a time.
   void number_vertices(std::uint32_t r) {
     Run& run = run_[r];
-    std::fill(run.local.begin(), run.local.end(), unused);
+    std::fill(run.local.begin(), run.local.end(), no_index);
     Vec3* const positions = r == 0 ? data_.vertices.data() : run.positions.data();
     std::array<Triangle, triangles_at_once> triangles;
     std::uint32_t count = 0;
@@ -108,7 +108,7 @@ class Renumbering {
   /// be guessed wrong one time in six.
   std::uint32_t number_vertex(Run& run, std::uint32_t v, std::uint32_t count) const {
     const std::uint32_t known = run.local[v];
-    const bool is_new = known == unused;
+    const bool is_new = known == no_index;
     run.local[v] = is_new ? count : known;
     run.used[count] = v;
     if (runs_ > 1) run.seen[v / 64] |= std::uint64_t{1} << v % 64;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cgal/region_mesh.h"
+#include "numeric/no_index.h"
 
 namespace meshbound::cgal {
 namespace {
@@ -95,7 +96,7 @@ struct Filter {
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
     const auto& vertex = run->region.vertex;
     const Corner corner = corner_between(run->collapses.mesh(), vertex[profile.v0()], vertex[profile.v1()]);
-    if (corner == ArrayMesh::none || run->collapses.is_refused(corner)) return {};
+    if (corner == no_index || run->collapses.is_refused(corner)) return {};
     // Without a wish the core takes the placement of the quadrics, which is what they gave here.
     std::optional<Vec3> wanted;
     if (run->cost != CollapseCost::GarlandHeckbert) wanted = to_vec3(*placement);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "numeric/no_index.h"
+
 namespace meshbound::cgal {
 namespace {
 
@@ -28,7 +30,7 @@ class Builder {
   void list_faces() {
     collapses_.for_each_edge([&](Corner c) {
       for (const Corner side : {c, source_.twin(c)})
-        if (side != ArrayMesh::none && collapses_.owns_face(side / 3)) faces_.push_back(side / 3);
+        if (side != no_index && collapses_.owns_face(side / 3)) faces_.push_back(side / 3);
     });
     std::sort(faces_.begin(), faces_.end());
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
@@ -53,7 +55,7 @@ class Builder {
   }
 
   [[nodiscard]] bool has_face(Corner corner) const {
-    return corner != ArrayMesh::none && std::binary_search(faces_.begin(), faces_.end(), corner / 3);
+    return corner != no_index && std::binary_search(faces_.begin(), faces_.end(), corner / 3);
   }
   [[nodiscard]] Halfedge& halfedge_of(Corner corner) {
     const auto at = std::lower_bound(faces_.begin(), faces_.end(), corner / 3);
@@ -126,11 +128,11 @@ class Builder {
 RegionMesh::RegionMesh(const RegionCollapses& collapses) { Builder(collapses, *this).run(); }
 
 Corner corner_between(const ArrayMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  Corner found = ArrayMesh::none;
+  Corner found = no_index;
   mesh.for_each_corner(a, [&](Corner c) {
     if (mesh.end(c) == b) found = c;
     if (mesh.apex(c) == b) found = previous_corner(c);
-    return found == ArrayMesh::none;
+    return found == no_index;
   });
   return found;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "meshbound/cgal/surface_mesh.h"
+#include "numeric/no_index.h"
 #include "simplify/region_collapses.h"
 
 namespace meshbound::cgal {
@@ -21,7 +22,7 @@ struct RegionMesh {
   bool has_edge_of_no_length = false;  ///< among the open edges
 };
 
-/// The corner whose edge joins these vertices of the array mesh, in either direction; `ArrayMesh::none` if they are not
+/// The corner whose edge joins these vertices of the array mesh, in either direction; `no_index` if they are not
 /// neighbours. O(edges of `a`).
 [[nodiscard]] Corner corner_between(const ArrayMesh& mesh, std::uint32_t a, std::uint32_t b);
 

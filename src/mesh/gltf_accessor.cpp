@@ -112,14 +112,14 @@ class AccessorReader {
     const GltfValue where = sparse.at("indices");
     const GltfNumbers integers{component_of(where), false, 1};
     const std::size_t size = size_of(accessor.numbers.component) * accessor.numbers.width;
-    const Elements places = elements(where, count, size_of(integers.component));
+    const Elements indices = elements(where, count, size_of(integers.component));
     const Elements values = elements(sparse.at("values"), count, size);
     for (std::size_t i = 0; i < count; ++i) {
-      double place = 0;
-      load(places, i, integers, &place);
-      if (!(place >= 0 && place < static_cast<double>(accessor.count)))
+      double index = 0;
+      load(indices, i, integers, &index);
+      if (!(index >= 0 && index < static_cast<double>(accessor.count)))
         where.fail("refers to an element that the accessor does not have");
-      load(values, i, accessor.numbers, element(accessor, static_cast<std::size_t>(place)));
+      load(values, i, accessor.numbers, element(accessor, static_cast<std::size_t>(index)));
     }
   }
 

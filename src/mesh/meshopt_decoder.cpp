@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "meshbound/triangle_mesh.h"
+
 namespace meshbound {
 namespace {
 
@@ -123,7 +125,7 @@ class TriangleDecoder {
  public:
   TriangleDecoder(std::string_view data, std::string_view table) : data_(data), table_(table) {}
 
-  std::array<std::uint32_t, 3> triangle(std::uint8_t code) {
+  Triangle triangle(std::uint8_t code) {
     const unsigned high = code >> 4U, low = code & 0xfU;
     if (high < 0xf) return beside_recent_edge(high, low);
     return low < 0xe ? from_table(low) : written_out(low == 0xe);
@@ -133,7 +135,7 @@ class TriangleDecoder {
  private:
   using Edge = std::array<std::uint32_t, 2>;
 
-  std::array<std::uint32_t, 3> beside_recent_edge(unsigned edge, unsigned vertex) {
+  Triangle beside_recent_edge(unsigned edge, unsigned vertex) {
     const auto [a, b] = edges_.at(edge);
     std::uint32_t c = 0;
     if (vertex == 0)
@@ -150,13 +152,13 @@ class TriangleDecoder {
     return {a, b, c};
   }
 
-  std::array<std::uint32_t, 3> from_table(unsigned entry) {
+  Triangle from_table(unsigned entry) {
     const auto choices = static_cast<std::uint8_t>(table_[entry]);
     const std::uint32_t a = next_++;
     return finish(a, choices >> 4U, choices & 0xfU);
   }
 
-  std::array<std::uint32_t, 3> written_out(bool starts_with_next) {
+  Triangle written_out(bool starts_with_next) {
     const std::uint8_t choices = data_.byte();
     if (choices == 0) next_ = 0;
     const std::uint32_t a = starts_with_next ? next_++ : read_index();
@@ -164,7 +166,7 @@ class TriangleDecoder {
   }
 
   /// The triangle with first corner `a` whose others are chosen by four bits each.
-  std::array<std::uint32_t, 3> finish(std::uint32_t a, unsigned choice_b, unsigned choice_c) {
+  Triangle finish(std::uint32_t a, unsigned choice_b, unsigned choice_c) {
     const std::uint32_t b = chosen(choice_b), c = chosen(choice_c);
     edges_.push({b, a});
     edges_.push({c, b});

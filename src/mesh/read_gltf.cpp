@@ -16,6 +16,7 @@
 #include "mesh/readers.h"
 #include "mesh/weld.h"
 #include "mesh/writers.h"
+#include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -108,7 +109,7 @@ class GltfReader {
     const bool is_mirrored = placement.is_mirrored();
     for (Triangle t : triangles_of(corners_of(primitive, positions.count), mode)) {
       if (is_mirrored) std::swap(t[1], t[2]);
-      std::array<std::uint32_t, 3> corners;
+      Triangle corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(where, accessor, positions, placement, t[k]);
       assembler_.add_polygon(corners);
       if (attributes_) attributes_->add_triangle(t);

@@ -12,6 +12,7 @@
 #include "mesh/readers.h"
 #include "mesh/text_cursor.h"
 #include "mesh/weld.h"
+#include "meshbound/triangle_mesh.h"
 
 namespace meshbound {
 namespace {
@@ -129,7 +130,7 @@ void read_records(const MeshSource& source, const FileShare& share, MeshAssemble
   const std::size_t count = declared_triangles(source.bytes), end = share.end(count);
   assembler.reserve(share.size(count) / 2, share.size(count));  // a closed surface has half as many vertices
   for (std::size_t i = share.begin(count); i < end; ++i) {
-    std::array<std::uint32_t, 3> triangle;
+    Triangle triangle;
     const char* const record = source.at(records_offset + i * record_size, record_size).data();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t offset_in_record = corners_offset + k * 3 * sizeof(float);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "distance/default_error_share.h"
 #include "geometry/frame.h"
 #include "meshbound/error.h"
 #include "meshbound/stop_token.h"
@@ -18,8 +19,6 @@
 
 namespace meshbound {
 namespace {
-
-constexpr double default_error_share = 1e-6;
 
 /// Memory that a thread keeps from call to call.
 struct Scratch {

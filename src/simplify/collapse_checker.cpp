@@ -11,6 +11,7 @@
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
+#include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "simplify/change_prover.h"
 #include "simplify/mesh/indexed_manifold.h"
@@ -116,15 +117,15 @@ Corner CollapseChecker::Impl::corner_between(std::uint32_t u, std::uint32_t v) c
   for (const std::uint32_t end : {u, v})
     if (end >= mesh.vertex_count() || !mesh.is_vertex(end))
       throw InvalidInput("there is no vertex " + std::to_string(end) + " in the mesh any more, or there never was");
-  Corner found = ArrayMesh::none;
+  Corner found = no_index;
   mesh.for_each_corner(u, [&](Corner c) {
     if (mesh.end(c) == v) found = c;
     if (mesh.apex(c) == v) found = previous_corner(c);
-    return found == ArrayMesh::none;
+    return found == no_index;
   });
-  if (found == ArrayMesh::none)
+  if (found == no_index)
     throw InvalidInput("vertices " + std::to_string(u) + " and " + std::to_string(v) + " have no edge in common");
-  if (mesh.start(found) != u && mesh.twin(found) != ArrayMesh::none) found = mesh.twin(found);
+  if (mesh.start(found) != u && mesh.twin(found) != no_index) found = mesh.twin(found);
   return found;
 }
 
@@ -212,7 +213,7 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
 std::uint32_t CollapseChecker::Impl::commit() {
   if (!admitted_) throw Error("a collapse that was not admitted: ask the collapse checker first");
   prover_.accept(region());
-  proposer_.settle(region());
+  proposer_.make_final(region());
   const std::uint32_t kept = proposer_.star().kept;
   model_[kept] = admitted_->point;
   admitted_.reset();

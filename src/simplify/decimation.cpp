@@ -41,7 +41,7 @@ constexpr double share_of_texture_tolerance = 0.9;
 bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 /// False at a border, and where a face has no area and so no normal.
 bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
-  if (mesh.twin(edge) == ArrayMesh::none) return false;
+  if (mesh.twin(edge) == no_index) return false;
   const auto normal = [&](std::uint32_t face) {
     const auto [a, b, c] = mesh.triangle(face);
     return cross(b - a, c - a);
@@ -219,7 +219,7 @@ void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {
   const bool locks_creases = options_.feature_angle && !has_lines();
   if (!locks_creases && !options_.preserve_boundary) return;
   for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
-    const bool is_border = mesh.twin(c) == ArrayMesh::none;
+    const bool is_border = mesh.twin(c) == no_index;
     if (is_border ? !options_.preserve_boundary : !locks_creases || !is_feature(mesh, c, *options_.feature_angle))
       continue;
     locked[mesh.start(c)] = locked[mesh.end(c)] = 1;
@@ -256,7 +256,7 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
 bool Decimation::is_seam(Corner edge) const {
   const ArrayMesh& mesh = state_->mesh;
   const Corner twin = mesh.twin(edge);
-  if (options_.texture_coordinates.empty() || twin == ArrayMesh::none) return false;
+  if (options_.texture_coordinates.empty() || twin == no_index) return false;
   if (is_turned_over_[edge / 3] != is_turned_over_[twin / 3]) return true;
   const auto triangle = [&](Corner c) { return order_.triangle[state_->source_triangle[c / 3]]; };
   if (!options_.materials.empty() && options_.materials[triangle(edge)] != options_.materials[triangle(twin)])

@@ -38,12 +38,12 @@ bool is_crease(const Corners& s, const Corners& t) {
 }
 
 bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
-  return mesh.twin(edge) == ArrayMesh::none || is_crease(mesh.triangle(edge / 3), mesh.triangle(mesh.twin(edge) / 3));
+  return mesh.twin(edge) == no_index || is_crease(mesh.triangle(edge / 3), mesh.triangle(mesh.twin(edge) / 3));
 }
 
 /// At the edge of original t to the one `across` it.
-bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                         std::uint32_t t, std::uint32_t across) {
+bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, std::uint32_t t,
+                         std::uint32_t across) {
   const auto corners = [&](std::uint32_t of) {
     const auto& [a, b, c] = triangles[of];
     return Corners{vertices[a], vertices[b], vertices[c]};
@@ -53,14 +53,14 @@ bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<st
 
 }  // namespace
 
-Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                 const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
-                 const std::vector<std::uint32_t>& vertex_of_vertex, double spacing)
-    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), none) {
+Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
+                 const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
+                 double spacing)
+    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), no_index) {
   for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::uint32_t v : triangles[triangle_of_face[f]]) {
-      if (samples_[v].face != none) continue;
+      if (samples_[v].face != no_index) continue;
       triangle_near_[v] = triangle_of_face[f];
       give_to(v, f);
     }
@@ -79,15 +79,15 @@ void Samples::add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle
   const double count = std::min(std::floor(length(q - p) / spacing), max_between);
   for (int k = 1; k <= count; ++k) {
     const Vec3 at = p + (k / (count + 1)) * (q - p);
-    samples_.push_back({at, none, none});
+    samples_.push_back({at, no_index, no_index});
     triangle_near_.push_back(triangle_and_mark);
     give_to(static_cast<std::uint32_t>(samples_.size() - 1), face_at(at));
   }
 }
 
-Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                 const ArrayMesh& mesh, const CoverAssignment& cover, double spacing)
-    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), none) {
+Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
+                 const CoverAssignment& cover, double spacing)
+    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), no_index) {
   for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
   const auto nearest_face = [&](std::uint32_t original, Vec3 p) {
     const auto faces = cover.faces_of(original);
@@ -100,7 +100,7 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<std::array
     if (cover.faces_of(t).empty()) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = triangles[t][k], w = triangles[t][(k + 1) % 3], across = neighbours[t][k];
-      if (samples_[v].face == none) {
+      if (samples_[v].face == no_index) {
         triangle_near_[v] |= t;
         give_to(v, nearest_face(t, vertices[v]));
       }
@@ -130,7 +130,7 @@ void ProvenChanges::add(const EditLog& proven) {
   for (const Edit& edit : proven.edits) {
     ++number;
     for (const std::size_t end = stamp + log.stamps_of(number).size(); stamp < end; ++stamp) {
-      if (edit.edge == ArrayMesh::none) continue;
+      if (edit.edge == no_index) continue;
       EditLog::Stamp& of_face = log.stamps[stamp];
       of_face.before = std::exchange(last[of_face.face], number);
     }
@@ -138,8 +138,8 @@ void ProvenChanges::add(const EditLog& proven) {
 }
 
 DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
-                                 const std::vector<std::array<std::uint32_t, 3>>& original_triangles,
-                                 const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+                                 const std::vector<Triangle>& original_triangles, const Bvh& original_tree,
+                                 ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                                  std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                                  CoverAssignment cover_of)
     : vertices(original_vertices),
@@ -156,7 +156,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
       deviation(3 * mesh.face_count(), 0),
-      index_in_queue(3 * mesh.face_count(), EdgeQueue::absent),
+      index_in_queue(3 * mesh.face_count(), no_index),
       starts_as_original(false),
       cover(std::move(cover_of)),
       nearest(std::move(near)) {
@@ -164,8 +164,8 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
 }
 
 DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
-                                 const std::vector<std::array<std::uint32_t, 3>>& original_triangles,
-                                 const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+                                 const std::vector<Triangle>& original_triangles, const Bvh& original_tree,
+                                 ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                                  std::vector<std::uint32_t> triangle_of_face)
     : DecimationState(original_vertices, original_triangles, original_tree, std::move(start),
                       std::move(vertex_of_vertex), triangle_of_face, triangle_of_face,

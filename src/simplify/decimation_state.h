@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "meshbound/bvh.h"
+#include "meshbound/triangle_mesh.h"
+#include "numeric/no_index.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
 #include "simplify/mesh/array_mesh.h"
@@ -25,26 +27,24 @@ namespace meshbound {
 /// both, and stays with that one's face from then on.
 class Samples {
  public:
-  static constexpr std::uint32_t none = ArrayMesh::none;
-
   Samples() = default;
   /// Takes the vertices of the original, and points at most `spacing` apart on longer edges.
-  Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-          const ArrayMesh& mesh, const std::vector<std::uint32_t>& triangle_of_face,
-          const std::vector<std::uint32_t>& vertex_of_vertex, double spacing);
+  Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
+          const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
+          double spacing);
   /// Takes samples for a mesh that is no longer the original: each sample gets the nearest of the faces that cover its
   /// triangle. Originals without a cover have no samples.
-  Samples(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-          const ArrayMesh& mesh, const CoverAssignment& cover, double spacing);
+  Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
+          const CoverAssignment& cover, double spacing);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
   [[nodiscard]] std::uint32_t triangle_near(std::uint32_t sample) const { return triangle_near_[sample] & ~at_edge; }
   /// Whether the sample lies on a border or a crease, where distances are largest: no other sample can represent it.
   [[nodiscard]] bool is_at_edge(std::uint32_t sample) const { return (triangle_near_[sample] & at_edge) != 0; }
-  /// The face of a sample; `none` if it has none.
+  /// The face of a sample; `no_index` if it has none.
   [[nodiscard]] std::uint32_t face_of(std::uint32_t sample) const {
-    while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != none)
+    while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != no_index)
       sample = samples_[sample].face;
     return samples_[sample].face;
   }
@@ -56,7 +56,7 @@ class Samples {
   void prefetch(std::uint32_t sample) const { __builtin_prefetch(&samples_[sample]); }
 
   /// Empties the list of the face; the caller must assign its samples to other faces.
-  void clear(std::uint32_t face) { first_[face] = none; }
+  void clear(std::uint32_t face) { first_[face] = no_index; }
   void give_to(std::uint32_t sample, std::uint32_t face) {
     samples_[sample].face = face;
     samples_[sample].following = first_[face];
@@ -76,7 +76,7 @@ class Samples {
   static constexpr std::uint32_t goes_with = 0x80000000, at_edge = 0x80000000;
   struct alignas(32) Sample {
     Vec3 at;
-    std::uint32_t face = none, following = none;
+    std::uint32_t face = no_index, following = no_index;
   };
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> triangle_near_, first_;
@@ -91,7 +91,7 @@ inline bool is_far_beyond(float deviation) { return deviation > far_beyond; }
 struct Edit {
   enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
   bool was_locked = false;
-  Corner edge = ArrayMesh::none;  ///< the edge collapsed or flipped; for a move, a corner of the vertex; none: undone
+  Corner edge = no_index;         ///< the edge collapsed or flipped; for a move, a corner of the vertex; none: undone
   Vec3 position;                  ///< of the start of the edge, before the change
   FeatureLines::Before lines;     ///< before a collapse, at its edge
   std::uint32_t first_stamp = 0;  ///< index of its first face in `EditLog::stamps`
@@ -148,16 +148,14 @@ struct Region {
 struct DecimationState {
   /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
   /// vertex of the original is at the same place. The original must outlive this. Samples are still to be set.
-  DecimationState(const std::vector<Vec3>& original_vertices,
-                  const std::vector<std::array<std::uint32_t, 3>>& original_triangles, const Bvh& original_tree,
-                  ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+  DecimationState(const std::vector<Vec3>& original_vertices, const std::vector<Triangle>& original_triangles,
+                  const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face);
   /// A mesh that is proven already, with the originals that cover its faces: `cover_of(t)` are faces that original t is
   /// proven to be near, `near` has an original near each face. `vertex_of_vertex` and `triangle_of_face` are numbers of
   /// what the caller started from. The original must outlive this. Samples are still to be set.
-  DecimationState(const std::vector<Vec3>& original_vertices,
-                  const std::vector<std::array<std::uint32_t, 3>>& original_triangles, const Bvh& original_tree,
-                  ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+  DecimationState(const std::vector<Vec3>& original_vertices, const std::vector<Triangle>& original_triangles,
+                  const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                   CoverAssignment cover_of);
   /// Gives each vertex the planes of the faces that are around it now.
@@ -169,9 +167,9 @@ struct DecimationState {
   /// much gives 4% more faces.
   static constexpr double spacing_of_samples = 3;
 
-  const std::vector<Vec3>& vertices;                           ///< of the original
-  const std::vector<std::array<std::uint32_t, 3>>& triangles;  ///< of the original
-  const Bvh& tree;                                             ///< of the original
+  const std::vector<Vec3>& vertices;       ///< of the original
+  const std::vector<Triangle>& triangles;  ///< of the original
+  const Bvh& tree;                         ///< of the original
 
   ArrayMesh mesh;
   std::size_t faces = 0;  ///< those left

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/point_triangle.h"
+#include "numeric/no_index.h"
 #include "simplify/repair.h"
 
 namespace meshbound {
@@ -57,7 +58,7 @@ void LocalEdit::take_face(std::uint32_t face) {
 /// The face across an edge of the rim, where it belongs to the region.
 void LocalEdit::take_beside(Corner rim) {
   const Corner across = state_.mesh.twin(rim);
-  if (across != ArrayMesh::none && owns(state_.mesh.apex(across))) beside_.push_back(across / 3);
+  if (across != no_index && owns(state_.mesh.apex(across))) beside_.push_back(across / 3);
 }
 
 bool LocalEdit::may_move(std::uint32_t vertex) const {
@@ -85,7 +86,7 @@ bool LocalEdit::gather_move(std::uint32_t vertex) {
 bool LocalEdit::gather_flip(Corner edge) {
   const ArrayMesh& mesh = state_.mesh;
   const Corner other = mesh.twin(edge);
-  if (other == ArrayMesh::none) return false;
+  if (other == no_index) return false;
   const std::uint32_t a = mesh.start(edge), b = mesh.end(edge), c = mesh.apex(edge), d = mesh.apex(other);
   if (c == d || state_.locked[a] != 0 || state_.locked[b] != 0) return false;
   for (const Corner e : {edge, other})  // corners of a flipped edge's faces stand for other edges afterwards
@@ -263,7 +264,7 @@ void LocalEdit::join_group() {
   for (const std::uint32_t face : taken_) {
     if (!is_of_group_.insert(face)) continue;
     group_.push_back(face);
-    for (std::uint32_t s = state_.samples.first(face); s != Samples::none; s = state_.samples.following(s))
+    for (std::uint32_t s = state_.samples.first(face); s != no_index; s = state_.samples.following(s))
       owned_before_.emplace_back(s, face);
   }
 }
@@ -286,7 +287,7 @@ bool LocalEdit::group_fits(double share) {
     std::uint32_t hint = state_.nearest[face];
     for (std::uint32_t k = 0; k < 3; ++k) {
       const Corner edge = 3 * face + k;
-      const bool is_seen_twice = mesh.twin(edge) != ArrayMesh::none && is_of_group_.contains(mesh.twin(edge) / 3);
+      const bool is_seen_twice = mesh.twin(edge) != no_index && is_of_group_.contains(mesh.twin(edge) / 3);
       if (is_seen_twice && mesh.edge(edge) != edge) continue;
       if (!is_edge_near(corners[k], corners[(k + 1) % 3], limit, hint)) return false;
     }

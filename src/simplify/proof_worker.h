@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "meshbound/proximity.h"
+#include "numeric/no_index.h"
 #include "simplify/cover/face_box.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/parity_proof.h"
@@ -35,7 +36,7 @@ class ProofWorkers::Worker {
   /// Covers an original triangle: sets `only` to a face that covers it alone, or else `faces` to faces that do so
   /// together. Neither is set if no cover was found.
   void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
-    only = ArrayMesh::none;
+    only = no_index;
     faces.clear();
     const auto& v = state_.triangles[t];
     const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
@@ -44,10 +45,10 @@ class ProofWorkers::Worker {
     std::array<std::uint32_t, 3> at{};
     for (std::size_t k = 0; k < 3; ++k) {
       at[k] = state_.samples.face_of(v[k]);
-      if (at[k] != ArrayMesh::none && state_.mesh.is_removed(at[k])) at[k] = ArrayMesh::none;
+      if (at[k] != no_index && state_.mesh.is_removed(at[k])) at[k] = no_index;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (at[k] == ArrayMesh::none || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
+      if (at[k] == no_index || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
       if (!holds(at[k], corners, limit)) continue;
       only = at[k];
       return;
@@ -57,7 +58,7 @@ class ProofWorkers::Worker {
       enter(found_, limit);
       take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), faces);
     }
-    if (faces.empty()) cover_in_parts(corners, limit, faces);
+    if (faces.empty()) cover_in_sub_triangles(corners, limit, faces);
   }
 
   /// The faces that cover an original triangle, found by boxes where the samples do not know which faces are near.
@@ -70,7 +71,7 @@ class ProofWorkers::Worker {
     found_.clear();
     boxes.find(grown(box_of(corners), state_.tolerance), found_);
     std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
-    cover_in_parts(corners, limit, faces);
+    cover_in_sub_triangles(corners, limit, faces);
   }
 
   /// Whether a face is near the original; `near` is an original triangle to start with, and the one found.
@@ -214,7 +215,7 @@ class ProofWorkers::Worker {
     found_.push_back(face);
     cover_.add(state_.mesh.triangle(face), face);
   }
-  struct Part {
+  struct SubTriangle {
     Corners corners;
     int halvings = 0;
   };
@@ -258,7 +259,7 @@ class ProofWorkers::Worker {
       enter(found_, limit);
       take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
     }
-    if (drafted_.empty()) cover_in_parts(corners, limit, drafted_);
+    if (drafted_.empty()) cover_in_sub_triangles(corners, limit, drafted_);
     return !drafted_.empty();
   }
 
@@ -267,7 +268,7 @@ class ProofWorkers::Worker {
     found_.clear();
     found_marks_.clear();
     for (const std::uint32_t f : at)
-      if (f != ArrayMesh::none && found_marks_.insert(f)) found_.push_back(f);
+      if (f != no_index && found_marks_.insert(f)) found_.push_back(f);
     spread(reach, [](std::uint32_t) { return true; });
   }
   /// Adds the faces that hang together with those found, by faces of which that is true, and whose boxes meet `reach`.
@@ -297,36 +298,36 @@ class ProofWorkers::Worker {
     for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
   }
 
-  void cover_in_parts(const Corners& corners, double limit, std::vector<std::uint32_t>& faces) {
-    parts_.assign(1, {corners, 0});
-    for (std::size_t count = 1; !parts_.empty();) {
-      const Part part = parts_.back();
-      parts_.pop_back();
-      choose_candidates(part.corners);
+  void cover_in_sub_triangles(const Corners& corners, double limit, std::vector<std::uint32_t>& faces) {
+    sub_triangles_.assign(1, {corners, 0});
+    for (std::size_t count = 1; !sub_triangles_.empty();) {
+      const SubTriangle sub_triangle = sub_triangles_.back();
+      sub_triangles_.pop_back();
+      choose_candidates(sub_triangle.corners);
       enter(chosen_, limit);
-      const std::optional<FaceMask> used = cover_.cover_part(part.corners, part.halvings);
-      if (!used || (*used == 0 && (part.halvings == max_halvings || ++count > max_parts))) {
+      const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);
+      if (!used || (*used == 0 && (sub_triangle.halvings == max_halvings || ++count > max_sub_triangles))) {
         faces.clear();
         return;
       }
-      if (*used == 0) halve(part);
+      if (*used == 0) halve(sub_triangle);
       take(*used, faces);
     }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   }
 
-  void halve(const Part& part) {
+  void halve(const SubTriangle& sub_triangle) {
     std::size_t from = 0;
     double longest = -1;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double edge = squared_length(part.corners[(i + 1) % 3] - part.corners[i]);
+      const double edge = squared_length(sub_triangle.corners[(i + 1) % 3] - sub_triangle.corners[i]);
       if (edge > longest) longest = edge, from = i;
     }
     const std::size_t to = (from + 1) % 3;
-    const Vec3 middle = 0.5 * (part.corners[from] + part.corners[to]);
+    const Vec3 middle = 0.5 * (sub_triangle.corners[from] + sub_triangle.corners[to]);
     for (const std::size_t end : {from, to}) {
-      Part& half = parts_.emplace_back(part);
+      SubTriangle& half = sub_triangles_.emplace_back(sub_triangle);
       half.corners[end] = middle;
       ++half.halvings;
     }
@@ -356,7 +357,7 @@ class ProofWorkers::Worker {
   /// An original triangle at the sample nearest to the middle of a face: one that lies above it, if any does.
   [[nodiscard]] std::uint32_t triangle_near(std::uint32_t face, Vec3 middle, std::uint32_t best) {
     double min_squared = HUGE_VAL;
-    for (std::uint32_t s = state_.samples.first(face); s != Samples::none; s = state_.samples.following(s)) {
+    for (std::uint32_t s = state_.samples.first(face); s != no_index; s = state_.samples.following(s)) {
       const double squared = squared_length(state_.samples.at(s) - middle);
       if (squared < min_squared) min_squared = squared, best = state_.samples.triangle_near(s);
     }
@@ -365,7 +366,7 @@ class ProofWorkers::Worker {
   }
 
   struct Prepared {
-    std::uint32_t face = ArrayMesh::none;
+    std::uint32_t face = no_index;
     Corners corners;
     PreparedTriangle triangle;
   };
@@ -381,12 +382,12 @@ class ProofWorkers::Worker {
   std::vector<FaceMask> used_;
   bool meets_seam_ = false;
   std::optional<Vec3> lost_point_;
-  std::vector<Part> parts_;
+  std::vector<SubTriangle> sub_triangles_;
 
   /// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most
-  /// so many parts, each with candidates of its own. The cuts of parts and of covers count together.
+  /// so many sub-triangles, each with candidates of its own. The cuts of sub-triangles and of covers count together.
   static constexpr int max_halvings = 16;
-  static constexpr std::size_t max_parts = 4096;
+  static constexpr std::size_t max_sub_triangles = 4096;
 
   /// Faces that are looked at around an original triangle.
   static constexpr std::size_t max_found = 4096;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/position_table.h"
+#include "numeric/no_index.h"
 #include "simplify/faults.h"
 #include "simplify/minimax_step.h"
 #include "simplify/repair.h"
@@ -58,14 +59,14 @@ bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::u
                     const std::vector<std::uint32_t>& around_gone) {
   const Corner other = mesh.twin(edge);
   const auto is_loose = [&](Corner c) {
-    return mesh.twin(next_corner(c)) == ArrayMesh::none && mesh.twin(previous_corner(c)) == ArrayMesh::none;
+    return mesh.twin(next_corner(c)) == no_index && mesh.twin(previous_corner(c)) == no_index;
   };
-  if (is_loose(edge) || (other != ArrayMesh::none && is_loose(other))) return false;
+  if (is_loose(edge) || (other != no_index && is_loose(other))) return false;
   std::size_t common = 0;
   for (const std::uint32_t v : around_gone)
     common += static_cast<std::size_t>(std::count(around_kept.begin(), around_kept.end(), v));
-  if (common != (other == ArrayMesh::none ? 1 : 2)) return false;
-  if (other == ArrayMesh::none) return true;
+  if (common != (other == no_index ? 1 : 2)) return false;
+  if (other == no_index) return true;
   if (mesh.apex(edge) == mesh.apex(other)) return false;
   return !(mesh.is_border(mesh.start(edge)) && mesh.is_border(mesh.end(edge)));
 }
@@ -75,7 +76,7 @@ bool keeps_manifold(const ArrayMesh& mesh, Corner edge, const std::vector<std::u
 bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
   edge = of;
   kept = mesh.start(edge), gone = mesh.end(edge);
-  const std::uint32_t face = edge / 3, across = mesh.twin(edge) == ArrayMesh::none ? face : mesh.twin(edge) / 3;
+  const std::uint32_t face = edge / 3, across = mesh.twin(edge) == no_index ? face : mesh.twin(edge) / 3;
   moved.clear();
   removed.clear();
   removed.push_back(face);
@@ -84,7 +85,7 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
   const auto visit = [&](std::uint32_t v, std::vector<std::uint32_t>& ring) {
     return mesh.for_each_corner(v, [&](Corner c) {
       ring.push_back(mesh.end(c));
-      if (mesh.twin(previous_corner(c)) == ArrayMesh::none) ring.push_back(mesh.apex(c));
+      if (mesh.twin(previous_corner(c)) == no_index) ring.push_back(mesh.apex(c));
       if (c / 3 != face && c / 3 != across) moved.push_back(c);
       return moved.size() <= max_faces;
     });
@@ -106,7 +107,7 @@ void Proposer::gather_samples() {
   for (const Corner c : star_.moved) {
     numbers_.push_back(c / 3);
     const Corner across = state_.mesh.twin(next_corner(c));
-    if (across != ArrayMesh::none && owns(across / 3)) beside_.push_back(across / 3);
+    if (across != no_index && owns(across / 3)) beside_.push_back(across / 3);
   }
   samples_.begin(origin_);
   taken_ = numbers_;
@@ -166,13 +167,12 @@ void Proposer::find_borders() {
   const ArrayMesh& mesh = state_.mesh;
   borders_.clear();
   for (const Corner c : star_.moved) {
-    if (mesh.twin(c) == ArrayMesh::none) borders_.push_back(mesh.position(mesh.end(c)));
-    if (mesh.twin(previous_corner(c)) == ArrayMesh::none) borders_.push_back(mesh.position(mesh.apex(c)));
+    if (mesh.twin(c) == no_index) borders_.push_back(mesh.position(mesh.end(c)));
+    if (mesh.twin(previous_corner(c)) == no_index) borders_.push_back(mesh.position(mesh.apex(c)));
   }
   for (const Corner edge : {star_.edge, mesh.twin(star_.edge)}) {
-    if (edge == ArrayMesh::none) continue;
-    const bool is_border =
-        mesh.twin(next_corner(edge)) == ArrayMesh::none || mesh.twin(previous_corner(edge)) == ArrayMesh::none;
+    if (edge == no_index) continue;
+    const bool is_border = mesh.twin(next_corner(edge)) == no_index || mesh.twin(previous_corner(edge)) == no_index;
     if (is_border) borders_.push_back(mesh.position(mesh.apex(edge)));
   }
 }
@@ -366,7 +366,7 @@ void Proposer::collapse(Region& region, Vec3 point) {
   apply_collapse(state_, region, star_, point);
 }
 
-void Proposer::settle(Region& region) {
+void Proposer::make_final(Region& region) {
   DecimationState& s = state_;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   for (const std::uint32_t face : star_.removed) s.samples.clear(face);

@@ -69,7 +69,7 @@ class Proposer {
   /// Makes the collapse found last.
   void collapse(Region& region, Vec3 point);
   /// Once this collapse is final: gives the samples to the faces that it leaves, and opens the edges around it again.
-  void settle(Region& region);
+  void make_final(Region& region);
   [[nodiscard]] const EdgeStar& star() const { return star_; }
 
   struct Counts {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "numeric/first_error.h"
+#include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "simplify/proof_worker.h"
 
@@ -22,14 +23,14 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
     if (is_stale(t)) originals_.push_back(t);
   for (std::uint32_t f = 0; f < state.stamp.size(); ++f)
     if (state.stamp[f] != 0 && !state.mesh.is_removed(f)) open_faces_.push_back(f);
-  only_face_.assign(originals_.size(), ArrayMesh::none);
+  only_face_.assign(originals_.size(), no_index);
   faces_.resize(originals_.size());
   open_originals_ = numbers_below(originals_.size());
 }
 
 std::span<const std::uint32_t> Proof::draft(std::uint32_t index) const {
   if (!faces_[index].empty()) return faces_[index];
-  if (only_face_[index] == ArrayMesh::none) return {};
+  if (only_face_[index] == no_index) return {};
   return {&only_face_[index], 1};
 }
 
@@ -85,15 +86,15 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
   open_faces_.clear();
   const auto is_changed = [&](std::uint32_t f) { return std::binary_search(changed.begin(), changed.end(), f); };
   for (std::uint32_t i = 0; i < originals_.size(); ++i) {
-    if (originals_[i] == ArrayMesh::none) continue;
+    if (originals_[i] == no_index) continue;
     const auto faces = draft(i);
     if (!faces.empty() && std::none_of(faces.begin(), faces.end(), is_changed)) continue;
-    only_face_[i] = ArrayMesh::none;
+    only_face_[i] = no_index;
     faces_[i].clear();
     if (is_stale(originals_[i]))
       open_originals_.push_back(i);
     else
-      originals_[i] = ArrayMesh::none;  // its old cover holds again
+      originals_[i] = no_index;  // its old cover holds again
   }
   for (const std::uint32_t f : changed)
     if (state_.stamp[f] != 0 && !state_.mesh.is_removed(f)) open_faces_.push_back(f);
@@ -102,7 +103,7 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
 void Proof::commit() {
   std::vector<std::uint32_t> originals, indices;
   for (std::uint32_t i = 0; i < originals_.size(); ++i) {
-    if (originals_[i] == ArrayMesh::none) continue;
+    if (originals_[i] == no_index) continue;
     originals.push_back(originals_[i]);
     indices.push_back(i);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 namespace {
 
@@ -19,7 +21,7 @@ std::vector<Component> components(const ArrayMesh& mesh) {
     seen[first] = 1;
     for (std::size_t i = 0; i < faces.size(); ++i) {
       for (Corner c = 3 * faces[i]; c < 3 * faces[i] + 3; ++c) {
-        if (mesh.twin(c) == ArrayMesh::none || seen[mesh.twin(c) / 3] != 0) continue;
+        if (mesh.twin(c) == no_index || seen[mesh.twin(c) / 3] != 0) continue;
         seen[mesh.twin(c) / 3] = 1;
         faces.push_back(mesh.twin(c) / 3);
       }
@@ -34,7 +36,7 @@ bool must_stay(const DecimationState& state, const Component& component, bool ke
   return std::any_of(component.begin(), component.end(), [&](std::uint32_t f) {
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       if (state.locked[state.mesh.vertex(c)] != 0) return true;
-      if (keeps_borders && state.mesh.twin(c) == ArrayMesh::none) return true;
+      if (keeps_borders && state.mesh.twin(c) == no_index) return true;
       if (state.lines.is_line(state.mesh, c)) return true;
     }
     return false;
@@ -78,7 +80,7 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
     for (std::size_t i = 0; i < originals.size(); ++i) {
       for (const std::uint32_t v : state.triangles[originals[i]]) {
         const std::uint32_t at = state.samples.face_of(v);
-        if (at != Samples::none && state.mesh.is_removed(at)) state.samples.give_to(v, covers[i].front());
+        if (at != no_index && state.mesh.is_removed(at)) state.samples.give_to(v, covers[i].front());
       }
     }
     state.faces -= component.size();

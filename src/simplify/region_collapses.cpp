@@ -37,8 +37,13 @@ bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[m
 bool RegionCollapses::make(Vec3 point) {
   proposer_.collapse(region_, point);
   if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_)) return false;
-  proposer_.settle(region_);
+  proposer_.make_final(region_);
   return true;
+}
+
+void RegionCollapses::mark_refused(Corner edge, float deviation) {
+  state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
+  state_.deviation[mesh().edge(edge)] = deviation;
 }
 
 void RegionCollapses::list_edges() {
@@ -56,8 +61,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
     if (make(*point)) return true;
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
-  state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
-  state_.deviation[mesh().edge(edge)] = point_found ? 0 : proposer_.deviation();
+  mark_refused(edge, point_found ? 0 : proposer_.deviation());
   if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
   return false;
 }

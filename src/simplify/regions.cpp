@@ -5,6 +5,7 @@
 #include <span>
 
 #include "geometry/cut_axes.h"
+#include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "simplify/propose.h"
 
@@ -111,7 +112,7 @@ class Cutter {
 };
 
 void assign_faces(const DecimationState& state, Split& split) {
-  split.region_of_face.assign(state.mesh.face_count(), ArrayMesh::none);
+  split.region_of_face.assign(state.mesh.face_count(), no_index);
   for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f) {
     if (state.mesh.is_removed(f)) continue;
     const auto [a, b, c] = state.mesh.corners(f);
@@ -143,7 +144,7 @@ Split split(const DecimationState& state, int shift, std::size_t min_vertices) {
   std::uint32_t count = 1;
   while (count < max_regions && cutter.vertices() >= 2 * std::size_t{count} * min_vertices) count *= 2;
   if (count == 1) return whole(state);
-  result.region_of.assign(state.mesh.vertex_count(), ArrayMesh::none);
+  result.region_of.assign(state.mesh.vertex_count(), no_index);
   auto vertices = cutter.run(shift == 0 ? count : count + 1);
   count = static_cast<std::uint32_t>(vertices.size());
   if (count == 1) return whole(state);

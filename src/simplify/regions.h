@@ -14,8 +14,9 @@ namespace meshbound {
 /// regions stays as it is, a face of one region is read and changed by its thread alone, and regions need no locks.
 /// Which region a face belongs to is noted at the split: its corners may be read by the thread of that region only.
 struct Split {
-  std::vector<std::uint32_t> region_of;       ///< by vertex; empty: all belong to one region
-  std::vector<std::uint32_t> region_of_face;  ///< by face: region of all its vertices, `none` if they differ; or empty
+  std::vector<std::uint32_t> region_of;  ///< by vertex; empty: all belong to one region
+  std::vector<std::uint32_t>
+      region_of_face;  ///< by face: region of all its vertices, `no_index` if they differ; or empty
   std::vector<Region> regions;
 
   [[nodiscard]] bool owns(std::uint32_t region, std::uint32_t vertex) const {

@@ -7,6 +7,7 @@
 #include <queue>
 #include <span>
 
+#include "numeric/no_index.h"
 #include "simplify/cover/face_box.h"
 #include "simplify/texture/texture_guard.h"
 
@@ -26,7 +27,7 @@ std::size_t take_back(DecimationState& s, const Edit& edit) {
       s.quadrics[kept] -= s.quadrics[gone];
       s.locked[kept] = edit.was_locked ? 1 : 0;
       s.lines.undo_collapse(s.mesh, edit.edge, edit.lines);
-      faces = s.mesh.twin(edit.edge) == ArrayMesh::none ? 1 : 2;
+      faces = s.mesh.twin(edit.edge) == no_index ? 1 : 2;
       break;
     }
     case Edit::Kind::Move:
@@ -82,7 +83,7 @@ class Undoing {
     std::sort(at_fault_.begin(), at_fault_.end());
     while (!wanted_.empty()) {
       const std::uint32_t number = wanted_.top();
-      if (edit_of(number).edge == ArrayMesh::none) {
+      if (edit_of(number).edge == no_index) {
         wanted_.pop();  // it is undone already
       } else if (is_on_top(number)) {
         undo(number);
@@ -130,7 +131,7 @@ class Undoing {
     give_samples(number);
     restore_appearance(number);
     if (std::binary_search(at_fault_.begin(), at_fault_.end(), number)) lower_share(edit.edge);
-    edit.edge = ArrayMesh::none;
+    edit.edge = no_index;
     ++undone_;
   }
   void lower_share(Corner edge) {
@@ -141,7 +142,7 @@ class Undoing {
   void gather_samples(std::uint32_t number) {
     samples_.clear();
     for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      for (std::uint32_t s = state_.samples.first(stamp.face); s != Samples::none; s = state_.samples.following(s))
+      for (std::uint32_t s = state_.samples.first(stamp.face); s != no_index; s = state_.samples.following(s))
         samples_.push_back(s);
       state_.samples.clear(stamp.face);
     }
@@ -150,7 +151,7 @@ class Undoing {
     for (const std::uint32_t s : samples_) {
       const Vec3 p = state_.samples.at(s);
       double min_squared = HUGE_VAL;
-      std::uint32_t best = ArrayMesh::none;
+      std::uint32_t best = no_index;
       for (const EditLog::Stamp& stamp : stamps_of(number)) {
         if (state_.mesh.is_removed(stamp.face)) continue;
         const double squared = squared_distance(state_.mesh.triangle(stamp.face), p);
@@ -188,7 +189,7 @@ class NearestFaces {
   std::uint32_t to(std::uint32_t vertex) {
     const std::uint32_t known = state_.samples.face_of(vertex);
     const double squared_reach = state_.tolerance * state_.tolerance;
-    if (known != Samples::none && !state_.mesh.is_removed(known) && squared_from(known, vertex) <= squared_reach)
+    if (known != no_index && !state_.mesh.is_removed(known) && squared_from(known, vertex) <= squared_reach)
       return known;
     return search(vertex);
   }
@@ -275,7 +276,7 @@ Repair undo_blamed(DecimationState& state, Undoing& undoing) {
 }
 
 /// Faces with this stamp are unproven, and no log has their changes.
-constexpr std::uint32_t taken_back = ArrayMesh::none;
+constexpr std::uint32_t taken_back = no_index;
 
 /// Undoes proven changes; the faces that this changes are unproven then.
 Repair undo_proven(DecimationState& state, Undoing& undoing) {

@@ -7,6 +7,7 @@
 
 #include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
+#include "numeric/no_index.h"
 #include "simplify/cover/face_box.h"
 
 namespace meshbound {
@@ -40,7 +41,7 @@ void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
   const Samples& samples = state_.samples;
   next_.clear();
   for (const std::uint32_t face : faces) {
-    if (samples.first(face) == Samples::none) continue;
+    if (samples.first(face) == no_index) continue;
     samples.prefetch(samples.first(face));
     next_.push_back(samples.first(face));
   }
@@ -50,7 +51,7 @@ void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
       ids_.push_back(s);
       points_.add(samples.at(s) - origin_);
       const std::uint32_t following = samples.following(s);
-      if (following == Samples::none) continue;
+      if (following == no_index) continue;
       samples.prefetch(following);
       next_[left++] = following;
     }
@@ -92,7 +93,7 @@ bool StarSamples::hold(std::span<const std::uint32_t> beside, double limit) {
       if (offsets_[b].squared[k] <= squared_limit) continue;
       if (outside_.size() == max_outside) return false;
       const std::uint32_t face = face_beside(lanes * b + k, beside, squared_limit);
-      if (face == ArrayMesh::none) return false;
+      if (face == no_index) return false;
       outside_.emplace_back(lanes * b + k, face);
     }
   }
@@ -106,7 +107,7 @@ std::uint32_t StarSamples::face_beside(std::size_t i, std::span<const std::uint3
   for (const std::uint32_t face : beside) {
     if (squared_distance(state_.mesh.triangle(face), p) <= squared_limit) return face;
   }
-  return ArrayMesh::none;
+  return no_index;
 }
 
 bool StarSamples::is_near_original(Vec3 point, double limit) {

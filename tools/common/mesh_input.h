@@ -23,7 +23,7 @@ struct InputFile {
 [[nodiscard]] InputFile read_file(const std::string& path, bool with_checksum, const StopToken& stop,
                                   bool with_attributes = false);
 
-/// What is to be told of a mesh that was read, beside itself; `sha256` of its file.
+/// What the reports say of a mesh that was read; `sha256` is that of its file.
 [[nodiscard]] MeshReport report_of(const std::string& path, const MeshFile& content, const MeshSummary& summary,
                                    std::string sha256);
 

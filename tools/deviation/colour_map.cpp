@@ -24,9 +24,9 @@ std::span<const Colour> colour_stops() { return viridis; }
 
 Colour colour_of(double share) {
   if (!(share <= 1)) return colour_beyond;
-  const double place = std::max(0.0, share) * static_cast<double>(viridis.size() - 1);
-  const std::size_t below = std::min(viridis.size() - 2, static_cast<std::size_t>(place));
-  const double part = place - static_cast<double>(below);
+  const double stop = std::max(0.0, share) * static_cast<double>(viridis.size() - 1);
+  const std::size_t below = std::min(viridis.size() - 2, static_cast<std::size_t>(stop));
+  const double part = stop - static_cast<double>(below);
   Colour colour;
   for (std::size_t k = 0; k < colour.size(); ++k)
     colour[k] = static_cast<std::uint8_t>(std::lround((1 - part) * viridis[below][k] + part * viridis[below + 1][k]));

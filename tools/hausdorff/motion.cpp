@@ -27,7 +27,7 @@
 namespace meshbound::tools {
 namespace {
 
-/// All that is known in the end.
+/// What the report of a motion says.
 struct Motion {
   MeshReport a, b;
   Question question;

@@ -81,7 +81,7 @@ std::string texture_line(const DistanceReport& report) {
 }
 
 /// Whether the distance between the surfaces alone is within the tolerance, or as narrow as wanted.
-bool is_settled(const DistanceReport& report) {
+bool surface_distance_holds(const DistanceReport& report) {
   if (report.tolerance && verdict_of(report.bounds, *report.tolerance) != Verdict::Within) return false;
   return !report.error_bound || report.bounds.upper - report.bounds.lower <= *report.error_bound;
 }
@@ -110,7 +110,7 @@ void print_report(const DistanceReport& report, bool profile) {
 }
 
 std::string closing_line(const DistanceReport& report) {
-  if (is_settled(report)) return texture_line(report);
+  if (surface_distance_holds(report)) return texture_line(report);
   if (report.tolerance && report.bounds.lower > *report.tolerance) return failure(report);
   if (report.verdict == "exceeds") return texture_line(report);
   return report.verdict == "undecided" ? undecided(report) : "";

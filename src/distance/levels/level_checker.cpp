@@ -18,17 +18,17 @@ std::size_t bytes(const SearchMemory& memory) {
   return bytes(memory.proofs) + bytes(memory.faces) + bytes(memory.hints);
 }
 
-/// All that is known of the level before. It holds for the original whose tree has that serial number.
-struct Known {
-  std::uint64_t original_serial = 0;
-  LevelSurface level;
-  SearchMemory from_original;  ///< faces are slots of the level's tree
-  SearchMemory from_level;
-};
-
 }  // namespace
 
 struct LevelChecker::Impl {
+  /// What is known of the level that was checked last, for the original whose tree has that serial number.
+  struct Known {
+    std::uint64_t original_serial = 0;
+    LevelSurface level;
+    SearchMemory from_original;  ///< faces are slots of the level's tree
+    SearchMemory from_level;
+  };
+
   explicit Impl(const Bvh& model) : original(&model) {}
   Impl(const MeshView& model, const BvhOptions& options) : own(std::in_place, model, options), original(&*own) {}
 
@@ -87,7 +87,7 @@ const Bvh& LevelChecker::original() const { return *impl_->original; }
 
 std::size_t LevelChecker::memory_bytes() const {
   if (!impl_->known) return sizeof(Impl);
-  const Known& known = *impl_->known;
+  const Impl::Known& known = *impl_->known;
   return sizeof(Impl) + bytes(known.level.vertices) + bytes(known.level.corners) + bytes(known.from_original) +
          bytes(known.from_level);
 }

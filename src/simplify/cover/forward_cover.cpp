@@ -24,8 +24,7 @@ FaceMask lowest(FaceMask mask) { return mask & (~mask + 1); }
 
 }  // namespace
 
-ForwardCover::ForwardCover(const std::vector<Vec3>& vertices,
-                           const std::vector<std::array<std::uint32_t, 3>>& triangles)
+ForwardCover::ForwardCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
     : vertices_(vertices), triangles_(triangles), cache_(vertices.size()) {}
 
 void ForwardCover::begin(double tolerance) {
@@ -91,7 +90,7 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed)
   return pieces != 0 ? pieces : cover_in_pieces(whole, allowed, Asked::All);
 }
 
-std::optional<FaceMask> ForwardCover::cover_part(const std::array<Vec3, 3>& corners, int depth) {
+std::optional<FaceMask> ForwardCover::cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth) {
   const FaceMask all = first(size());
   Piece whole;
   whole.depth = depth;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "meshbound/triangle_mesh.h"
 #include "simplify/cover/candidate_faces.h"
 
 namespace meshbound {
@@ -23,7 +24,7 @@ class ForwardCover {
  public:
   static constexpr int deepest_cut = 64;  ///< cuts on the way down to a piece
 
-  ForwardCover(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
+  ForwardCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
 
   /// Begins a new set of candidates; masks of earlier ones are forgotten.
   void begin(double tolerance);
@@ -44,9 +45,9 @@ class ForwardCover {
   /// As `cover`, where nothing is known: of the candidates that hold the triangle the one nearest to its middle, or
   /// pieces, for which small candidates are tried as well.
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);
-  /// Mask of the candidates that together cover a part of a triangle, 0 when they do not. None if no candidate holds
-  /// some corner. `depth`: cuts that made the part.
-  [[nodiscard]] std::optional<FaceMask> cover_part(const std::array<Vec3, 3>& corners, int depth);
+  /// Mask of the candidates that together cover a sub-triangle, 0 when they do not. None if no candidate holds
+  /// some corner. `depth`: cuts that made the sub-triangle.
+  [[nodiscard]] std::optional<FaceMask> cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth);
   /// Whether some candidate of `allowed` is within the tolerance of each corner.
   [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
   /// The point that no candidate held where the last cover failed; absent where it failed for another reason.
@@ -71,7 +72,7 @@ class ForwardCover {
   };
 
   const std::vector<Vec3>& vertices_;
-  const std::vector<std::array<std::uint32_t, 3>>& triangles_;
+  const std::vector<Triangle>& triangles_;
   CandidateFaces candidates_;
   std::array<std::uint32_t, CandidateFaces::capacity> faces_{};
   double shortest_squared_edge_ = 0;

@@ -3,11 +3,13 @@
 
 #include <utility>
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 
-ArrayMesh::ArrayMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& faces,
+ArrayMesh::ArrayMesh(std::vector<Vec3> positions, const std::vector<Triangle>& faces,
                      const std::vector<std::array<std::uint32_t, 3>>& twins)
-    : positions_(std::move(positions)), corner_of_(positions_.size(), none), removed_(faces.size(), 0) {
+    : positions_(std::move(positions)), corner_of_(positions_.size(), no_index), removed_(faces.size(), 0) {
   vertices_.reserve(3 * faces.size());
   twins_.reserve(3 * faces.size());
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
@@ -24,14 +26,14 @@ bool ArrayMesh::is_border(std::uint32_t v) const {
   Corner c = first;
   do {
     c = twins_[previous_corner(c)];
-    if (c == none) return true;
+    if (c == no_index) return true;
   } while (c != first);
   return false;
 }
 
 void ArrayMesh::glue(Corner c, Corner d) {
-  if (c != none) twins_[c] = d;
-  if (d != none) twins_[d] = c;
+  if (c != no_index) twins_[c] = d;
+  if (d != no_index) twins_[d] = c;
 }
 
 /// The face at the edge goes, and the faces across its two other edges become neighbours. `edge` starts at `kept` or
@@ -47,7 +49,7 @@ void ArrayMesh::remove_face(Corner edge, std::uint32_t kept) {
   removed_[edge / 3] = 1;
   glue(c, d);
   const auto take = [&](Corner across) {  // a face that stays has a corner at both
-    if (across == none) return;
+    if (across == no_index) return;
     const Corner following = next_corner(across);
     if (vertices_[across] == apex) {
       corner_of_[apex] = across, corner_of_[kept] = following;
@@ -68,17 +70,17 @@ void ArrayMesh::collapse(Corner edge) {
   });
   // The faces that go keep their corners for `undo_collapse`.
   vertices_[next_corner(edge)] = gone;
-  if (other != none) vertices_[other] = gone;
+  if (other != no_index) vertices_[other] = gone;
   remove_face(edge, kept);
-  if (other != none) remove_face(other, kept);
-  corner_of_[gone] = none;
+  if (other != no_index) remove_face(other, kept);
+  corner_of_[gone] = no_index;
 }
 
 void ArrayMesh::restore_face(Corner edge) {
   const Corner c = next_corner(edge), d = previous_corner(edge);
   removed_[edge / 3] = 0;
-  if (twins_[c] != none) twins_[twins_[c]] = c;
-  if (twins_[d] != none) twins_[twins_[d]] = d;
+  if (twins_[c] != no_index) twins_[twins_[c]] = c;
+  if (twins_[d] != no_index) twins_[twins_[d]] = d;
   corner_of_[vertices_[d]] = d;
 }
 
@@ -86,7 +88,7 @@ void ArrayMesh::undo_collapse(Corner edge) {
   const std::uint32_t kept = start(edge), gone = end(edge);
   const Corner other = twins_[edge];
   restore_face(edge);
-  if (other != none) restore_face(other);
+  if (other != no_index) restore_face(other);
   corner_of_[kept] = edge;
   corner_of_[gone] = next_corner(edge);
   for_each_corner(gone, [&](Corner c) {
@@ -125,7 +127,7 @@ void ArrayMesh::undo_flip(Corner edge) { turn(edge, true); }
 void ArrayMesh::remove_component(std::span<const std::uint32_t> faces) {
   for (const std::uint32_t f : faces) {
     removed_[f] = 1;
-    for (Corner c = 3 * f; c < 3 * f + 3; ++c) corner_of_[vertices_[c]] = none;
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) corner_of_[vertices_[c]] = no_index;
   }
 }
 

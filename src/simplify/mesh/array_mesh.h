@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "geometry/vec3.h"
+#include "meshbound/triangle_mesh.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 
@@ -22,18 +24,16 @@ inline Corner previous_corner(Corner c) { return c % 3 == 0 ? c + 2 : c - 1; }
 /// which is all that its undoing needs.
 class ArrayMesh {
  public:
-  static constexpr std::uint32_t none = 0xffffffff;
-
   ArrayMesh() = default;
-  /// Corners of faces are indices of `positions`; `twins` are the corners across the edges, or `none` at borders. The
-  /// faces around a vertex must be one fan or ring.
-  ArrayMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& faces,
+  /// Corners of faces are indices of `positions`; `twins` are the corners across the edges, or `no_index` at borders.
+  /// The faces around a vertex must be one fan or ring.
+  ArrayMesh(std::vector<Vec3> positions, const std::vector<Triangle>& faces,
             const std::vector<std::array<std::uint32_t, 3>>& twins);
 
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }  ///< removed ones too
   [[nodiscard]] std::size_t face_count() const { return removed_.size(); }      ///< removed ones too
   [[nodiscard]] bool is_removed(std::uint32_t face) const { return removed_[face] != 0; }
-  [[nodiscard]] bool is_vertex(std::uint32_t v) const { return corner_of_[v] != none; }
+  [[nodiscard]] bool is_vertex(std::uint32_t v) const { return corner_of_[v] != no_index; }
   [[nodiscard]] Vec3 position(std::uint32_t v) const { return positions_[v]; }
   [[nodiscard]] std::uint32_t vertex(Corner c) const { return vertices_[c]; }
   [[nodiscard]] Corner twin(Corner c) const { return twins_[c]; }
@@ -41,7 +41,7 @@ class ArrayMesh {
   [[nodiscard]] std::uint32_t start(Corner c) const { return vertices_[c]; }
   [[nodiscard]] std::uint32_t end(Corner c) const { return vertices_[next_corner(c)]; }
   [[nodiscard]] std::uint32_t apex(Corner c) const { return vertices_[previous_corner(c)]; }
-  [[nodiscard]] std::array<std::uint32_t, 3> corners(std::uint32_t face) const {
+  [[nodiscard]] Triangle corners(std::uint32_t face) const {
     return {vertices_[3 * face], vertices_[3 * face + 1], vertices_[3 * face + 2]};
   }
   [[nodiscard]] std::array<Vec3, 3> triangle(std::uint32_t face) const {
@@ -59,9 +59,9 @@ class ArrayMesh {
       if (!visit(c)) return false;
       c = twins_[previous_corner(c)];
       if (c == first) return true;
-      if (c == none) break;
+      if (c == no_index) break;
     }
-    for (Corner c = twins_[first]; c != none; c = twins_[c]) {
+    for (Corner c = twins_[first]; c != no_index; c = twins_[c]) {
       c = next_corner(c);
       if (!visit(c)) return false;
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "numeric/no_index.h"
 #include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
@@ -10,16 +11,14 @@ namespace meshbound {
 /// Edges by cost, the cheapest first, edges of equal cost by number: a heap that knows the index of each edge in it.
 class EdgeQueue {
  public:
-  static constexpr std::uint32_t absent = 0xffffffff;
-
-  /// `index` has the index of each edge that is in a queue and `absent` for the others. Queues of different edges may
+  /// `index` has the index of each edge that is in a queue and `no_index` for the others. Queues of different edges may
   /// share it. It must outlive this.
   explicit EdgeQueue(std::vector<std::uint32_t>& index) : index_(index) {}
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
-  [[nodiscard]] bool contains(Corner edge) const { return index_[edge] != absent; }
+  [[nodiscard]] bool contains(Corner edge) const { return index_[edge] != no_index; }
   void put(Corner edge, float cost) {
-    if (index_[edge] == absent) {
+    if (index_[edge] == no_index) {
       index_[edge] = static_cast<std::uint32_t>(heap_.size());
       heap_.push_back({cost, edge});
       rise(index_[edge]);
@@ -32,8 +31,8 @@ class EdgeQueue {
   }
   void erase(Corner edge) {
     const std::uint32_t at = index_[edge];
-    if (at == absent) return;
-    index_[edge] = absent;
+    if (at == no_index) return;
+    index_[edge] = no_index;
     const Entry last = heap_.back();
     heap_.pop_back();
     if (at == heap_.size()) return;
@@ -47,7 +46,7 @@ class EdgeQueue {
     return edge;
   }
   void clear() {
-    for (const Entry& entry : heap_) index_[entry.edge] = absent;
+    for (const Entry& entry : heap_) index_[entry.edge] = no_index;
     heap_.clear();
   }
 

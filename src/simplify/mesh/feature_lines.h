@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "numeric/no_index.h"
 #include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
@@ -32,8 +33,6 @@ enum class OnLines : std::uint8_t {
 /// may be changed by different threads.
 class FeatureLines {
  public:
-  static constexpr std::uint32_t none = ArrayMesh::none;
-
   /// No lines at all, not even borders.
   FeatureLines() = default;
   /// `is_marked` says of each corner whether the edge that starts there is a line, beside borders. O(n).
@@ -43,11 +42,11 @@ class FeatureLines {
   [[nodiscard]] bool is_line(const ArrayMesh& mesh, Corner c) const {
     if (empty()) return false;
     const Corner twin = mesh.twin(c);
-    return twin == ArrayMesh::none || is_marked_[c] != 0 || is_marked_[twin] != 0;
+    return twin == no_index || is_marked_[c] != 0 || is_marked_[twin] != 0;
   }
-  [[nodiscard]] bool is_on_line(std::uint32_t vertex) const { return !empty() && at_[vertex] != none; }
-  /// The vertex of the start mesh where this vertex stands; `none` off the lines.
-  [[nodiscard]] std::uint32_t at(std::uint32_t vertex) const { return empty() ? none : at_[vertex]; }
+  [[nodiscard]] bool is_on_line(std::uint32_t vertex) const { return !empty() && at_[vertex] != no_index; }
+  /// The vertex of the start mesh where this vertex stands; `no_index` off the lines.
+  [[nodiscard]] std::uint32_t at(std::uint32_t vertex) const { return empty() ? no_index : at_[vertex]; }
 
   [[nodiscard]] OnLines allowed(const ArrayMesh& mesh, Corner edge) const;
   /// How far the line edge that a collapse along `edge` makes, to the position of its start or of its end, and the
@@ -56,8 +55,8 @@ class FeatureLines {
 
   /// What a collapse changes here.
   struct Before {
-    std::uint32_t at = none;  ///< of the vertex that is kept
-    std::uint8_t marks = 0;   ///< of the corners outside the faces that go
+    std::uint32_t at = no_index;  ///< of the vertex that is kept
+    std::uint8_t marks = 0;       ///< of the corners outside the faces that go
   };
   [[nodiscard]] Before before(const ArrayMesh& mesh, Corner edge) const;
   /// Before the mesh makes the end of the edge its start, at `point`.
@@ -66,7 +65,7 @@ class FeatureLines {
   void undo_collapse(const ArrayMesh& mesh, Corner edge, const Before& before);
 
  private:
-  [[nodiscard]] bool is_inside_line(std::uint32_t vertex) const { return neighbours_[at_[vertex]][1] != none; }
+  [[nodiscard]] bool is_inside_line(std::uint32_t vertex) const { return neighbours_[at_[vertex]][1] != no_index; }
   [[nodiscard]] std::uint32_t other_neighbour(const ArrayMesh& mesh, std::uint32_t vertex, Corner edge) const;
   template <class Visit>
   std::uint32_t walk(std::uint32_t from, std::size_t direction, std::uint32_t first, std::uint32_t second,
@@ -75,7 +74,7 @@ class FeatureLines {
   std::vector<std::uint8_t> is_marked_;  ///< by corner: the edge that starts there is a line
   std::vector<std::uint32_t> at_;        ///< by vertex
   std::vector<Vec3> position_;           ///< of the vertices of the start mesh
-  /// By vertex of the start mesh: the two others of its line edges, if it is inside a line; else `none`.
+  /// By vertex of the start mesh: the two others of its line edges, if it is inside a line; else `no_index`.
   std::vector<std::array<std::uint32_t, 2>> neighbours_;
 };
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "meshbound/error.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
@@ -62,7 +63,7 @@ ArrayMesh indexed_manifold(const TriangleMesh& mesh) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), opposite,
                                      [](const DirectedEdge& a, const DirectedEdge& b) { return a.before(b); });
     const bool found = at != edges.end() && at->from == edge.to && at->to == edge.from;
-    twins[edge.corner / 3][edge.corner % 3] = found ? at->corner : ArrayMesh::none;
+    twins[edge.corner / 3][edge.corner % 3] = found ? at->corner : no_index;
   }
   std::vector<Vec3> positions;
   positions.reserve(mesh.vertices.size());

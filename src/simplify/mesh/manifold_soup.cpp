@@ -10,20 +10,18 @@
 
 #include "mesh/weld.h"
 #include "meshbound/error.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
 constexpr std::size_t max_triangles = 0xffffffff / 3;
-constexpr std::uint32_t unset = 0xffffffff;
 
 constexpr std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 constexpr std::uint32_t previous(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-std::uint32_t& at(std::vector<Corners>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
-std::uint32_t at(const std::vector<Corners>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
+std::uint32_t& at(std::vector<Triangle>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
+std::uint32_t at(const std::vector<Triangle>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
 
 /// Calls `use` with a span of the items of each vertex, in the order of the vertices. `for_each_item(add)` calls
 /// `add(vertex, item)` for each item, twice the same.
@@ -76,7 +74,7 @@ class ManifoldBuilder {
     std::uint32_t high, corner;
   };
 
-  [[nodiscard]] Corners welded(std::uint32_t triangle) const {
+  [[nodiscard]] Triangle welded(std::uint32_t triangle) const {
     const Triangle corners = soup_.triangle(triangle);
     return {first_[corners[0]], first_[corners[1]], first_[corners[2]]};
   }
@@ -96,13 +94,13 @@ class ManifoldBuilder {
     at(result_.twin, b) = a;
   }
   void cut(std::uint32_t corner) {
-    at(result_.twin, at(result_.twin, corner)) = no_twin;
-    at(result_.twin, corner) = no_twin;
+    at(result_.twin, at(result_.twin, corner)) = no_index;
+    at(result_.twin, corner) = no_index;
   }
   /// The corner at the same vertex across the edge that leaves `corner`, or across the one that enters it.
   [[nodiscard]] std::uint32_t across_leaving(std::uint32_t corner) const {
     const std::uint32_t twin = at(result_.twin, corner);
-    return twin == no_twin ? no_twin : next(twin);
+    return twin == no_index ? no_index : next(twin);
   }
   [[nodiscard]] std::uint32_t across_entering(std::uint32_t corner) const { return at(result_.twin, previous(corner)); }
 
@@ -180,7 +178,7 @@ void ManifoldBuilder::take_distinct_triangles() {
 /// Twins across edges of exactly two faces. True when both run in opposite directions, everywhere.
 bool ManifoldBuilder::join_edges() {
   const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
-  result_.twin.assign(result_.faces.size(), {no_twin, no_twin, no_twin});
+  result_.twin.assign(result_.faces.size(), {no_index, no_index, no_index});
   const auto for_each_side = [&](const auto& add) {
     for (std::uint32_t c = 0; c < corners; ++c) {
       const std::uint32_t from = at(result_.faces, c), to = at(result_.faces, next(c));
@@ -217,7 +215,7 @@ void ManifoldBuilder::orient() {
       const std::uint32_t f = component[i];
       for (std::uint32_t c = 3 * f; c < 3 * f + 3; ++c) {
         const std::uint32_t twin = at(result_.twin, c);
-        if (twin == no_twin) continue;
+        if (twin == no_index) continue;
         const bool agree = runs_upward(c) != runs_upward(twin);
         const auto wanted = static_cast<std::uint8_t>(turned[f] ^ (agree ? 0 : 1));
         std::uint8_t& neighbour = turned[twin / 3];
@@ -239,7 +237,7 @@ void ManifoldBuilder::orient() {
 void ManifoldBuilder::turn_over(const std::vector<std::uint8_t>& turned) {
   for (std::uint32_t f = 0; f < result_.faces.size(); ++f) {
     for (std::uint32_t& twin : result_.twin[f])
-      if (twin != no_twin && turned[twin / 3] != 0) twin += 2 - 2 * (twin % 3);
+      if (twin != no_index && turned[twin / 3] != 0) twin += 2 - 2 * (twin % 3);
     if (turned[f] == 0) continue;
     std::swap(result_.faces[f][1], result_.faces[f][2]);
     std::swap(result_.twin[f][0], result_.twin[f][2]);
@@ -250,10 +248,10 @@ void ManifoldBuilder::turn_over(const std::vector<std::uint8_t>& turned) {
 /// A vertex for each fan or ring of faces.
 void ManifoldBuilder::split_vertices() {
   const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
-  std::vector<Corners> vertex(result_.faces.size(), {unset, unset, unset});
+  std::vector<Triangle> vertex(result_.faces.size(), {no_index, no_index, no_index});
   std::vector<bool> has_vertex(first_.size(), false);
   for (std::uint32_t first = 0; first < corners; ++first) {
-    if (at(vertex, first) != unset) continue;
+    if (at(vertex, first) != no_index) continue;
     const auto number = static_cast<std::uint32_t>(result_.vertex_of.size());
     const std::uint32_t of = at(result_.faces, first);
     result_.vertex_of.push_back(of);
@@ -263,9 +261,9 @@ void ManifoldBuilder::split_vertices() {
     do {
       at(vertex, c) = number;
       c = across_leaving(c);
-    } while (c != no_twin && c != first);
+    } while (c != no_index && c != first);
     if (c == first) continue;
-    for (c = across_entering(first); c != no_twin; c = across_entering(c)) at(vertex, c) = number;
+    for (c = across_entering(first); c != no_index; c = across_entering(c)) at(vertex, c) = number;
   }
   result_.faces = std::move(vertex);
 }
@@ -276,9 +274,9 @@ void ManifoldBuilder::split_vertices() {
 void ManifoldBuilder::close_slits() {
   const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
   for (std::uint32_t first = 0; first < corners; ++first) {
-    if (at(result_.twin, first) != no_twin) continue;
+    if (at(result_.twin, first) != no_index) continue;
     std::uint32_t last = first;
-    for (std::uint32_t c = first; c != no_twin; c = across_entering(c)) last = c;
+    for (std::uint32_t c = first; c != no_index; c = across_entering(c)) last = c;
     const std::uint32_t entering = previous(last);
     if (at(result_.faces, entering) == at(result_.faces, next(first))) join(first, entering);
   }

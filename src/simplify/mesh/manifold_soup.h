@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "meshbound/mesh_view.h"
+#include "meshbound/triangle_mesh.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
-
-inline constexpr std::uint32_t no_twin = 0xffffffff;
 
 /// A triangle soup as an oriented 2-manifold with borders: a corner table. Corner k of face f has the number 3 f + k,
 /// and so has the edge that leaves it for corner k + 1.
@@ -19,8 +19,8 @@ inline constexpr std::uint32_t no_twin = 0xffffffff;
 /// do so: no two edges run from one vertex to another, as in a half-edge structure. The faces around a vertex form one
 /// fan or one ring, and every vertex has a face.
 struct ManifoldSoup {
-  std::vector<std::array<std::uint32_t, 3>> faces;  ///< corners as indices below `vertex_of.size()`
-  std::vector<std::array<std::uint32_t, 3>> twin;   ///< by face and corner: the opposite edge, `no_twin` at a border
+  std::vector<Triangle> faces;                     ///< corners as indices below `vertex_of.size()`
+  std::vector<std::array<std::uint32_t, 3>> twin;  ///< by face and corner: the opposite edge, `no_index` at a border
   std::vector<std::uint32_t> vertex_of;    ///< by vertex: the first vertex of the soup with its coordinates (-0 is 0)
   std::vector<std::uint32_t> triangle_of;  ///< by face: the triangle of the soup, ascending
   std::size_t dropped_triangles = 0;       ///< those with two corners of equal coordinates, and repetitions

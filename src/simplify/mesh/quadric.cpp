@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 namespace {
 
@@ -83,7 +85,7 @@ std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh, PlaneWeights weights
     const Quadric plane = Quadric::of_plane(normal, mesh.position(mesh.start(3 * f)), weight);
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
       quadrics[mesh.start(c)] += plane;
-      if (mesh.twin(c) != ArrayMesh::none) continue;
+      if (mesh.twin(c) != no_index) continue;
       const Vec3 from = mesh.position(mesh.start(c)), to = mesh.position(mesh.end(c));
       const double border = mean > 0 ? squared_length(to - from) / mean : border_weight;
       const Quadric wall = Quadric::of_plane(unit(cross(to - from, normal)), to, border);

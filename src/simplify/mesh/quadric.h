@@ -22,7 +22,7 @@ struct Quadric {
   [[nodiscard]] double at(Vec3 p) const;
   /// The weights of all planes together.
   [[nodiscard]] double planes() const { return xx + yy + zz; }
-  /// Where it is least; none where A is singular.
+  /// The point with the least value; absent where A is singular.
   [[nodiscard]] std::optional<Vec3> minimum() const;
 };
 

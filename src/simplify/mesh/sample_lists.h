@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "numeric/no_index.h"
 #include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
@@ -10,11 +11,11 @@ namespace meshbound {
 /// Which samples belong to each face of a mesh, by numbers. Threads may change the lists of different faces at once.
 class SampleLists {
  public:
-  explicit SampleLists(std::size_t faces) : first_(faces, none) {}
+  explicit SampleLists(std::size_t faces) : first_(faces, no_index) {}
 
   /// Adds the sample with the next number, from 0 on.
   void add(std::uint32_t face) {
-    following_.push_back(none);
+    following_.push_back(no_index);
     give_to(static_cast<std::uint32_t>(following_.size() - 1), face);
   }
   /// Puts a sample, which must be in no list, into that of the face.
@@ -23,15 +24,14 @@ class SampleLists {
     first_[face] = sample;
   }
   /// Empties the list of the face: its samples are in no list then.
-  void clear(std::uint32_t face) { first_[face] = none; }
+  void clear(std::uint32_t face) { first_[face] = no_index; }
   /// Calls visit(sample) for all samples of the face.
   template <class Visit>
   void for_each(std::uint32_t face, const Visit& visit) const {
-    for (std::uint32_t s = first_[face]; s != none; s = following_[s]) visit(s);
+    for (std::uint32_t s = first_[face]; s != no_index; s = following_[s]) visit(s);
   }
 
  private:
-  static constexpr std::uint32_t none = ArrayMesh::none;
   std::vector<std::uint32_t> first_;      ///< by face
   std::vector<std::uint32_t> following_;  ///< by sample
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/point_triangle.h"
+#include "numeric/no_index.h"
 #include "simplify/cover/face_box.h"
 
 namespace meshbound {
@@ -136,7 +137,7 @@ std::optional<Eigen::Vector2d> TextureGuard::coordinate_at(Vec3 point) const {
   double least = HUGE_VAL;
   std::optional<Eigen::Vector2d> result;
   const auto visit = [&](std::uint32_t face) {
-    if (map_.chart(face) == TextureMap::none) return;
+    if (map_.chart(face) == no_index) return;
     const auto corners = mesh_.triangle(face);
     const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0];
     const Vec3 offset = closest_on_triangle(CornerTriangle<double>{corners[0], u, v}, point).offset;
@@ -169,7 +170,7 @@ bool TextureGuard::set_faces(Vec3 point) {
   const bool is_at_start = squared_length(point - mesh_.position(start)) == 0;
   const bool is_at_end = squared_length(point - mesh_.position(end)) == 0;
   is_free_ = !is_at_start && !is_at_end;
-  if (is_at_start && !(is_at_end && lines_.at(start) == TextureMap::none)) {
+  if (is_at_start && !(is_at_end && lines_.at(start) == no_index)) {
     set_at_end(start, end);
   } else if (is_at_end) {
     set_at_end(end, start);
@@ -184,7 +185,7 @@ bool TextureGuard::set_faces(Vec3 point) {
 /// Whether a face would cover its part of the texture with the opposite orientation, or none of it.
 bool TextureGuard::is_turned_over() const {
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (faces_[i].chart == TextureMap::none || area_before_[i] == 0) continue;
+    if (faces_[i].chart == no_index || area_before_[i] == 0) continue;
     if (!(doubled_area(faces_[i].coordinates) * area_before_[i] > 0)) return true;
   }
   return false;
@@ -256,7 +257,7 @@ bool TextureGuard::match(double max_squared) {
     Match& match = matches_[i];
     const auto again = match.is_inside ? match_inside(sample, match.face) : std::nullopt;
     match = again ? *again : this->match(sample, charts_[i]);
-    if (match.face == TextureMap::none || !(squared_length(match.offset) <= max_squared)) return false;
+    if (match.face == no_index || !(squared_length(match.offset) <= max_squared)) return false;
   }
   return true;
 }
@@ -394,7 +395,7 @@ bool TextureGuard::is_near_original(const Face& face, const std::array<double, 3
 /// Whether points of the faces are near the points of the original with the same coordinates, where such points exist.
 bool TextureGuard::are_faces_near() {
   return std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {
-    if (face.chart == TextureMap::none) return true;
+    if (face.chart == no_index) return true;
     return std::all_of(tested_points.begin(), tested_points.end(),
                        [&](const std::array<double, 3>& weights) { return is_near_original(face, weights); });
   });
@@ -404,7 +405,7 @@ bool TextureGuard::are_faces_near() {
 /// compares faces.
 bool TextureGuard::are_lines_near() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].chart == TextureMap::none) continue;
+    if (faces_[f].chart == no_index) continue;
     for (const std::size_t k : {std::size_t{0}, std::size_t{2}}) {
       if (!becomes_line(f, k)) continue;
       for (int i = 1; i < parts_of_line; ++i) {
@@ -420,8 +421,7 @@ bool TextureGuard::are_lines_near() {
 
 bool TextureGuard::holds(Vec3 point) {
   accepted_ = false;
-  const bool is_bare =
-      std::all_of(faces_.begin(), faces_.end(), [](const Face& f) { return f.chart == TextureMap::none; });
+  const bool is_bare = std::all_of(faces_.begin(), faces_.end(), [](const Face& f) { return f.chart == no_index; });
   if (is_bare) return true;
   if (!set_faces(point) || is_turned_over()) return false;
   const double reach = (is_free_ ? hopeful_share : 1) * map_.limit;
@@ -451,7 +451,7 @@ void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const s
   }
   for (const auto& [s, chart] : samples) {
     double least = HUGE_VAL;
-    std::uint32_t best = TextureMap::none;
+    std::uint32_t best = no_index;
     for (const std::uint32_t f : faces) {
       if (mesh.is_removed(f) || map.chart(f) != chart) continue;
       const CornerCoordinates corners = map.of(f);
@@ -459,7 +459,7 @@ void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const s
       const auto weights = weights_at(corners, map.sample(s).coordinate);
       if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < 0; }))
         (void)closest_on_outline(corners, map.sample(s).coordinate, squared);
-      if (best == TextureMap::none || squared < least) least = squared, best = f;
+      if (best == no_index || squared < least) least = squared, best = f;
     }
     map.lists.give_to(s, best);
   }

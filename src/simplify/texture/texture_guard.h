@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "numeric/no_index.h"
 #include "simplify/texture/texture_map.h"
 
 namespace meshbound {
@@ -45,7 +46,7 @@ class TextureGuard {
   struct Face {
     std::array<Vec3, 3> at;
     CornerCoordinates coordinates;
-    std::uint32_t chart = TextureMap::none, number = 0;
+    std::uint32_t chart = no_index, number = 0;
     /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners; NaN where the face
     /// has no area in the texture.
     Eigen::Matrix2d to_weights;
@@ -56,7 +57,7 @@ class TextureGuard {
   };
   /// The point of a face that a sample is compared with.
   struct Match {
-    std::uint32_t face = TextureMap::none;  ///< index in `faces_`
+    std::uint32_t face = no_index;  ///< index in `faces_`
     bool is_inside = false;
     std::array<double, 3> weights{};
     Vec3 offset;  ///< from the sample to that point

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 namespace {
 
@@ -36,7 +38,7 @@ std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners
   return std::array<double, 3>{1 - second - third, second, third};
 }
 
-Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
              std::vector<CornerCoordinates> coordinates, std::vector<std::uint32_t> materials)
     : vertices_(vertices),
       triangles_(triangles),
@@ -85,7 +87,7 @@ double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t 
 
 TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,
                        const std::vector<std::uint32_t>& triangle_of_face, const std::vector<Vec3>& vertices,
-                       const std::vector<std::array<std::uint32_t, 3>>& triangles, double spacing)
+                       const std::vector<Triangle>& triangles, double spacing)
     : lists(start.face_count()), atlas_(std::move(atlas)), coordinates_(3 * start.face_count()) {
   for (std::uint32_t f = 0; f < start.face_count(); ++f) {
     const std::uint32_t t = triangle_of_face[f];
@@ -102,10 +104,10 @@ TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& 
 }
 
 void TextureMap::number_charts(const ArrayMesh& start, const FeatureLines& lines) {
-  chart_.assign(start.face_count(), none);
+  chart_.assign(start.face_count(), no_index);
   std::vector<std::uint32_t> open;
   for (std::uint32_t first = 0; first < start.face_count(); ++first) {
-    if (chart_[first] != none || !has_coordinates(of(first))) continue;
+    if (chart_[first] != no_index || !has_coordinates(of(first))) continue;
     chart_[first] = first;
     open.assign(1, first);
     while (!open.empty()) {
@@ -114,7 +116,7 @@ void TextureMap::number_charts(const ArrayMesh& start, const FeatureLines& lines
       for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
         if (lines.is_line(start, c)) continue;
         const std::uint32_t other = start.twin(c) / 3;
-        if (chart_[other] != none || !has_coordinates(of(other))) continue;
+        if (chart_[other] != no_index || !has_coordinates(of(other))) continue;
         chart_[other] = first;
         open.push_back(other);
       }
@@ -131,7 +133,7 @@ void TextureMap::add_sample(std::uint32_t face, Vec3 at, const Eigen::Vector2d& 
 void TextureMap::take_vertices(const ArrayMesh& start, const FeatureLines& lines) {
   std::vector<std::uint8_t> is_taken(3 * start.face_count(), 0);
   for (Corner first = 0; first < is_taken.size(); ++first) {
-    if (is_taken[first] != 0 || chart_[first / 3] == none) continue;
+    if (is_taken[first] != 0 || chart_[first / 3] == no_index) continue;
     const std::uint32_t v = start.start(first);
     add_sample(first / 3, start.position(v), at(first), lines.is_on_line(v));
     for (Corner c = first; is_taken[c] == 0;) {
@@ -149,7 +151,7 @@ void TextureMap::take_vertices(const ArrayMesh& start, const FeatureLines& lines
 void TextureMap::take_edges(const ArrayMesh& start, const FeatureLines& lines, double spacing) {
   for (Corner c = 0; c < 3 * start.face_count(); ++c) {
     const bool is_line = lines.is_line(start, c);
-    if ((start.edge(c) != c && !is_line) || chart_[c / 3] == none) continue;
+    if ((start.edge(c) != c && !is_line) || chart_[c / 3] == no_index) continue;
     const Vec3 p = start.position(start.start(c)), q = start.position(start.end(c));
     const double count = std::min(std::floor(length(q - p) / spacing), max_between);
     for (int k = 1; k <= count; ++k) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "meshbound/triangle_mesh.h"
 #include "simplify/cover/box_tree.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/feature_lines.h"
@@ -22,7 +23,7 @@ using CornerCoordinates = std::array<Eigen::Vector2d, 3>;
 class Atlas {
  public:
   /// `materials` by triangle; empty: all are the same. O(n log n).
-  Atlas(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+  Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
         std::vector<CornerCoordinates> coordinates, std::vector<std::uint32_t> materials);
 
   [[nodiscard]] const CornerCoordinates& coordinates(std::uint32_t triangle) const { return coordinates_[triangle]; }
@@ -44,7 +45,7 @@ class Atlas {
                       const Visit& visit) const;
 
   const std::vector<Vec3>& vertices_;
-  const std::vector<std::array<std::uint32_t, 3>>& triangles_;
+  const std::vector<Triangle>& triangles_;
   std::vector<CornerCoordinates> coordinates_;
   std::vector<std::uint32_t> materials_;
   std::optional<BoxTree> tree_;
@@ -55,8 +56,6 @@ class Atlas {
 /// of different regions at once.
 class TextureMap {
  public:
-  static constexpr std::uint32_t none = ArrayMesh::none;
-
   /// A point of the original.
   struct Sample {
     Vec3 at;
@@ -69,7 +68,7 @@ class TextureMap {
   /// than `spacing`. O(n).
   TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,
              const std::vector<std::uint32_t>& triangle_of_face, const std::vector<Vec3>& vertices,
-             const std::vector<std::array<std::uint32_t, 3>>& triangles, double spacing);
+             const std::vector<Triangle>& triangles, double spacing);
 
   [[nodiscard]] const Atlas& atlas() const { return atlas_; }
   [[nodiscard]] const Eigen::Vector2d& at(Corner corner) const { return coordinates_[corner]; }
@@ -80,7 +79,7 @@ class TextureMap {
   void restore(std::uint32_t face, const CornerCoordinates& before) {
     for (std::size_t k = 0; k < 3; ++k) coordinates_[3 * face + k] = before[k];
   }
-  /// The chart of a face: faces connected without crossing a line have one chart. `none` for a face without
+  /// The chart of a face: faces connected without crossing a line have one chart. `no_index` for a face without
   /// coordinates.
   [[nodiscard]] std::uint32_t chart(std::uint32_t face) const { return chart_[face]; }
   [[nodiscard]] std::uint32_t material(std::uint32_t face) const { return material_[face]; }
