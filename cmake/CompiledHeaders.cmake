@@ -15,6 +15,11 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 16 CACHE STRING "The largest number of files that are compiled as one")
 endif()
 
+# GCC collects garbage less often: 7 to 10% of its time for a fifth more memory.
+if(CMAKE_UNITY_BUILD)
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=500000>)
+endif()
+
 set(MESHBOUND_STANDARD_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <fstream> <functional>
   <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <thread> <unordered_map> <utility>
   <variant> <vector> <Eigen/Geometry> ${CMAKE_CURRENT_LIST_DIR}/compiled_types.h)

@@ -20,7 +20,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace batch_tool_test {
 
 using nlohmann::json;
 using namespace testing_tools;
@@ -235,5 +235,5 @@ TEST_F(BatchTool, RunsUnderGnuParallelAsDocumented) {
   EXPECT_EQ(line_count(content_of(in("small/batch.csv"))), 4);
 }
 
-}  // namespace
+}  // namespace batch_tool_test
 }  // namespace meshbound

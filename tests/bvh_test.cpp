@@ -24,7 +24,7 @@
 #include "reference/small_meshes.h"
 #include "setting.h"
 
-namespace {
+namespace bvh_test {
 
 using namespace meshbound;
 using namespace meshbound::reference;
@@ -470,4 +470,4 @@ TEST(Bvh, KeepsDegenerateAndSingleTriangles) {
   }
 }
 
-}  // namespace
+}  // namespace bvh_test

@@ -18,7 +18,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace certificate_tool_test {
 
 using testing_tools::checked_document;
 using testing_tools::Json;
@@ -311,5 +311,5 @@ TEST_F(CertificateTools, RealMeshesAreCertified) {
   }
 }
 
-}  // namespace
+}  // namespace certificate_tool_test
 }  // namespace meshbound

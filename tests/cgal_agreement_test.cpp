@@ -21,7 +21,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace cgal_agreement_test {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -116,5 +116,5 @@ TEST(CgalAgreementOnGeneratedMeshes, OnDifferentShapes) {
   expect_agreement(cube, sphere, 3.0);
 }
 
-}  // namespace
+}  // namespace cgal_agreement_test
 }  // namespace meshbound

@@ -13,7 +13,7 @@
 #include "meshbound/distance.h"
 
 namespace meshbound {
-namespace {
+namespace corpus_test {
 
 namespace fs = std::filesystem;
 
@@ -64,5 +64,5 @@ TEST(Corpus, HoldsWhatTheFuzzersCheck) {
   if (fs::exists(tests / "corpus")) replay_all(tests / "corpus");  // absent until something is found
 }
 
-}  // namespace
+}  // namespace corpus_test
 }  // namespace meshbound

@@ -21,7 +21,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound::cgal {
-namespace {
+namespace deviation_monitor_test {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 using Place = std::array<double, 3>;
@@ -177,5 +177,5 @@ TEST(DeviationMonitor, RefusesAVisitorWithoutItsFilter) {
   EXPECT_THROW(SMS::edge_collapse(mesh, monitor.stop_predicate(), CGAL::parameters::visitor(monitor.visitor())), Error);
 }
 
-}  // namespace
+}  // namespace deviation_monitor_test
 }  // namespace meshbound::cgal

@@ -24,7 +24,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace deviation_tool_test {
 
 namespace fs = std::filesystem;
 using namespace testing_tools;
@@ -437,5 +437,5 @@ TEST(Base64, IsTheStandardOne) {
   for (const auto& [bytes, text] : vectors) EXPECT_EQ(tools::base64(bytes), text);
 }
 
-}  // namespace
+}  // namespace deviation_tool_test
 }  // namespace meshbound

@@ -16,7 +16,7 @@
 #include "read_gltf_file.h"
 
 namespace meshbound {
-namespace {
+namespace draco_gltf_test {
 
 using test::GltfFile;
 using test::GltfJson;
@@ -230,5 +230,5 @@ TEST(DracoMesh, IsNotAllocatedForTrianglesThatCannotBeThere) {
   EXPECT_FALSE(DracoMesh::decode(lying));
 }
 
-}  // namespace
+}  // namespace draco_gltf_test
 }  // namespace meshbound

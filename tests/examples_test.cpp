@@ -11,7 +11,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace examples_test {
 
 using testing_tools::run_tool;
 using testing_tools::TemporaryFolder;
@@ -73,5 +73,5 @@ TEST(Examples, LevelsOfAnotherSimplifierAreTightenedUntilTheyHold) {
 }
 #endif
 
-}  // namespace
+}  // namespace examples_test
 }  // namespace meshbound

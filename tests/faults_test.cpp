@@ -17,7 +17,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace faults_test {
 
 namespace fs = std::filesystem;
 using namespace testing_tools;
@@ -225,5 +225,5 @@ TEST(Faults, AFileThatShrinksWhileItIsReadIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace faults_test
 }  // namespace meshbound

@@ -22,7 +22,7 @@
 #endif
 
 namespace meshbound {
-namespace {
+namespace floating_point_model_test {
 
 using namespace reference;
 
@@ -170,5 +170,5 @@ TEST(CoordinateRange, WhatIsBeyondItIsRefused) {
   EXPECT_EQ(test::read_content("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e-400 0\n3 0 1 2\n").mesh.vertices[2].y(), 0);
 }
 
-}  // namespace
+}  // namespace floating_point_model_test
 }  // namespace meshbound

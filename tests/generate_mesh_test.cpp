@@ -9,7 +9,7 @@
 #include "meshbound/io.h"
 #include "run_tool.h"
 
-namespace {
+namespace generate_mesh_test {
 
 using meshbound::testing_tools::run_tool;
 using meshbound::testing_tools::ToolRun;
@@ -71,4 +71,4 @@ TEST_F(GenerateMesh, WritesTextureCoordinatesOfTheBoundingBox) {
   }
 }
 
-}  // namespace
+}  // namespace generate_mesh_test

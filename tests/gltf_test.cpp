@@ -20,7 +20,7 @@
 #include "temporary_folder.h"
 
 namespace meshbound {
-namespace {
+namespace gltf_test {
 
 using test::glb_content;
 using test::GlbContent;
@@ -334,5 +334,5 @@ TEST_F(Gltf, RemovesAPrimitiveOfWhichNothingIsLeft) {
   EXPECT_EQ(read_mesh(in("out.glb")).mesh.triangles.size(), level.mesh.triangles.size());
 }
 
-}  // namespace
+}  // namespace gltf_test
 }  // namespace meshbound

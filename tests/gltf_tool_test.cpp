@@ -17,7 +17,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace gltf_tool_test {
 
 using test::GltfFile;
 using test::GltfJson;
@@ -313,5 +313,5 @@ TEST_F(GltfTool, PassesTheValidator) {
   EXPECT_EQ(*errors, "0 errors\n");
 }
 
-}  // namespace
+}  // namespace gltf_tool_test
 }  // namespace meshbound

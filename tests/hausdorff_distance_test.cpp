@@ -17,7 +17,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace hausdorff_distance_test {
 
 using Eigen::Vector3d;
 using namespace reference;
@@ -366,5 +366,5 @@ TEST(CheckTolerance, RefusesAToleranceThatIsNotOne) {
   EXPECT_THROW((void)check_tolerance(Bvh(cube(1)), Bvh(cube(1)), std::nan("")), InvalidInput);
 }
 
-}  // namespace
+}  // namespace hausdorff_distance_test
 }  // namespace meshbound

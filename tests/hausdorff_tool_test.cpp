@@ -17,7 +17,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace hausdorff_tool_test {
 
 using nlohmann::json;
 using namespace testing_tools;
@@ -438,5 +438,5 @@ TEST_F(HausdorffTool, AcceptsOrRefusesEveryBrokenFile) {
   }
 }
 
-}  // namespace
+}  // namespace hausdorff_tool_test
 }  // namespace meshbound

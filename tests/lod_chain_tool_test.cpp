@@ -15,7 +15,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace lod_chain_tool_test {
 
 namespace fs = std::filesystem;
 using testing_tools::checked_document;
@@ -281,5 +281,5 @@ TEST_F(LodChainTool, HasAProvenMeshForEveryLevelWhenItIsOutOfTime) {
   }
 }
 
-}  // namespace
+}  // namespace lod_chain_tool_test
 }  // namespace meshbound

@@ -14,7 +14,7 @@
 #include "read_gltf_file.h"
 
 namespace meshbound {
-namespace {
+namespace meshopt_gltf_test {
 
 using test::GltfFile;
 using test::GltfJson;
@@ -290,5 +290,5 @@ TEST_F(MeshoptGltf, RefusesLiesInOneLine) {
   EXPECT_NE(refusal(few).find("refers to vertex"), std::string::npos) << "indices out of range";
 }
 
-}  // namespace
+}  // namespace meshopt_gltf_test
 }  // namespace meshbound

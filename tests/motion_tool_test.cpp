@@ -12,7 +12,7 @@
 #include "tool_refusal.h"
 
 namespace meshbound {
-namespace {
+namespace motion_tool_test {
 
 using nlohmann::json;
 using namespace testing_tools;
@@ -81,5 +81,5 @@ TEST_F(MotionTool, RefusesWhatDoesNotGoWithPoses) {
   for (const char* option : {"--one-sided", "--worst", "--profile"}) expect_refused(run({option}), "--poses goes with");
 }
 
-}  // namespace
+}  // namespace motion_tool_test
 }  // namespace meshbound

@@ -13,7 +13,7 @@
 #include "json_claims.h"
 #include "ranks.h"
 
-namespace {
+namespace mpi_test {
 
 using namespace meshbound::testing_tools;
 
@@ -443,4 +443,4 @@ TEST_F(FaultsOverRanks, AreSaidInOneLineOfTheTool) {
   }
 }
 
-}  // namespace
+}  // namespace mpi_test

@@ -14,7 +14,7 @@
 #include "tool_refusal.h"
 
 namespace meshbound {
-namespace {
+namespace nearest_tool_test {
 
 using nlohmann::json;
 using namespace testing_tools;
@@ -103,5 +103,5 @@ TEST_F(NearestTool, RefusesBadUsageInOneLine) {
   expect_refused(run_tool(HAUSDORFF_DISTANCE, {query_, "--nearest", folder_ / "empty"}), "there is no mesh file");
 }
 
-}  // namespace
+}  // namespace nearest_tool_test
 }  // namespace meshbound

@@ -14,7 +14,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace outputs_test {
 
 namespace fs = std::filesystem;
 using namespace testing_tools;
@@ -229,5 +229,5 @@ TEST_F(OutputPairs, StandardOutputByItsPathIsAppendedTo) {
   EXPECT_EQ(content_of(folder_ / "log").rfind("first line\n{", 0), 0u) << content_of(folder_ / "log");
 }
 
-}  // namespace
+}  // namespace outputs_test
 }  // namespace meshbound

@@ -21,7 +21,7 @@
 #include "solids.h"
 
 namespace meshbound {
-namespace {
+namespace penetration_cgal_test {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -144,5 +144,5 @@ INSTANTIATE_TEST_SUITE_P(Real, SlowPenetrationByCgal,
                            return name;
                          });
 
-}  // namespace
+}  // namespace penetration_cgal_test
 }  // namespace meshbound

@@ -13,7 +13,7 @@
 #include "tool_refusal.h"
 
 namespace meshbound {
-namespace {
+namespace penetration_tool_test {
 
 using namespace testing_tools;
 using solids::box;
@@ -189,5 +189,5 @@ TEST_F(PenetrationTool, RefusesBadUsage) {
   expect_refused(run({unit_, peg_, "--transform-c", "1"}), "did you mean --transform-a or --transform-b?");
 }
 
-}  // namespace
+}  // namespace penetration_tool_test
 }  // namespace meshbound

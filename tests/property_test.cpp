@@ -17,7 +17,7 @@
 #include "reference/small_meshes.h"
 
 namespace meshbound {
-namespace {
+namespace property_test {
 
 using namespace reference;
 using Eigen::Vector3d;
@@ -324,5 +324,5 @@ TEST(Property, RandomSoupsKeepTheirBoundsWhenTheyAreSimplified) {
   for_all(1000, [](std::uint32_t seed) { EXPECT_NO_THROW(fuzz::check_simplify(random_bytes(seed, 300))); });
 }
 
-}  // namespace
+}  // namespace property_test
 }  // namespace meshbound

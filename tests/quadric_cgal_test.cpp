@@ -12,7 +12,7 @@
 #include "simplify/mesh/quadric.h"
 
 namespace meshbound::cgal {
-namespace {
+namespace quadric_cgal_test {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 
@@ -104,5 +104,5 @@ TEST(Quadric, OfFlatSurroundingsGivesAPointNearTheEdge) {
   }
 }
 
-}  // namespace
+}  // namespace quadric_cgal_test
 }  // namespace meshbound::cgal

@@ -14,7 +14,7 @@
 #include "temporary_folder.h"
 
 namespace meshbound {
-namespace {
+namespace read_gltf_test {
 
 using test::GltfFile;
 using test::GltfJson;
@@ -264,5 +264,5 @@ TEST_F(ReadGltf, ReadsNoFileOutsideOfRelativeNames) {
   EXPECT_NE(refusal(file.json.dump(), "m.gltf").find("missing.bin: cannot read"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace read_gltf_test
 }  // namespace meshbound

@@ -11,7 +11,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace report_browser_test {
 
 using namespace testing_tools;
 
@@ -114,5 +114,5 @@ TEST_F(ReportInABrowser, StaysBelow20Megabytes) {
   expect_measurement(has_engine ? "chooses" : "refuses");
 }
 
-}  // namespace
+}  // namespace report_browser_test
 }  // namespace meshbound

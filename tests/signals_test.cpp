@@ -20,7 +20,7 @@
 #include "setting.h"
 
 namespace meshbound::tools {
-namespace {
+namespace signals_test {
 
 namespace fs = std::filesystem;
 using testing_tools::content_of;
@@ -133,5 +133,5 @@ TEST_F(Signals, OfAHangUpAreIgnoredUnderNohup) {
   EXPECT_EQ(code, 0);
 }
 
-}  // namespace
+}  // namespace signals_test
 }  // namespace meshbound::tools

@@ -26,7 +26,7 @@
 #include "setting.h"
 
 namespace meshbound {
-namespace {
+namespace simplify_tool_test {
 
 namespace fs = std::filesystem;
 using testing_tools::checked_document;
@@ -552,5 +552,5 @@ TEST_F(SimplifyTool, SurvivesBrokenFiles) {
   }
 }
 
-}  // namespace
+}  // namespace simplify_tool_test
 }  // namespace meshbound

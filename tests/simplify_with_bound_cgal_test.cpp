@@ -11,7 +11,7 @@
 #include "shapes.h"
 
 namespace meshbound {
-namespace {
+namespace simplify_with_bound_cgal_test {
 
 /// CGAL's symmetric Hausdorff distance: a number at most its error bound away from the truth.
 double cgal_distance(const TriangleMesh& a, const TriangleMesh& b, double error_bound) {
@@ -55,5 +55,5 @@ TEST(SimplifyWithBoundOfGraphs, GivesWhatItGivesForTheirTriangles) {
   EXPECT_EQ(of_graph.faces(), of_triangles.faces());
 }
 
-}  // namespace
+}  // namespace simplify_with_bound_cgal_test
 }  // namespace meshbound

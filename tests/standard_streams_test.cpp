@@ -11,7 +11,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace standard_streams_test {
 
 using namespace testing_tools;
 
@@ -91,5 +91,5 @@ TEST_F(StandardStreams, AreRefusedWhereTheyCannotBeUsed) {
   expect_refused("\"$measure\" - in.off", "A is standard input: say its format");
 }
 
-}  // namespace
+}  // namespace standard_streams_test
 }  // namespace meshbound

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace tasks_test {
 
 using namespace meshbound;
 
@@ -95,4 +95,4 @@ TEST(Tasks, RunOneAfterTheOtherOutsideAnyTeam) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-}  // namespace
+}  // namespace tasks_test

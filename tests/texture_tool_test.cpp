@@ -12,7 +12,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace texture_tool_test {
 
 using nlohmann::json;
 using namespace testing_tools;
@@ -175,5 +175,5 @@ TEST_F(TextureTool, KeepsFacesFromTurning) {
   EXPECT_LE(faces(document), 2 * n);  // two for each slope
 }
 
-}  // namespace
+}  // namespace texture_tool_test
 }  // namespace meshbound

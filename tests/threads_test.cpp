@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace {
+namespace threads_test {
 
 using namespace meshbound::tools;
 
@@ -46,4 +46,4 @@ TEST(RunBoth, RethrowsWhatTheFirstThrows) {
   }
 }
 
-}  // namespace
+}  // namespace threads_test

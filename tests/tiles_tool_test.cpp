@@ -12,7 +12,7 @@
 
 #include "run_tool.h"
 
-namespace {
+namespace tiles_tool_test {
 
 using meshbound::testing_tools::content_of;
 using meshbound::testing_tools::run_shell;
@@ -240,4 +240,4 @@ TEST_F(TileScratch, ThatIsFullEndsTheRunInOneLineAndCanBeResumed) {
   EXPECT_EQ(content_of(in("full.ply")), content_of(in("whole.ply")));
 }
 
-}  // namespace
+}  // namespace tiles_tool_test

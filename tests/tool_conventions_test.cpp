@@ -25,7 +25,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace tool_conventions_test {
 
 using testing_tools::checked_document;
 using testing_tools::content_of;
@@ -480,5 +480,5 @@ TEST(Progress, NeverGoesBack) {
   EXPECT_EQ(percents, (std::vector<int>{10, 46, 70})) << shown;
 }
 
-}  // namespace
+}  // namespace tool_conventions_test
 }  // namespace meshbound

@@ -15,7 +15,7 @@
 #include "simplify_options.h"
 
 namespace meshbound::cgal {
-namespace {
+namespace vertex_locks_test {
 
 using Place = std::array<double, 3>;
 
@@ -140,5 +140,5 @@ TEST(VertexLocks, RefuseAWrongNumberOfVerticesAndAWrongAngle) {
   EXPECT_THROW((void)cgal::simplify_with_bound(sphere, options), InvalidInput);
 }
 
-}  // namespace
+}  // namespace vertex_locks_test
 }  // namespace meshbound::cgal

@@ -16,7 +16,7 @@
 #include "run_tool.h"
 
 namespace meshbound {
-namespace {
+namespace view_tool_test {
 
 using nlohmann::json;
 using namespace testing_tools;
@@ -229,5 +229,5 @@ TEST_F(GltfViewTool, RefusesASceneThatNothingIsSeenFrom) {
   expect_gltf_refused("the default scene shows no triangles");
 }
 
-}  // namespace
+}  // namespace view_tool_test
 }  // namespace meshbound
