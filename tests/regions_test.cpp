@@ -256,7 +256,8 @@ TEST_P(Regions, EveryWayToRunEndsWithAProvenMesh) {
 }
 
 TEST_P(Regions, ATimeLimitOrACancellationLeavesAProvenMesh) {
-  const TriangleMesh original = sphere();
+  // Small: a run that is cancelled proves what it has in 0.3 seconds or undoes it, also on a machine in heavy use.
+  const TriangleMesh original = datasets::icosphere(1, 4);
   SimplifyOptions with = options(0.01);
   with.time_limit = 0;
   const SimplifyResult at_once = simplify_with_bound(original, with);
