@@ -34,9 +34,9 @@ void cut_into_tiles(std::vector<CutItem> items, std::uint64_t max_weight, const 
 /// Items of a store that are cut in memory: 80 MB.
 inline constexpr std::size_t max_cut_in_memory = std::size_t{1} << 20;
 
-/// As above for items of a store, in the order of their numbers, of which at most `max_in_memory` are in memory at
-/// once: gives the same tiles for any such number from 256 on. Expected O(n log n); reads each item some five times for
-/// each halving. Throws `IoError`.
+/// As above for items of a store, in the order of their numbers, of which at most twice `max_in_memory` are in memory
+/// at once: gives the same tiles for any such number from 256 on. Expected O(n log n); reads each item about once for
+/// each halving, and copies it once for 64 parts that it is cut into. Throws `IoError`.
 void cut_into_tiles(ItemStore<CutItem> items, std::uint64_t max_weight, const TileCut& cut, const StoreSpace& space,
                     const UseTile& use, std::size_t max_in_memory = max_cut_in_memory);
 
