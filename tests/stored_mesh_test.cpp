@@ -231,10 +231,8 @@ TEST_F(Stored, FilesAreRefusedAsIntoMemory) {
   expect_same_refusal("not there.ply");
 }
 
-TEST_F(Stored, ItemsAreCutIntoTheTilesOfItemsInMemory) {
-  const TriangleMesh mesh = datasets::terrain(1, 80, 7);
-  std::vector<CutItem> all;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) all.push_back({to_vec3(mesh.vertices[v]), v, 1 + v % 5});
+/// Items in a folder are cut as in memory, for any number of them in memory at once.
+void expect_tiles_of_items_in_memory(const std::vector<CutItem>& all, const StoreSpace& space) {
   for (const TileCut& cut : {TileCut{0, 0.5}, TileCut{1, 1.0 / 3}, TileCut{2, 0.999}}) {
     for (const std::uint64_t max_weight : {40u, 3000u, 1000000u}) {
       using Tiles = std::vector<std::vector<std::uint32_t>>;
@@ -242,16 +240,31 @@ TEST_F(Stored, ItemsAreCutIntoTheTilesOfItemsInMemory) {
       cut_into_tiles(all, max_weight, cut,
                      [&](std::span<const std::uint32_t> tile) { expected.emplace_back(tile.begin(), tile.end()); });
       for (const std::size_t max_in_memory : {256, 1000, 1000000}) {
-        ItemStore<CutItem> items(space_);
+        ItemStore<CutItem> items(space);
         items.append(all);
         Tiles tiles;
         cut_into_tiles(
-            std::move(items), max_weight, cut, space_,
+            std::move(items), max_weight, cut, space,
             [&](std::span<const std::uint32_t> tile) { tiles.emplace_back(tile.begin(), tile.end()); }, max_in_memory);
         EXPECT_EQ(tiles, expected);
       }
     }
   }
+}
+
+TEST_F(Stored, ItemsAreCutIntoTheTilesOfItemsInMemory) {
+  const TriangleMesh mesh = datasets::terrain(1, 80, 7);
+  std::vector<CutItem> items;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) items.push_back({to_vec3(mesh.vertices[v]), v, 1 + v % 5});
+  expect_tiles_of_items_in_memory(items, space_);
+}
+
+TEST_F(Stored, ItemsAreCutIntoTheTilesOfItemsInMemoryWhereSamplesMislead) {
+  std::vector<CutItem> items;  // one of eight lies elsewhere, and samples take one of a power of two
+  for (std::uint32_t v = 0; v < 5000; ++v) items.push_back({{v % 8 == 0 ? 0.001 * v : v % 3 * 10.0, 0, 0}, v, 1});
+  expect_tiles_of_items_in_memory(items, space_);
+  for (CutItem& item : items) item.position = {1, 1, 1};
+  expect_tiles_of_items_in_memory(items, space_);
 }
 
 TEST_F(Stored, EqualPositionsAreFoundBucketByBucket) {

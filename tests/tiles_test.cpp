@@ -116,6 +116,13 @@ TEST(SimplifyInTiles, HoldsTheToleranceWithHardlyMoreFacesThanInOnePiece) {
   }
 }
 
+TEST(SimplifyInTiles, LeavesNoMoreThanOnePieceWhereTheToleranceIsCoarseAndLaterTilesHoldAllThatIsLeft) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 120, 48);
+  const SimplifyOptions options = share_of_diagonal(torus, 0.01);
+  const std::size_t tiled = simplify_in_tiles(torus, options, {6000}).last().faces();
+  EXPECT_LT(static_cast<double>(tiled), 1.1 * static_cast<double>(simplify_with_bound(torus, options).last().faces()));
+}
+
 TEST(SimplifyInTiles, LeavesAloneWhatCoversAnOriginalInSeveralTiles) {
   // The long triangles at the poles are covered by triangles of several tiles: where one of these changed, it throws.
   const TriangleMesh sphere = datasets::mesh_of_size("uv-sphere", 4000);

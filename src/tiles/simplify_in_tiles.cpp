@@ -40,6 +40,10 @@ constexpr std::array<TileCut, 6> cuts = {
 /// Smallest share of the triangles that a pass must remove for another one to follow.
 constexpr double min_gain_of_pass = 0.01;
 
+/// Tiles of later passes stand for so many times as many triangles of the original. They take no more memory, as an
+/// original whose own triangle has gone takes up to 0.4 kB, measured at 0.01% of the diagonal.
+constexpr std::size_t growth_of_later_tiles = 2;
+
 /// Share of the whole progress that the first pass counts for.
 constexpr double share_of_first_pass = 0.6;
 
@@ -85,7 +89,7 @@ class TiledRun {
   std::size_t pass(std::size_t k) {
     if (k > 0) of_tile_.effort = Effort::Normal;  // flips would change triangles whose vertices stay
     TiledMesh::Pass how{cuts[k],
-                        tiles_.max_triangles,
+                        (k > 0 ? growth_of_later_tiles : 1) * tiles_.max_triangles,
                         [&](const TileInput& input) { return simplify_tile(input, of_tile_, stop_); },
                         {}};
     if (options_.progress) how.progress = [&](double share) { options_.progress(progress_at(k, share)); };
