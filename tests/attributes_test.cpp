@@ -134,6 +134,44 @@ TEST(ObjAttributes, WithoutAValueAreNone) {
   EXPECT_TRUE(read_with_attributes(folder / "in.obj").attributes.empty());
 }
 
+TEST(TexturePrecision, IsThatOfTheNumbersInTheFile) {
+  const Eigen::Vector2d tenth(0.1, 0.1);
+  const auto as_float = [](float x) { return static_cast<double>(x); };
+  EXPECT_EQ(rounded_to(TexturePrecision::Double, tenth), tenth);
+  EXPECT_EQ(rounded_to(TexturePrecision::Float, tenth), Eigen::Vector2d(as_float(0.1F), as_float(0.1F)));
+  EXPECT_EQ(rounded_to(TexturePrecision::FloatFromTop, tenth), Eigen::Vector2d(as_float(0.1F), 1 - as_float(0.9F)));
+  EXPECT_NE(1 - as_float(0.9F), as_float(0.1F));
+}
+
+/// The first triangle has coordinates that no float has, the second has none, and the third lacks one.
+TEST(TexturePrecision, AndMissingCoordinatesComeBackFromEachFormat) {
+  const test::TemporaryFolder folder;
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}}};
+  MeshAttributes given;
+  given.texture_coordinates.values = {{0.1, 0.1, 0}, {0.7, 0.2, 0}, {0.3, 0.9, 0}};
+  given.texture_coordinates.index = {{0, 1, 2}, {none, none, none}, {0, none, 1}};
+  for (const std::string name : {"out.obj", "out.ply", "ascii.ply", "out.glb"}) {
+    WriteOptions options;
+    options.ascii = name == "ascii.ply";
+    DroppedAttributes lost;
+    const MeshAttributes carried = carried_by(format_of(name), given, lost);
+    write_mesh(folder / name, mesh, options, carried);
+    const MeshFile back = read_with_attributes(folder / name);
+    EXPECT_EQ(back.attributes.texture_precision, carried.texture_precision) << name;
+    const CornerAttribute& uv = back.attributes.texture_coordinates;
+    ASSERT_EQ(uv.index.size(), 3U) << name;
+    int with_coordinates = 0;
+    for (std::size_t t = 0; t < 3; ++t) {
+      if (std::find(uv.index[t].begin(), uv.index[t].end(), none) != uv.index[t].end()) continue;
+      ++with_coordinates;
+      EXPECT_EQ(back.mesh.vertices[back.mesh.triangles[t][1]], mesh.vertices[1]) << name;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(uv.values[uv.index[t][k]], carried.texture_coordinates.values[k]) << name;
+    }
+    EXPECT_EQ(with_coordinates, 1) << name;
+  }
+}
+
 TEST(Seams, AreWhereTextureCoordinatesOrMaterialsDiffer) {
   Textured square = two_charts(8);
   const auto interior = [&] {

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "meshbound/error.h"
+#include "meshbound/io.h"
 #include "reference/texture_oracle.h"
 
 namespace meshbound {
@@ -445,6 +446,27 @@ TEST(TexturedMeshes, TellMaterialsApartByName) {
   EXPECT_EQ(first.bare.size(), 1U);
   EXPECT_EQ(first.triangles[0].material, second.triangles[0].material);
   EXPECT_THROW((void)textured_meshes(mesh, a, mesh, {}), InvalidInput);
+}
+
+/// A mesh, and what a file of floats keeps of it.
+TEST(TexturedMeshes, AreComparedInThePrecisionOfBoth) {
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  MeshAttributes exact;
+  exact.texture_coordinates.values = {{0.1, 0.1, 0}, {0.7, 0.2, 0}, {0.3, 0.9, 0}};
+  exact.texture_coordinates.index = {{0, 1, 2}};
+  for (const FileFormat format : {FileFormat::Ply, FileFormat::Glb}) {
+    DroppedAttributes lost;
+    const MeshAttributes held = carried_by(format, exact, lost);
+    for (const bool exact_first : {true, false}) {
+      const auto [a, b] =
+          exact_first ? textured_meshes(mesh, exact, mesh, held) : textured_meshes(mesh, held, mesh, exact);
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(a.triangles[0].coordinates[k], b.triangles[0].coordinates[k]);
+        EXPECT_EQ(a.triangles[0].coordinates[k], held.texture_coordinates.values[k].head<2>());
+      }
+    }
+  }
+  EXPECT_EQ(textured_meshes(mesh, exact, mesh, exact)[0].triangles[0].coordinates[0], Eigen::Vector2d(0.1, 0.1));
 }
 
 }  // namespace texture_deviation_test

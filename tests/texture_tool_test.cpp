@@ -106,6 +106,46 @@ TEST_F(TextureTool, RefusesWhatMakesNoSense) {
           "texture coordinates");
 }
 
+/// Two squares that lie apart, of n x n squares each, whose charts meet along a line of the texture on which the
+/// coordinates lie in decimals but not in floats.
+void write_adjoining_charts(const std::string& path, int n) {
+  std::ofstream out(path);
+  out.precision(12);
+  for (const int chart : {0, 1})
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        const double x = i / double(n), y = j / double(n), u = x + chart;
+        out << "v " << x + 5 * chart << ' ' << y << ' ' << 0.01 * std::sin(6 * x + 4 * y) << "\nvt "
+            << 0.1 + 0.3 * u + 0.1 * y << ' ' << 0.2 + 0.7 * y - 0.05 * u << '\n';
+      }
+  const auto corner = [&](int chart, int i, int j) {
+    const std::string index = std::to_string((chart * (n + 1) + j) * (n + 1) + i + 1);
+    return " " + index + "/" + index;
+  };
+  for (const int chart : {0, 1})
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        out << "f" << corner(chart, i, j) << corner(chart, i + 1, j) << corner(chart, i + 1, j + 1) << "\nf"
+            << corner(chart, i, j) << corner(chart, i + 1, j + 1) << corner(chart, i, j + 1) << '\n';
+}
+
+/// What a file of floats rounds off lies beside the border of a chart, where the other chart has the coordinates.
+TEST_F(TextureTool, ComparesChartsThatMeetInThePrecisionOfTheFiles) {
+  const std::string in = folder_ / "charts.obj", certificate = folder_ / "out.cert";
+  write_adjoining_charts(in, 10);
+  for (const char* const name : {"out.glb", "out.gltf", "out.ply", "out.obj"}) {
+    const std::string out = folder_ / name;
+    const ToolRun run = simplify(
+        {in, out, "--tolerance", "0.02", "--texture-tolerance", "0.02", "--json", "-", "--certificate", certificate});
+    ASSERT_EQ(run.exit_code, 0) << name << ": " << run.err;
+    EXPECT_LT(checked_document(run.out)["simplified"]["faces"], 200) << name;
+    EXPECT_EQ(measure({in, out, "--texture", "--texture-tolerance", "0.02"}).exit_code, 0) << name;
+    EXPECT_EQ(measure({out, in, "--texture", "--texture-tolerance", "0.02"}).exit_code, 0) << name;
+    const ToolRun verified = run_tool(VERIFY_CERTIFICATE, {in, out, certificate});
+    EXPECT_EQ(verified.exit_code, 0) << name << ": " << verified.err;
+  }
+}
+
 /// The square is flat, so that any triangulation is at distance 0: only the texture limits what may go.
 TEST_F(TextureTool, KeepsTheTextureInPlace) {
   ASSERT_EQ(simplify({warped_, out_, "--tolerance", "1%"}).exit_code, 0);

@@ -28,6 +28,16 @@ struct CornerAttribute {
   [[nodiscard]] bool empty() const { return index.empty(); }
 };
 
+/// Which numbers can be texture coordinates.
+enum class TexturePrecision : std::uint8_t {
+  Double,
+  Float,        ///< u and v are floats (PLY whose properties are floats)
+  FloatFromTop  ///< u and 1 - v are floats (glTF, whose v grows downwards)
+};
+
+/// The nearest texture coordinate of this precision; one that has it stays as it is.
+[[nodiscard]] Eigen::Vector2d rounded_to(TexturePrecision precision, const Eigen::Vector2d& coordinate);
+
 /// How the value of an attribute at a point inside a triangle follows from those at the corners.
 enum class Interpolation : std::uint8_t {
   Linear,     ///< the values of the three corners, weighted by the barycentric coordinates of the point
@@ -58,12 +68,13 @@ struct TriangleLabels {
 /// The attributes of a mesh, in the order of its triangles.
 struct MeshAttributes {
   CornerAttribute texture_coordinates;  ///< v grows upwards, as in OBJ; that of glTF, which grows downwards, is 1 - v
-  CornerAttribute normals;              ///< in the frame of the mesh
-  TriangleLabels materials;             ///< names of `usemtl` (OBJ) and of materials (glTF)
-  TriangleLabels groups;                ///< whole statements `g ...` and `o ...` (OBJ)
-  TriangleLabels smoothing_groups;      ///< what follows `s` (OBJ)
-  std::vector<std::string> material_libraries;  ///< file names of `mtllib` (OBJ)
-  std::vector<NamedAttribute> named;            ///< all others, each name once
+  TexturePrecision texture_precision = TexturePrecision::Double;  ///< of the file they are read from or made for
+  CornerAttribute normals;                                        ///< in the frame of the mesh
+  TriangleLabels materials;                                       ///< names of `usemtl` (OBJ) and of materials (glTF)
+  TriangleLabels groups;                                          ///< whole statements `g ...` and `o ...` (OBJ)
+  TriangleLabels smoothing_groups;                                ///< what follows `s` (OBJ)
+  std::vector<std::string> material_libraries;                    ///< file names of `mtllib` (OBJ)
+  std::vector<NamedAttribute> named;                              ///< all others, each name once
   /// What else the glTF file holds from which the mesh was read, for the writer of glTF; null: another format.
   std::shared_ptr<const GltfDocument> document;
   std::vector<std::uint32_t> part;  ///< by triangle: the part of `document` it belongs to; empty without a document

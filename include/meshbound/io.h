@@ -89,8 +89,8 @@ struct WriteOptions {
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options = {},
                 const MeshAttributes& attributes = {});
 
-/// The attributes that files of this format carry; `lost` is increased by what the others held, in the counts of
-/// `MeshFile::dropped`. O(n).
+/// The attributes that files of this format carry, texture coordinates as precisely as such files hold them; `lost` is
+/// increased by what the others held, in the counts of `MeshFile::dropped`. O(n).
 [[nodiscard]] MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedAttributes& lost);
 
 /// Whether files of this format are read and written with any `MeshAttributes`: all but STL.

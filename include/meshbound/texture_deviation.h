@@ -36,9 +36,11 @@ struct TexturedMesh {
   std::vector<std::array<Eigen::Vector3d, 3>> bare;  ///< corners of those that do not
 };
 
-/// Two meshes with the texture coordinates of their attributes. Where both have materials, coordinates of different
-/// materials are different, materials being the same by their name. Throws `InvalidInput` where a mesh has no texture
-/// coordinates, or attributes are not those of as many triangles. O(n).
+/// Two meshes with the texture coordinates of their attributes, both rounded to the precision of the first and then to
+/// that of the second: where charts adjoin in the texture, what lies beside a border would otherwise be compared with
+/// another chart, as far away as that is on the surface, by as little as the rounding of a file. Where both have
+/// materials, coordinates of different materials are different, materials being the same by their name. Throws
+/// `InvalidInput` where a mesh has no texture coordinates, or attributes are not those of as many triangles. O(n).
 [[nodiscard]] std::array<TexturedMesh, 2> textured_meshes(const TriangleMesh& a, const MeshAttributes& a_attributes,
                                                           const TriangleMesh& b, const MeshAttributes& b_attributes);
 

@@ -14,6 +14,7 @@ struct Carried {
   bool materials = false;
   bool groups = false;  ///< smoothing groups, too
   bool document = false;
+  TexturePrecision texture_precision = TexturePrecision::Double;
 };
 
 Carried carried_in(FileFormat format) {
@@ -23,7 +24,11 @@ Carried carried_in(FileFormat format) {
     case FileFormat::Off:
       return {.colours = true};
     case FileFormat::Ply:
-      return {.texture_coordinates = true, .normals = true, .colours = true, .scalars = true};
+      return {.texture_coordinates = true,
+              .normals = true,
+              .colours = true,
+              .scalars = true,
+              .texture_precision = TexturePrecision::Float};
     case FileFormat::Obj:
       return {.texture_coordinates = true, .normals = true, .colours = true, .materials = true, .groups = true};
     case FileFormat::Gltf:
@@ -35,7 +40,8 @@ Carried carried_in(FileFormat format) {
           .colours = true,
           .scalars = true,
           .materials = true,
-          .document = true};
+          .document = true,
+          .texture_precision = TexturePrecision::FloatFromTop};
 }
 
 void drop(CornerAttribute& attribute, std::size_t& lost) {
@@ -46,6 +52,12 @@ void drop(CornerAttribute& attribute, std::size_t& lost) {
 void drop(TriangleLabels& labels, std::size_t& lost) {
   lost += labels.names.size();
   labels = {};
+}
+
+void round_texture_coordinates(MeshAttributes& attributes, TexturePrecision precision) {
+  for (Eigen::Vector3d& value : attributes.texture_coordinates.values)
+    value.head<2>() = rounded_to(precision, value.head<2>());
+  attributes.texture_precision = precision;
 }
 
 void drop_named(const Carried& carried, MeshAttributes& attributes, DroppedAttributes& lost) {
@@ -71,6 +83,7 @@ MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedA
     attributes.part.clear();
   }
   if (!carried.texture_coordinates) drop(attributes.texture_coordinates, lost.texture_coordinates);
+  round_texture_coordinates(attributes, carried.texture_precision);
   if (!carried.normals) drop(attributes.normals, lost.normals);
   drop_named(carried, attributes, lost);
   const bool has_only_libraries = attributes.materials.empty();

@@ -178,6 +178,7 @@ void GltfAttributes::name_missing_materials() {
 
 MeshAttributes GltfAttributes::finish() {
   if (all_.texture_coordinates.values.empty()) all_.texture_coordinates = {};
+  all_.texture_precision = TexturePrecision::FloatFromTop;
   if (all_.normals.values.empty()) all_.normals = {};
   name_missing_materials();
   return std::move(all_);

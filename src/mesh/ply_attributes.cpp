@@ -91,6 +91,7 @@ PlyAttributes::Role PlyAttributes::role_of(const PlyProperty& property) {
 void PlyAttributes::begin_vertices(const PlyElement& element) {
   for (const PlyProperty& property : element.properties) {
     Role role = is_geometry(element, property) ? Role{} : role_of(property);
+    if (role.kind == Kind::Texture) note_texture(property.type);
     has_texture_ = has_texture_ || role.kind == Kind::Texture;
     has_normals_ = has_normals_ || role.kind == Kind::Normal;
     has_vertex_colours_ = has_vertex_colours_ || role.kind == Kind::Colour;
@@ -104,9 +105,14 @@ void PlyAttributes::begin_vertices(const PlyElement& element) {
   }
 }
 
+void PlyAttributes::note_texture(PlyType type) {
+  if (type == PlyType::Float32) all_.texture_precision = TexturePrecision::Float;
+}
+
 /// Colours of faces are taken where vertices have none.
 void PlyAttributes::begin_faces(const PlyElement& element) {
   for (const PlyProperty& property : element.properties) {
+    if (lists_texture_coordinates(property) && !has_texture_) note_texture(property.type);
     const Role role = is_colour(property) && !has_vertex_colours_ ? role_of(property) : Role{};
     has_face_colours_ = has_face_colours_ || role.kind == Kind::Colour;
     if (role.kind == Kind::Colour && role.component == 3) colour_width_ = 4;

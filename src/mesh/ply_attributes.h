@@ -51,6 +51,8 @@ class PlyAttributes {
   };
 
   [[nodiscard]] static Role role_of(const PlyProperty& property);
+  /// Takes note of the type of numbers that texture coordinates have.
+  void note_texture(PlyType type);
   void take(const Role& role, double value);
   void add_colour();
 

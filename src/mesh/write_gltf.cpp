@@ -179,7 +179,23 @@ MeshAttributes named_for_gltf(const MeshAttributes& attributes) {
   return result;
 }
 
-/// A document of one node for a mesh of another format: one primitive for each material.
+/// What the triangles of a primitive have in common: the material or `no_value`, then whether they have a value at each
+/// corner, by attribute.
+using PrimitiveKey = std::vector<std::uint32_t>;
+
+PrimitiveKey primitive_key(const MeshAttributes& attributes, std::uint32_t triangle) {
+  const auto has_values = [&](const std::vector<Triangle>& index) -> std::uint32_t {
+    return !index.empty() &&
+           std::find(index[triangle].begin(), index[triangle].end(), no_value) == index[triangle].end();
+  };
+  PrimitiveKey key = {attributes.materials.empty() ? no_value : attributes.materials.index[triangle],
+                      has_values(attributes.normals.index), has_values(attributes.texture_coordinates.index)};
+  for (const NamedAttribute& named : attributes.named) key.push_back(has_values(named.index));
+  return key;
+}
+
+/// A document of one node for a mesh of another format: one primitive for the triangles of each material that have
+/// values of the same attributes.
 GltfContent new_document(const TriangleMesh& mesh, const MeshAttributes& given) {
   const MeshAttributes attributes = named_for_gltf(given);
   GltfLayout layout;
@@ -193,13 +209,13 @@ GltfContent new_document(const TriangleMesh& mesh, const MeshAttributes& given) 
                    {"scene", 0},
                    {"scenes", GltfJson::array({{{"nodes", GltfJson::array({0})}}})},
                    {"nodes", GltfJson::array({{{"mesh", 0}}})}};
-  std::map<std::uint32_t, std::vector<std::uint32_t>> triangles_of;  // by material
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    triangles_of[attributes.materials.empty() ? no_value : attributes.materials.index[t]].push_back(t);
+  std::map<PrimitiveKey, std::vector<std::uint32_t>> triangles_of;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles_of[primitive_key(attributes, t)].push_back(t);
   const std::vector<std::string> no_buffers;
   GltfBuffer buffer(json, no_buffers);
   GltfJson primitives = GltfJson::array();
-  for (const auto& [material, triangles] : triangles_of) {
+  for (const auto& [key, triangles] : triangles_of) {
+    const std::uint32_t material = key.front();
     GltfJson primitive = GltfJson::object();
     write_primitive(buffer, primitive, mesh, attributes, triangles, {}, layout);
     if (material != no_value) primitive["material"] = material;

@@ -54,7 +54,10 @@ class PlyWriter {
   void add_columns(const MeshAttributes& attributes) {
     const Kind real = options_.single_precision ? Kind::Float : Kind::Double;
     add_columns(attributes.normals, {"nx", "ny", "nz"}, Kind::Float);
-    add_columns(attributes.texture_coordinates, {"s", "t"}, Kind::Float);
+    if (has_all(attributes.texture_coordinates))
+      add_columns(attributes.texture_coordinates, {"s", "t"}, Kind::Float);
+    else
+      listed_ = &attributes.texture_coordinates;
     for (const NamedAttribute& named : attributes.named) {
       if (&named == colours_of(attributes)) {
         add_columns(named, {"red", "green", "blue", "alpha"}, holds_bytes(named) ? Kind::Byte : Kind::Float);
@@ -62,6 +65,14 @@ class PlyWriter {
         add_columns(named, {named.name}, real);
       }
     }
+  }
+
+  [[nodiscard]] static bool has_value(const Triangle& indices) {
+    return std::find(indices.begin(), indices.end(), no_value) == indices.end();
+  }
+
+  [[nodiscard]] static bool has_all(const CornerAttribute& attribute) {
+    return std::all_of(attribute.index.begin(), attribute.index.end(), has_value);
   }
 
   void add_columns(const CornerAttribute& attribute, const std::vector<std::string>& names, Kind kind) {
@@ -101,7 +112,10 @@ class PlyWriter {
 
   void write_triangles(const FileShare& share) {
     const std::vector<Triangle>& all = triangles();
-    for (std::size_t t = share.begin(all.size()); t < share.end(all.size()); ++t) write_triangle(all[t]);
+    for (std::size_t t = share.begin(all.size()); t < share.end(all.size()); ++t) {
+      write_triangle(all[t]);
+      if (listed_ != nullptr) write_texture_coordinates(listed_->index[t]);
+    }
   }
 
   [[nodiscard]] std::string header() const {
@@ -114,7 +128,8 @@ class PlyWriter {
     for (const Column& column : columns_)
       header += std::string("property ") + types[static_cast<std::size_t>(column.kind)] + ' ' + column.name + "\n";
     return header + "element face " + std::to_string(mesh_.triangles.size()) + "\nproperty list uchar " +
-           (fits_int ? "int" : "uint") + " vertex_indices\nend_header\n";
+           (fits_int ? "int" : "uint") + " vertex_indices\n" +
+           (listed_ != nullptr ? "property list uchar float texcoord\n" : "") + "end_header\n";
   }
 
   void write_vertex(std::size_t v) {
@@ -150,18 +165,33 @@ class PlyWriter {
       file_.write("3 ");
       put(file_, t[0], ' ');
       put(file_, t[1], ' ');
-      put(file_, t[2], '\n');
+      put(file_, t[2], listed_ != nullptr ? ' ' : '\n');
       return;
     }
     put_little_endian(file_, std::uint8_t{3});
     for (const std::uint32_t v : t) put_little_endian(file_, v);
   }
 
+  /// The list of a triangle, empty where a corner lacks a coordinate.
+  void write_texture_coordinates(const Triangle& indices) {
+    std::vector<double> numbers;
+    if (has_value(indices))
+      for (const std::uint32_t i : indices)
+        for (const double x : listed_->values[i].head<2>()) numbers.push_back(x);
+    const auto count = static_cast<std::uint8_t>(numbers.size());
+    if (options_.ascii)
+      put(file_, std::uint32_t{count}, count > 0 ? ' ' : '\n');
+    else
+      put_little_endian(file_, count);
+    for (const double& x : numbers) write_number(Kind::Float, x, &x == &numbers.back());
+  }
+
   AtomicFile& file_;
   const TriangleMesh& mesh_;
   const WriteOptions& options_;
   std::vector<Column> columns_;
-  SplitVertices split_;  ///< where there are columns
+  const CornerAttribute* listed_ = nullptr;  ///< coordinates that not all corners have, and that faces list therefore
+  SplitVertices split_;                      ///< where there are columns
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "mesh/atomic_file.h"
 #include "mesh/file_share.h"
 #include "meshbound/io.h"
+#include "numeric/rounded_to_float.h"
 
 namespace meshbound {
 
@@ -57,14 +58,6 @@ void put_little_endian(AtomicFile& file, T value) {
   std::memcpy(to, &value, sizeof(T));
   if constexpr (std::endian::native != std::endian::little) std::reverse(to, to + sizeof(T));
   file.use(to + sizeof(T));
-}
-
-/// The float nearest to `x`. The volatile stops the SLP vectoriser of GCC 12 (on at -O2), which would turn double ->
-/// float -> double of two neighbours into a plain copy; the bound would then be that of another mesh than the one
-/// written.
-[[nodiscard]] inline double rounded_to_float(double x) {
-  const volatile float rounded = static_cast<float>(x);
-  return static_cast<double>(rounded);
 }
 
 [[nodiscard]] inline Eigen::Vector3d rounded_to_float(const Eigen::Vector3d& p) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <map>
 #include <string>
 
@@ -33,7 +34,11 @@ class MaterialNumbers {
   std::map<std::string, std::uint32_t> numbers_;
 };
 
-TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attributes, MaterialNumbers& materials) {
+/// The precisions of the coordinates of two meshes: of both, each coordinate is rounded to the first and to the second.
+using Precisions = std::array<TexturePrecision, 2>;
+
+TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attributes, const Precisions& precisions,
+                           MaterialNumbers& materials) {
   const CornerAttribute& uv = attributes.texture_coordinates;
   TexturedMesh result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -44,7 +49,8 @@ TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attri
       const std::uint32_t index = uv.index[t][k];
       is_textured = is_textured && index != no_value;
       triangle.coordinates[k] = Eigen::Vector2d::Zero();
-      if (index != no_value) triangle.coordinates[k] = uv.values[index].head<2>();
+      if (index != no_value)
+        triangle.coordinates[k] = rounded_to(precisions[1], rounded_to(precisions[0], uv.values[index].head<2>()));
     }
     triangle.triangle = static_cast<std::uint32_t>(t);
     triangle.material = materials.of(attributes.materials, t);
@@ -63,8 +69,9 @@ std::array<TexturedMesh, 2> textured_meshes(const TriangleMesh& a, const MeshAtt
   check_attributes(a, a_attributes, "A");
   check_attributes(b, b_attributes, "B");
   MaterialNumbers materials(!a_attributes.materials.empty() && !b_attributes.materials.empty());
-  TexturedMesh first = textured_mesh(a, a_attributes, materials);
-  return {std::move(first), textured_mesh(b, b_attributes, materials)};
+  const Precisions precisions = {a_attributes.texture_precision, b_attributes.texture_precision};
+  TexturedMesh first = textured_mesh(a, a_attributes, precisions, materials);
+  return {std::move(first), textured_mesh(b, b_attributes, precisions, materials)};
 }
 
 }  // namespace meshbound

@@ -17,6 +17,19 @@ std::string material_of(const MeshAttributes& attributes, std::size_t triangle) 
   return label < attributes.materials.names.size() ? attributes.materials.names[label] : std::string();
 }
 
+/// The number that a float holds in the place of `x`; kept in memory, so that no compiler leaves the rounding out.
+double as_float(double x) {
+  const volatile auto stored = static_cast<float>(x);
+  return static_cast<double>(stored);
+}
+
+Eigen::Vector2d as_held_by(const TexturedFile& file, const Eigen::Vector2d& uv) {
+  if (file.attributes->texture_precision == TexturePrecision::Float) return {as_float(uv.x()), as_float(uv.y())};
+  if (file.attributes->texture_precision == TexturePrecision::FloatFromTop)
+    return {as_float(uv.x()), 1 - as_float(1 - uv.y())};
+  return uv;
+}
+
 TextureSurface surface_of(const TexturedFile& file, const char* name) {
   const auto& indices = file.attributes->texture_coordinates.index;
   const auto& values = file.attributes->texture_coordinates.values;
@@ -57,6 +70,9 @@ TextureSurface surface_of(const TexturedFile& file, const char* name) {
 
 std::array<TextureSurface, 2> texture_surfaces(const TexturedFile& original, const TexturedFile& simplified) {
   std::array surfaces = {surface_of(original, "original"), surface_of(simplified, "simplified")};
+  for (TextureSurface& surface : surfaces)
+    for (TextureSurface::Triangle& triangle : surface.triangles)
+      for (Eigen::Vector2d& uv : triangle.coordinates) uv = as_held_by(simplified, as_held_by(original, uv));
   if (original.attributes->materials.index.empty() || simplified.attributes->materials.index.empty()) return surfaces;
   std::map<std::string, std::uint32_t> number_of;
   const std::array files = {&original, &simplified};

@@ -32,7 +32,8 @@ struct TexturedFile {
   const MeshAttributes* attributes = nullptr;
 };
 
-/// The original and the simplified mesh. Materials are told apart, by their names, where both files have them. Throws
+/// The original and the simplified mesh, the coordinates of both as the file of the original would hold them, and then
+/// as that of the simplified mesh would. Materials are told apart, by their names, where both files have them. Throws
 /// `Rejected` where a mesh has no texture coordinates, or one that is not finite. O(n).
 [[nodiscard]] std::array<TextureSurface, 2> texture_surfaces(const TexturedFile& original,
                                                              const TexturedFile& simplified);
