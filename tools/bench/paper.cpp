@@ -170,8 +170,8 @@ double average(const std::vector<Step>& steps, double Step::*field) {
 }
 
 void write_steps(const Options& options, const std::string& name, const std::vector<Step>& steps) {
-  Table table{{"separation", "ms", "distance", "culled on A %", "culled on B %", "queries", "nodes visited",
-               "triangles tested", "triangles walked", "subdivisions"},
+  Table table{{"separation [longest dimensions]", "ms", "upper [longest dimensions]", "culled on A %", "culled on B %",
+               "queries", "nodes visited", "triangles tested", "triangles walked", "subdivisions"},
               {}};
   for (const Step& s : steps)
     table.rows.push_back({format(s.separation, 6), format(s.milliseconds, 6), format(s.distance, 9),

@@ -122,7 +122,7 @@ Measured measure(const Options& options, const Family& family, std::size_t size)
 
 int run(const Options& options) {
   Table table{{"pair", "triangles of both", "ours s", "build s", "query s", "wall s", "wall s 2 threads", "speed-up",
-               "bytes a triangle", "lower", "upper"},
+               "bytes a triangle", "lower [model units]", "upper [model units]"},
               {}};
   std::string exponents;
   for (const Family& family : families) {

@@ -74,8 +74,8 @@ Cost measure_all(const Shape& query, const std::vector<Shape>& others, const Sim
 
 int run(const Options& options) {
   const Library library = load();
-  Table table{{"query", "triangles", "nearest", "of its family", "upper bound", "ms", "queries", "all ms",
-               "all queries", "share of time %", "share of queries %"},
+  Table table{{"query", "triangles", "nearest", "of its family", "lower [rms radii]", "upper [rms radii]", "ms",
+               "queries", "all ms", "all queries", "share of time %", "share of queries %"},
               {}};
   for (std::size_t q = 0; q < library.names.size(); ++q) {
     const auto is_family = [&](std::size_t i) {
@@ -96,9 +96,9 @@ int run(const Options& options) {
     const auto queries = static_cast<double>(found.stats.closest_point_queries);
     table.rows.push_back({library.names[q], std::to_string(library.meshes[q].triangles.size()), first,
                           family(first) == family(library.names[q]) ? "yes" : "no",
-                          format(found.nearest.front().distance.upper), format(1000 * seconds), format(queries),
-                          format(1000 * cost.seconds), format(cost.queries), format(100 * seconds / cost.seconds),
-                          format(100 * queries / cost.queries)});
+                          format(found.nearest.front().distance.lower), format(found.nearest.front().distance.upper),
+                          format(1000 * seconds), format(queries), format(1000 * cost.seconds), format(cost.queries),
+                          format(100 * seconds / cost.seconds), format(100 * queries / cost.queries)});
   }
   if (!options.found_any()) return 0;
   table.write_csv(options.out / "similarity.csv", options.machine);

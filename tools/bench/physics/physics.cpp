@@ -243,7 +243,7 @@ void falling_bunnies(const Options& options, Table& table) {
 
 int run(const Options& options) {
   Table table{{"scene", "bodies", "steps", "touching pairs", "pair ms", "pair 99% ms", "step ms", "step 99% ms",
-               "paper's ms", "pairs culled %", "boxes meet only", "deepest"},
+               "paper's ms", "pairs culled %", "boxes meet only", "deepest, lower [scene units]"},
               {}};
   if (options.wants("letters")) dominoes(options, table);
   if (options.wants("bunnies")) falling_bunnies(options, table);
