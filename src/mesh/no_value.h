@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
+
 #include "meshbound/attributes.h"
 
 namespace meshbound {
 
 /// Index of a corner without a value.
 inline constexpr std::uint32_t no_value = CornerAttribute::none;
+
+/// Whether all corners of a triangle have values; `indices` are those of the values.
+[[nodiscard]] inline bool has_values(const Triangle& indices) {
+  return std::find(indices.begin(), indices.end(), no_value) == indices.end();
+}
 
 }  // namespace meshbound

@@ -184,13 +184,12 @@ MeshAttributes named_for_gltf(const MeshAttributes& attributes) {
 using PrimitiveKey = std::vector<std::uint32_t>;
 
 PrimitiveKey primitive_key(const MeshAttributes& attributes, std::uint32_t triangle) {
-  const auto has_values = [&](const std::vector<Triangle>& index) -> std::uint32_t {
-    return !index.empty() &&
-           std::find(index[triangle].begin(), index[triangle].end(), no_value) == index[triangle].end();
+  const auto has = [&](const std::vector<Triangle>& index) -> std::uint32_t {
+    return !index.empty() && has_values(index[triangle]);
   };
   PrimitiveKey key = {attributes.materials.empty() ? no_value : attributes.materials.index[triangle],
-                      has_values(attributes.normals.index), has_values(attributes.texture_coordinates.index)};
-  for (const NamedAttribute& named : attributes.named) key.push_back(has_values(named.index));
+                      has(attributes.normals.index), has(attributes.texture_coordinates.index)};
+  for (const NamedAttribute& named : attributes.named) key.push_back(has(named.index));
   return key;
 }
 
