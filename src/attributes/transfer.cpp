@@ -37,7 +37,7 @@ std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const 
 /// Appends the value of an attribute at a point to `values`; false if a corner of its triangle has none.
 bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std::vector<double>& values) {
   const Triangle& index = attribute.index[at.triangle];
-  if (!has_values(index)) return false;
+  if (!all_have_values(index)) return false;
   const auto number = [&](std::size_t corner, std::size_t i) {
     return attribute.values[index[corner] * attribute.width + i];
   };

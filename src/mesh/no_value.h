@@ -10,7 +10,7 @@ namespace meshbound {
 inline constexpr std::uint32_t no_value = CornerAttribute::none;
 
 /// Whether all corners of a triangle have values; `indices` are those of the values.
-[[nodiscard]] inline bool has_values(const Triangle& indices) {
+[[nodiscard]] inline bool all_have_values(const Triangle& indices) {
   return std::find(indices.begin(), indices.end(), no_value) == indices.end();
 }
 

@@ -185,7 +185,7 @@ using PrimitiveKey = std::vector<std::uint32_t>;
 
 PrimitiveKey primitive_key(const MeshAttributes& attributes, std::uint32_t triangle) {
   const auto has = [&](const std::vector<Triangle>& index) -> std::uint32_t {
-    return !index.empty() && has_values(index[triangle]);
+    return !index.empty() && all_have_values(index[triangle]);
   };
   PrimitiveKey key = {attributes.materials.empty() ? no_value : attributes.materials.index[triangle],
                       has(attributes.normals.index), has(attributes.texture_coordinates.index)};

@@ -68,7 +68,7 @@ class PlyWriter {
   }
 
   [[nodiscard]] static bool has_all(const CornerAttribute& attribute) {
-    return std::all_of(attribute.index.begin(), attribute.index.end(), has_values);
+    return std::all_of(attribute.index.begin(), attribute.index.end(), all_have_values);
   }
 
   void add_columns(const CornerAttribute& attribute, const std::vector<std::string>& names, Kind kind) {
@@ -171,7 +171,7 @@ class PlyWriter {
   /// The list of a triangle, empty where a corner lacks a coordinate.
   void write_texture_coordinates(const Triangle& indices) {
     std::vector<double> numbers;
-    if (has_values(indices))
+    if (all_have_values(indices))
       for (const std::uint32_t i : indices)
         for (const double x : listed_->values[i].head<2>()) numbers.push_back(x);
     const auto count = static_cast<std::uint8_t>(numbers.size());
