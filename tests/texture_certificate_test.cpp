@@ -12,6 +12,7 @@
 #include "forged_bytes.h"
 #include "meshbound/error.h"
 #include "verify/texture_check.h"
+#include "verify/texture_surface.h"
 #include "verify/verifier.h"
 
 namespace meshbound {
@@ -244,6 +245,17 @@ TEST(TextureCertificate, IsRejectedWhereTheTextureIsAnother) {
   c.b.attributes = {};
   EXPECT_NE(c.rejection(bytes).find("the simplified mesh has no texture coordinates"), std::string::npos);
   EXPECT_THROW((void)verify::check_certificate(c.a.mesh, c.b.mesh, bytes), verify::Rejected);
+}
+
+/// Numbers beyond the range of floats have no place in a file of floats.
+TEST(TextureCertificate, OfCoordinatesThatOneOfTheFilesCannotHoldIsRejected) {
+  const auto flat = [](double s, double t) { return Eigen::Vector3d(s, t, 0); };
+  Textured a = grid(1, flat), b = grid(1, flat);
+  const auto surfaces = [&] { return verify::texture_surfaces({&a.mesh, &a.attributes}, {&b.mesh, &b.attributes}); };
+  a.attributes.texture_coordinates.values[0].x() = 1e39;
+  EXPECT_NO_THROW((void)surfaces());
+  b.attributes.texture_precision = TexturePrecision::FloatFromTop;
+  EXPECT_THROW((void)surfaces(), verify::Rejected);
 }
 
 TEST(TextureCertificate, OfAnotherTextureIsRejectedAlsoWithItsChecksum) {

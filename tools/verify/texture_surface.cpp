@@ -30,7 +30,9 @@ Eigen::Vector2d as_held_by(const TexturedFile& file, const Eigen::Vector2d& uv) 
   return uv;
 }
 
-TextureSurface surface_of(const TexturedFile& file, const char* name) {
+/// The surface of `file`, which is one of the two that are compared.
+TextureSurface surface_of(const TexturedFile& file, const char* name, const TexturedFile& original,
+                          const TexturedFile& simplified) {
   const auto& indices = file.attributes->texture_coordinates.index;
   const auto& values = file.attributes->texture_coordinates.values;
   const std::size_t count = file.mesh->triangles.size();
@@ -48,7 +50,7 @@ TextureSurface surface_of(const TexturedFile& file, const char* name) {
       if (indices[t][k] >= values.size())
         is_textured = false;
       else
-        triangle.coordinates[k] = values[indices[t][k]].head<2>();
+        triangle.coordinates[k] = as_held_by(simplified, as_held_by(original, values[indices[t][k]].head<2>()));
     }
     const auto& p = triangle.corners;
     const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
@@ -69,10 +71,8 @@ TextureSurface surface_of(const TexturedFile& file, const char* name) {
 }  // namespace
 
 std::array<TextureSurface, 2> texture_surfaces(const TexturedFile& original, const TexturedFile& simplified) {
-  std::array surfaces = {surface_of(original, "original"), surface_of(simplified, "simplified")};
-  for (TextureSurface& surface : surfaces)
-    for (TextureSurface::Triangle& triangle : surface.triangles)
-      for (Eigen::Vector2d& uv : triangle.coordinates) uv = as_held_by(simplified, as_held_by(original, uv));
+  std::array surfaces = {surface_of(original, "original", original, simplified),
+                         surface_of(simplified, "simplified", original, simplified)};
   if (original.attributes->materials.index.empty() || simplified.attributes->materials.index.empty()) return surfaces;
   std::map<std::string, std::uint32_t> number_of;
   const std::array files = {&original, &simplified};
