@@ -28,12 +28,16 @@ struct TexturedTriangle {
   std::uint32_t triangle = 0;                  ///< index in the mesh that it comes from
   /// Coordinates are equal only where these are: the number of the material, or 0 for all.
   std::uint32_t material = 0;
+
+  [[nodiscard]] bool operator==(const TexturedTriangle&) const = default;  ///< equality of all members
 };
 
 /// A mesh as its texture sees it.
 struct TexturedMesh {
   std::vector<TexturedTriangle> triangles;           ///< those that have texture coordinates at all corners
   std::vector<std::array<Eigen::Vector3d, 3>> bare;  ///< corners of those that do not
+
+  [[nodiscard]] bool operator==(const TexturedMesh&) const = default;  ///< equality of all triangles
 };
 
 /// Two meshes with the texture coordinates of their attributes, both rounded to the precision of the first and then to

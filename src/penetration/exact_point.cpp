@@ -35,9 +35,11 @@ mpz_class volume_of(const ExactPoint& p, const ExactPoint& q, const ExactPoint& 
 
 int lowest_bit(double x) {
   if (x == 0) return no_bit;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(std::fabs(x), &exponent), mantissa_bits);
-  return exponent - mantissa_bits + std::countr_zero(static_cast<std::uint64_t>(mantissa));
+  constexpr std::uint64_t one = 1, fraction_bits = mantissa_bits - 1, lowest_exponent = 1074;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const std::uint64_t exponent = bits >> fraction_bits & 0x7ff, fraction = bits & ((one << fraction_bits) - 1);
+  if (exponent == 0) return std::countr_zero(fraction) - static_cast<int>(lowest_exponent);
+  return std::countr_zero(fraction | one << fraction_bits) + static_cast<int>(exponent - 1 - lowest_exponent);
 }
 
 mpz_class in_units(double x, int unit) {

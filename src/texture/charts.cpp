@@ -43,14 +43,13 @@ std::optional<double> upper_at_equal_corners(const TexturedTriangle& a, const Te
   return upper;
 }
 
-/// The box of the texture coordinates; the third side keeps materials apart.
-Eigen::AlignedBox3d box_of(const TexturedTriangle& t) {
+}  // namespace
+
+Eigen::AlignedBox3d box_in_texture(const TexturedTriangle& triangle) {
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector2d& uv : t.coordinates) box.extend(Eigen::Vector3d(uv.x(), uv.y(), t.material));
+  for (const Eigen::Vector2d& uv : triangle.coordinates) box.extend(Eigen::Vector3d(uv.x(), uv.y(), triangle.material));
   return box;
 }
-
-}  // namespace
 
 Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
   Eigen::AlignedBox3d box;
@@ -72,13 +71,13 @@ ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b) {
 Charts::Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) {
   for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units));
   std::vector<Eigen::AlignedBox3d> boxes;
-  for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_of(t)), places_.push_back(place_of(t));
+  for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_in_texture(t)), places_.push_back(place_of(t));
   tree_.emplace(std::move(boxes));
 }
 
 void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
   found.clear();
-  tree_->find(box_of(*a.source), found);
+  tree_->find(box_in_texture(*a.source), found);
   for (const std::uint32_t b : found) overlay.add(triangles_[b]);
 }
 
@@ -87,7 +86,7 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.others.clear();
   found.copy.reset();
   std::vector<std::uint32_t> indices;
-  tree_->find(box_of(*a.source), indices);
+  tree_->find(box_in_texture(*a.source), indices);
   for (const std::uint32_t b : indices) {
     if (a.chart != Chart::Area) break;
     const std::optional<double> upper = upper_at_equal_corners(*a.source, *triangles_[b].source);

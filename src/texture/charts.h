@@ -13,6 +13,9 @@ namespace meshbound {
 /// The units of all texture coordinates and positions of both meshes.
 [[nodiscard]] ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b);
 
+/// The box of the texture coordinates of a triangle; the third side keeps materials apart.
+[[nodiscard]] Eigen::AlignedBox3d box_in_texture(const TexturedTriangle& triangle);
+
 /// The box of a triangle in space.
 [[nodiscard]] Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle);
 

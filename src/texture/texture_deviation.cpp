@@ -14,6 +14,7 @@
 #include "numeric/tasks.h"
 #include "texture/charts.h"
 #include "texture/surface_area.h"
+#include "texture/texture_comparison.h"
 #include "texture/triangle_deviation.h"
 
 namespace meshbound {
@@ -27,16 +28,16 @@ constexpr std::size_t grain = 32;             ///< triangles that a thread takes
 /// Computes the one-sided texture deviation from A to B.
 class Direction {
  public:
-  /// `reach` is how far a first look goes.
+  /// `reach` is how far a first look goes; `bounds` is what is known already, and is made complete.
   Direction(const Charts& a, const Charts& b, const ExactUnits& units, double error_bound, double reach,
-            const TextureDeviationOptions& options)
+            const TextureDeviationOptions& options, TriangleBounds& bounds)
       : a_(a),
         b_(b),
         units_(units),
         options_(options),
         reach_(reach),
-        bounds_(a.triangles().size()),
-        shares_(a.triangles().size()),
+        upper_(bounds.upper),
+        shares_(bounds.uncovered),
         is_refined_(a.triangles().size(), 0) {
     goal_.error_bound = error_bound;
     goal_.precision = precision_share * error_bound;
@@ -44,7 +45,7 @@ class Direction {
   }
 
   OneSidedTextureDeviation run() {
-    pairs_.assign(bounds_.size(), 0);
+    pairs_.assign(upper_.size(), 0);
     look_at_near();
     find_lower_bound();
     refine(unknown(), rough_error_bound());
@@ -52,7 +53,7 @@ class Direction {
     if (!witness_) find_witness();
     OneSidedTextureDeviation result;
     result.bounds = {goal_.lower, goal_.lower};
-    for (const Bounds& b : bounds_) result.bounds.upper = std::max(result.bounds.upper, b.upper);
+    for (const double upper : upper_) result.bounds.upper = std::max(result.bounds.upper, upper);
     result.witness = witness_;
     result.exceeding = std::move(exceeding_);
     result.uncovered = uncovered_share_of(a_.mesh(), shares_);
@@ -85,7 +86,7 @@ class Direction {
   [[nodiscard]] bool is_open(std::size_t triangle) const {
     const double enough = goal_.lower + goal_.error_bound;
     return is_refined_[triangle] == 0 &&
-           bounds_[triangle].upper > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
+           upper_[triangle] > (options_.tolerance ? std::min(*options_.tolerance, enough) : enough);
   }
 
   [[nodiscard]] bool exceeds(const TriangleDeviation& found) const {
@@ -105,26 +106,26 @@ class Direction {
 
   /// Many triangles are covered by few near ones: an upper bound, and no uncovered area.
   void look_at_near() {
-    for_triangles(bounds_.size(), grain, [&](std::size_t i, Workspace& work) {
-      if (a_.triangles()[i].chart != Chart::Area) return;
+    for_triangles(upper_.size(), grain, [&](std::size_t i, Workspace& work) {
+      if (a_.triangles()[i].chart != Chart::Area || !is_unknown(i)) return;
       find_candidates(i, work);
       if (const auto& copy = work.candidates.copy) {
-        bounds_[i] = {0, copy->upper};
+        upper_[i] = copy->upper;
         pairs_[i] = 1;
         return;
       }
       overlay_near(i, work);
       pairs_[i] = work.overlay.candidates();
-      if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision)) bounds_[i] = {0, *upper};
+      if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision)) upper_[i] = *upper;
     });
   }
 
-  [[nodiscard]] bool is_unknown(std::size_t triangle) const { return !(bounds_[triangle].upper < HUGE_VAL); }
+  [[nodiscard]] bool is_unknown(std::size_t triangle) const { return !(upper_[triangle] < HUGE_VAL); }
 
   /// The triangles that near candidates are not known to cover.
   [[nodiscard]] std::vector<std::size_t> unknown() const {
     std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < bounds_.size(); ++i)
+    for (std::size_t i = 0; i < upper_.size(); ++i)
       if (is_unknown(i)) found.push_back(i);
     return found;
   }
@@ -132,10 +133,9 @@ class Direction {
   /// The triangles whose bounds are known but too wide, those with the largest upper bounds first.
   [[nodiscard]] std::vector<std::size_t> open() const {
     std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < bounds_.size(); ++i)
+    for (std::size_t i = 0; i < upper_.size(); ++i)
       if (!is_unknown(i) && is_open(i)) found.push_back(i);
-    std::stable_sort(found.begin(), found.end(),
-                     [&](std::size_t p, std::size_t q) { return bounds_[p].upper > bounds_[q].upper; });
+    std::stable_sort(found.begin(), found.end(), [&](std::size_t p, std::size_t q) { return upper_[p] > upper_[q]; });
     return found;
   }
 
@@ -185,7 +185,7 @@ class Direction {
     });
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       if (found[k].pieces == 0) continue;
-      bounds_[triangles[k]] = found[k].bounds;
+      upper_[triangles[k]] = found[k].bounds.upper;
       shares_[triangles[k]] = found[k].uncovered;
       is_refined_[triangles[k]] = error_bound == goal_.error_bound ? 1 : 0;
       gave_up_ = gave_up_ || found[k].gave_up;
@@ -203,13 +203,12 @@ class Direction {
 
   /// Where no far point was needed: finds one of the triangle with the largest upper bound.
   void find_witness() {
-    const auto is_smaller = [](const Bounds& p, const Bounds& q) { return p.upper < q.upper; };
-    const auto worst = std::max_element(bounds_.begin(), bounds_.end(), is_smaller);
-    if (worst == bounds_.end() || worst->upper < 0) return;
+    const auto worst = std::max_element(upper_.begin(), upper_.end());
+    if (worst == upper_.end() || *worst < 0) return;
     DeviationGoal goal = goal_;
     goal.silent = -1;
     Workspace work(units_);
-    const auto triangle = static_cast<std::size_t>(worst - bounds_.begin());
+    const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
     const TriangleDeviation found = deviation_by_pieces(work.overlay, work.candidates.others, goal);
@@ -222,9 +221,9 @@ class Direction {
   ExactUnits units_;
   const TextureDeviationOptions& options_;
   DeviationGoal goal_;
-  double reach_ = 0;                 ///< of the first look, model units
-  std::vector<Bounds> bounds_;       ///< by triangle of A
-  std::vector<Approximate> shares_;  ///< by triangle of A: the share of it that B does not cover
+  double reach_ = 0;                  ///< of the first look, model units
+  std::vector<double>& upper_;        ///< by triangle of A
+  std::vector<Approximate>& shares_;  ///< by triangle of A: the share of it that B does not cover
   std::vector<std::uint8_t> is_refined_;
   std::vector<std::uint32_t> pairs_;
   std::optional<TextureWitness> witness_;
@@ -248,10 +247,9 @@ double diagonal_of(const TexturedMesh& mesh) {
   return box.isEmpty() ? 0 : box.diagonal().stableNorm();
 }
 
-}  // namespace
-
-TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
-                                   const TextureDeviationOptions& options) {
+/// `known` by direction; it is made complete.
+TextureDeviation measured(const TexturedMesh& a, const TexturedMesh& b, const TextureDeviationOptions& options,
+                          std::array<TriangleBounds, 2>& known) {
   check_floating_point_model();
   check_finite(a);
   check_finite(b);
@@ -263,11 +261,33 @@ TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
   const Charts charts_a(a, units), charts_b(b, units);
   TextureDeviation result;
   const double reach = options.tolerance.value_or(reach_share * diagonal_of(a));
-  result.a_to_b = Direction(charts_a, charts_b, units, error_bound, reach, options).run();
-  result.b_to_a = Direction(charts_b, charts_a, units, error_bound, reach, options).run();
+  result.a_to_b = Direction(charts_a, charts_b, units, error_bound, reach, options, known[0]).run();
+  result.b_to_a = Direction(charts_b, charts_a, units, error_bound, reach, options, known[1]).run();
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
                    std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
   return result;
+}
+
+}  // namespace
+
+TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
+                                   const TextureDeviationOptions& options) {
+  std::array<TriangleBounds, 2> known{bounds_of_equal(a, b), bounds_of_equal(b, a)};
+  return measured(a, b, options, known);
+}
+
+TextureDeviation TextureComparison::measure(std::array<TexturedMesh, 2> meshes,
+                                            const TextureDeviationOptions& options) {
+  const bool is_first = bounds_[0].upper.empty() && bounds_[1].upper.empty();
+  if (!is_first && meshes == meshes_) return deviation_;
+  std::array<TriangleBounds, 2> known;
+  for (const std::size_t a : {0, 1})
+    known[a] = is_first ? bounds_of_equal(meshes[a], meshes[1 - a])
+                        : bounds_left(bounds_[a], meshes_[a], meshes_[1 - a], meshes[a], meshes[1 - a]);
+  deviation_ = measured(meshes[0], meshes[1], options, known);
+  meshes_ = std::move(meshes);
+  bounds_ = std::move(known);
+  return deviation_;
 }
 
 }  // namespace meshbound

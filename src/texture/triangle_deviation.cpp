@@ -137,9 +137,10 @@ class PieceSearch {
     PieceBound of_candidate{0, nullptr};
     for (const auto& corner : piece.polygon) {
       const double at = overlay_.distance(candidate, corner.node, goal_.precision).upper;
+      if (at >= bound.upper) return false;
       if (at >= of_candidate.upper) of_candidate = {at, &corner.node};
     }
-    if (of_candidate.upper < bound.upper) bound = of_candidate;
+    bound = of_candidate;
     return bound.upper <= limit();
   }
 

@@ -9,6 +9,7 @@
 #include "meshbound/error.h"
 #include "meshbound/texture_deviation.h"
 #include "reference/texture_oracle.h"
+#include "texture/texture_comparison.h"
 
 namespace meshbound::fuzz {
 namespace {
@@ -151,6 +152,15 @@ bool is_moderate(const TexturedMesh& mesh) {
   });
 }
 
+void check_both(const TextureDeviation& found, const TexturedMesh& a, const TexturedMesh& b,
+                const TextureDeviationOptions& options) {
+  check_direction(found.a_to_b, a, b, *options.error_bound, options.tolerance);
+  check_direction(found.b_to_a, b, a, *options.error_bound, options.tolerance);
+  if (!is_moderate(a) || !is_moderate(b)) return;
+  check_uncovered(found.a_to_b.uncovered, a, b);
+  check_uncovered(found.b_to_a.uncovered, b, a);
+}
+
 }  // namespace
 
 void check_texture(Bytes content) {
@@ -168,17 +178,13 @@ void check_texture(Bytes content) {
   options.error_bound = std::ldexp(size, -(static_cast<int>(how) % 48));
   if (const auto halvings = static_cast<int>(source.below(24)); halvings < 16)
     options.tolerance = std::ldexp(size, -halvings);
-  TextureDeviation found;
+  const TexturedMesh before = moved_a_little(b, source, kind);
   try {
-    found = texture_deviation(a, b, options);
-  } catch (const InvalidInput&) {
-    return;  // a coordinate that is not finite
-  }
-  check_direction(found.a_to_b, a, b, *options.error_bound, options.tolerance);
-  check_direction(found.b_to_a, b, a, *options.error_bound, options.tolerance);
-  if (is_moderate(a) && is_moderate(b)) {
-    check_uncovered(found.a_to_b.uncovered, a, b);
-    check_uncovered(found.b_to_a.uncovered, b, a);
+    check_both(texture_deviation(a, b, options), a, b, options);
+    TextureComparison comparison;
+    (void)comparison.measure({a, before}, options);
+    check_both(comparison.measure({a, b}, options), a, b, options);
+  } catch (const InvalidInput&) {  // a coordinate is not finite
   }
 }
 

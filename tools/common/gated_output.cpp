@@ -100,22 +100,32 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   distance_ = distance_between(original, mesh, options, stop_);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
-  if (original_texture_ != nullptr && verdict_ == Verdict::Within) measure_texture(file, options);
-  if (normal_tolerance_ && verdict_ == Verdict::Within)
-    normals_ = meshbound::normal_deviation(original.mesh(), mesh, {normal_tolerance_, options.threads});
+  if (verdict_ == Verdict::Within) look_at(original.mesh(), file, options.threads);
   return distance_;
 }
 
-void GatedOutput::measure_texture(const MeshFile& written, const DistanceOptions& options) {
+void GatedOutput::look_at(const TriangleMesh& original, const MeshFile& level, int threads) {
+  texture_.reset();
+  normals_.reset();
+  if (original_texture_ != nullptr) measure_texture(level, threads);
+  if (normal_tolerance_) {
+    const bool is_known = normals_looked_at_ && looked_at_.vertices == level.mesh.vertices &&
+                          looked_at_.triangles == level.mesh.triangles;
+    if (!is_known) normals_looked_at_ = meshbound::normal_deviation(original, level.mesh, {normal_tolerance_, threads});
+    looked_at_ = level.mesh;
+    normals_ = normals_looked_at_;
+  }
+}
+
+void GatedOutput::measure_texture(const MeshFile& level, int threads) {
   constexpr double width = 0.01;  // of the interval, as a share of the tolerance
-  const auto meshes =
-      textured_meshes(*original_texture_->mesh, *original_texture_->attributes, written.mesh, written.attributes);
+  auto meshes = textured_meshes(*original_texture_->mesh, *original_texture_->attributes, level.mesh, level.attributes);
   TextureDeviationOptions texture;
   texture.tolerance = original_texture_->tolerance;
   texture.error_bound = width * original_texture_->tolerance;
-  texture.threads = options.threads;
+  texture.threads = threads;
   texture.stop = stop_;
-  texture_ = meshbound::texture_deviation(meshes[0], meshes[1], texture);
+  texture_ = texture_comparison_.measure(std::move(meshes), texture);
 }
 
 bool GatedOutput::are_normals_within() const { return !normal_tolerance_ || (normals_ && normals_->exceeding.empty()); }

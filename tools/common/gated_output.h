@@ -15,6 +15,7 @@
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/texture_deviation.h"
+#include "texture/texture_comparison.h"
 
 namespace meshbound::tools {
 
@@ -55,6 +56,7 @@ class GatedOutput {
 
   /// Makes `measure` measure the texture deviation as well; null: it does not. Must outlive this.
   void require_texture(const OriginalTexture* texture) { original_texture_ = texture; }
+  [[nodiscard]] bool requires_texture() const { return original_texture_ != nullptr; }
 
   /// Makes `measure` measure how far faces of the original turn, with this tolerance in degrees; absent: it does not.
   void require_normals(std::optional<double> tolerance) { normal_tolerance_ = tolerance; }
@@ -74,8 +76,11 @@ class GatedOutput {
   /// file holds the original.
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
-  /// The texture deviation: measured if it is required and the verdict is Within. `is_texture_within` is false if it is
-  /// required but was not measured.
+  /// Measures texture and normals, as far as they are required, of a mesh that is not written yet. Where the file reads
+  /// like it, `measure` finds that known.
+  void look_at(const TriangleMesh& original, const MeshFile& level, int threads);
+  /// The texture deviation of what was measured or looked at last: there if it is required and, after `measure`, the
+  /// verdict is Within. `is_texture_within` is false if it is required but was not measured.
   [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }
   [[nodiscard]] bool is_texture_within() const;
   /// The deviation of normals, measured and judged like that of the texture.
@@ -107,7 +112,7 @@ class GatedOutput {
  private:
   void restart();
   void measure_lines(const TriangleMesh& written, DistanceOptions options);
-  void measure_texture(const MeshFile& written, const DistanceOptions& options);
+  void measure_texture(const MeshFile& level, int threads);
   [[nodiscard]] StopToken only_flag() const { return {.cancel = stop_.cancel}; }
   [[nodiscard]] MeshFile written_file(const StopToken& stop, bool with_attributes) const;
 
@@ -119,9 +124,12 @@ class GatedOutput {
   HausdorffDistance distance_;
   const OriginalLines* original_lines_ = nullptr;
   const OriginalTexture* original_texture_ = nullptr;
+  TextureComparison texture_comparison_;
   std::optional<TextureDeviation> texture_;
   std::optional<double> normal_tolerance_;
   std::optional<NormalDeviation> normals_;
+  TriangleMesh looked_at_;  ///< whose deviation of normals is known
+  std::optional<NormalDeviation> normals_looked_at_;
   TriangleMesh lines_;  ///< of what was written
   std::optional<HausdorffDistance> line_distance_;
   MeshSummary summary_;

@@ -126,6 +126,26 @@ double DecimationRun::remaining(double share) const {
                                        : std::numeric_limits<double>::infinity();
 }
 
+void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
+  try {
+    MeshAttributes visible;
+    if (output.requires_texture()) {
+      visible.texture_coordinates = attributes_.texture_coordinates;
+      visible.texture_precision = attributes_.texture_precision;
+      visible.materials = attributes_.materials;
+    }
+    visible.document = attributes_.document;
+    visible.part = attributes_.part;
+    MeshAttributes attributes;
+    if (!visible.empty()) attributes = transferred_attributes(original_, visible, level);
+    MeshFile file;
+    file.mesh = placed_as_written(level, attributes).mesh;
+    file.attributes = std::move(attributes);
+    output.look_at(original_, file, threads());
+  } catch (const Stopped&) {  // the file that is written next is not measured either
+  }
+}
+
 bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) const {
   try {
     const MeshAttributes attributes =

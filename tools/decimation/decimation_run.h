@@ -39,6 +39,9 @@ class DecimationRun {
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
   /// How a browser repeats the measurement of an output.
   [[nodiscard]] RepeatedMeasurement repeated(double tolerance, DecidedBy how) const;
+  /// Measures how far texture and normals of a level that is not written yet have changed, as far as the output
+  /// requires it; leaves off at the time limit.
+  void look_at(GatedOutput& output, const SimplifiedLevel& level);
   /// Writes; false when the time limit came first.
   [[nodiscard]] bool writes(GatedOutput& output, const SimplifiedLevel& level) const;
   /// Measures what was written; true when the verdict is known.

@@ -73,6 +73,9 @@ class Run : DecimationRun {
   void make_levels();
   void make_level(std::size_t level);
   void choose_appearance();
+  void set_requirements(GatedOutput& output) const;
+  [[nodiscard]] bool looks_wrong(GatedOutput& output);
+  [[nodiscard]] bool takes_back(const GatedOutput& output, std::size_t round);
   [[nodiscard]] bool tightens_appearance(std::size_t output, std::size_t round);
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void guard_texture(SimplifyOptions& simplify) const;
@@ -241,10 +244,13 @@ void Run::make_levels() {
   }
   verdict_ = Verdict::Within;
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
-    for (std::size_t round = 0; round == 0 || tightens_appearance(i, round - 1); ++round) {
+    set_requirements(outputs_[i]);
+    for (std::size_t round = 0;; ++round) {
       if (i < tolerances_.size()) make_level(i);  // OUT may repeat the last level
       end_if_interrupted();
+      if (looks_wrong(outputs_[i]) && takes_back(outputs_[i], round)) continue;
       certify(i, bar);
+      if (!tightens_appearance(i, round)) break;
     }
     if (i > 0 && outputs_[i].summary().faces > outputs_[i - 1].summary().faces) take_finer(i);
   }
@@ -299,14 +305,27 @@ void Run::guard_texture(SimplifyOptions& simplify) const {
   simplify.texture_tolerance = original_texture_->tolerance;
 }
 
+void Run::set_requirements(GatedOutput& output) const {
+  if (original_lines_) output.require_lines(&*original_lines_);
+  if (original_texture_) output.require_texture(&*original_texture_);
+  output.require_normals(options_.normal_tolerance);
+}
+
+/// Whether the level that was made last moves the texture too far or turns faces too much. What is seen before it is
+/// written need not be written again.
+bool Run::looks_wrong(GatedOutput& output) {
+  if (!scene_ || !(original_texture_ || options_.normal_tolerance)) return false;
+  watch_.lap();
+  look_at(output, result_.last());
+  report_.seconds.certify += watch_.lap();
+  return !output.keeps_appearance();
+}
+
 /// Writes the level under a temporary name, reads it back and measures that.
 void Run::certify(std::size_t index, ProgressBar& bar) {
   GatedOutput& output = outputs_[index];
   const double tolerance = tolerance_of(index);
   watch_.lap();
-  if (original_lines_) output.require_lines(&*original_lines_);
-  if (original_texture_) output.require_texture(&*original_texture_);
-  output.require_normals(options_.normal_tolerance);
   (void)writes(output, result_.last());  // if this fails, `prove` falls back to a finer level or the original
   report_.seconds.write += watch_.lap();
   const auto redo = [&](double smaller) {
@@ -325,19 +344,23 @@ void Run::certify(std::size_t index, ProgressBar& bar) {
         save_reproducer(options_, output, {tolerances_, tolerance, target_ratio_}).string());
 }
 
-/// Undoes what has led to a texture that has moved too far or to faces that have turned too much: more in each round. A
-/// result that does not get within these tolerances in this way, or not in time, is replaced by the original.
+/// Undoes what has led to a texture that has moved too far or to faces that have turned too much: more in each round.
+/// False if nothing was undone, or not in time.
+bool Run::takes_back(const GatedOutput& output, std::size_t round) {
+  end_if_interrupted();
+  if (is_out_of_time() || round >= max_rounds) return false;
+  watch_.lap();
+  const bool is_changed = scene_->take_back(refuted_by(output), std::size_t{4} << (2 * round));
+  report_.seconds.simplify += watch_.lap();
+  return is_changed;
+}
+
+/// Takes back what moves the texture too far or turns faces too much as the file reads. A result that does not get
+/// within these tolerances in this way is replaced by the original.
 bool Run::tightens_appearance(std::size_t index, std::size_t round) {
   GatedOutput& output = outputs_[index];
   if (output.verdict() != Verdict::Within || output.keeps_appearance()) return false;
-  end_if_interrupted();
-  watch_.lap();
-  if (!is_out_of_time() && round < max_rounds) {
-    const RefutedTriangles refuted = refuted_by(output);
-    const bool is_changed = scene_->take_back(refuted, std::size_t{4} << (2 * round));
-    report_.seconds.simplify += watch_.lap();
-    if (is_changed) return true;
-  }
+  if (takes_back(output, round)) return true;
   const bool has_smaller = index > 0 && outputs_[index - 1].keeps_appearance();
   decided_by_[index] =
       fall_back(output, has_smaller ? &outputs_[index - 1] : nullptr, measurement(tolerance_of(index)));

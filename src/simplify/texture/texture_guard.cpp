@@ -19,6 +19,9 @@ constexpr double good_share = 0.5;
 constexpr double hopeful_share = 4;
 /// Most Newton steps for one coordinate; a step without gain ends them earlier.
 constexpr int max_steps = 4;
+/// Samples that are looked at first where a star has more than twice as many: where no coordinate of the vertex brings
+/// these within the limit, none does for all.
+constexpr std::size_t few_samples = 32;
 /// The strip between a line of the original and the line that a collapse makes of it, in the texture, is sampled at
 /// these shares of the way across.
 constexpr std::array<double, 3> shares_of_strip = {0.02, 0.5, 0.98};
@@ -78,15 +81,16 @@ void TextureGuard::begin(const TexturedStar& star) {
   faces_.clear();
   matches_.clear();
   area_before_.clear();
-  const auto add_samples = [&](std::uint32_t face) {
+  const auto add_samples = [&](std::uint32_t face, const Match& first_guess) {
     map_.lists.for_each(face, [&](std::uint32_t s) {
       samples_.push_back(s);
       charts_.push_back(map_.chart(face));
+      matches_.push_back(first_guess);
     });
   };
   for (const Corner c : star.moved) {
     const std::uint32_t f = c / 3;
-    add_samples(f);
+    add_samples(f, {static_cast<std::uint32_t>(faces_.size()), true, {}, {}});
     faces_.push_back({{mesh_.position(mesh_.start(c)), mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))},
                       {map_.at(c), map_.at(next_corner(c)), map_.at(previous_corner(c))},
                       map_.chart(f),
@@ -97,8 +101,22 @@ void TextureGuard::begin(const TexturedStar& star) {
                       false});
     area_before_.push_back(doubled_area(faces_.back().coordinates));
   }
-  for (const std::uint32_t f : star.removed) add_samples(f);
+  for (const std::uint32_t f : star.removed) add_samples(f, {});
+  put_few_first();
 }
+
+/// Puts few samples from all over the star before the others.
+void TextureGuard::put_few_first() {
+  if (!has_many()) return;
+  for (std::size_t i = 0; i < few_samples; ++i) {
+    const std::size_t from = i * samples_.size() / few_samples;
+    std::swap(samples_[i], samples_[from]);
+    std::swap(charts_[i], charts_[from]);
+    std::swap(matches_[i], matches_[from]);
+  }
+}
+
+bool TextureGuard::has_many() const { return samples_.size() > 2 * few_samples; }
 
 /// Gives a coordinate to the corners of the removed vertex on one side of its line: those that are connected with
 /// corner `of_leaving` without crossing a line.
@@ -247,12 +265,12 @@ void TextureGuard::prepare_faces() {
   }
 }
 
-/// Finds a face for each sample, that of the last call if it still has its coordinate. False if a sample has none, or
-/// none within `max_squared`.
-bool TextureGuard::match(double max_squared) {
+/// Finds a face for each of the first samples, that of the last call, at first that before the collapse, if it has its
+/// coordinate. False if a sample
+/// has none, or none within `max_squared`.
+bool TextureGuard::match(std::size_t count, double max_squared) {
   prepare_faces();
-  matches_.resize(samples_.size());
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const TextureMap::Sample& sample = map_.sample(samples_[i]);
     Match& match = matches_[i];
     const auto again = match.is_inside ? match_inside(sample, match.face) : std::nullopt;
@@ -279,36 +297,36 @@ void TextureGuard::add_slope(const Face& face, const Match& match, Slope& sum) c
 }
 
 /// The Newton step of the coordinate of the vertex; nothing where the curvature is singular.
-std::optional<Eigen::Vector2d> TextureGuard::newton_step() const {
+std::optional<Eigen::Vector2d> TextureGuard::newton_step(std::size_t count) const {
   Slope sum;
-  for (const Match& m : matches_) add_slope(faces_[m.face], m, sum);
+  for (const Match& m : std::span(matches_).first(count)) add_slope(faces_[m.face], m, sum);
   if (!(sum.curvature.determinant() > 0)) return std::nullopt;
   const Eigen::Vector2d step = -sum.curvature.inverse() * sum.gradient;
   return step.allFinite() ? std::optional(step) : std::nullopt;
 }
 
-double TextureGuard::worst_squared() const {
+double TextureGuard::worst_squared(std::size_t count) const {
   double worst = 0;
-  for (const Match& m : matches_) worst = std::max(worst, squared_length(m.offset));
+  for (const Match& m : std::span(matches_).first(count)) worst = std::max(worst, squared_length(m.offset));
   return worst;
 }
 
-/// Moves the coordinate of the vertex until all samples are within the limit or no step helps. Leaves the faces with
-/// the best coordinate.
-bool TextureGuard::improve() {
+/// Moves the coordinate of the vertex until the first samples are within the limit or no step helps. Leaves the faces
+/// with the best coordinate.
+bool TextureGuard::improve(std::size_t count) {
   const double limit = map_.limit * map_.limit, good = good_share * good_share * limit;
-  double worst = worst_squared();
+  double worst = worst_squared(count);
   for (int k = 0; is_free_ && worst > good && k < max_steps; ++k) {
-    const std::optional<Eigen::Vector2d> step = newton_step();
+    const std::optional<Eigen::Vector2d> step = newton_step(count);
     if (!step) break;
     const Eigen::Vector2d before = faces_[0].coordinates[0];
-    matches_before_ = matches_;
+    matches_before_.assign(matches_.begin(), matches_.begin() + static_cast<std::ptrdiff_t>(count));
     move_to(before + *step);
-    const bool is_possible = !is_turned_over() && match(worst);
-    const double there = is_possible ? worst_squared() : HUGE_VAL;
+    const bool is_possible = !is_turned_over() && match(count, worst);
+    const double there = is_possible ? worst_squared(count) : HUGE_VAL;
     if (!(there < worst)) {
       move_to(before);
-      matches_ = matches_before_;
+      std::copy(matches_before_.begin(), matches_before_.end(), matches_.begin());
       break;
     }
     worst = there;
@@ -419,13 +437,19 @@ bool TextureGuard::are_lines_near() {
   return true;
 }
 
+/// Whether the first samples are near the faces, with the coordinate of the vertex where it is or at a better place.
+bool TextureGuard::are_near(std::size_t count) {
+  const double reach = (is_free_ ? hopeful_share : 1) * map_.limit;
+  return match(count, reach * reach) && improve(count);
+}
+
 bool TextureGuard::holds(Vec3 point) {
   accepted_ = false;
   const bool is_bare = std::all_of(faces_.begin(), faces_.end(), [](const Face& f) { return f.chart == no_index; });
   if (is_bare) return true;
   if (!set_faces(point) || is_turned_over()) return false;
-  const double reach = (is_free_ ? hopeful_share : 1) * map_.limit;
-  if (!match(reach * reach) || !improve()) return false;
+  if (has_many() && !are_near(few_samples)) return false;
+  if (!are_near(samples_.size())) return false;
   if (!are_uncovered_free() || !are_borders_free() || !are_faces_near()) return false;
   accepted_ = true;
   return true;

@@ -74,14 +74,17 @@ class TextureGuard {
   [[nodiscard]] std::optional<Eigen::Vector2d> coordinate_at(Vec3 point) const;
   [[nodiscard]] bool is_turned_over() const;
   void prepare_faces();
-  [[nodiscard]] bool match(double max_squared);
+  void put_few_first();
+  [[nodiscard]] bool has_many() const;
+  [[nodiscard]] bool are_near(std::size_t count);
+  [[nodiscard]] bool match(std::size_t count, double max_squared);
   [[nodiscard]] std::optional<Match> match_inside(const TextureMap::Sample& sample, std::uint32_t face) const;
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
   [[nodiscard]] Match match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const;
   void add_slope(const Face& face, const Match& match, Slope& sum) const;
-  [[nodiscard]] std::optional<Eigen::Vector2d> newton_step() const;
-  [[nodiscard]] double worst_squared() const;
-  [[nodiscard]] bool improve();
+  [[nodiscard]] std::optional<Eigen::Vector2d> newton_step(std::size_t count) const;
+  [[nodiscard]] double worst_squared(std::size_t count) const;
+  [[nodiscard]] bool improve(std::size_t count);
   void move_to(const Eigen::Vector2d& coordinate);
   [[nodiscard]] bool are_borders_free();
   [[nodiscard]] bool is_border_free(std::size_t sample);
@@ -100,7 +103,7 @@ class TextureGuard {
   std::vector<std::uint32_t> samples_, charts_;  ///< of the star: its samples, and the chart of each
   std::vector<Face> faces_;                      ///< by moved corner; the moving vertex comes first
   std::vector<double> area_before_;  ///< by moved corner: twice the area of the face in the texture before the collapse
-  std::vector<Match> matches_, matches_before_;  ///< by sample; now, and before the last Newton step
+  std::vector<Match> matches_, matches_before_;  ///< by sample: the last match, and that before the last Newton step
   bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be changed
   bool accepted_ = false;
   std::vector<std::uint32_t> found_;

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "texture/triangle_bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "numeric/no_index.h"
+#include "simplify/cover/box_tree.h"
+#include "texture/charts.h"
+
+namespace meshbound {
+namespace {
+
+/// The triangles of a mesh, found by their content, in whatever order their corners come.
+class Triangles {
+ public:
+  explicit Triangles(const std::vector<TexturedTriangle>& triangles) {
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) sorted_.push_back({content(triangles[i]), i});
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+
+  /// The index of such a triangle; `no_index` if there is none.
+  [[nodiscard]] std::uint32_t find(const TexturedTriangle& t) const {
+    const Content wanted = content(t);
+    const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted, std::uint32_t{0}));
+    return at != sorted_.end() && at->first == wanted ? at->second : no_index;
+  }
+  [[nodiscard]] bool has(const TexturedTriangle& t) const { return find(t) != no_index; }
+
+ private:
+  using Corner = std::array<double, 5>;
+  using Content = std::pair<std::uint32_t, std::array<Corner, 3>>;
+
+  static Content content(const TexturedTriangle& t) {
+    Content all{t.material, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = t.corners[k];
+      all.second[k] = {t.coordinates[k].x(), t.coordinates[k].y(), p.x(), p.y(), p.z()};
+    }
+    std::sort(all.second.begin(), all.second.end());
+    return all;
+  }
+
+  std::vector<std::pair<Content, std::uint32_t>> sorted_;
+};
+
+/// The boxes, in the texture, of the triangles that only one of two meshes has.
+BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  const auto add = [&](const TexturedMesh& of, const Triangles& others) {
+    for (const TexturedTriangle& t : of.triangles)
+      if (!others.has(t)) boxes.push_back(box_in_texture(t));
+  };
+  add(b, Triangles(new_b.triangles));
+  add(new_b, Triangles(b.triangles));
+  return BoxTree(std::move(boxes));
+}
+
+}  // namespace
+
+TriangleBounds bounds_of_equal(const TexturedMesh& a, const TexturedMesh& b) {
+  TriangleBounds bounds;
+  bounds.uncovered.resize(a.triangles.size());
+  const Triangles others(b.triangles);
+  for (const TexturedTriangle& t : a.triangles) bounds.upper.push_back(others.has(t) ? 0 : HUGE_VAL);
+  return bounds;
+}
+
+TriangleBounds bounds_left(const TriangleBounds& known, const TexturedMesh& a, const TexturedMesh& b,
+                           const TexturedMesh& new_a, const TexturedMesh& new_b) {
+  TriangleBounds left = bounds_of_equal(new_a, new_b);
+  const Triangles triangles_before(a.triangles);
+  const BoxTree changed = changed_boxes(b, new_b);
+  std::vector<std::uint32_t> met;
+  for (std::size_t i = 0; i < new_a.triangles.size(); ++i) {
+    if (left.upper[i] == 0) continue;
+    const std::uint32_t before = triangles_before.find(new_a.triangles[i]);
+    if (before == no_index) continue;
+    met.clear();
+    changed.find(box_in_texture(new_a.triangles[i]), met);
+    if (!met.empty()) continue;
+    left.upper[i] = known.upper[before];
+    left.uncovered[i] = known.uncovered[before];
+  }
+  return left;
+}
+
+}  // namespace meshbound
