@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <random>
 #include <set>
+
+#include "meshbound/error.h"
 
 namespace meshbound {
 namespace texture_comparison_test {
@@ -138,6 +141,14 @@ TEST(TextureComparison, KnowsEqualTriangles) {
   const TextureDeviation found = texture_deviation(a, b, options());
   EXPECT_EQ(found.bounds.upper, 0);
   EXPECT_LE(found.a_to_b.pairs, 20);  // those of the triangle that the witness lies on
+}
+
+TEST(TextureComparison, RefusesWhatIsNoNumber) {
+  TextureComparison comparison;
+  TexturedMesh broken = flat();
+  broken.triangles[7].coordinates[1].x() = NAN;
+  EXPECT_THROW((void)comparison.measure({flat(), broken}, options()), InvalidInput);
+  EXPECT_EQ(comparison.measure({flat(), flat()}, options()).bounds.upper, 0);
 }
 
 /// A corner on a coarse lattice, so that coordinates coincide, edges are shared, and triangles have no area.

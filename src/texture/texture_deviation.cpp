@@ -240,6 +240,12 @@ void check_finite(const TexturedMesh& mesh) {
                            ": a coordinate or texture coordinate is not finite; repair the mesh");
 }
 
+void check_input(const TexturedMesh& a, const TexturedMesh& b) {
+  check_floating_point_model();
+  check_finite(a);
+  check_finite(b);
+}
+
 double diagonal_of(const TexturedMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const TexturedTriangle& t : mesh.triangles)
@@ -250,9 +256,6 @@ double diagonal_of(const TexturedMesh& mesh) {
 /// `known` by direction; it is made complete.
 TextureDeviation measured(const TexturedMesh& a, const TexturedMesh& b, const TextureDeviationOptions& options,
                           std::array<TriangleBounds, 2>& known) {
-  check_floating_point_model();
-  check_finite(a);
-  check_finite(b);
   const double error_bound = options.error_bound.value_or(default_share * diagonal_of(a));
   if (!(error_bound >= 0)) throw InvalidInput("the error bound must be a length in model units, 0 or more");
   if (options.tolerance && !(*options.tolerance >= 0))
@@ -272,12 +275,14 @@ TextureDeviation measured(const TexturedMesh& a, const TexturedMesh& b, const Te
 
 TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
                                    const TextureDeviationOptions& options) {
+  check_input(a, b);
   std::array<TriangleBounds, 2> known{bounds_of_equal(a, b), bounds_of_equal(b, a)};
   return measured(a, b, options, known);
 }
 
 TextureDeviation TextureComparison::measure(std::array<TexturedMesh, 2> meshes,
                                             const TextureDeviationOptions& options) {
+  check_input(meshes[0], meshes[1]);
   const bool is_first = bounds_[0].upper.empty() && bounds_[1].upper.empty();
   if (!is_first && meshes == meshes_) return deviation_;
   std::array<TriangleBounds, 2> known;
