@@ -141,6 +141,11 @@ TEST_F(TextureTool, ComparesChartsThatMeetInThePrecisionOfTheFiles) {
     EXPECT_LT(checked_document(run.out)["simplified"]["faces"], 200) << name;
     EXPECT_EQ(measure({in, out, "--texture", "--texture-tolerance", "0.02"}).exit_code, 0) << name;
     EXPECT_EQ(measure({out, in, "--texture", "--texture-tolerance", "0.02"}).exit_code, 0) << name;
+    const json texture = checked_document(measure({in, out, "--texture", "--json", "-"}).out)["texture"];
+    const bool has_floats = !out.ends_with(".obj");
+    EXPECT_EQ(texture.contains("compares_floats"), has_floats) << name;
+    const std::string text = measure({in, out, "--texture"}).out;
+    EXPECT_EQ(text.find("compared as floats") != std::string::npos, has_floats) << name << ": " << text;
     const ToolRun verified = run_tool(VERIFY_CERTIFICATE, {in, out, certificate});
     EXPECT_EQ(verified.exit_code, 0) << name << ": " << verified.err;
   }

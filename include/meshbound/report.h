@@ -64,6 +64,7 @@ struct TextureReport {
   std::optional<double> tolerance;     ///< of it, model units, where one was asked for
   std::optional<double> texture_size;  ///< texels of a side, where one was given
   double texel_length = 0;             ///< see `texel_length`, model units; where there is a texture size
+  bool compares_floats = false;  ///< one file holds texture coordinates as floats: those of the other were rounded so
 };
 
 /// How far two meshes are from each other over their area.

@@ -130,6 +130,7 @@ Json texture(const TextureReport& from, double diagonal, const char* from_a, con
   if (from.tolerance) json["tolerance"] = length(*from.tolerance, diagonal);
   json[from_a] = texture_one_sided(deviation.a_to_b);
   json[from_b] = texture_one_sided(deviation.b_to_a);
+  if (from.compares_floats) json["compares_floats"] = true;
   if (from.texture_size) {
     json["texture_size"] = number(*from.texture_size);
     json["texel_length"] = number(from.texel_length);

@@ -34,6 +34,7 @@ void print_texture(const TextureReport& texture, const DirectionNames& names, do
                        short_number(bounds.upper / texture.texel_length) + " texels of " +
                        exact_number(texture.texel_length));
   if (texture.tolerance) print_line("", "tolerance " + both_units(*texture.tolerance, diagonal));
+  if (texture.compares_floats) print_line("", "texture coordinates compared as floats, as one of the files holds them");
   print_direction(names.a_to_b, texture.deviation.a_to_b);
   print_direction(names.b_to_a, texture.deviation.b_to_a);
 }

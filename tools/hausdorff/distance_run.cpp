@@ -242,8 +242,10 @@ void join(Answer& answer, Verdict texture) {
 }
 
 void measure_texture(DistanceReport& report, const Arguments& arguments, const TypedLengths& lengths,
-                     const std::array<TexturedMesh, 2>& meshes, const Stopwatch& watch, Answer& answer) {
+                     const Meshes& compared, const Stopwatch& watch, Answer& answer) {
   TextureReport texture;
+  const std::array<TexturedMesh, 2> meshes = compared.textured();
+  texture.compares_floats = compared.attributes_of_a.texture_precision != compared.attributes_of_b.texture_precision;
   const double diagonal = report.a.summary.bbox_diagonal;
   texture.texture_size = arguments.texture_size;
   if (texture.texture_size) texture.texel_length = texel_length(meshes[0], *texture.texture_size);
@@ -367,7 +369,7 @@ int run_distance(const Arguments& arguments) {
   if (arguments.texture) {
     require_texture(arguments.a, meshes.attributes_of_a);
     require_texture(arguments.b, meshes.attributes_of_b);
-    measure_texture(report, arguments, lengths, meshes.textured(), watch, answer);
+    measure_texture(report, arguments, lengths, meshes, watch, answer);
   }
   if (certificate) {
     const auto texture_tolerance = report.texture ? report.texture->tolerance : std::nullopt;
