@@ -40,6 +40,7 @@ Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate
       const int side = overlay.side(line, corner.node);
       has_inside = has_inside || side > 0;
       has_outside = has_outside || side < 0;
+      if (has_inside && (has_outside || cover == Cover::Part)) break;  // the rest changes nothing
     }
     if (has_outside && !has_inside) return Cover::None;
     if (has_outside && cover == Cover::All) cover = Cover::Part, cut = line;
