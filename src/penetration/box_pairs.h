@@ -8,6 +8,10 @@
 #include <limits>
 #include <vector>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include "bvh/bvh_data.h"
 #include "geometry/mapping.h"
 #include "penetration/sparse_array.h"
@@ -40,16 +44,28 @@ inline FloatBox mapped_box(const Mapping& map, const Box& box, double margin) {
   return image;
 }
 
-/// The children of the node whose boxes meet the box, a bit for each. Most children are apart on the first axis, so
-/// without AVX one lane after the other takes fewer instructions than all eight at once.
+/// The children of the node whose boxes meet the box, a bit for each. Without branches, which would be guessed wrong
+/// for most nodes.
 inline unsigned overlapping_children(const BvhNode& node, const FloatBox& box) {
   unsigned lanes = 0;
-  for (unsigned lane = 0; lane < node_width; ++lane) {
-    const auto overlaps = [&](int axis) {
-      return node.lo[axis][lane] <= box.hi[axis] && box.lo[axis] <= node.hi[axis][lane];
-    };
-    if (overlaps(0) && overlaps(1) && overlaps(2)) lanes |= 1U << lane;
+#if defined(__SSE2__)
+  for (unsigned first = 0; first < node_width; first += 4) {
+    __m128 meet = _mm_castsi128_ps(_mm_set1_epi32(-1));
+    for (int axis = 0; axis < 3; ++axis) {
+      const __m128 below = _mm_cmple_ps(_mm_load_ps(node.lo[axis] + first), _mm_set1_ps(box.hi[axis])),
+                   above = _mm_cmple_ps(_mm_set1_ps(box.lo[axis]), _mm_load_ps(node.hi[axis] + first));
+      meet = _mm_and_ps(meet, _mm_and_ps(below, above));
+    }
+    lanes |= static_cast<unsigned>(_mm_movemask_ps(meet)) << first;
   }
+#else
+  for (unsigned lane = 0; lane < node_width; ++lane) {
+    bool meet = true;
+    for (int axis = 0; axis < 3; ++axis)
+      meet = meet && node.lo[axis][lane] <= box.hi[axis] && box.lo[axis] <= node.hi[axis][lane];
+    lanes |= static_cast<unsigned>(meet) << lane;
+  }
+#endif
   return lanes;
 }
 

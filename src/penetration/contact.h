@@ -20,8 +20,12 @@ using PairTriangle = std::array<PairVertex, 3>;
 [[nodiscard]] bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t);
 
 inline bool boxes_meet(const Box& a, const Box& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
+  // Without branches, which would be guessed wrong often.
+  const auto overlap = [](double lo, double hi, double other_lo, double other_hi) {
+    return static_cast<unsigned>(lo <= other_hi) & static_cast<unsigned>(other_lo <= hi);
+  };
+  return (overlap(a.lo.x, a.hi.x, b.lo.x, b.hi.x) & overlap(a.lo.y, a.hi.y, b.lo.y, b.hi.y) &
+          overlap(a.lo.z, a.hi.z, b.lo.z, b.hi.z)) != 0;
 }
 
 /// Counts of what `visit_triangle_pairs` has tested.

@@ -50,9 +50,9 @@ PiecePlane::PiecePlane(PlacedPair& pair, const CrossingCurves& curves, std::uint
 double PiecePlane::x(PieceCorner corner) const { return coordinate(position(corner), first_); }
 double PiecePlane::y(PieceCorner corner) const { return coordinate(position(corner), second_); }
 
-PiecePlane::Projected PiecePlane::projected(PieceCorner corner) const {
+PiecePlane::Seen PiecePlane::see(PieceCorner corner) const {
   const Vec3& p = position(corner);
-  return {coordinate(p, first_), coordinate(p, second_), error(corner)};
+  return {corner, coordinate(p, first_), coordinate(p, second_), error(corner)};
 }
 
 PiecePlane::Flat PiecePlane::exact(PieceCorner corner) const {
@@ -97,17 +97,7 @@ bool PiecePlane::are_in_line(PieceCorner p, PieceCorner q, PieceCorner r) const 
   return false;
 }
 
-int PiecePlane::turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
-  const Projected at_p = projected(p), at_q = projected(q), at_r = projected(r);
-  const double ax = at_q.x - at_p.x, ay = at_q.y - at_p.y, bx = at_r.x - at_p.x, by = at_r.y - at_p.y;
-  // As in `orientation`: h is the error of a difference.
-  const double h = at_p.error + std::max(at_q.error, at_r.error);
-  const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
-  const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
-  const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;
-  const double value = ax * by - ay * bx;
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
+int PiecePlane::exact_turn(PieceCorner p, PieceCorner q, PieceCorner r) const {
   if (are_in_line(p, q, r)) return 0;
   pair_->count_exact_decision();
   const Flat a = exact(p), b = exact(q), c = exact(r);

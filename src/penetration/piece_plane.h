@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "numeric/rounding.h"
 #include "penetration/curves.h"
 #include "penetration/placed_pair.h"
 
@@ -38,8 +41,26 @@ class PiecePlane {
   [[nodiscard]] const Vec3& position(PieceCorner corner) const { return position_of(*pair_, *curves_, side_, corner); }
   [[nodiscard]] double error(PieceCorner corner) const { return error_of(*pair_, *curves_, side_, corner); }
 
+  /// A corner as the projection shows it.
+  struct Seen {
+    PieceCorner corner;
+    double x, y, error;
+  };
+  [[nodiscard]] Seen see(PieceCorner corner) const;
+
   /// Sign of the turn at q on the way from p to r, for the exact positions, without perturbation.
-  [[nodiscard]] int turn(PieceCorner p, PieceCorner q, PieceCorner r) const;
+  [[nodiscard]] int turn(const Seen& p, const Seen& q, const Seen& r) const {
+    const double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;
+    // As in `orientation`: h is the error of a difference.
+    const double h = p.error + std::max(q.error, r.error);
+    const double magnitude = std::fabs(ax * by) + std::fabs(ay * bx);
+    const double sum = std::fabs(ax) + std::fabs(ay) + std::fabs(bx) + std::fabs(by) + 4 * h;
+    const double bound = 8 * unit_roundoff * magnitude + 2 * h * sum + 0x1p-1000;
+    const double value = ax * by - ay * bx;
+    if (value > bound) return 1;
+    return value < -bound ? -1 : exact_turn(p.corner, q.corner, r.corner);
+  }
+  [[nodiscard]] int turn(PieceCorner p, PieceCorner q, PieceCorner r) const { return turn(see(p), see(q), see(r)); }
   /// Twice the area enclosed by a cycle in the projection, rounded; and the exact sign of that area.
   [[nodiscard]] double area(std::span<const PieceCorner> cycle) const;
   [[nodiscard]] int area_sign(std::span<const PieceCorner> cycle) const;
@@ -56,11 +77,8 @@ class PiecePlane {
   struct Flat {
     mpz_class x, y, w;
   };
-  struct Projected {
-    double x, y, error;
-  };
   [[nodiscard]] Flat exact(PieceCorner corner) const;
-  [[nodiscard]] Projected projected(PieceCorner corner) const;
+  [[nodiscard]] int exact_turn(PieceCorner p, PieceCorner q, PieceCorner r) const;
   [[nodiscard]] bool are_in_line(PieceCorner p, PieceCorner q, PieceCorner r) const;
   [[nodiscard]] std::uint32_t edge_with(PieceCorner node) const;
   [[nodiscard]] bool is_on_edge(PieceCorner corner, std::uint32_t edge) const;

@@ -2,35 +2,41 @@
 #include "penetration/triangulate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace meshbound {
 namespace {
 
-using Ring = std::vector<PieceCorner>;
+using Seen = PiecePlane::Seen;
+using Ring = std::vector<Seen>;
 
-double squared_distance(const PiecePlane& plane, PieceCorner p, PieceCorner q) {
-  return squared_length(plane.position(p) - plane.position(q));
+void append(const PiecePlane& plane, std::span<const PieceCorner> cycle, Ring& ring) {
+  for (const PieceCorner& corner : cycle) ring.push_back(plane.see(corner));
+}
+
+double squared_distance(const PiecePlane& plane, const Seen& p, const Seen& q) {
+  return squared_length(plane.position(p.corner) - plane.position(q.corner));
 }
 
 /// Whether segment (r, s), with its ends, meets segment (p, q) between p and q; not if it runs along it.
-bool segments_cross(const PiecePlane& plane, PieceCorner p, PieceCorner q, PieceCorner r, PieceCorner s) {
-  if (p == r || p == s || q == r || q == s) return false;
+bool segments_cross(const PiecePlane& plane, const Seen& p, const Seen& q, const Seen& r, const Seen& s) {
+  if (p.corner == r.corner || p.corner == s.corner || q.corner == r.corner || q.corner == s.corner) return false;
   return plane.turn(p, q, r) * plane.turn(p, q, s) <= 0 && plane.turn(r, s, p) * plane.turn(r, s, q) < 0;
 }
 
-bool crosses_ring(const PiecePlane& plane, PieceCorner p, PieceCorner q, std::span<const PieceCorner> ring) {
+bool crosses_ring(const PiecePlane& plane, const Seen& p, const Seen& q, const Ring& ring) {
   for (std::size_t i = 0; i < ring.size(); ++i)
     if (segments_cross(plane, p, q, ring[i], ring[i + 1 < ring.size() ? i + 1 : 0])) return true;
   return false;
 }
 
 /// Whether a segment has points within a triangle that turns left: no line along it or along a side separates the two.
-bool enters(const PiecePlane& plane, PieceCorner r, PieceCorner s, const CornerTriple& triangle) {
+bool enters(const PiecePlane& plane, const Seen& r, const Seen& s, const std::array<Seen, 3>& triangle) {
   int least = 1, largest = -1;
   for (std::size_t k = 0; k < 3; ++k) {
-    const PieceCorner p = triangle[k], q = triangle[k < 2 ? k + 1 : 0];
+    const Seen &p = triangle[k], &q = triangle[k < 2 ? k + 1 : 0];
     if (plane.turn(p, q, r) <= 0 && plane.turn(p, q, s) <= 0) return false;
     const int turn = plane.turn(r, s, p);
     least = std::min(least, turn), largest = std::max(largest, turn);
@@ -40,24 +46,24 @@ bool enters(const PiecePlane& plane, PieceCorner r, PieceCorner s, const CornerT
 
 /// Whether the way from corner `i` of the ring to p begins on the left of the ring or, if `least` is 0 and not 1, along
 /// it. Where the ring turns back there is nothing on its left.
-bool is_inside_at(const PiecePlane& plane, const Ring& ring, std::size_t i, PieceCorner p, int least) {
-  const PieceCorner before = ring[i > 0 ? i - 1 : ring.size() - 1], at = ring[i],
-                    after = ring[i + 1 < ring.size() ? i + 1 : 0];
+bool is_inside_at(const PiecePlane& plane, const Ring& ring, std::size_t i, const Seen& p, int least) {
+  const Seen &before = ring[i > 0 ? i - 1 : ring.size() - 1], &at = ring[i],
+             &after = ring[i + 1 < ring.size() ? i + 1 : 0];
   const bool left_of_first = plane.turn(before, at, p) >= least, left_of_second = plane.turn(at, after, p) >= least;
   return plane.turn(before, at, after) >= 0 ? left_of_first && left_of_second : left_of_first || left_of_second;
 }
 
-std::size_t rightmost(const PiecePlane& plane, std::span<const PieceCorner> cycle) {
-  const auto found = std::max_element(cycle.begin(), cycle.end(),
-                                      [&](PieceCorner a, PieceCorner b) { return plane.x(a) < plane.x(b); });
-  return static_cast<std::size_t>(found - cycle.begin());
+std::size_t rightmost(const Ring& ring) {
+  const auto found =
+      std::max_element(ring.begin(), ring.end(), [](const Seen& a, const Seen& b) { return a.x < b.x; });
+  return static_cast<std::size_t>(found - ring.begin());
 }
 
 /// Joins the first of the holes to the ring by a bridge from its rightmost corner to the nearest corner of the ring
 /// visible from there, past the other holes.
-void join_hole(const PiecePlane& plane, Ring& ring, std::span<const std::span<const PieceCorner>> holes) {
-  const std::span<const PieceCorner> hole = holes[0];
-  const std::size_t from = rightmost(plane, hole);
+void join_hole(const PiecePlane& plane, Ring& ring, std::span<const Ring> holes) {
+  const Ring& hole = holes[0];
+  const std::size_t from = rightmost(hole);
   std::vector<std::size_t> order(ring.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
@@ -66,9 +72,7 @@ void join_hole(const PiecePlane& plane, Ring& ring, std::span<const std::span<co
   });
   const auto nearest_visible = [&](int least) {
     return std::find_if(order.begin(), order.end(), [&](std::size_t i) {
-      const auto crosses = [&](std::span<const PieceCorner> cycle) {
-        return crosses_ring(plane, hole[from], ring[i], cycle);
-      };
+      const auto crosses = [&](const Ring& other) { return crosses_ring(plane, hole[from], ring[i], other); };
       return is_inside_at(plane, ring, i, hole[from], least) && !crosses(ring) &&
              std::none_of(holes.begin(), holes.end(), crosses);
     });
@@ -81,6 +85,14 @@ void join_hole(const PiecePlane& plane, Ring& ring, std::span<const std::span<co
   for (std::size_t i = 0; i <= hole.size(); ++i) bridge.push_back(hole[(from + i) % hole.size()]);
   bridge.push_back(ring[to]);
   ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(to) + 1, bridge.begin(), bridge.end());
+}
+
+void join_holes(const PiecePlane& plane, const std::vector<std::span<const PieceCorner>>& holes, Ring& ring) {
+  std::vector<Ring> from_right(holes.size());
+  for (std::size_t i = 0; i < holes.size(); ++i) append(plane, holes[i], from_right[i]);
+  std::stable_sort(from_right.begin(), from_right.end(),
+                   [](const Ring& a, const Ring& b) { return a[rightmost(a)].x > b[rightmost(b)].x; });
+  for (std::size_t i = 0; i < from_right.size(); ++i) join_hole(plane, ring, std::span(from_right).subspan(i));
 }
 
 /// Quality of an ear, best first: an ear is cut only if there is none of a better kind.
@@ -149,26 +161,22 @@ class EarCutter {
   }
 
   [[nodiscard]] bool is_clear(std::size_t i) const {
-    const auto [p, q, r] = corners_at(i);
+    const Seen &p = ring_[previous_[i]], &q = ring_[i], &r = ring_[next_[i]];
     for (std::size_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
-      const PieceCorner c = ring_[j];
+      const Seen& c = ring_[j];
       // A corner that turns left cannot be the first one to enter the ear. Where the ring comes to q again, the ear may
       // lie on its other side.
-      if (turns_[j] > 0 || c == p || c == r) continue;
+      if (turns_[j] > 0 || c.corner == p.corner || c.corner == r.corner) continue;
       if (plane_.turn(r, p, c) >= 0 && plane_.turn(p, q, c) >= 0 && plane_.turn(q, r, c) >= 0) return false;
     }
     return true;
   }
 
   [[nodiscard]] bool is_entered_by_no_edge(std::size_t i) const {
-    const CornerTriple ear = corners_at(i);
+    const std::array<Seen, 3> ear{ring_[previous_[i]], ring_[i], ring_[next_[i]]};
     for (std::size_t j = next_[i]; j != previous_[i]; j = next_[j])
       if (enters(plane_, ring_[j], ring_[next_[j]], ear)) return false;
     return true;
-  }
-
-  [[nodiscard]] CornerTriple corners_at(std::size_t i) const {
-    return {ring_[previous_[i]], ring_[i], ring_[next_[i]]};
   }
 
   std::size_t cut_ear(std::size_t i, std::vector<CornerTriple>& triangles) {
@@ -183,13 +191,12 @@ class EarCutter {
   }
 
   void add(std::size_t i, std::vector<CornerTriple>& triangles) {
-    const auto [p, q, r] = corners_at(i);
-    triangles.push_back({p, q, r});
+    const Seen &p = ring_[previous_[i]], &q = ring_[i], &r = ring_[next_[i]];
+    triangles.push_back({p.corner, q.corner, r.corner});
     if (turns_[i] >= 0) return;
     const double longest =
         std::max({squared_distance(plane_, p, q), squared_distance(plane_, q, r), squared_distance(plane_, r, p)});
-    excess_ =
-        std::max(excess_, (1 + 0x1p-40) * std::sqrt(longest) + plane_.error(p) + plane_.error(q) + plane_.error(r));
+    excess_ = std::max(excess_, (1 + 0x1p-40) * std::sqrt(longest) + p.error + q.error + r.error);
   }
 
   const PiecePlane& plane_;
@@ -209,14 +216,9 @@ double triangulate(const PiecePlane& plane, std::span<const PieceCorner> outer,
     return 0;
   }
   thread_local EarMemory memory;
-  memory.ring.assign(outer.begin(), outer.end());
-  std::vector<std::span<const PieceCorner>> from_right = holes;
-  if (!holes.empty()) {
-    std::stable_sort(from_right.begin(), from_right.end(), [&](const auto& a, const auto& b) {
-      return plane.x(a[rightmost(plane, a)]) > plane.x(b[rightmost(plane, b)]);
-    });
-  }
-  for (std::size_t i = 0; i < from_right.size(); ++i) join_hole(plane, memory.ring, std::span(from_right).subspan(i));
+  memory.ring.clear();
+  append(plane, outer, memory.ring);
+  if (!holes.empty()) join_holes(plane, holes, memory.ring);
   return EarCutter(plane, memory).cut(triangles);
 }
 

@@ -50,7 +50,10 @@ inline namespace MESHBOUND_ISA {
 
 class CellWalker : public ProvenBounds {
  public:
-  using ProvenBounds::ProvenBounds;
+  CellWalker(const Bvh::Data& target, const Goal& goal) : ProvenBounds(target, goal) {
+    constexpr std::size_t usual_depth = 8;
+    stack_.reserve(usual_depth);
+  }
 
   /// Covers one triangle of A, starting at triangle `slot` of B, except for the pieces that it leaves `unfinished`.
   void cover(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t from_slot, std::uint32_t slot,
