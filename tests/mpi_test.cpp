@@ -3,6 +3,7 @@
 // process that speaks and writes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -295,6 +296,12 @@ class FaultsOverRanks : public ToolsOverRanks {
                          "; wait $run",
                      100);
   }
+  /// Whether results of tiles are kept: files named by pass and tile.
+  static bool has_results(const std::string& scratch) {
+    const auto is_result = [](const auto& entry) { return entry.path().filename().string().find('-') == 1; };
+    const std::filesystem::recursive_directory_iterator files(scratch);
+    return std::any_of(begin(files), end(files), is_result);
+  }
   static void expect_resumed(const std::string& scratch, bool takes_tiles) {
     std::vector<std::string> arguments = arguments_for(in("resumed.ply"));
     arguments.insert(arguments.end(), {"--scratch", scratch, "--resume"});
@@ -343,7 +350,8 @@ TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTi
     EXPECT_NE(run.err.find("signal 9"), std::string::npos) << run.err;
     EXPECT_TRUE(std::filesystem::is_empty(in("out")));
     std::filesystem::remove(scratch + "/ls");
-    expect_resumed(scratch, stage.has_tiles);
+    EXPECT_TRUE(has_results(scratch) || !stage.has_tiles);
+    expect_resumed(scratch, has_results(scratch));  // on a busy machine ranks go on before they are killed
   }
 }
 

@@ -54,8 +54,7 @@ bool is_inside_at(const PiecePlane& plane, const Ring& ring, std::size_t i, cons
 }
 
 std::size_t rightmost(const Ring& ring) {
-  const auto found =
-      std::max_element(ring.begin(), ring.end(), [](const Seen& a, const Seen& b) { return a.x < b.x; });
+  const auto found = std::max_element(ring.begin(), ring.end(), [](const Seen& a, const Seen& b) { return a.x < b.x; });
   return static_cast<std::size_t>(found - ring.begin());
 }
 

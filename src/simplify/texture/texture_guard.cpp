@@ -265,9 +265,8 @@ void TextureGuard::prepare_faces() {
   }
 }
 
-/// Finds a face for each of the first samples, that of the last call, at first that before the collapse, if it has its
-/// coordinate. False if a sample
-/// has none, or none within `max_squared`.
+/// Finds a face for each of the first samples: the one of the last call, at first the one before the collapse, where it
+/// still has the coordinate of the sample. False if a sample has none, or none within `max_squared`.
 bool TextureGuard::match(std::size_t count, double max_squared) {
   prepare_faces();
   for (std::size_t i = 0; i < count; ++i) {
