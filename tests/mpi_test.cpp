@@ -350,8 +350,11 @@ TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTi
     EXPECT_NE(run.err.find("signal 9"), std::string::npos) << run.err;
     EXPECT_TRUE(std::filesystem::is_empty(in("out")));
     std::filesystem::remove(scratch + "/ls");
-    EXPECT_TRUE(has_results(scratch) || !stage.has_tiles);
-    expect_resumed(scratch, has_results(scratch));  // on a busy machine ranks go on before they are killed
+    const bool has_tiles = has_results(scratch);
+    if (std::string(stage.name) != "reading") {  // which is over on a busy machine before the rank is killed
+      EXPECT_EQ(has_tiles, stage.has_tiles);
+    }
+    expect_resumed(scratch, has_tiles);
   }
 }
 
