@@ -43,6 +43,10 @@ struct ClosedModel::Data {
     const ModelEdge& edge = edges[edges_of[triangle][k]];
     return edge.triangle[0] == triangle ? edge.triangle[1] : edge.triangle[0];
   }
+  /// Whether both triangles of an edge lie in one plane.
+  [[nodiscard]] bool is_within_plane(const ModelEdge& edge) const {
+    return plane_of[edge.triangle[0]] == plane_of[edge.triangle[1]];
+  }
 };
 
 inline constexpr std::size_t next_corner(std::size_t k) { return k == 2 ? 0 : k + 1; }

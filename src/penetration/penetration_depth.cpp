@@ -9,6 +9,7 @@
 
 #include "distance/default_error_share.h"
 #include "geometry/frame.h"
+#include "geometry/longest_edge.h"
 #include "meshbound/error.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/transform.h"
@@ -82,8 +83,21 @@ class Measurement {
                                              local_mesh(memory_.pair, memory_.curves, 1, volume.patches[1])};
     const double displacement = next_up(volume.patches[0].displacement + volume.patches[1].displacement);
     measure(meshes, displacement, stop, volume, result);
-    if (options_.keep_parts) result.parts = parts_of(meshes, volume);
     return result;
+  }
+
+  /// The boundary of a volume of which each piece was cut into triangles by itself.
+  [[nodiscard]] PenetrationParts parts_of(const IntersectionVolume& volume) {
+    PenetrationParts parts;
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      const Patch& patch = volume.patches[side];
+      TriangleMesh& mesh = side == 0 ? parts.on_a : parts.on_b;
+      mesh = local_mesh(memory_.pair, memory_.curves, side, patch);
+      for (Eigen::Vector3d& p : mesh.vertices) p = memory_.pair.to_world({p.x(), p.y(), p.z()});
+      for (const PatchTriangle& t : patch.triangles)
+        (side == 0 ? parts.triangle_of_a : parts.triangle_of_b).push_back(given(side, patch.sources[t.first_source]));
+    }
+    return parts;
   }
 
  private:
@@ -136,12 +150,32 @@ class Measurement {
   [[nodiscard]] SurfacePoint on_model(std::uint32_t side, const SurfacePoint& local,
                                       const IntersectionVolume& volume) const {
     const Eigen::Vector3d& p = local.position;
-    return {memory_.pair.to_world({p.x(), p.y(), p.z()}), source_of(side, local.triangle, volume)};
+    const Vec3 point{p.x(), p.y(), p.z()};
+    return {memory_.pair.to_world(point), given(side, source_at(side, point, volume.patches[side], local.triangle))};
   }
 
-  [[nodiscard]] std::uint32_t source_of(std::uint32_t side, std::uint32_t triangle,
-                                        const IntersectionVolume& volume) const {
-    return memory_.pair.model(side).source_triangle[volume.patches[side].triangles[triangle].source];
+  /// The triangle of the model that a point of a triangle of a patch lies on: of all that the latter lies on, the
+  /// nearest, as the point is rounded.
+  [[nodiscard]] std::uint32_t source_at(std::uint32_t side, const Vec3& point, const Patch& patch,
+                                        std::uint32_t triangle) const {
+    const auto [first, end, corners] = patch.triangles[triangle];
+    const auto distance = [&](std::uint32_t source) {
+      const Triangle& t = memory_.pair.model(side).triangles[source];
+      PlacedPair& pair = memory_.pair;
+      return closest_on_triangle(
+                 longest_edge_first({pair.local({side, t[0]}), pair.local({side, t[1]}), pair.local({side, t[2]})}),
+                 point)
+          .squared_distance;
+    };
+    std::uint32_t nearest = patch.sources[first];
+    for (std::uint32_t i = first + 1; i < end; ++i)
+      if (distance(patch.sources[i]) < distance(nearest)) nearest = patch.sources[i];
+    return nearest;
+  }
+
+  /// A triangle of a model as the caller numbers it.
+  [[nodiscard]] std::uint32_t given(std::uint32_t side, std::uint32_t triangle) const {
+    return memory_.pair.model(side).source_triangle[triangle];
   }
 
   [[nodiscard]] Bounds content_of(const IntersectionVolume& volume) const {
@@ -152,27 +186,20 @@ class Measurement {
     return {std::max(0.0, next_down(cubed(lower))), next_up(cubed(upper))};
   }
 
-  [[nodiscard]] PenetrationParts parts_of(const std::array<TriangleMesh, 2>& meshes,
-                                          const IntersectionVolume& volume) const {
-    PenetrationParts parts{meshes[0], meshes[1], {}, {}};
-    for (TriangleMesh* mesh : {&parts.on_a, &parts.on_b})
-      for (Eigen::Vector3d& p : mesh->vertices) p = memory_.pair.to_world({p.x(), p.y(), p.z()});
-    for (std::uint32_t i = 0; i < parts.on_a.triangles.size(); ++i)
-      parts.triangle_of_a.push_back(source_of(0, i, volume));
-    for (std::uint32_t i = 0; i < parts.on_b.triangles.size(); ++i)
-      parts.triangle_of_b.push_back(source_of(1, i, volume));
-    return parts;
-  }
-
   Scratch& memory_;
   const PenetrationOptions& options_;
   double error_bound_;
   Frame frame_;
 };
 
+struct FoundVolumes {
+  std::vector<IntersectionVolume> of_faces;   ///< with as few triangles as possible, for the measurement
+  std::vector<IntersectionVolume> of_pieces;  ///< with a source for each triangle; only where parts are wanted
+};
+
 /// The volumes of the pair in `memory`; absent if the token ended the search.
-std::optional<std::vector<IntersectionVolume>> find_volumes(Scratch& memory, double error_bound,
-                                                            const StopToken& stop) try {
+std::optional<FoundVolumes> find_volumes(Scratch& memory, const PenetrationOptions& options, double error_bound,
+                                         const StopToken& stop) try {
   memory.pair.stop_by(stop);
   // Share of the error bound by which a node may be off.
   constexpr double node_share = 1.0 / 64;
@@ -180,23 +207,28 @@ std::optional<std::vector<IntersectionVolume>> find_volumes(Scratch& memory, dou
   stop.check();
   memory.pieces.find(memory.pair, memory.curves);
   stop.check();
-  return memory.volumes.find(memory.pair, memory.curves, memory.pieces);
+  FoundVolumes found{memory.volumes.find(memory.pair, memory.curves, memory.pieces, VolumeFinder::Cut::Faces), {}};
+  if (options.keep_parts)
+    found.of_pieces = memory.volumes.find(memory.pair, memory.curves, memory.pieces, VolumeFinder::Cut::Pieces);
+  return found;
 } catch (const Stopped&) {
   return std::nullopt;
 }
 
-void measure_all(const std::vector<IntersectionVolume>& found, Scratch& memory, const PenetrationOptions& options,
-                 double error_bound, const StopToken& stop, PenetrationDepth& result) {
+void measure_all(const FoundVolumes& found, Scratch& memory, const PenetrationOptions& options, double error_bound,
+                 const StopToken& stop, PenetrationDepth& result) {
   Measurement measure(memory, options, error_bound);
   bool ended = false;
-  for (std::size_t i = 0; i < found.size() && !ended; ++i) {
-    result.volumes.push_back(measure(found[i], stop));
+  const std::size_t count = found.of_faces.size();
+  for (std::size_t i = 0; i < count && !ended; ++i) {
+    result.volumes.push_back(measure(found.of_faces[i], stop));
+    if (options.keep_parts) result.volumes.back().parts = measure.parts_of(found.of_pieces[i]);
     const Bounds& depth = result.volumes.back().depth;
     result.depth = {std::max(result.depth.lower, depth.lower), std::max(result.depth.upper, depth.upper)};
     ended = options.stop_when_deeper && result.volumes.back().verdict == Verdict::Exceeds;
-    if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(found.size()));
+    if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(count));
   }
-  if (result.volumes.size() < found.size()) result.depth.upper = std::numeric_limits<double>::infinity();
+  if (result.volumes.size() < count) result.depth.upper = std::numeric_limits<double>::infinity();
   std::stable_sort(result.volumes.begin(), result.volumes.end(),
                    [](const auto& a, const auto& b) { return a.depth.lower > b.depth.lower; });
 }
@@ -213,7 +245,7 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
   Scratch& memory = scratch();
   memory.pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
   PenetrationDepth result;
-  const auto found = find_volumes(memory, error_bound, stop);
+  const auto found = find_volumes(memory, options, error_bound, stop);
   if (stop.cancelled()) throw Interrupted("cancelled before the depths were measured");
   result.stats.seconds_intersecting = seconds_since(start);
   if (found) {

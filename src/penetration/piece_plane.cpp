@@ -114,24 +114,29 @@ double PiecePlane::area(std::span<const PieceCorner> cycle) const {
   return sum;
 }
 
-int PiecePlane::area_sign(std::span<const PieceCorner> cycle) const {
-  double extent = 0, largest_error = 0;
-  for (const PieceCorner& corner : cycle) {
-    extent = std::max({extent, std::fabs(x(corner) - x(cycle[0])), std::fabs(y(corner) - y(cycle[0]))});
-    largest_error = std::max(largest_error, error(corner));
+int PiecePlane::area_sign(std::span<const std::span<const PieceCorner>> cycles) const {
+  double extent = 0, largest_error = 0, value = 0, n = 0;
+  for (const std::span<const PieceCorner> cycle : cycles) {
+    for (const PieceCorner& corner : cycle) {
+      extent = std::max({extent, std::fabs(x(corner) - x(cycle[0])), std::fabs(y(corner) - y(cycle[0]))});
+      largest_error = std::max(largest_error, error(corner));
+    }
+    value += area(cycle);
+    n += static_cast<double>(cycle.size());
   }
-  const double value = area(cycle), n = static_cast<double>(cycle.size()), h = 2 * largest_error;
   // Each of n terms is at most 2 extent^2, off by 8 h (extent + h) and a few roundings, and the sum by n more.
+  const double h = 2 * largest_error;
   const double bound = n * (8 * h * (extent + h) + (16 + 2 * n) * unit_roundoff * 2 * extent * extent) + 0x1p-1000;
   if (value > bound) return 1;
   if (value < -bound) return -1;
   mpq_class sum = 0;
-  for (std::size_t i = 0; i < cycle.size(); ++i) {
-    const Flat p = exact(cycle[i]), q = exact(cycle[i + 1 < cycle.size() ? i + 1 : 0]);
-    mpq_class term(p.x * q.y - p.y * q.x, p.w * q.w);
-    term.canonicalize();
-    sum += term;
-  }
+  for (const std::span<const PieceCorner> cycle : cycles)
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+      const Flat p = exact(cycle[i]), q = exact(cycle[i + 1 < cycle.size() ? i + 1 : 0]);
+      mpq_class term(p.x * q.y - p.y * q.x, p.w * q.w);
+      term.canonicalize();
+      sum += term;
+    }
   return sgn(sum);
 }
 

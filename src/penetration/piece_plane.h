@@ -23,6 +23,8 @@ struct PieceCorner {
   friend bool operator==(const PieceCorner&, const PieceCorner&) = default;
 };
 
+using CornerTriple = std::array<PieceCorner, 3>;
+
 /// Local position of a corner on a triangle of `side`; the largest distance of that from the corner; the exact
 /// position.
 [[nodiscard]] const Vec3& position_of(PlacedPair& pair, const CrossingCurves& curves, std::uint32_t side,
@@ -61,9 +63,9 @@ class PiecePlane {
     return value < -bound ? -1 : exact_turn(p.corner, q.corner, r.corner);
   }
   [[nodiscard]] int turn(PieceCorner p, PieceCorner q, PieceCorner r) const { return turn(see(p), see(q), see(r)); }
-  /// Twice the area enclosed by a cycle in the projection, rounded; and the exact sign of that area.
+  /// Twice the area enclosed by a cycle in the projection, rounded; and the exact sign of the sum of those of cycles.
   [[nodiscard]] double area(std::span<const PieceCorner> cycle) const;
-  [[nodiscard]] int area_sign(std::span<const PieceCorner> cycle) const;
+  [[nodiscard]] int area_sign(std::span<const std::span<const PieceCorner>> cycles) const;
   /// Whether the cycle `outer` is around `inner`; the two must not cross.
   [[nodiscard]] bool is_around(std::span<const PieceCorner> outer, std::span<const PieceCorner> inner) const;
   /// The coordinates that the projection shows as x and y, 0 to 2.

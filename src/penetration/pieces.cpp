@@ -15,6 +15,7 @@ void Pieces::find(PlacedPair& pair, CrossingCurves& curves) {
   cycles.clear();
   corners.clear();
   shells.clear();
+  faces.clear();
   for (std::uint32_t side = 0; side < 2; ++side) {
     traced_[side].assign(curves.segments.size(), 0);
     at_edges_[side].clear(pair.model(side).triangles.size());
@@ -26,6 +27,20 @@ void Pieces::find(PlacedPair& pair, CrossingCurves& curves) {
     for (const std::uint32_t triangle : curves.crossed[side]) settle_loops(side, triangle);
   }
   join_along_curves();
+}
+
+std::span<const std::span<const PieceCorner>> Pieces::border_of(const Piece& piece) {
+  border_.clear();
+  if (piece.outer != no_index) {
+    border_.push_back(corners_of(cycles[piece.outer]));
+  } else {
+    const Triangle& t = pair_->model(piece.side).triangles[piece.triangle];
+    for (std::size_t k = 0; k < 3; ++k) whole_triangle_[k] = {PieceCorner::Kind::Vertex, t[k]};
+    border_.push_back(whole_triangle_);
+  }
+  for (std::uint32_t hole = piece.holes; hole != no_index; hole = cycles[hole].next_hole)
+    border_.push_back(corners_of(cycles[hole]));
+  return border_;
 }
 
 /// Finds all cycles of a crossed triangle, and the pieces of those that reach its border.
@@ -87,6 +102,7 @@ std::uint32_t Pieces::add_piece(std::uint32_t side, std::uint32_t triangle, std:
   const auto piece = static_cast<std::uint32_t>(pieces.size());
   pieces.push_back({side, triangle, outer, no_index});
   shells.add();
+  faces.add();
   open_.push_back(piece);
   return piece;
 }
@@ -121,7 +137,14 @@ void Pieces::flood_across(std::uint32_t side, std::uint32_t piece, std::size_t k
   }
   // A triangle that no curve crosses, or one crossed by loops that stay off its border.
   if (found == no_index) found = whole_piece(side, next);
-  shells.unite(piece, found);
+  unite(piece, found, model.edges[model.edges_of[triangle][k]]);
+}
+
+/// Joins two pieces of one side that meet along an edge.
+void Pieces::unite(std::uint32_t piece, std::uint32_t next, const ModelEdge& edge) {
+  const ClosedModel::Data& model = pair_->model(pieces[piece].side);
+  shells.unite(piece, next);
+  if (model.is_within_plane(edge)) faces.unite(piece, next);
 }
 
 /// Components without a node on any edge: but for loops within triangles, each is inside as a whole or not at all.
@@ -157,7 +180,8 @@ void Pieces::settle_loops(std::uint32_t side, std::uint32_t triangle) {
   const PiecePlane plane(*pair_, *curves_, side, triangle);
   std::vector<std::uint32_t> holes;
   for (const std::uint32_t loop : loops_) {
-    const int turn = plane.area_sign(corners_of(cycles[loop]));
+    const std::span<const PieceCorner> border = corners_of(cycles[loop]);
+    const int turn = plane.area_sign({&border, 1});
     // A loop without area encloses points of neither side: it is a hole if there is a piece around it.
     if (turn > 0 || (turn == 0 && !has_piece)) {
       cycles[loop].piece = add_piece(side, triangle, loop);
@@ -196,9 +220,11 @@ std::uint32_t Pieces::piece_around(std::uint32_t hole, std::uint32_t side, std::
 }
 
 void Pieces::join_along_curves() {
-  for (const CurveNode& node : curves_->nodes)
-    for (std::size_t slot = 1; slot < 3; ++slot)
-      shells.unite(cycles[node.cycle[0]].piece, cycles[node.cycle[slot]].piece);
+  for (const CurveNode& node : curves_->nodes) {
+    const std::uint32_t piece = cycles[node.cycle[0]].piece;
+    unite(piece, cycles[node.cycle[1]].piece, pair_->model(node.side).edges[node.edge]);
+    shells.unite(piece, cycles[node.cycle[2]].piece);
+  }
 }
 
 }  // namespace meshbound

@@ -27,6 +27,8 @@ struct Piece {
   std::uint32_t side = 0, triangle = 0;
   std::uint32_t outer = no_index;  ///< the cycle around it; `no_index`: the whole triangle, perhaps with holes
   std::uint32_t holes = no_index;  ///< the first of the cycles around its holes
+
+  [[nodiscard]] bool is_whole_triangle() const { return outer == no_index && holes == no_index; }
 };
 
 class Pieces {
@@ -39,7 +41,10 @@ class Pieces {
   std::vector<PieceCycle> cycles;
   std::vector<PieceCorner> corners;
   DisjointSets shells;  ///< sets of pieces
+  DisjointSets faces;   ///< sets of pieces of one plane that are connected across edges
 
+  /// The corners of the border of a piece: the cycle around it and those of its holes. Valid until the next call.
+  [[nodiscard]] std::span<const std::span<const PieceCorner>> border_of(const Piece& piece);
   /// The corners of a cycle.
   [[nodiscard]] std::span<const PieceCorner> corners_of(const PieceCycle& cycle) const {
     return std::span(corners).subspan(cycle.begin, cycle.end - cycle.begin);
@@ -58,6 +63,7 @@ class Pieces {
   void flood_across(std::uint32_t side, std::uint32_t piece, std::size_t k);
   std::uint32_t whole_piece(std::uint32_t side, std::uint32_t triangle);
   void flood_uncut_components(std::uint32_t side);
+  void unite(std::uint32_t piece, std::uint32_t next, const ModelEdge& edge);
   void join_along_curves();
 
   PlacedPair* pair_ = nullptr;
@@ -66,7 +72,9 @@ class Pieces {
   std::array<SparseArray<EdgePieces>, 2> at_edges_;  ///< of crossed triangles: the piece along each edge without nodes
   std::array<SparseArray<std::uint32_t>, 2> whole_;  ///< by triangle: the piece with the whole triangle as its outside
   std::vector<std::uint32_t> open_;                  ///< pieces to flood from
-  std::vector<std::uint32_t> loops_;                 ///< cycles off the border, of the triangle being traced
+  CornerTriple whole_triangle_;                      ///< the border of the piece asked for last, if it is one
+  std::vector<std::span<const PieceCorner>> border_;
+  std::vector<std::uint32_t> loops_;  ///< cycles off the border, of the triangle being traced
 };
 
 }  // namespace meshbound

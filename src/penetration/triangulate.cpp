@@ -86,12 +86,14 @@ void join_hole(const PiecePlane& plane, Ring& ring, std::span<const Ring> holes)
   ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(to) + 1, bridge.begin(), bridge.end());
 }
 
-void join_holes(const PiecePlane& plane, const std::vector<std::span<const PieceCorner>>& holes, Ring& ring) {
-  std::vector<Ring> from_right(holes.size());
-  for (std::size_t i = 0; i < holes.size(); ++i) append(plane, holes[i], from_right[i]);
+/// Joins all lines to one ring: the one that reaches furthest to the right is around the others, which are holes.
+void join(const PiecePlane& plane, std::span<const std::span<const PieceCorner>> lines, Ring& ring) {
+  std::vector<Ring> from_right(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) append(plane, lines[i], from_right[i]);
   std::stable_sort(from_right.begin(), from_right.end(),
                    [](const Ring& a, const Ring& b) { return a[rightmost(a)].x > b[rightmost(b)].x; });
-  for (std::size_t i = 0; i < from_right.size(); ++i) join_hole(plane, ring, std::span(from_right).subspan(i));
+  ring = from_right[0];
+  for (std::size_t i = 1; i < from_right.size(); ++i) join_hole(plane, ring, std::span(from_right).subspan(i));
 }
 
 /// Quality of an ear, best first: an ear is cut only if there is none of a better kind.
@@ -208,16 +210,18 @@ class EarCutter {
 
 }  // namespace
 
-double triangulate(const PiecePlane& plane, std::span<const PieceCorner> outer,
-                   const std::vector<std::span<const PieceCorner>>& holes, std::vector<CornerTriple>& triangles) {
-  if (outer.size() == 3 && holes.empty()) {
-    triangles.push_back({outer[0], outer[1], outer[2]});
+double triangulate(const PiecePlane& plane, std::span<const std::span<const PieceCorner>> border,
+                   std::vector<CornerTriple>& triangles) {
+  if (border.size() == 1 && border[0].size() == 3) {
+    triangles.push_back({border[0][0], border[0][1], border[0][2]});
     return 0;
   }
   thread_local EarMemory memory;
   memory.ring.clear();
-  append(plane, outer, memory.ring);
-  if (!holes.empty()) join_holes(plane, holes, memory.ring);
+  if (border.size() == 1)
+    append(plane, border[0], memory.ring);
+  else
+    join(plane, border, memory.ring);
   return EarCutter(plane, memory).cut(triangles);
 }
 

@@ -3,28 +3,33 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "meshbound/penetration_depth.h"
 #include "penetration/curves.h"
+#include "penetration/face_borders.h"
 #include "penetration/pieces.h"
 #include "penetration/placed_pair.h"
 #include "penetration/triangulate.h"
 
 namespace meshbound {
 
-/// A piece of the surface of a model as triangles.
+/// A triangle of a patch.
 struct PatchTriangle {
-  std::uint32_t source = 0;  ///< the triangle of the model that it lies on
+  std::uint32_t first_source = 0, end_source = 0;  ///< in `Patch::sources`: it lies on these triangles of the model
   CornerTriple corners;
-  bool is_flat = false;  ///< has no area
 };
 
 /// The part of the boundary of a volume that lies on one model.
 struct Patch {
-  std::vector<PatchTriangle> triangles;
-  std::size_t faces = 0;    ///< triangles of the model that it lies on
+  std::vector<PatchTriangle> triangles;  ///< none without area
+  std::vector<std::uint32_t> sources;    ///< triangles of the model
+  std::size_t faces = 0;                 ///< triangles of the model that it lies on
   double displacement = 0;  ///< distance between the part and its rounded image, either way, at most; local
+
+  void add(std::uint32_t source, const CornerTriple& corners);
+  void add(const Patch& other);
 };
 
 /// A volume of the intersection, in local units.
@@ -37,23 +42,27 @@ struct IntersectionVolume {
 /// Finds the volumes that have content, in the order of their first pieces.
 class VolumeFinder {
  public:
+  /// What is cut into triangles: faces, whose pieces are joined, or each piece by itself.
+  enum class Cut { Faces, Pieces };
   /// Adds to `flush_corners` of the curves.
-  std::vector<IntersectionVolume> find(PlacedPair& pair, CrossingCurves& curves, Pieces& pieces);
+  std::vector<IntersectionVolume> find(PlacedPair& pair, CrossingCurves& curves, Pieces& pieces, Cut cut);
 
  private:
   struct Shell {
     std::vector<std::uint32_t> pieces;
-    std::array<std::vector<PatchTriangle>, 2> triangles;
-    std::array<double, 2> excess{0, 0};
+    std::array<Patch, 2> patches;  ///< by side; empty unless it has content
     Bounds content;
     int sign = 0;
     std::size_t volume = 0;
   };
 
-  void gather(Shell& shell);
-  void add_triangles(std::uint32_t piece, Shell& shell);
+  void find_sign(Shell& shell);
+  template <class Visit>
+  void visit_fans(const Shell& shell, const Visit& visit);
   void measure_content(Shell& shell);
   [[nodiscard]] int exact_content_sign(const Shell& shell);
+  void triangulate_shell(Shell& shell, Cut cut);
+  void triangulate_face(std::span<const std::uint32_t> face, Cut cut, Shell& shell);
   [[nodiscard]] std::size_t shell_around(const Shell& cavity, const std::vector<Shell>& shells);
   [[nodiscard]] int parity_of(const Shell& shell, const Vec3& from, const Vec3& direction) const;
   void surround(IntersectionVolume& volume, const Shell& outer);
@@ -65,7 +74,8 @@ class VolumeFinder {
 
   PlacedPair* pair_ = nullptr;
   const CrossingCurves* curves_ = nullptr;
-  const Pieces* pieces_ = nullptr;
+  Pieces* pieces_ = nullptr;
+  FaceBorders borders_;
   std::vector<CornerTriple> triangles_;
 };
 
