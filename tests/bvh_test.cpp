@@ -410,6 +410,53 @@ TEST(Bvh, NearestIsThatOfTestingEveryTriangle) {
   }
 }
 
+/// The slots of the triangles that `slot` leads to, ascending.
+std::vector<std::uint32_t> around(const Bvh::Data& data, std::uint32_t slot) {
+  std::vector<std::uint32_t> found;
+  for (const Neighbour& across : data.neighbours[slot])
+    if (across.slot != no_slot) found.push_back(across.slot);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Triangles that are segments have no other triangle across an edge: a walk goes on at their ends.
+TEST(Bvh, SegmentsOfAChainLeadToThoseBeforeAndAfterThem) {
+  constexpr std::uint32_t count = 20;
+  for (const bool welded : {true, false}) {
+    TriangleMesh chain;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto first = static_cast<std::uint32_t>(chain.vertices.size());
+      chain.vertices.emplace_back(i, 0, 0);
+      if (!welded || i + 1 == count) chain.vertices.emplace_back(i + 1, 0, 0);
+      // The doubled corner is the first, the second or the third one, at the near or the far end.
+      Triangle t{first, first + 1, first + i % 2};
+      std::rotate(t.begin(), t.begin() + i % 3, t.end());
+      chain.triangles.push_back(t);
+    }
+    const Bvh bvh(chain);
+    const Bvh::Data& data = bvh.data();
+    for (std::uint32_t slot = 0; slot < count; ++slot) {
+      const std::uint32_t i = data.triangle_of_slot[slot];
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t other = 0; other < count; ++other)
+        if (data.triangle_of_slot[other] + 1 == i || data.triangle_of_slot[other] == i + 1) expected.push_back(other);
+      EXPECT_EQ(around(data, slot), expected) << "segment " << i;
+    }
+  }
+}
+
+/// Where a segment lies along an edge of a triangle, both lead to each other as before.
+TEST(Bvh, ASegmentOnAnEdgeLeadsToTheTriangleThere) {
+  TriangleMesh mesh = single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  mesh.triangles.push_back({0, 1, 1});
+  const Bvh bvh(mesh);
+  const Bvh::Data& data = bvh.data();
+  for (std::uint32_t slot = 0; slot < 2; ++slot) {
+    const std::vector<std::uint32_t> found = around(data, slot);
+    EXPECT_NE(std::find(found.begin(), found.end(), 1 - slot), found.end());
+  }
+}
+
 /// Work per triangle of a fan must not grow with the number of triangles around its hub: with 1e5 of them an adjacency
 /// that is quadratic in the valence takes minutes and meets the tests' time limit.
 TEST(Bvh, BuildsAFanOfAHundredThousandTriangles) {

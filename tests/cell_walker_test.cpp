@@ -12,6 +12,7 @@
 #include "proof/piece.h"
 #include "reference/brute_force.h"
 #include "reference/claims.h"
+#include "reference/hard_meshes.h"
 #include "reference/small_meshes.h"
 
 namespace meshbound {
@@ -128,13 +129,23 @@ TriangleMesh cylinder(std::uint32_t around, std::uint32_t along) {
   return mesh;
 }
 
+/// Segments one after another along z from 0 to 4, with vertices of their own or shared ones.
+TriangleMesh chain_on_axis(std::uint32_t segments, bool welded) {
+  TriangleMesh chain;
+  for (std::uint32_t i = 0; i <= segments; ++i) chain.vertices.emplace_back(0, 0, 4.0 * i / segments);
+  for (std::uint32_t i = 0; i < segments; ++i) chain.triangles.push_back({i, i + 1, i + 1});
+  return welded ? chain : unwelded(chain);
+}
+
 TEST(CellWalking, SegmentsOfAnAxisBoundACylinderAtEveryErrorBound) {
-  TriangleMesh axis;
-  constexpr std::uint32_t segments = 50;
-  for (std::uint32_t i = 0; i <= segments; ++i) axis.vertices.emplace_back(0, 0, 4.0 * i / segments);
-  for (std::uint32_t i = 0; i < segments; ++i) axis.triangles.push_back({i, i + 1, i + 1});
-  // Each of the 288 triangles crosses nine slabs at most, and each cut takes two queries or three.
-  EXPECT_LT(measured(cylinder(24, 6), axis, 1e-8).closest_point_queries, 288u * 9 * 3);
+  for (const bool welded : {true, false}) {
+    // Each of the 288 triangles crosses 168 slabs, which are walked through from end to end: some of them are asked for
+    // where a triangle is split.
+    const DistanceStats stats = measured(cylinder(24, 6), chain_on_axis(1000, welded), 1e-8);
+    EXPECT_LT(stats.closest_point_queries, 288u * 40);
+    EXPECT_LT(stats.subdivisions, 288u * 240);
+    EXPECT_LT(stats.resolved, 288u);
+  }
 }
 
 /// Around the axis all cells of a ring meet, and walking from cell to cell leads around it.

@@ -49,6 +49,10 @@ Array<std::uint32_t> seam_positions(const Bvh::Data& data);
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
 void build_nodes_and_normals(Bvh::Data& data);
 
+/// Adds to `neighbours` what follows at the ends of triangles that are segments. Needs the normals. Takes O(n), and
+/// O(m log m) for m segments.
+void link_segments(Bvh::Data& data);
+
 /// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.
 Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);
 

@@ -149,6 +149,7 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs, c
   build_adjacency(*data, first_vertex, scratch);
   stop.check();
   build_nodes_and_normals(*data);
+  link_segments(*data);
   return data;
 }
 

@@ -23,8 +23,15 @@ struct CellPlanes {
   }
 };
 
-/// The cell of triangle t of B at `slot`.
-inline CellPlanes cell_planes(const Bvh::Data& b, std::uint32_t slot, const CornerTriangle<double>& t) {
+/// Whether a triangle without a normal is a segment: its corner c is at one of the ends of its longest edge.
+[[nodiscard]] inline bool is_segment(const std::array<float, 3>& normal, const CornerTriangle<double>& t) {
+  if (normal[0] != 0 || normal[1] != 0 || normal[2] != 0) return false;
+  return squared_length(t.ac) == 0 || squared_length(t.ac - t.ab) == 0;
+}
+
+/// Lane k: what the plane through the edge from corner k to k + 1 runs along, beside the edge: the sum of the normals
+/// on both sides of it.
+inline Vec<Double4> bisectors(const Bvh::Data& b, std::uint32_t slot) {
   const auto& own = b.normals[slot];
   Vec<Double4> bisector{broadcast4(own[0]), broadcast4(own[1]), broadcast4(own[2])};
   for (int edge = 0; edge < 3; ++edge) {
@@ -39,12 +46,23 @@ inline CellPlanes cell_planes(const Bvh::Data& b, std::uint32_t slot, const Corn
     bisector.y[edge] = sum.y;
     bisector.z[edge] = sum.z;
   }
+  return bisector;
+}
+
+/// The cell of triangle t of B at `slot`. That of a segment lies between the planes across it at its ends.
+inline CellPlanes cell_planes(const Bvh::Data& b, std::uint32_t slot, const CornerTriangle<double>& t) {
   const Vec3 bc = t.ac - t.ab, from_b = t.a + t.ab, from_c = t.a + t.ac;
-  const Vec<Double4> along{{t.ab.x, bc.x, -t.ac.x, 0}, {t.ab.y, bc.y, -t.ac.y, 0}, {t.ab.z, bc.z, -t.ac.z, 0}};
   const Vec<Double4> from{
       {t.a.x, from_b.x, from_c.x, 0}, {t.a.y, from_b.y, from_c.y, 0}, {t.a.z, from_b.z, from_c.z, 0}};
   CellPlanes planes;
-  planes.normal = cross(along, bisector);
+  if (is_segment(b.normals[slot], t)) {
+    const Vec3 middle = (1.0 / 3) * (t.ab + t.ac), to_b = t.ab - middle, to_c = t.ac - middle;
+    planes.normal = {Double4{-middle.x, to_b.x, to_c.x, 0}, Double4{-middle.y, to_b.y, to_c.y, 0},
+                     Double4{-middle.z, to_b.z, to_c.z, 0}};
+  } else {
+    const Vec<Double4> along{{t.ab.x, bc.x, -t.ac.x, 0}, {t.ab.y, bc.y, -t.ac.y, 0}, {t.ab.z, bc.z, -t.ac.z, 0}};
+    planes.normal = cross(along, bisectors(b, slot));
+  }
   const Double4 norm = square_root(squared_length(planes.normal));
   planes.normal = select(norm > 0.0, 1.0 / norm, Double4{}) * planes.normal;
   planes.offset = dot(planes.normal, from);
