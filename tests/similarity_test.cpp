@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
+#include <tuple>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
@@ -114,14 +114,20 @@ TEST(Similarity, ScaleIsThatOfTheSurfaceNotOfItsTriangles) {
   EXPECT_NEAR(coarse.normalisation().linear()(0, 0), 1 / std::sqrt(1 + 2 * 0.09), 0.01);
 }
 
-class FindsTheFamily : public testing::TestWithParam<bool> {};
+double error_bound_at(double upper, const SimilarityOptions& options) {
+  return std::max(options.error_bound, options.relative_error_bound * upper);
+}
+
+/// Whether shapes are aligned, and the relative error bound.
+class FindsTheFamily : public testing::TestWithParam<std::tuple<bool, double>> {};
 
 /// The two other members of the query's family come first, with the distances that measuring all finds, for a tenth of
 /// the queries of measuring all.
 TEST_P(FindsTheFamily, FirstAndWithATenthOfTheQueries) {
-  const bool turned = GetParam();
+  const auto [turned, relative_error_bound] = GetParam();
   const Collection all(turned);
   SimilarityOptions options;
+  options.relative_error_bound = relative_error_bound;
   options.count = 3;
   options.align = turned;
   double searched = 0, measured = 0;
@@ -139,32 +145,37 @@ TEST_P(FindsTheFamily, FirstAndWithATenthOfTheQueries) {
       }
     EXPECT_EQ(found.nearest[0].index, q);
     EXPECT_LE(found.nearest[0].distance.lower, 1e-9);
+    for (const SimilarShape& shape : found.nearest) {
+      EXPECT_TRUE(shape.converged);
+      EXPECT_LE(shape.distance.upper - shape.distance.lower, error_bound_at(shape.distance.upper, options));
+    }
     searched += static_cast<double>(found.stats.closest_point_queries);
     if (turned) continue;
     DistanceOptions to_the_end;
     to_the_end.error_bound = options.error_bound;
-    double nearest_of_the_rest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < all.shapes.size(); ++i) {
       const HausdorffDistance distance = hausdorff_distance(query.tree(), all.shapes[i].tree(), to_the_end);
       measured += static_cast<double>(queries(distance));
       const auto listed = std::find_if(found.nearest.begin(), found.nearest.end(),
                                        [&](const SimilarShape& shape) { return shape.index == i; });
-      if (listed == found.nearest.end()) {
-        nearest_of_the_rest = std::min(nearest_of_the_rest, distance.bounds.upper);
-        continue;
+      for (auto before = found.nearest.begin(); before != listed; ++before) {
+        EXPECT_GE(distance.bounds.upper, before->distance.upper - error_bound_at(before->distance.upper, options));
       }
+      if (listed == found.nearest.end()) continue;
       EXPECT_LE(listed->distance.lower, distance.bounds.upper);
       EXPECT_GE(listed->distance.upper, distance.bounds.lower);
     }
-    EXPECT_GE(nearest_of_the_rest, found.nearest.back().distance.lower - options.error_bound);
   }
   if (!turned) {
     EXPECT_LE(searched, measured / 10);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Similarity, FindsTheFamily, testing::Bool(),
-                         [](const auto& turned) { return turned.param ? "aligned" : "as_they_lie"; });
+INSTANTIATE_TEST_SUITE_P(Similarity, FindsTheFamily, testing::Combine(testing::Bool(), testing::Values(0.0, 0.5)),
+                         [](const auto& given) {
+                           return std::string(std::get<0>(given.param) ? "aligned" : "as_they_lie") +
+                                  (std::get<1>(given.param) > 0 ? "_by_shares" : "_by_lengths");
+                         });
 
 TEST(Similarity, IsTheSameForAnyNumberOfThreads) {
   const Collection all(true);
@@ -210,8 +221,36 @@ TEST(Similarity, AVertexThatIsTooFarSparesADecision) {
   EXPECT_EQ(found.nearest[0].index, 0u);
   EXPECT_EQ(found.stats.ended_by_decision, 1u);
   EXPECT_EQ(found.stats.measured, 1u);
-  // 32 vertices of the other mesh are for samples; a decision asks for more than 64 of them.
-  EXPECT_LT(found.stats.closest_point_queries - alone.closest_point_queries, 96u);
+  // 256 points of the two are for samples; a decision asks for more than 64 vertices.
+  EXPECT_LT(found.stats.closest_point_queries - alone.closest_point_queries, 256u + 64u);
+}
+
+TEST(Similarity, KnowsADistanceToAFactorOfTwoUnlessToldOtherwise) {
+  const Shape query(datasets::torus(1, 0.3, 40, 20));
+  std::vector<Shape> candidates;
+  candidates.emplace_back(datasets::torus(1, 0.3, 25, 12));
+  SimilarityOptions by_length;
+  by_length.relative_error_bound = 0;
+  const SimilarShape narrow = nearest_shapes(query, candidates, by_length).nearest[0],
+                     wide = nearest_shapes(query, candidates).nearest[0];
+  EXPECT_LE(narrow.distance.upper - narrow.distance.lower, 1e-3);
+  EXPECT_GT(wide.distance.upper - wide.distance.lower, 1e-3);
+  EXPECT_LE(wide.distance.upper, 2 * wide.distance.lower);
+}
+
+/// A candidate that points of its own show to be too far needs no tree: this one's cannot be built.
+TEST(Similarity, BuildsTreesOfThoseAloneThatAreReached) {
+  const Shape query(datasets::icosphere(1, 4));
+  TriangleMesh spiky = datasets::icosphere(1, 4);
+  for (std::size_t v = 100; v < spiky.vertices.size(); v += 7) spiky.vertices[v] *= 0.7;
+  const std::atomic<bool> cancel = true;
+  std::vector<Shape> candidates;
+  candidates.emplace_back(spiky, BvhOptions{.threads = 1, .stop = {.cancel = &cancel}});
+  candidates.push_back(dented(1000, 0.2));
+  const SimilarShapes found = nearest_shapes(query, candidates);
+  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(found.stats.ended_by_samples, 1u);
+  EXPECT_EQ(found.nearest[0].index, 1u);
 }
 
 TEST(Similarity, IsIncompleteWhenTheTimeOrATreeEndsTheSearch) {
@@ -236,6 +275,9 @@ TEST(Similarity, RefusesWhatHasNoShape) {
   SimilarityOptions none;
   none.count = 0;
   EXPECT_THROW((void)nearest_shapes(cube, {}, none), InvalidInput);
+  SimilarityOptions all;
+  all.relative_error_bound = 1;
+  EXPECT_THROW((void)nearest_shapes(cube, {}, all), InvalidInput);
   TriangleMesh segment = point;
   segment.vertices[1].x() = 4;
   segment.vertices[2].x() = 2;

@@ -45,8 +45,13 @@ struct SimilarityOptions {
   /// Also turn each shape so that its principal axes lie on those of the query: the nearest of the 4 proper ways counts
   /// (reflections do not).
   bool align = false;
-  double error_bound = 1e-3;  ///< wanted width of each interval, in units of normalised shapes
-  DistanceOptions distance;   ///< method, threads, budget of the whole search and cancel; other members are ignored
+  /// An interval is narrow enough, and distances that differ by no more are not told apart, at the larger of this
+  /// length, in units of normalised shapes,
+  double error_bound = 1e-3;
+  /// and this share of its upper bound: the distance is then known to a factor of two, and nothing that is missing is
+  /// less than half as far. Less costs more; with 0, shapes are ranked to `error_bound` whatever their distances.
+  double relative_error_bound = 0.5;
+  DistanceOptions distance;  ///< method, threads, budget of the whole search and cancel; other members are ignored
 };
 
 /// A shape that was found.
@@ -64,14 +69,14 @@ struct SimilarityStats {
   std::uint64_t ended_by_extents = 0;       ///< too long or too short along an axis, without a tree
   std::uint64_t ended_by_samples = 0;       ///< a few points are too far away
   std::uint64_t ended_by_decision = 0;      ///< a vertex or `check_tolerance` shows a point that is too far away
-  std::uint64_t measured = 0;               ///< to the error bound
+  std::uint64_t measured = 0;               ///< both bounds are known
   std::uint64_t closest_point_queries = 0;  ///< of all candidates together
 };
 
 /// The shapes that are nearest to a query.
 struct SimilarShapes {
-  /// By upper bound, at most `SimilarityOptions::count`. No candidate that is missing is nearer than the upper bound of
-  /// the last one minus the error bound. Where the intervals of two overlap, their order is not proven.
+  /// By upper bound, at most `SimilarityOptions::count`. No candidate that comes later or is missing is nearer than the
+  /// upper bound of one minus its error bound.
   std::vector<SimilarShape> nearest;
   /// False: the budget of the search, or the token of a tree that it had to build, ended it before that was proven.
   bool complete = true;
@@ -80,10 +85,11 @@ struct SimilarShapes {
 
 /// Ranks candidates by H(query, candidate). Best first: the candidate with the smallest lower bound so far is looked at
 /// more closely, and the search ends when that bound exceeds the upper bounds of as many shapes as are wanted, less the
-/// error bound. Lower bounds come from the extents along the axes, then from a few closest points, then from a decision
-/// against the best upper bound (Seidl and Kriegel, "Optimal multi-step k-nearest neighbor search", SIGMOD 1998).
-/// Throws `InvalidInput` for a count of 0 and for an error bound that is no length. The same for any number of threads,
-/// but for a budget of time. Trees of candidates are built only for those that the extents leave open.
+/// error bound, and these are narrow enough. Lower bounds come from the extents along the axes, then from a few closest
+/// points, then from a decision against the best upper bound (Seidl and Kriegel, "Optimal multi-step k-nearest neighbor
+/// search", SIGMOD 1998). Throws `InvalidInput` for a count of 0, an error bound that is no length and a relative one
+/// that is not a share below 1. The same for any number of threads, but for a budget of time. Trees of candidates are
+/// built only for those that extents and points of their own leave open.
 [[nodiscard]] SimilarShapes nearest_shapes(const Shape& query, std::span<const Shape> candidates,
                                            const SimilarityOptions& options = {});
 

@@ -1,33 +1,40 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <queue>
 
 #include "distance/search/one_sided.h"
 #include "meshbound/error.h"
-#include "meshbound/motion.h"
 #include "meshbound/stop_token.h"
 #include "scene/shape.h"
 
 namespace meshbound {
 
-/// A candidate in one alignment, and its lower bound, which stages of growing cost raise.
+/// A candidate in one alignment, and the bounds of its distance, which stages of growing cost narrow.
 struct ShapeTrial {
-  /// How the lower bound was found: from extents; from points of the candidate, which needs no tree of it; from points
-  /// of the query as well.
-  enum class Stage { Extents, SamplesOfCandidate, SamplesOfBoth };
+  /// What the lower bound is from: extents; a few points of the candidate, which need no tree of it; more of them.
+  enum class Stage { Extents, FewSamples, Samples };
 
-  double lower;  ///< of the distance, by the stages passed
-  Stage stage;
+  Bounds distance;
+  Stage stage = Stage::Extents;
   std::uint32_t index;  ///< index of the candidate
   std::uint32_t way;    ///< which of its alignments
+};
 
-  bool operator<(const ShapeTrial& other) const {
-    if (lower != other.lower) return lower > other.lower;
-    return index != other.index ? index > other.index : way > other.way;
+namespace {
+
+/// The smallest lower bound on top of a queue.
+struct ByLower {
+  bool operator()(const ShapeTrial& x, const ShapeTrial& y) const {
+    if (x.distance.lower != y.distance.lower) return x.distance.lower > y.distance.lower;
+    return x.index != y.index ? x.index > y.index : x.way > y.way;
   }
 };
+using TrialQueue = std::priority_queue<ShapeTrial, std::vector<ShapeTrial>, ByLower>;
+
+}  // namespace
 
 class ShapeSearch {
  public:
@@ -41,29 +48,47 @@ class ShapeSearch {
   SimilarShapes run() {
     for (std::uint32_t i = 0; i < candidates_.size(); ++i)
       for (std::uint32_t way = 0; way < (options_.align ? 4U : 1U); ++way)
-        trials_.push({by_extents(i, way), ShapeTrial::Stage::Extents, i, way});
-    stats().alignments = trials_.size();
+        unsampled_.push({.distance = {by_extents(i, way), infinity}, .index = i, .way = way});
+    stats().alignments = unsampled_.size();
     try {
-      while (!trials_.empty() && !(trials_.top().lower > limit_)) follow_best();
+      while (follow_best()) stop_.check();
     } catch (const Stopped&) {
       result_.complete = false;
     }
-    for (; !trials_.empty() && result_.complete; trials_.pop())
-      ++(trials_.top().stage == ShapeTrial::Stage::Extents ? stats().ended_by_extents : stats().ended_by_samples);
-    if (result_.nearest.size() > options_.count) result_.nearest.resize(options_.count);
+    for (const std::size_t i : listed()) {
+      const ShapeTrial& trial = measured_[i];
+      result_.nearest.push_back({trial.index, trial.distance, alignment(trial), is_narrow(trial)});
+    }
+    if (result_.complete) count_ended();
     return std::move(result_);
   }
 
  private:
-  /// Takes the trial with the smallest lower bound one stage further.
-  void follow_best() {
-    stop_.check();
-    const ShapeTrial trial = trials_.top();
-    trials_.pop();
-    if (trial.stage == ShapeTrial::Stage::SamplesOfBoth)
-      measure(trial);
-    else
-      trials_.push(sampled(trial));
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /// Takes one trial a step further; false where none needs it.
+  bool follow_best() {
+    const double sampled = sampled_.empty() ? infinity : lower(sampled_);
+    if (!unsampled_.empty() && lower(unsampled_) <= std::min(limit_, sampled)) {
+      sample();
+      return true;
+    }
+    if (sampled <= limit_ && !sampled_.empty()) {
+      measure_nearest();
+      return true;
+    }
+    return false;
+  }
+
+  static double lower(const TrialQueue& trials) { return trials.top().distance.lower; }
+
+  /// The error bound of a distance with this upper bound.
+  [[nodiscard]] double error_bound_at(double upper) const {
+    return std::max(options_.error_bound, options_.relative_error_bound * upper);
+  }
+  [[nodiscard]] bool is_narrow(const ShapeTrial& trial) const {
+    const auto [lower, upper] = trial.distance;
+    return std::isfinite(upper) && upper - lower <= error_bound_at(upper);
   }
 
   /// A bound of the rounding of normalised coordinates, of a rotation and of three products. Coordinates are below 2^8
@@ -76,11 +101,11 @@ class ShapeSearch {
     return {first, second, first * second};
   }
 
-  [[nodiscard]] Eigen::Isometry3d alignment(std::uint32_t index, std::uint32_t way) const {
+  [[nodiscard]] Eigen::Isometry3d alignment(const ShapeTrial& trial) const {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     if (!options_.align) return pose;
-    const auto [x, y, z] = signs(way);
-    pose.linear() = query_.axes() * Eigen::Vector3d(x, y, z).asDiagonal() * candidates_[index].axes().transpose();
+    const auto [x, y, z] = signs(trial.way);
+    pose.linear() = query_.axes() * Eigen::Vector3d(x, y, z).asDiagonal() * candidates_[trial.index].axes().transpose();
     return pose;
   }
 
@@ -100,89 +125,118 @@ class ShapeSearch {
     return std::max(0.0, largest - rounding(size));
   }
 
-  /// Largest distance of the points, moved by `pose`, to a shape; stops once it is too large to matter.
-  double sample(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& pose, const Shape& to,
-                double lower) {
+  /// Takes the unsampled trial with the smallest lower bound one stage further.
+  void sample() {
+    using Stage = ShapeTrial::Stage;
+    ShapeTrial trial = unsampled_.top();
+    unsampled_.pop();
+    const std::span<const Eigen::Vector3d> samples(candidates_[trial.index].impl_->samples);
+    const std::size_t few = std::min(samples.size(), few_samples);
+    const bool is_first = trial.stage == Stage::Extents;
+    raise(trial, is_first ? samples.first(few) : samples.subspan(few), alignment(trial), query_);
+    trial.stage = is_first ? Stage::FewSamples : Stage::Samples;
+    (is_first ? unsampled_ : sampled_).push(trial);
+  }
+
+  /// Raises a lower bound to the largest distance of points, moved by `pose`, to a shape; stops once it is too large to
+  /// matter.
+  void raise(ShapeTrial& trial, std::span<const Eigen::Vector3d> points, const Eigen::Isometry3d& pose,
+             const Shape& to) {
+    double& lower = trial.distance.lower;
     for (std::size_t i = 0; i < points.size() && !(lower > limit_); ++i) {
       const Eigen::Vector3d query = pose * points[i];
       lower = std::max(lower, closest_point(to.tree(), query).distance.lower - rounding(query.norm()));
       ++stats().closest_point_queries;
     }
-    return lower;
   }
 
-  ShapeTrial sampled(ShapeTrial trial) {
-    const Shape& candidate = candidates_[trial.index];
-    const Eigen::Isometry3d pose = alignment(trial.index, trial.way);
-    if (trial.stage == ShapeTrial::Stage::Extents) {
-      trial.lower = sample(candidate.impl_->samples, pose, query_, trial.lower);
-      trial.stage = ShapeTrial::Stage::SamplesOfCandidate;
-    } else {
-      trial.lower = sample(query_.impl_->samples, pose.inverse(), candidate, trial.lower);
-      trial.stage = ShapeTrial::Stage::SamplesOfBoth;
+  /// Measures the trial with the smallest lower bound, unless it is further than the limit. As all that are measured
+  /// are as narrow as their error bounds, none of them is nearer than the upper bound of one before it minus the error
+  /// bound of that.
+  void measure_nearest() {
+    ShapeTrial trial = sampled_.top();
+    sampled_.pop();
+    if (std::isfinite(limit_) && is_too_far(trial)) {
+      ++stats().ended_by_decision;
+      return;
     }
-    return trial;
+    ++stats().measured;
+    if (!is_narrow(trial)) measure(trial, error_bound_at(trial.distance.lower));
+    measured_.push_back(trial);
+    sort_measured();
   }
 
-  /// Whether a vertex of either shape is too far from the other one. Most of the candidates that come so far are like
-  /// the query all over, so that only a full search tells them from the nearest; but often a vertex does.
-  bool has_far_vertex(const PlacedModel& candidate, const DistanceOptions& options) {
-    const PlacedModel query(query_.tree());
-    for (const bool from_query : {true, false}) {
-      OneSidedTask task{.a = from_query ? query : candidate, .b = from_query ? candidate : query, .options = options};
-      task.tolerance = limit_;
-      task.decide_only = true;
-      const OneSidedDistance found = bound_by_vertices(task);
-      count(found);
-      if (found.bounds.lower > limit_) return true;
+  /// Whether a trial is further than the limit; sets its upper bound if it is proven not to be. Vertices are asked
+  /// first: most of the candidates that come so far are like the query all over, so that only a full search tells them
+  /// from the nearest; but often a vertex does.
+  bool is_too_far(ShapeTrial& trial) {
+    const double by_candidate = trial.distance.lower;
+    raise(trial, query_.impl_->samples, alignment(trial).inverse(), candidates_[trial.index]);
+    const bool query_is_further = trial.distance.lower > by_candidate;
+    const PlacedModel query(query_.tree()), candidate(candidates_[trial.index].tree(), alignment(trial));
+    const DistanceOptions options = search_options();
+    double upper = 0;
+    for (const auto search : {bound_by_vertices, search_one_sided}) {
+      upper = 0;
+      for (const bool from_query : {query_is_further, !query_is_further}) {
+        if (trial.distance.lower > limit_) return true;
+        OneSidedTask task{.a = from_query ? query : candidate, .b = from_query ? candidate : query, .options = options};
+        task.tolerance = limit_;
+        task.decide_only = true;
+        const OneSidedDistance found = search(task);
+        count(found);
+        trial.distance.lower = std::max(trial.distance.lower, found.bounds.lower);
+        upper = std::max(upper, found.bounds.upper);
+      }
     }
-    return false;
+    if (upper <= limit_) trial.distance.upper = upper;
+    return trial.distance.lower > limit_;
   }
 
-  void measure(const ShapeTrial& trial) {
-    MovingPair pair(query_.tree(), candidates_[trial.index].tree());
-    const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity(), pose = alignment(trial.index, trial.way);
+  void measure(ShapeTrial& trial, double error_bound) {
+    DistanceOptions options = search_options();
+    options.error_bound = error_bound;
+    const HausdorffDistance found = hausdorff_distance(
+        PlacedModel(query_.tree()), PlacedModel(candidates_[trial.index].tree(), alignment(trial)), options);
+    count(found.a_to_b);
+    count(found.b_to_a);
+    trial.distance.lower = std::max(trial.distance.lower, found.bounds.lower);
+    trial.distance.upper = std::min(trial.distance.upper, found.bounds.upper);
+  }
+
+  [[nodiscard]] DistanceOptions search_options() const {
     DistanceOptions options = options_.distance;
     options.tolerance.reset();
-    options.error_bound = options_.error_bound;
     options.progress = nullptr;
     options.budget.seconds = stop_.seconds_left();
-    if (std::isfinite(limit_)) {
-      if (has_far_vertex({candidates_[trial.index].tree(), pose}, options)) {
-        ++stats().ended_by_decision;
-        return;
-      }
-      const ToleranceCheck check = pair.check_tolerance(identity, pose, limit_, options);
-      count(check.a_to_b);
-      count(check.b_to_a);
-      if (check.verdict == Verdict::Exceeds) {
-        ++stats().ended_by_decision;
-        return;
-      }
-    }
-    const HausdorffDistance distance = pair.hausdorff_distance(identity, pose, options);
-    count(distance.a_to_b);
-    count(distance.b_to_a);
-    ++stats().measured;
-    const bool converged = distance.bounds.upper - distance.bounds.lower <= options_.error_bound;
-    offer({trial.index, distance.bounds, pose, converged});
+    return options;
   }
 
-  /// Keeps the best alignment of each candidate, ordered by upper bound.
-  void offer(const SimilarShape& shape) {
-    std::vector<SimilarShape>& nearest = result_.nearest;
-    const auto nearer = [](const SimilarShape& x, const SimilarShape& y) {
-      return x.distance.upper != y.distance.upper ? x.distance.upper < y.distance.upper : x.index < y.index;
-    };
-    const auto same = std::find_if(nearest.begin(), nearest.end(),
-                                   [&](const SimilarShape& other) { return other.index == shape.index; });
-    if (same == nearest.end())
-      nearest.push_back(shape);
-    else if (nearer(shape, *same))
-      *same = shape;
-    std::sort(nearest.begin(), nearest.end(), nearer);
-    if (nearest.size() >= options_.count)
-      limit_ = std::max(0.0, nearest[options_.count - 1].distance.upper - options_.error_bound);
+  /// The measured trials that are the nearest of their candidates, as many as are wanted.
+  [[nodiscard]] std::vector<std::size_t> listed() const {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < measured_.size() && list.size() < options_.count; ++i)
+      if (std::none_of(list.begin(), list.end(),
+                       [&](std::size_t j) { return measured_[j].index == measured_[i].index; }))
+        list.push_back(i);
+    return list;
+  }
+
+  void sort_measured() {
+    std::sort(measured_.begin(), measured_.end(), [](const ShapeTrial& x, const ShapeTrial& y) {
+      if (x.distance.upper != y.distance.upper) return x.distance.upper < y.distance.upper;
+      return x.index != y.index ? x.index < y.index : x.way < y.way;
+    });
+    const std::vector<std::size_t> list = listed();
+    if (list.size() < options_.count) return;
+    const double upper = measured_[list.back()].distance.upper;
+    limit_ = std::max(0.0, upper - error_bound_at(upper));
+  }
+
+  void count_ended() {
+    for (; !unsampled_.empty(); unsampled_.pop())
+      ++(unsampled_.top().stage == ShapeTrial::Stage::Extents ? stats().ended_by_extents : stats().ended_by_samples);
+    stats().ended_by_samples += sampled_.size();
   }
 
   void count(const OneSidedDistance& side) { stats().closest_point_queries += side.stats.closest_point_queries; }
@@ -192,16 +246,19 @@ class ShapeSearch {
   std::span<const Shape> candidates_;
   const SimilarityOptions& options_;
   StopToken stop_;
-  std::priority_queue<ShapeTrial> trials_;  ///< the smallest lower bound first
-  /// Once as many shapes are found as are wanted: a candidate with a larger lower bound than this cannot be nearer than
-  /// the last of them by more than the error bound.
-  double limit_ = std::numeric_limits<double>::infinity();
+  TrialQueue unsampled_, sampled_;
+  std::vector<ShapeTrial> measured_;  ///< by upper bound
+  /// Once as many shapes are measured as are wanted: a candidate with a larger lower bound than this cannot be nearer
+  /// than the last of them by more than the error bound.
+  double limit_ = infinity;
   SimilarShapes result_;
 };
 
 SimilarShapes nearest_shapes(const Shape& query, std::span<const Shape> candidates, const SimilarityOptions& options) {
   if (options.count == 0) throw InvalidInput("the number of shapes wanted must be 1 or more");
   if (!(options.error_bound >= 0)) throw InvalidInput("the error bound must be a length of 0 or more");
+  if (!(options.relative_error_bound >= 0 && options.relative_error_bound < 1))
+    throw InvalidInput("the relative error bound must be a share of 0 or more, below 1");
   return ShapeSearch(query, candidates, options).run();
 }
 

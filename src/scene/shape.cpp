@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
@@ -78,12 +79,19 @@ Extents extents_along(const TriangleMesh& mesh, const Matrix3d& axes) {
   return extents;
 }
 
-/// Vertices of triangles at equal steps along the list of triangles, up to the number of samples.
+/// Vertices of triangles at multiples of the golden ratio along the list of triangles: the first few of them are as
+/// evenly spread as all.
 std::vector<Vector3d> some_vertices(const TriangleMesh& mesh) {
-  constexpr std::size_t max_samples = 16;
-  const std::size_t n = mesh.triangles.size(), count = std::min(max_samples, n);
+  const std::size_t n = mesh.triangles.size();
   std::vector<Vector3d> samples;
-  for (std::size_t i = 0; i < count; ++i) samples.push_back(mesh.vertices[mesh.triangles[i * n / count][0]]);
+  double along = 0;
+  for (std::size_t i = 0; i < std::min(max_samples, n); ++i) {
+    const auto triangle = static_cast<std::size_t>(along * static_cast<double>(n));
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    samples.push_back(i % 2 == 0 ? mesh.vertices[a] : (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+    along += std::numbers::phi - 1;
+    along -= std::floor(along);
+  }
   return samples;
 }
 

@@ -80,8 +80,9 @@ SimilarityOptions options_of(const Arguments& arguments, const Stopwatch& watch)
   if (!arguments.error_bound.empty()) {
     const Length length = parse_length("--error-bound", arguments.error_bound);
     if (length.is_percentage)
-      throw InvalidInput("--error-bound: with --nearest it is a number in units of normalised shapes (default 0.001)");
+      throw InvalidInput("--error-bound: with --nearest it is a number in units of normalised shapes");
     options.error_bound = length.value;
+    options.relative_error_bound = 0;
   }
   options.distance.method = arguments.method;
   options.distance.threads = arguments.common.threads;
@@ -114,6 +115,7 @@ std::string to_json(const MeshReport& query_file, const Shape& query, const Cand
   Json json = {{"schema", "meshbound/nearest/1"}, {"verdict", is_done(found) ? "done" : "undecided"}};
   json["provenance"] = report::provenance(tools::provenance());
   json["error_bound"] = number(options.error_bound);
+  json["relative_error_bound"] = number(options.relative_error_bound);
   json["align"] = options.align;
   json["query"] = mesh(query_file);
   json["folder"] = arguments.nearest;
@@ -140,7 +142,7 @@ std::string to_json(const MeshReport& query_file, const Shape& query, const Cand
   return text(json);
 }
 
-void print(const Candidates& candidates, const SimilarShapes& found, double seconds) {
+void print(const Candidates& candidates, const SimilarShapes& found, const SimilarityOptions& options, double seconds) {
   print_line("rank", "distance of normalised shapes, triangles, file");
   for (std::size_t i = 0; i < found.nearest.size(); ++i) {
     const SimilarShape& shape = found.nearest[i];
@@ -148,6 +150,9 @@ void print(const Candidates& candidates, const SimilarShapes& found, double seco
                "[" + short_number(shape.distance.lower) + ", " + short_number(shape.distance.upper) + "] " +
                    std::to_string(candidates.faces[shape.index]) + " " + candidates.paths[shape.index]);
   }
+  print_line("error bound",
+             short_number(options.error_bound) +
+                 (options.relative_error_bound > 0 ? ", or half of an upper bound if that is more" : ""));
   const SimilarityStats& stats = found.stats;
   print_line("candidates",
              std::to_string(stats.alignments) + " alignments of " + std::to_string(candidates.shapes.size()) +
@@ -181,7 +186,7 @@ ExitCode run_nearest(const Arguments& arguments) {
   if (!arguments.common.json.empty())
     write_text(arguments.common.json,
                to_json(query_file, query, candidates, found, options, arguments, watch.seconds()));
-  if (!arguments.common.quiet && arguments.common.json != "-") print(candidates, found, watch.seconds());
+  if (!arguments.common.quiet && arguments.common.json != "-") print(candidates, found, options, watch.seconds());
   return is_done(found) ? ExitDone : ExitUndecided;
 }
 

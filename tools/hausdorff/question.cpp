@@ -28,8 +28,10 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   app.add_option("A", arguments.a, "The original: OFF, OBJ, PLY, STL, GLB or glTF; - for standard input")->required();
   app.add_option("B", arguments.b, "The mesh to compare with it; - for standard input; not with --nearest");
   add_stream_format(app, "--format", arguments.format, "input");
-  app.add_option("--error-bound", arguments.error_bound,
-                 "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%)");
+  app.add_option(
+      "--error-bound", arguments.error_bound,
+      "Wanted width of the interval: model units, or '0.1%' of A's bounding-box diagonal (default 0.0001%); with "
+      "--nearest in units of normalised shapes (default: 0.001, or half of an upper bound if that is more)");
   app.add_option("--tolerance", arguments.tolerance,
                  "Decide whether the distance is at most this (units as above): exit 0 within, 1 exceeds, 3 undecided. "
                  "Stops as soon as that is known, unless --error-bound or --worst is given too");
