@@ -178,6 +178,22 @@ TEST(Proof, KeepsTheTolerancesOfTriangles) {
   }
 }
 
+/// A tile has triangles of its neighbours with no originals of theirs: no change alters these, so their old proof holds.
+TEST(Proof, AsksNothingOfFacesWhoseVerticesAreAllLocked) {
+  const TriangleMesh original{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  TriangleMesh mesh = original;
+  mesh.vertices.insert(mesh.vertices.end(), {{2, 0, 5}, {3, 0, 5}, {2, 1, 5}});
+  mesh.triangles.push_back({3, 4, 5});
+  ASSERT_EQ(prove(original, mesh, 0.1).faces, std::vector<std::uint32_t>{1});
+  Approximation it(original, mesh, 0.1);
+  it.state.lock({1, 0, 1, 1, 1, 1});
+  ProofWorkers workers(it.state, 1);
+  Proof proof(it.state, workers);
+  proof.run({});
+  EXPECT_TRUE(proof.unproven().empty());
+  EXPECT_EQ(proof.faces_tested, 1U);
+}
+
 /// Faces that a collapse does not touch, and that are not beside it, still cover the rest of a large original.
 TEST(ChangeProver, ProvesACollapseBelowAnOriginalThatReachesFarBeyond) {
   Approximation it(reference::unit_square(1), reference::unit_square(5), 0.04);

@@ -172,6 +172,30 @@ class PackingRunner : public JobRunner {
   std::size_t size_ = 0;
 };
 
+/// Weighs the tiles of each pass.
+class WeighingRunner : public ThreadRunner {
+ public:
+  WeighingRunner() : ThreadRunner(1) {}
+  void run(TileJobs& jobs) override {
+    std::uint64_t weight = 0;
+    for (std::size_t job = 0; job < jobs.size(); ++job) weight += jobs.weight(job);
+    weights_.push_back(weight);
+    ThreadRunner::run(jobs);
+  }
+  [[nodiscard]] const std::vector<std::uint64_t>& weights() const { return weights_; }
+
+ private:
+  std::vector<std::uint64_t> weights_;
+};
+
+TEST(SimplifyInTiles, GoesOverASeamUntilItHasBeenInsideATile) {
+  const TriangleMesh terrain = datasets::terrain(1, 160, 3);
+  WeighingRunner runner;
+  (void)decimate_in_tiles(MeshInMemory(terrain), share_of_diagonal(terrain, 0.001), {3000}, runner);
+  ASSERT_GT(runner.weights().size(), 3U);
+  EXPECT_LT(runner.weights().back(), runner.weights()[1] / 3);
+}
+
 TEST(SimplifyInTiles, GivesTheSameBitsFromPackedResults) {
   for (const TriangleMesh& mesh : {datasets::terrain(1, 60, 7), datasets::mesh_of_size("uv-sphere", 4000),
                                    unwelded(datasets::torus(1, 0.3, 60, 24))}) {

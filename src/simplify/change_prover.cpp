@@ -9,7 +9,7 @@
 namespace meshbound {
 
 bool ChangeProver::is_near(std::uint32_t face) {
-  if (state_.mesh.is_removed(face)) return true;
+  if (state_.mesh.is_removed(face) || !state_.is_unproven(face)) return true;
   ++faces_tested;
   return workers_.of_thread(thread_).is_near(face, state_.nearest[face]);
 }

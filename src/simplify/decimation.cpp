@@ -133,7 +133,7 @@ void Decimation::make_state(const StopToken& stop) {
   if (options_.normal_tolerance) state_->turns.emplace(state_->mesh, is_turned_over_, *options_.normal_tolerance);
   if (keeps_sides()) state_->proven_changes.emplace(state_->mesh.face_count());
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
-  state_->locked = locked();
+  state_->lock(locked());
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
   if (!options_.face_tolerances.empty()) {
     std::vector<Eigen::AlignedBox3d> boxes(original_.triangles.size());

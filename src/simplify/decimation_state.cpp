@@ -150,6 +150,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       source_vertex(std::move(vertex_of_vertex)),
       source_triangle(std::move(triangle_of_face)),
       locked(mesh.vertex_count(), 0),
+      is_fixed(mesh.face_count(), 0),
       quadrics(vertex_quadrics(mesh, PlaneWeights::Equal)),
       share(mesh.vertex_count(), 1),
       stamp(mesh.face_count(), 0),
@@ -172,6 +173,14 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
                       CoverAssignment(original_triangles.size())) {
   starts_as_original = true;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
+}
+
+void DecimationState::lock(std::vector<std::uint8_t> vertices_locked) {
+  locked = std::move(vertices_locked);
+  for (std::uint32_t f = 0; f < is_fixed.size(); ++f) {
+    const Triangle corners = mesh.corners(f);
+    is_fixed[f] = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return locked[v] != 0; }) ? 1 : 0;
+  }
 }
 
 void DecimationState::reset_quadrics() {

@@ -176,6 +176,8 @@ struct DecimationState {
   std::vector<std::uint32_t> source_vertex,
       source_triangle;               ///< by vertex and face: where it comes from in the original
   std::vector<std::uint8_t> locked;  ///< by vertex
+  /// By face: whether all its vertices were locked at the start, so that no change alters it and no proof of it is lost.
+  std::vector<std::uint8_t> is_fixed;
   /// By vertex: a collapse of it was refuted, and at this tolerance it takes part in no other. Empty: none.
   std::vector<std::uint8_t> refuted;
   std::vector<Quadric> quadrics;  ///< by vertex
@@ -203,6 +205,10 @@ struct DecimationState {
   std::vector<float> deviation;                    ///< by edge: in tolerances, as found when it was refused; else 0
   std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
+  /// Locks vertices, before any change.
+  void lock(std::vector<std::uint8_t> vertices_locked);
+  /// Whether a change that is not proven may have altered the face.
+  [[nodiscard]] bool is_unproven(std::uint32_t face) const { return stamp[face] != 0 && is_fixed[face] == 0; }
   [[nodiscard]] bool is_refuted(std::uint32_t vertex) const { return !refuted.empty() && refuted[vertex] != 0; }
   /// Sets a larger tolerance: all proofs hold for it as well, and what was refused may fit now. A smaller one is not
   /// allowed.

@@ -184,6 +184,7 @@ class ProofWorkers::Worker {
     affected_marks_.clear();
   }
   void add_affected(std::uint32_t face) {
+    if (state_.is_fixed[face] != 0) return;
     for (const std::uint32_t t : state_.cover.originals_of(face))
       if (affected_marks_.insert(t)) affected_.push_back(t);
   }

@@ -22,7 +22,7 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
   for (std::uint32_t t = 0; t < state.triangles.size(); ++t)
     if (is_stale(t)) originals_.push_back(t);
   for (std::uint32_t f = 0; f < state.stamp.size(); ++f)
-    if (state.stamp[f] != 0 && !state.mesh.is_removed(f)) open_faces_.push_back(f);
+    if (state.is_unproven(f) && !state.mesh.is_removed(f)) open_faces_.push_back(f);
   only_face_.assign(originals_.size(), no_index);
   faces_.resize(originals_.size());
   open_originals_ = numbers_below(originals_.size());
@@ -38,7 +38,7 @@ bool Proof::is_stale(std::uint32_t original) const {
   if (!state_.is_kept.empty() && state_.is_kept[original] != 0) return false;
   const auto faces = state_.cover.faces_of(original);
   return faces.empty() ||
-         std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return state_.stamp[f] != 0; });
+         std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return state_.is_unproven(f); });
 }
 
 void Proof::run(const StopToken& stop) {
@@ -97,7 +97,7 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
       originals_[i] = no_index;  // its old cover holds again
   }
   for (const std::uint32_t f : changed)
-    if (state_.stamp[f] != 0 && !state_.mesh.is_removed(f)) open_faces_.push_back(f);
+    if (state_.is_unproven(f) && !state_.mesh.is_removed(f)) open_faces_.push_back(f);
 }
 
 void Proof::commit() {

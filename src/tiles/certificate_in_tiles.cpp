@@ -99,17 +99,17 @@ class NodeReader {
 /// One direction: proves that `source` lies near `target`.
 class TiledProof {
  public:
-  TiledProof(const StoredMesh& source, const char* source_name, const StoredMesh& target, const char* target_name,
+  TiledProof(const Clusters& source, const char* source_name, const Clusters& target, const char* target_name,
              double tolerance, const TileOptions& tiles)
-      : source_(source),
+      : source_(source.mesh),
         source_name_(source_name),
         target_(target),
         target_name_(target_name),
         tolerance_(tolerance),
-        tiles_(tiles_beside(source, target_, reach_share * tolerance, tiles.max_triangles)),
+        tiles_(tiles_beside(source, target, reach_share * tolerance, tiles.max_triangles)),
         first_node_(tiles_.size()),
         parity_work_(tiles_.size()),
-        nodes_(source.space()) {}
+        nodes_(source.mesh.space()) {}
 
   struct How {
     CertificateOptions options;  ///< of a tile
@@ -217,7 +217,7 @@ class TiledProof {
 
   const StoredMesh& source_;
   const char* source_name_;
-  Clusters target_;
+  const Clusters& target_;
   const char* target_name_;
   double tolerance_;
   StoredLists tiles_;
@@ -235,7 +235,12 @@ std::optional<Certificate> certify_in_tiles(const StoredMesh& original, const St
   tolerance = checked_tolerance(tolerance);
   TiledProof::How how{options, StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds), {}};
   how.options.threads = 1;
-  const auto prove = [&](const StoredMesh& source, const char* source_name, const StoredMesh& target,
+  std::optional<Clusters> clusters_of_original, clusters_of_simplified;
+  runner.do_together([&] {
+    clusters_of_original.emplace(original, tiles.max_triangles);
+    clusters_of_simplified.emplace(simplified, tiles.max_triangles);
+  });
+  const auto prove = [&](const Clusters& source, const char* source_name, const Clusters& target,
                          const char* target_name, double progress_from) {
     how.progress = [&options, progress_from](double share) {
       if (options.progress) options.progress(progress_from + 0.5 * share);
@@ -244,9 +249,9 @@ std::optional<Certificate> certify_in_tiles(const StoredMesh& original, const St
     runner.do_together([&] { proof.emplace(source, source_name, target, target_name, tolerance, tiles); });
     return proof->run(how, runner);
   };
-  const auto forward = prove(original, "original", simplified, "simplified", 0);
+  const auto forward = prove(*clusters_of_original, "original", *clusters_of_simplified, "simplified", 0);
   if (!forward) return std::nullopt;
-  const auto backward = prove(simplified, "simplified", original, "original", 0.5);
+  const auto backward = prove(*clusters_of_simplified, "simplified", *clusters_of_original, "original", 0.5);
   if (!backward) return std::nullopt;
   Certificate certificate;
   runner.do_together([&] {

@@ -44,9 +44,9 @@ struct SearchReach {
 /// Measures one direction, h(A, B).
 class TiledSearch {
  public:
-  TiledSearch(const StoredMesh& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
+  TiledSearch(const Clusters& a, const Clusters& b, const DistanceOptions& options, std::size_t max_triangles,
               const SearchReach& reach, StopToken::Clock::time_point start)
-      : a_(a),
+      : a_(a.mesh),
         b_(b),
         options_(options),
         reach_(reach),
@@ -168,23 +168,27 @@ class TiledMeasurement {
     if (!options.error_bound) options_.error_bound = default_error_bound(a, b, diagonal_of(box_of_a));
     reach_ = {std::min(options.tolerance.value_or(diagonal), first_reach * diagonal),
               std::max(min_reach * diagonal, std::numeric_limits<double>::denorm_min())};  // grows by doubling
+    runner_.do_together([&] {
+      a_.emplace(a, tiles_.max_triangles);
+      b_.emplace(b, tiles_.max_triangles);
+    });
   }
 
-  [[nodiscard]] OneSidedDistance search(const StoredMesh& from, const StoredMesh& to, double known_lower) const {
-    std::optional<Clusters> clusters;
+  [[nodiscard]] OneSidedDistance a_to_b(double known_lower) const { return search(*a_, *b_, known_lower); }
+  [[nodiscard]] OneSidedDistance b_to_a(double known_lower) const { return search(*b_, *a_, known_lower); }
+
+ private:
+  [[nodiscard]] OneSidedDistance search(const Clusters& from, const Clusters& to, double known_lower) const {
     std::optional<TiledSearch> search;
-    runner_.do_together([&] {
-      clusters.emplace(to);
-      search.emplace(from, *clusters, options_, tiles_.max_triangles, reach_, start_);
-    });
+    runner_.do_together([&] { search.emplace(from, to, options_, tiles_.max_triangles, reach_, start_); });
     return search->run(known_lower, runner_);
   }
 
- private:
   DistanceOptions options_;
   TileOptions tiles_;
   JobRunner& runner_;
   SearchReach reach_{};
+  std::optional<Clusters> a_, b_;
   StopToken::Clock::time_point start_ = StopToken::Clock::now();
 };
 
@@ -197,15 +201,15 @@ double default_error_bound(const StoredMesh& a, const StoredMesh& b, double diag
 
 OneSidedDistance measure_one_side_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
                                            const TileOptions& tiles, JobRunner& runner) {
-  return TiledMeasurement(a, b, options, tiles, runner).search(a, b, 0);
+  return TiledMeasurement(a, b, options, tiles, runner).a_to_b(0);
 }
 
 HausdorffDistance measure_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
                                    const TileOptions& tiles, JobRunner& runner) {
   const TiledMeasurement measurement(a, b, options, tiles, runner);
   HausdorffDistance result;
-  result.a_to_b = measurement.search(a, b, 0);
-  result.b_to_a = measurement.search(b, a, result.a_to_b.bounds.lower);
+  result.a_to_b = measurement.a_to_b(0);
+  result.b_to_a = measurement.b_to_a(result.a_to_b.bounds.lower);
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
                    std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
   return result;

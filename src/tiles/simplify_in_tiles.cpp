@@ -40,9 +40,13 @@ constexpr std::array<TileCut, 6> cuts = {
 /// Smallest share of the triangles that a pass must remove for another one to follow.
 constexpr double min_gain_of_pass = 0.01;
 
-/// Tiles of later passes stand for so many times as many triangles of the original. They take no more memory, as an
-/// original whose own triangle has gone takes up to 0.4 kB, measured at 0.01% of the diagonal.
-constexpr std::size_t growth_of_later_tiles = 2;
+/// Tiles of later passes weigh so many times as many triangles of the original. They take no more memory, as an
+/// original whose own triangle has gone takes a quarter of what it took in the first pass.
+constexpr std::size_t growth_of_later_tiles = 4;
+
+/// Rings of triangles around a seam that the second pass goes over, and each later one: the seams of the first are
+/// small triangles among large ones. What lies further away was simplified as far as possible.
+constexpr int rings_of_second_pass = 2, rings_of_later_pass = 1;
 
 /// Share of the whole progress that the first pass counts for.
 constexpr double share_of_first_pass = 0.6;
@@ -90,6 +94,7 @@ class TiledRun {
     if (k > 0) of_tile_.effort = Effort::Normal;  // flips would change triangles whose vertices stay
     TiledMesh::Pass how{cuts[k],
                         (k > 0 ? growth_of_later_tiles : 1) * tiles_.max_triangles,
+                        k > 1 ? rings_of_later_pass : rings_of_second_pass,
                         [&](const TileInput& input) { return simplify_tile(input, of_tile_, stop_); },
                         {}};
     if (options_.progress) how.progress = [&](double share) { options_.progress(progress_at(k, share)); };

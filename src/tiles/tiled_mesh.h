@@ -45,7 +45,8 @@ class TiledMesh {
   /// How a pass is done.
   struct Pass {
     TileCut cut;
-    std::size_t max_triangles = 0;  ///< of the original, that a tile stands for
+    std::size_t max_weight = 0;  ///< of a tile: originals, and later triangles as well
+    int rings = 0;               ///< of triangles around the seams that a later pass goes over
     Simplify simplify;
     std::function<void(double share)> progress;  ///< of the pass
   };
@@ -87,15 +88,14 @@ class TiledMesh {
   [[nodiscard]] std::uint32_t tile_of(const Triangle& corners) const;
   [[nodiscard]] bool is_in(std::uint32_t tile, std::uint32_t triangle) const;
   [[nodiscard]] std::uint32_t tile_of_cover(std::span<const std::uint32_t> cover) const;
-  [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams() const;
+  [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams(int rings) const;
   [[nodiscard]] std::vector<std::uint32_t> weights() const;
-  void find_owners(const TileCut& cut, std::size_t max_triangles);
-  void cut_original(const TileCut& cut, std::size_t max_triangles, const UseTile& use) const;
-  void cut_near_seams(const TileCut& cut, std::size_t max_triangles, const UseTile& use) const;
+  void find_owners(const Pass& how);
+  void cut_original(const Pass& how, const UseTile& use) const;
+  void cut_near_seams(const Pass& how, const UseTile& use) const;
   void find_triangles();
   void find_originals();
   void find_what_stays();
-  void stay(const Triangle& corners, bool is_seam);
   MeshPart find_numbers(std::uint32_t tile, TileNumbers& numbers) const;
   [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const TileNumbers& numbers) const;
   [[nodiscard]] std::vector<std::uint32_t> near_of(const TileNumbers& numbers) const;
@@ -122,7 +122,7 @@ class TiledMesh {
   std::vector<std::uint32_t> source_vertex_;    ///< of the original, by vertex of `proven_.mesh`
   std::vector<std::uint32_t> source_triangle_;  ///< of the original, by triangle of `proven_.mesh`
   std::vector<std::uint32_t> kept_;             ///< originals that are part of the result as they are
-  std::vector<std::uint8_t> at_seam_;           ///< by vertex: it stayed in the last pass, for the sake of other tiles
+  std::vector<std::uint8_t> at_seam_;           ///< by vertex: it has stayed in all passes
 
   // What the pass under way has found.
   std::vector<std::uint32_t> position_;    ///< by vertex: the first one at its position; empty where all are different
