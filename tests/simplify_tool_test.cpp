@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 #include <string>
 
@@ -18,6 +19,7 @@
 #include "datasets.h"
 #include "datasets/analytic_meshes.h"
 #include "json_claims.h"
+#include "mesh/stored_mesh.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -419,6 +421,42 @@ TEST_F(SimplifyTool, CatchesASabotagedResultAtTheGate) {
   EXPECT_EQ(output.verdict(), Verdict::Exceeds);
   EXPECT_THROW(output.publish(), Error);
   EXPECT_FALSE(fs::exists(in("out.off")));
+}
+
+/// A mesh that is too large to be read into memory.
+class UnreadMesh : public MeshInMemory {
+ public:
+  using MeshInMemory::MeshInMemory;
+  void read_vertices(std::size_t, std::span<Vec3>) const override { throw IoError("the vertices were read"); }
+  void read_triangles(std::size_t, std::span<Triangle>) const override { throw IoError("the triangles were read"); }
+  [[nodiscard]] const TriangleMesh* in_memory() const override { return nullptr; }
+};
+
+/// Finds that every mesh is as near as it should be.
+class TrustfulWorkers : public tools::LocalTileWorkers {
+ public:
+  using LocalTileWorkers::LocalTileWorkers;
+  [[nodiscard]] HausdorffDistance measure(const StoredMesh&, const StoredMesh&,
+                                          const DistanceOptions& options) override {
+    HausdorffDistance distance;
+    distance.bounds = {0, *options.tolerance};
+    return distance;
+  }
+};
+
+/// --memory bounds the whole process: what is measured tile by tile is not read as a whole behind that.
+TEST_F(SimplifyTool, LeavesAStoredOriginalWhereItIs) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3), nothing;
+  DistanceOptions options;
+  options.tolerance = 0.02;
+  const UnreadMesh stored(sphere);
+  TrustfulWorkers workers(tools::TileSetting{});
+  tools::MeshWithTree original(nothing, 1);
+  original.measure_in_tiles(stored, workers);
+  tools::GatedOutput output(in("out.off"), {});
+  output.write(datasets::icosphere(1, 2));
+  EXPECT_NO_THROW(output.measure(original, options));
+  EXPECT_EQ(output.verdict(), Verdict::Within);
 }
 
 /// The tool itself with proofs that admit too much: nothing appears under the name of the output, and what is needed to

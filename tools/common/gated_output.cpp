@@ -100,7 +100,9 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   distance_ = distance_between(original, mesh, options, stop_);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
-  if (verdict_ == Verdict::Within) look_at(original.mesh(), file, options.threads);
+  // Without need the mesh of the original is not asked for: a stored one would be loaded, beyond any limit of memory.
+  const bool has_more_to_look_at = original_texture_ != nullptr || normal_tolerance_;
+  if (verdict_ == Verdict::Within && has_more_to_look_at) look_at(original.mesh(), file, options.threads);
   return distance_;
 }
 
