@@ -46,7 +46,7 @@ constexpr std::size_t growth_of_later_tiles = 4;
 
 /// Rings of triangles around a seam that the second pass goes over, and each later one: the seams of the first are
 /// small triangles among large ones. What lies further away was simplified as far as possible.
-constexpr int rings_of_second_pass = 2, rings_of_later_pass = 1;
+constexpr int rings_of_second_pass = 4, rings_of_later_pass = 2;
 
 /// Share of the whole progress that the first pass counts for.
 constexpr double share_of_first_pass = 0.6;
