@@ -178,7 +178,8 @@ TEST(Proof, KeepsTheTolerancesOfTriangles) {
   }
 }
 
-/// A tile has triangles of its neighbours with no originals of theirs: no change alters these, so their old proof holds.
+/// A tile has triangles of its neighbours with no originals of theirs: no change alters these, so their old proof
+/// holds.
 TEST(Proof, AsksNothingOfFacesWhoseVerticesAreAllLocked) {
   const TriangleMesh original{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   TriangleMesh mesh = original;

@@ -176,7 +176,8 @@ struct DecimationState {
   std::vector<std::uint32_t> source_vertex,
       source_triangle;               ///< by vertex and face: where it comes from in the original
   std::vector<std::uint8_t> locked;  ///< by vertex
-  /// By face: whether all its vertices were locked at the start, so that no change alters it and no proof of it is lost.
+  /// By face: whether all its vertices were locked at the start, so that no change alters it and no proof of it is
+  /// lost.
   std::vector<std::uint8_t> is_fixed;
   /// By vertex: a collapse of it was refuted, and at this tolerance it takes part in no other. Empty: none.
   std::vector<std::uint8_t> refuted;

@@ -100,20 +100,19 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   distance_ = distance_between(original, mesh, options, stop_);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
-  // Without need the mesh of the original is not asked for: a stored one would be loaded, beyond any limit of memory.
-  const bool has_more_to_look_at = original_texture_ != nullptr || normal_tolerance_;
-  if (verdict_ == Verdict::Within && has_more_to_look_at) look_at(original.mesh(), file, options.threads);
+  if (verdict_ == Verdict::Within) look_at(original, file, options.threads);
   return distance_;
 }
 
-void GatedOutput::look_at(const TriangleMesh& original, const MeshFile& level, int threads) {
+void GatedOutput::look_at(MeshWithTree& original, const MeshFile& level, int threads) {
   texture_.reset();
   normals_.reset();
   if (original_texture_ != nullptr) measure_texture(level, threads);
   if (normal_tolerance_) {
     const bool is_known = normals_looked_at_ && looked_at_.vertices == level.mesh.vertices &&
                           looked_at_.triangles == level.mesh.triangles;
-    if (!is_known) normals_looked_at_ = meshbound::normal_deviation(original, level.mesh, {normal_tolerance_, threads});
+    if (!is_known)
+      normals_looked_at_ = meshbound::normal_deviation(original.mesh(), level.mesh, {normal_tolerance_, threads});
     looked_at_ = level.mesh;
     normals_ = normals_looked_at_;
   }

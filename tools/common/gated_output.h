@@ -77,8 +77,9 @@ class GatedOutput {
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   /// Measures texture and normals, as far as they are required, of a mesh that is not written yet. Where the file reads
-  /// like it, `measure` finds that known.
-  void look_at(const TriangleMesh& original, const MeshFile& level, int threads);
+  /// like it, `measure` finds that known. The mesh of the original is asked for only where normals are required: a
+  /// stored one would be loaded.
+  void look_at(MeshWithTree& original, const MeshFile& level, int threads);
   /// The texture deviation of what was measured or looked at last: there if it is required and, after `measure`, the
   /// verdict is Within. `is_texture_within` is false if it is required but was not measured.
   [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }

@@ -141,7 +141,7 @@ void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
     MeshFile file;
     file.mesh = placed_as_written(level, attributes).mesh;
     file.attributes = std::move(attributes);
-    output.look_at(original_, file, threads());
+    output.look_at(measured_original_, file, threads());
   } catch (const Stopped&) {  // the file that is written next is not measured either
   }
 }
