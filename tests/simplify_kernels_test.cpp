@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -16,6 +18,7 @@
 #include "simplify/cover/candidate_faces.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/parity_proof.h"
+#include "simplify/cover/patch_cover.h"
 #include "simplify/kernel/kernels.h"
 
 namespace meshbound {
@@ -244,7 +247,8 @@ TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
     std::vector<Vec3> vertices;
     for (const Vector3d& p : shape.mesh.vertices) vertices.push_back({p.x(), p.y(), p.z()});
     const auto neighbours = edge_neighbours(vertices, shape.mesh.triangles);
-    ParityProof parity(vertices, shape.mesh.triangles, neighbours);
+    const OriginalSoup soup{vertices, shape.mesh.triangles, neighbours};
+    ParityProof parity(shape.mesh.triangles.size());
     const Bvh original(shape.mesh);
     std::mt19937 random(11);
     std::normal_distribution<double> noise(0, 0.5 * shape.tolerance);
@@ -261,12 +265,115 @@ TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
       std::array<Vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k)
         corners[k] = {face.vertices[k].x(), face.vertices[k].y(), face.vertices[k].z()};
-      if (!parity.covers(corners, shape.tolerance, 2, t)) continue;
+      if (!parity.covers(soup, corners, shape.tolerance, 2, t)) continue;
       ++covered;
       EXPECT_NE(check_one_sided_tolerance(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
     }
     EXPECT_GT(covered, 100);
   }
+}
+
+std::vector<Vec3> positions(const TriangleMesh& mesh) {
+  std::vector<Vec3> result;
+  for (const Vector3d& p : mesh.vertices) result.push_back({p.x(), p.y(), p.z()});
+  return result;
+}
+
+/// Points spread over a triangle, by their barycentric coordinates; the corners are among them.
+std::vector<Vector3d> points_of(const std::array<Vec3, 3>& corners) {
+  constexpr int steps = 12;
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; i + j <= steps; ++j) {
+      const double share_0 = i / double{steps}, share_1 = j / double{steps};
+      const Vec3 p = share_0 * corners[0] + share_1 * corners[1] + (1 - share_0 - share_1) * corners[2];
+      points.emplace_back(p.x, p.y, p.z);
+    }
+  }
+  return points;
+}
+
+/// What a `PatchCover` has made of a triangle, with the mesh as its soup.
+struct PatchResult {
+  PatchResult(const TriangleMesh& mesh, const std::array<Vec3, 3>& corners, double tolerance) {
+    const std::vector<Vec3> vertices = positions(mesh);
+    const auto neighbours = edge_neighbours(vertices, mesh.triangles);
+    const OriginalSoup soup{vertices, mesh.triangles, neighbours};
+    std::vector<std::uint32_t> all(mesh.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    PatchCover(all.size()).cover(soup, {corners, 0}, tolerance, 2, all, faces, open);
+  }
+  std::vector<std::uint32_t> faces;
+  std::vector<PatchCover::Part> open;
+};
+
+double area(const std::array<Vec3, 3>& c) { return 0.5 * length(cross(c[1] - c[0], c[2] - c[0])); }
+
+/// Over the corner (0, 0, 0) of a box: the top ends at x = 0.8 with a wall. The triangle reaches 0.01 beyond the top.
+TEST(PatchCover, CutsOffAStripWhereTheSurfaceTurnsAway) {
+  const TriangleMesh box{{{-1, -1, 0}, {0.8, -1, 0}, {0.8, 1, 0}, {-1, 1, 0}, {0.8, -1, -1}, {0.8, 1, -1}},
+                         {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}};
+  const std::array<Vec3, 3> sliver{Vec3{-0.5, 0.03, 0.005}, Vec3{0.81, -0.1, 0.005}, Vec3{0.81, 0.1, 0.005}};
+  constexpr double tolerance = 0.02;
+  const PatchResult result(box, sliver, tolerance);
+  EXPECT_EQ(std::set<std::uint32_t>(result.faces.begin(), result.faces.end()), (std::set<std::uint32_t>{0, 1}));
+  ASSERT_EQ(result.open.size(), 2U);
+  double open_area = 0;
+  for (const PatchCover::Part& part : result.open) {
+    open_area += area(part.corners);
+    for (const Vec3 p : part.corners) EXPECT_GT(p.x, 0.8 - tolerance);
+    EXPECT_GT(part.cuts, 0);
+  }
+  EXPECT_LT(open_area, 0.05 * area(sliver));
+  EXPECT_GT(open_area, 0.01 / 1.31 * area(sliver));  // at least what lies beyond the top
+}
+
+TEST(PatchCover, LeavesATriangleOpenThatItKnowsNothingOf) {
+  const TriangleMesh square = reference::unit_square(4);
+  const std::array<Vec3, 3> above{Vec3{0.2, 0.2, 0.5}, Vec3{0.7, 0.2, 0.5}, Vec3{0.2, 0.7, 0.5}};
+  const PatchResult result(square, above, 0.1);
+  EXPECT_TRUE(result.faces.empty());
+  ASSERT_EQ(result.open.size(), 1U);
+  EXPECT_EQ(result.open[0].cuts, 0);
+  EXPECT_EQ(area(result.open[0].corners), area(above));
+}
+
+/// Random large triangles near rough surfaces: whatever is not left open is near the faces that are said to cover it.
+TEST(PatchCover, SaysNothingThatTheEngineDenies) {
+  int proven = 0, in_parts = 0;
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    std::mt19937 random(12);
+    std::normal_distribution<double> noise(0, 0.3 * shape.tolerance);
+    for (int i = 0; i < 1500; ++i) {
+      const auto t = random() % shape.mesh.triangles.size();
+      const Vector3d first = shape.mesh.vertices[shape.mesh.triangles[t][0]];
+      std::array<Vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3d p = first + (1 + 0.002 * i) * (shape.mesh.vertices[shape.mesh.triangles[t][k]] - first);
+        corners[k] = {p.x() + noise(random), p.y() + noise(random), p.z() + noise(random)};
+      }
+      const PatchResult result(shape.mesh, corners, shape.tolerance);
+      if (result.faces.empty()) continue;
+      ++proven;
+      in_parts += result.open.empty() ? 0 : 1;
+      TriangleMesh cover{shape.mesh.vertices, {}}, open;
+      for (const std::uint32_t f : result.faces) cover.triangles.push_back(shape.mesh.triangles[f]);
+      for (const PatchCover::Part& part : result.open) {
+        for (const Vec3 p : part.corners) open.vertices.emplace_back(p.x, p.y, p.z);
+        const auto end = static_cast<std::uint32_t>(open.vertices.size());
+        open.triangles.push_back({end - 3, end - 2, end - 1});
+      }
+      const Bvh covering(cover);
+      const std::optional<Bvh> left = open.triangles.empty() ? std::nullopt : std::optional<Bvh>(open);
+      for (const Vector3d& p : points_of(corners)) {
+        if (left && closest_point(*left, p).distance.lower <= 1e-9) continue;
+        EXPECT_LE(closest_point(covering, p).distance.lower, shape.tolerance);
+      }
+    }
+  }
+  EXPECT_GT(proven, 300);
+  EXPECT_GT(in_parts, 30);
 }
 
 }  // namespace simplify_kernels_test

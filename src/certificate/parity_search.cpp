@@ -93,7 +93,8 @@ struct ParitySearch::Sight {
 
 bool ParitySearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piece, std::uint32_t seed) {
   patch_.clear();
-  if (!set_view(triangle, piece) || !patch_.covers(neighbours_, seed, Sight{*this, {}})) return false;
+  const auto neighbour = [&](std::uint32_t t, std::size_t k) { return neighbours_[t][k]; };
+  if (!set_view(triangle, piece) || !patch_.covers(neighbour, seed, Sight{*this, {}})) return false;
   work_ += patch_.size();
   return true;
 }

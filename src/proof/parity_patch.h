@@ -97,24 +97,34 @@ struct Window {
     return min > clearance || max < -clearance;
   }
 
-  /// Whether a triangle, clipped to the prism over the window and `margin` around it, has no height beyond `limit`.
-  [[nodiscard]] bool heights_within(const ProjectedTriangle& t, double margin, double limit) const {
-    std::array<Projected, capacity + 4> polygon{t[0], t[1], t[2]}, kept;  // each side adds a corner at most
-    std::size_t corners = 3;
+  /// A polygon clipped to the prism over the window; each side adds a corner at most.
+  struct Clipped {
+    std::array<Projected, capacity + 4> corner;
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const Projected> corners() const { return {corner.data(), count}; }
+  };
+  /// Clips a triangle to the prism over the window and `margin` around it.
+  [[nodiscard]] Clipped clipped(const ProjectedTriangle& t, double margin) const {
+    Clipped polygon{{t[0], t[1], t[2]}, 3}, kept;
     for (std::size_t side = 0; side < count; ++side) {
-      std::size_t kept_corners = 0;
-      for (std::size_t i = 0; i < corners; ++i) {
-        const Projected &p = polygon[i], &q = polygon[i + 1 == corners ? 0 : i + 1];
+      kept.count = 0;
+      for (std::size_t i = 0; i < polygon.count; ++i) {
+        const Projected &p = polygon.corner[i], &q = polygon.corner[i + 1 == polygon.count ? 0 : i + 1];
         const double at_p = outside(side, p) - margin, at_q = outside(side, q) - margin;
-        if (at_p <= 0) kept[kept_corners++] = p;
+        if (at_p <= 0) kept.corner[kept.count++] = p;
         if ((at_p <= 0) == (at_q <= 0)) continue;
         const double s = at_p / (at_p - at_q);
-        kept[kept_corners++] = {p.x + s * (q.x - p.x), p.y + s * (q.y - p.y), p.h + s * (q.h - p.h)};
+        kept.corner[kept.count++] = {p.x + s * (q.x - p.x), p.y + s * (q.y - p.y), p.h + s * (q.h - p.h)};
       }
-      std::copy_n(kept.begin(), kept_corners, polygon.begin());
-      corners = kept_corners;
+      std::copy_n(kept.corner.begin(), kept.count, polygon.corner.begin());
+      polygon.count = kept.count;
     }
-    return std::all_of(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(corners),
+    return polygon;
+  }
+  /// Whether a triangle, clipped to the prism over the window and `margin` around it, has no height beyond `limit`.
+  [[nodiscard]] bool heights_within(const ProjectedTriangle& t, double margin, double limit) const {
+    const Clipped polygon = clipped(t, margin);
+    return std::all_of(polygon.corner.begin(), polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count),
                        [&](const Projected& p) { return std::abs(p.h) <= limit; });
   }
 };
@@ -138,12 +148,12 @@ class ParityPatch {
       : visited_(triangle_count, 0), max_triangles_(max_triangles) {}
 
   /// Grows P from `seed` over the edges that project onto the window. True when no edge of its boundary does, no
-  /// triangle is too high and the parity is odd. `neighbours`: see `edge_neighbours`. `sight` tells what is seen:
-  /// look_at(triangle) projects a triangle and says whether its heights hold, passage(k) and crosses_ray(k) are of the
-  /// edge from corner k of that triangle; the ray begins at one point of the window. O(size of P).
-  template <class Sight>
-  [[nodiscard]] bool covers(const std::vector<std::array<std::uint32_t, 3>>& neighbours, std::uint32_t seed,
-                            Sight&& sight) {
+  /// triangle is too high and the parity is odd. `neighbour(t, k)` is the triangle across the edge of t from corner k,
+  /// or `no_index`. `sight` tells what is seen: look_at(triangle) projects a triangle and says whether its heights
+  /// hold, passage(k) and crosses_ray(k) are of the edge from corner k of that triangle; the ray begins at one point of
+  /// the window. O(size of P).
+  template <class Neighbour, class Sight>
+  [[nodiscard]] bool covers(const Neighbour& neighbour, std::uint32_t seed, Sight&& sight) {
     ++round_;
     triangles_.assign(1, seed);
     visited_[seed] = round_;
@@ -153,7 +163,7 @@ class ParityPatch {
       if (!sight.look_at(t)) return false;
       for (std::size_t k = 0; k < 3; ++k) {
         if (sight.crosses_ray(k)) odd = !odd;
-        const std::uint32_t next = neighbours[t][k];
+        const std::uint32_t next = neighbour(t, k);
         if (next != no_index && visited_[next] == round_) continue;
         const Passage passage = sight.passage(k);
         if (passage == Passage::Clear) continue;
@@ -165,6 +175,8 @@ class ParityPatch {
     return odd;
   }
 
+  /// P after the last `covers`.
+  [[nodiscard]] std::span<const std::uint32_t> triangles() const { return triangles_; }
   /// Number of triangles after the last `covers`.
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
   /// Whether the last `covers` may have failed because P grew too large: parts of the window may do.

@@ -50,7 +50,7 @@ bool ChangeProver::prove_group(const Split& split, Region& region) {
     return false;
   }
   ++proven;
-  worker.assign_group(state_.cover);
+  worker.assign_covers(state_.cover);
   for (const std::uint32_t face : changed_) state_.stamp[face] = 0;
   region.log.clear();
   return true;

@@ -11,6 +11,7 @@
 #include "simplify/cover/face_box.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/parity_proof.h"
+#include "simplify/cover/patch_cover.h"
 #include "simplify/mesh/marked_ids.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
@@ -26,7 +27,9 @@ class ProofWorkers::Worker {
   Worker(const DecimationState& state, const std::vector<std::array<std::uint32_t, 3>>& neighbours)
       : state_(state),
         cover_(state.vertices, state.triangles),
-        parity_(state.vertices, state.triangles, neighbours),
+        original_{state.vertices, state.triangles, neighbours},
+        parity_(state.triangles.size()),
+        patches_(state.mesh.face_count()),
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
     affected_marks_.reserve(state.triangles.size());
@@ -54,11 +57,8 @@ class ProofWorkers::Worker {
       return;
     }
     find_around(at, grown(box_of(corners), state_.tolerance));
-    if (found_.size() <= CandidateFaces::capacity) {
-      enter(found_, limit);
-      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), faces);
-    }
-    if (faces.empty()) cover_in_sub_triangles(corners, limit, faces);
+    cover_by_found(
+        t, corners, limit, [](std::uint32_t) { return true; }, faces);
   }
 
   /// The faces that cover an original triangle, found by boxes where the samples do not know which faces are near.
@@ -83,7 +83,7 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
     near = triangle_near(face, middle_of(corners), near);
-    if (parity_.covers(corners, limit, state_.magnitude, near)) return true;
+    if (parity_.covers(original_, corners, limit, state_.magnitude, near)) return true;
     return proximity_.triangle_within({to_eigen(corners[0]), to_eigen(corners[1]), to_eigen(corners[2])}, limit,
                                       near) == Verdict::Within;
   }
@@ -121,11 +121,12 @@ class ProofWorkers::Worker {
     }
     const FaceMask added = ForwardCover::first(cover_.size());
     const std::size_t added_count = found_.size();
-    used_.assign(affected_.size(), 0);
+    begin_covers();
     in_pieces_.clear();
     for (std::size_t i = 0; i < affected_.size(); ++i) {
-      used_[i] = cover_.cover_whole(affected_[i], added, 0);
-      if (used_[i] == 0) in_pieces_.push_back(i);
+      const FaceMask used = cover_.cover_whole(affected_[i], added, 0);
+      set_cover(i, used);
+      if (used == 0) in_pieces_.push_back(i);
     }
     if (in_pieces_.empty()) return true;
     enter_ring(added_count, owned);
@@ -135,8 +136,15 @@ class ProofWorkers::Worker {
     for (const std::size_t i : in_pieces_)
       if (!cover_.are_corners_near(affected_[i], all)) return lost_point_ = cover_.lost_point(), false;
     for (const std::size_t i : in_pieces_) {
-      used_[i] = cover_.cover(affected_[i], all, added);
-      if (used_[i] == 0) return lost_point_ = cover_.lost_point(), false;
+      const std::uint32_t t = affected_[i];
+      if (state_.cover.faces_of(t).size() >= many_faces &&
+          cover_by_patches(original_.corners(t), limit, owned, drafted_)) {
+        set_cover(i, drafted_);
+        continue;
+      }
+      const FaceMask used = cover_.cover(t, all, added);
+      if (used == 0) return lost_point_ = cover_.lost_point(), false;
+      set_cover(i, used);
     }
     meets_seam_ = false;
     return true;
@@ -147,35 +155,24 @@ class ProofWorkers::Worker {
   [[nodiscard]] const std::optional<Vec3>& lost_point() const { return lost_point_; }
   /// Whether `cover_change` failed, but might have found a cover with the help of faces of other regions.
   [[nodiscard]] bool meets_seam() const { return meets_seam_; }
-  void assign_covers(CoverAssignment& cover) {
-    cover.assign(affected_, [&](std::size_t i) {
-      ids_.clear();
-      take(used_[i], ids_);
-      return std::span<const std::uint32_t>(ids_);
-    });
+  /// Takes over the covers found last.
+  void assign_covers(CoverAssignment& cover) const {
+    cover.assign(affected_, [&](std::size_t i) { return std::span(ids_).subspan(covers_[i].begin, covers_[i].count); });
   }
 
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
   bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
     begin_affected();
-    ids_.clear();
-    ends_.clear();
     for (const std::uint32_t face : changed) add_affected(face);
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
-    for (const std::uint32_t t : affected_) {
-      const auto faces = state_.cover.faces_of(t);
+    begin_covers();
+    for (std::size_t i = 0; i < affected_.size(); ++i) {
+      const auto faces = state_.cover.faces_of(affected_[i]);
       if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
-      if (!cover_among(t, changed, owned)) return false;
-      ids_.insert(ids_.end(), drafted_.begin(), drafted_.end());
-      ends_.push_back(ids_.size());
+      if (!cover_among(affected_[i], changed, owned)) return false;
+      set_cover(i, drafted_);
     }
     return true;
-  }
-  void assign_group(CoverAssignment& cover) const {
-    cover.assign(affected_, [&](std::size_t i) {
-      const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
-      return std::span(ids_).subspan(begin, ends_[i] - begin);
-    });
   }
 
  private:
@@ -187,6 +184,57 @@ class ProofWorkers::Worker {
     if (state_.is_fixed[face] != 0) return;
     for (const std::uint32_t t : state_.cover.originals_of(face))
       if (affected_marks_.insert(t)) affected_.push_back(t);
+  }
+  void begin_covers() {
+    ids_.clear();
+    covers_.assign(affected_.size(), {});
+  }
+  void set_cover(std::size_t i, std::span<const std::uint32_t> faces) {
+    covers_[i] = {ids_.size(), faces.size()};
+    ids_.insert(ids_.end(), faces.begin(), faces.end());
+  }
+  void set_cover(std::size_t i, FaceMask used) {
+    covers_[i] = {ids_.size(), static_cast<std::size_t>(std::popcount(used))};
+    take(used, ids_);
+  }
+  /// The faces that a parity proof of an original may use.
+  template <class Usable>
+  struct UsableFaces {
+    const ArrayMesh& mesh;
+    const Usable& is_usable;
+
+    [[nodiscard]] Corners corners(std::uint32_t face) const { return mesh.triangle(face); }
+    [[nodiscard]] std::uint32_t neighbour(std::uint32_t face, std::size_t k) const {
+      const Corner twin = mesh.twin(3 * face + static_cast<Corner>(k));
+      return twin == no_index || !is_usable(twin / 3) ? no_index : twin / 3;
+    }
+  };
+  /// Covers a large original by patches of usable faces, and by the candidates where patches end.
+  template <class Usable>
+  bool cover_by_patches(const Corners& corners, double limit, const Usable& is_usable,
+                        std::vector<std::uint32_t>& faces) {
+    faces.clear();
+    open_parts_.clear();
+    patches_.cover(UsableFaces<Usable>{state_.mesh, is_usable}, {corners, 0}, limit, state_.magnitude, found_, faces,
+                   open_parts_);
+    for (const PatchCover::Part& part : open_parts_) {
+      const std::optional<FaceMask> used = cover_.cover_sub_triangle(part.corners, part.cuts);
+      if (!used || *used == 0) return faces.clear(), false;
+      take(*used, faces);
+    }
+    sort_unique(faces);
+    return true;
+  }
+  /// Covers an original by faces near those found. Leaves `faces` empty if it does not succeed.
+  template <class Usable>
+  void cover_by_found(std::uint32_t t, const Corners& corners, double limit, const Usable& is_usable,
+                      std::vector<std::uint32_t>& faces) {
+    if (found_.size() <= CandidateFaces::capacity) {
+      enter(found_, limit);
+      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), faces);
+      if (!faces.empty() || (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable, faces))) return;
+    }
+    cover_in_sub_triangles(corners, limit, faces);
   }
   /// Enters the faces around the first `count` of those found.
   template <class Owned>
@@ -256,11 +304,7 @@ class ProofWorkers::Worker {
       found_.push_back(f);
     }
     spread(reach, owned);
-    if (found_.size() <= CandidateFaces::capacity) {
-      enter(found_, limit);
-      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
-    }
-    if (drafted_.empty()) cover_in_sub_triangles(corners, limit, drafted_);
+    cover_by_found(t, corners, limit, owned, drafted_);
     return !drafted_.empty();
   }
 
@@ -314,6 +358,9 @@ class ProofWorkers::Worker {
       if (*used == 0) halve(sub_triangle);
       take(*used, faces);
     }
+    sort_unique(faces);
+  }
+  static void sort_unique(std::vector<std::uint32_t>& faces) {
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   }
@@ -373,14 +420,19 @@ class ProofWorkers::Worker {
   };
   const DecimationState& state_;
   ForwardCover cover_;
+  OriginalSoup original_;
   ParityProof parity_;
+  PatchCover patches_;
+  std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
   MarkedIds found_marks_, affected_marks_, vertex_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, ids_, drafted_;
-  std::vector<std::size_t> ends_;       ///< by index in `affected_`: the end of its faces in `ids_`
+  struct Run {
+    std::size_t begin = 0, count = 0;
+  };
+  std::vector<Run> covers_;             ///< by index in `affected_`: its faces in `ids_`
   std::vector<std::size_t> in_pieces_;  ///< indices in `affected_`
-  std::vector<FaceMask> used_;
   bool meets_seam_ = false;
   std::optional<Vec3> lost_point_;
   std::vector<SubTriangle> sub_triangles_;
@@ -389,6 +441,9 @@ class ProofWorkers::Worker {
   /// so many sub-triangles, each with candidates of its own. The cuts of sub-triangles and of covers count together.
   static constexpr int max_halvings = 16;
   static constexpr std::size_t max_sub_triangles = 4096;
+
+  /// An original that so many faces covered before needs more cuts than a proof by patches costs.
+  static constexpr std::size_t many_faces = 8;
 
   /// Faces that are looked at around an original triangle.
   static constexpr std::size_t max_found = 4096;

@@ -10,10 +10,6 @@ namespace {
 /// one and not the other is at the tolerance, and a cover that needs it is too tight to look for.
 constexpr double shortest_edge_share = 1e-3;
 
-/// Cuts spent on one triangle. Large ones that ten faces cover need a hundred; a quarter of this gives 2% more faces
-/// where triangles are 30 tolerances long.
-constexpr int max_cuts = 256;
-
 /// Cuts keep away from the ends, so that pieces shrink.
 constexpr double nearest_cut = 0.05;
 
@@ -67,18 +63,18 @@ FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, Fac
 
 FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
   const FaceMask one = cover_whole(triangle, allowed, preferred);
-  return one != 0 ? one : cover_in_pieces(triangle, allowed);
+  return one != 0 ? one : cover_in_pieces(triangle, allowed, max_cuts);
 }
 
 FaceMask ForwardCover::cover_thoroughly(std::uint32_t triangle, FaceMask allowed) {
   const auto& t = triangles_[triangle];
   const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
-  if (common == 0) return cover_in_pieces(triangle, allowed);
+  if (common == 0) return cover_in_pieces(triangle, allowed, few_cuts);
   if (common == lowest(common)) return common;
   return candidates_.nearest((1.0 / 3) * (vertices_[t[0]] + vertices_[t[1]] + vertices_[t[2]]), common);
 }
 
-FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed) {
+FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed, int cuts) {
   const auto& t = triangles_[triangle];
   Piece whole;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -86,8 +82,9 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed)
     whole.masks[i] = mask_of(t[i], allowed);
     if (whole.masks[i] == 0) return 0;
   }
-  const FaceMask pieces = cover_in_pieces(whole, allowed, Asked::LikelyOnes);
-  return pieces != 0 ? pieces : cover_in_pieces(whole, allowed, Asked::All);
+  const FaceMask pieces = cover_in_pieces(whole, allowed, Asked::LikelyOnes, cuts);
+  // A point that no candidate holds is lost, whoever is asked on the way to it.
+  return pieces != 0 || lost_point_ ? pieces : cover_in_pieces(whole, allowed, Asked::All, cuts);
 }
 
 std::optional<FaceMask> ForwardCover::cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth) {
@@ -99,10 +96,10 @@ std::optional<FaceMask> ForwardCover::cover_sub_triangle(const std::array<Vec3, 
     whole.masks[i] = candidates_.holding(corners[i], all);
     if (whole.masks[i] == 0) return std::nullopt;
   }
-  return cover_in_pieces(whole, all, Asked::All);
+  return cover_in_pieces(whole, all, Asked::All, max_cuts);
 }
 
-FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked) {
+FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int cuts) {
   open_.assign(1, whole);
   lost_point_.reset();
   FaceMask used = 0;
@@ -114,7 +111,7 @@ FaceMask ForwardCover::cover_in_pieces(const Piece& whole, FaceMask allowed, Ask
       if ((common & used) == 0) used |= lowest(common);
       continue;
     }
-    if (++spent > max_cuts || piece.depth == deepest_cut || !cut(piece, allowed, asked)) return 0;
+    if (++spent > cuts || piece.depth == deepest_cut || !cut(piece, allowed, asked)) return 0;
   }
   return used;
 }

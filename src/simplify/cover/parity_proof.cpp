@@ -12,31 +12,30 @@ namespace {
 constexpr double rim_share = 1e-6;
 constexpr double min_rim = 0x1p-44;
 
-/// A patch of more triangles belongs to a face so large that cutting it is no slower.
+/// A patch of more triangles belongs to a triangle so large that cutting it is no slower.
 constexpr std::size_t largest_patch = 20000;
 
 }  // namespace
 
-ParityProof::ParityProof(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
-                         const std::vector<std::array<std::uint32_t, 3>>& neighbours)
-    : vertices_(vertices), triangles_(triangles), neighbours_(neighbours), patch_(triangles.size(), largest_patch) {}
+ParityProof::ParityProof(std::size_t triangle_count) : patch_(triangle_count, largest_patch) {}
 
-/// Axes, T' and its sides. False where the face is too thin, or the tolerance too small for doubles at this size.
-bool ParityProof::set_view(const std::array<Vec3, 3>& face, double tolerance, double magnitude) {
+/// Axes, T' and its sides. False where the triangle is too thin, or the tolerance too small for doubles at this size.
+bool ParityProof::set_view(const std::array<Vec3, 3>& triangle, double tolerance, double magnitude) {
   rim_ = rim_share * tolerance;
   if (!(rim_ > min_rim * magnitude)) return false;
-  const std::optional<FaceView> view = view_of(face);
+  const std::optional<FaceView> view = view_of(triangle);
   if (!view) return false;
   view_ = *view;
   ProjectedTriangle corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    corners[k] = view_.project(face[k]);
+    corners[k] = view_.project(triangle[k]);
     if (std::abs(corners[k].h) > rim_) return false;  // the normal leans
   }
   const double middle_x = (corners[0].x + corners[1].x + corners[2].x) / 3;
   const double middle_y = (corners[0].y + corners[1].y + corners[2].y) / 3;
-  const double diameter = std::sqrt(std::max(
-      {squared_length(face[1] - face[0]), squared_length(face[2] - face[0]), squared_length(face[2] - face[1])}));
+  const double diameter =
+      std::sqrt(std::max({squared_length(triangle[1] - triangle[0]), squared_length(triangle[2] - triangle[0]),
+                          squared_length(triangle[2] - triangle[1])}));
   const double keep = 1 - std::min(0.01, shrink_share * tolerance / diameter);
   window_.count = 3;
   for (std::size_t k = 0; k < 3; ++k)
@@ -50,36 +49,16 @@ bool ParityProof::set_view(const std::array<Vec3, 3>& face, double tolerance, do
   return true;
 }
 
-/// What is seen of one triangle.
-struct ParityProof::Sight {
-  const ParityProof& proof;
-  ProjectedTriangle corners;
-  std::array<std::array<double, 3>, 3> outside;  ///< how far each corner is beyond each side of T', by side and corner
-
-  bool look_at(std::uint32_t t) {
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = proof.view_.project(proof.vertices_[proof.triangles_[t][k]]);
-    for (std::size_t side = 0; side < 3; ++side)
-      for (std::size_t k = 0; k < 3; ++k) outside[side][k] = proof.window_.outside(side, corners[k]);
-    if (std::max({std::abs(corners[0].h), std::abs(corners[1].h), std::abs(corners[2].h)}) <= proof.height_limit_)
-      return true;
-    for (const auto& of_side : outside)
-      if (std::min({of_side[0], of_side[1], of_side[2]}) > proof.rim_) return true;
-    return proof.window_.heights_within(corners, proof.rim_, proof.height_limit_);
+void ParityProof::note_obstacle(const Window<3>::Clipped& seen) {
+  double min_share = HUGE_VAL;
+  for (std::size_t side = 0; side < 3; ++side) {
+    const double height = -window_.outside(side, window_.corner[(side + 2) % 3]);
+    double depth = 0;
+    for (const Projected& p : seen.corners()) depth = std::max(depth, -window_.outside(side, p));
+    if (!(depth < min_share * height)) continue;
+    min_share = depth / height;
+    obstacle_ = {side, depth, height};
   }
-  [[nodiscard]] bool crosses_ray(std::size_t k) const {
-    return meshbound::crosses_ray(corners[k], corners[(k + 1) % 3], proof.centre_x_, proof.centre_y_);
-  }
-  /// Clear when a line separates the projected edge from T' by more than the rim.
-  [[nodiscard]] Passage passage(std::size_t k) const {
-    const std::size_t j = (k + 1) % 3;
-    for (const auto& of_side : outside)
-      if (of_side[k] > proof.rim_ && of_side[j] > proof.rim_) return Passage::Clear;
-    return proof.window_.is_beside_line(corners[k], corners[j], proof.rim_) ? Passage::Clear : Passage::Across;
-  }
-};
-
-bool ParityProof::covers(const std::array<Vec3, 3>& face, double tolerance, double magnitude, std::uint32_t seed) {
-  return set_view(face, tolerance, magnitude) && patch_.covers(neighbours_, seed, Sight{*this, {}, {}});
 }
 
 }  // namespace meshbound

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simplify/cover/parity_proof.h"
+
+namespace meshbound {
+
+/// Covers large original triangles by patches of faces: one parity proof stands for the cuts at all edges of the patch.
+///
+/// A patch must not end, nor rise too high, above or below the triangle. Where one does, as at the crease that a cap
+/// has in common with the wall of a cylinder, a strip along the nearest edge is cut off, and the rest is tried again.
+class PatchCover {
+ public:
+  /// A part of an original triangle.
+  struct Part {
+    std::array<Vec3, 3> corners;
+    int cuts = 0;  ///< on the way down to it
+  };
+
+  /// For meshes of up to `face_count` faces. O(face_count).
+  explicit PatchCover(std::size_t face_count) : parity_(face_count) {}
+
+  /// Appends to `faces` those that cover parts of `whole`, and to `open` the parts that are left: together they are
+  /// `whole`, but for the rounding of cut points. `mesh` is a soup as in `ParityProof`, and `likely` are faces of it
+  /// that may lie above or below `whole`.
+  template <class Soup>
+  void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude,
+             std::span<const std::uint32_t> likely, std::vector<std::uint32_t>& faces, std::vector<Part>& open) {
+    Part part = whole;
+    for (int tries = 0; tries < max_tries; ++tries) {
+      if (parity_.covers_from(mesh, part.corners, tolerance, magnitude, likely)) {
+        faces.insert(faces.end(), parity_.patch().begin(), parity_.patch().end());
+        return;
+      }
+      const ParityProof::Obstacle obstacle = parity_.obstacle();
+      const double share = (obstacle.depth + clearance * tolerance) / obstacle.height;
+      if (!(share < max_share)) break;
+      part = without_strip(part, obstacle.side, share, open);
+    }
+    open.push_back(part);
+  }
+
+ private:
+  /// The part beyond a strip along its edge from corner `side`; the strip goes to `open`.
+  [[nodiscard]] static Part without_strip(const Part& part, std::size_t side, double share, std::vector<Part>& open);
+
+  /// A triangle has three edges, and at one that runs along a crease with corners more than one strip may be needed.
+  static constexpr int max_tries = 6;
+  /// The rest keeps away from what stood in the way by this share of the tolerance: ten times what shrinking moves it.
+  static constexpr double clearance = 0.01;
+  /// Where strips would take more than this share of the way to the corner across, the part is left as it is.
+  static constexpr double max_share = 0.5;
+
+  ParityProof parity_;
+};
+
+}  // namespace meshbound
