@@ -122,6 +122,7 @@ class PointQueries {
   /// Forgets the hint where the first one is far from that: a search that begins there takes longer than one that
   /// begins at the root.
   std::size_t neighbours(std::span<const Eigen::Vector3d> queries) {
+    if (hint_ == no_slot) return 0;  // all before were too far away for one
     const Triangle& t = data_.corners[hint_];
     const double edge_squared = squared_length(data_.vertices[t[1]] - data_.vertices[t[0]]);
     const std::size_t most = std::min(queries.size(), group_width);
