@@ -137,9 +137,9 @@ TEST(ClosestPoint, IsTheSameForEveryHintAndInstructionSet) {
       const Vec3 p = data.frame.to_working({query.x(), query.y(), query.z()});
       const double magnitude = std::max({1.0, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
       const PointRoundings roundings{2 * primal_error * magnitude, 0.25 * dual_error * magnitude};
-      const PointDistance cold = point_kernel()(data, p, roundings, no_slot);
+      const PointDistance cold = point_kernel().one(data, p, roundings, no_slot);
       for (std::uint32_t hint = 0; hint < data.triangle_count(); hint += 7) {
-        for (const MeasurePoint kernel : {point_kernel(), portable_point_kernel()}) {
+        for (const MeasurePoint kernel : {point_kernel().one, portable_point_kernel().one}) {
           const PointDistance warm = kernel(data, p, roundings, hint);
           ASSERT_EQ(warm.nearest.slot, cold.nearest.slot);
           ASSERT_EQ(warm.nearest.squared, cold.nearest.squared);
@@ -161,7 +161,7 @@ TEST(ClosestPoint, ProvesNoMoreThanThePlanesOfEachTriangle) {
     for (const Vector3d& query : queries_around(mesh, 60, 17)) {
       const Vec3 p = data.frame.to_working({query.x(), query.y(), query.z()});
       const double magnitude = std::max({1.0, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-      const PointDistance found = point_kernel()(data, p, {2 * primal_error * magnitude, 0}, no_slot);
+      const PointDistance found = point_kernel().one(data, p, {2 * primal_error * magnitude, 0}, no_slot);
       QueryCounters counters;
       const double proven = certified_distance(data, p, found.nearest.squared, counters);
       EXPECT_NEAR(found.separated, proven, 8 * unit_roundoff * magnitude);
@@ -196,6 +196,103 @@ TEST(ClosestPoints, AreThoseAskedOneByOneForAnyNumberOfThreads) {
       for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], expected[i]);
     }
   }
+}
+
+/// Points around points of the mesh or beside it, at most `spread` of its size apart from each other in each
+/// coordinate.
+std::vector<Vector3d> neighbours(const TriangleMesh& mesh, std::size_t count, double spread, std::uint32_t seed) {
+  const double size = Bvh(mesh).bounding_box_diagonal();
+  const Vector3d middle = queries_around(mesh, 1, seed)[0];
+  Random random(seed);
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < count; ++i) points.emplace_back(middle + spread * size * random.in_cube());
+  return points;
+}
+
+void expect_same_bits(const PointDistance& a, const PointDistance& b) {
+  EXPECT_EQ(a.nearest.slot, b.nearest.slot);
+  EXPECT_EQ(a.nearest.squared, b.nearest.squared);
+  EXPECT_EQ(a.separated, b.separated);
+  EXPECT_TRUE(a.offset.x == b.offset.x && a.offset.y == b.offset.y && a.offset.z == b.offset.z);
+}
+
+/// A query in the working frame. `loss`: see `PointRoundings::allowed`, in units of `dual_error`.
+GroupQuery placed(const Bvh::Data& data, const Vector3d& query, double loss) {
+  const Vec3 p = data.frame.to_working({query.x(), query.y(), query.z()});
+  const double magnitude = std::max({1.0, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return {p, {2 * primal_error * magnitude, loss * dual_error * magnitude}};
+}
+
+/// Groups of every size, from equal points to ones as far apart as the mesh is large, for both instruction sets; with
+/// no loss allowed, where planes mostly fail to prove the distance, too.
+TEST(ClosestPoints, OfAGroupHaveTheBitsOfEachByItself) {
+  std::vector<TriangleMesh> meshes = hard_meshes();
+  meshes.push_back(icosphere(5));
+  std::size_t answered = 0, asked = 0;
+  for (const TriangleMesh& mesh : meshes) {
+    const Bvh bvh(mesh);
+    const Bvh::Data& data = bvh.data();
+    std::uint32_t seed = 0;
+    for (const double spread : {0.0, 1e-12, 1e-6, 1e-3, 0.02, 0.5}) {
+      for (std::size_t size = 1; size <= group_width; ++size) {
+        std::vector<GroupQuery> queries;
+        for (const Vector3d& query : neighbours(mesh, size, spread, ++seed))
+          queries.push_back(placed(data, query, size % 2 == 0 ? 0 : 0.25));
+        if (!(std::fabs(queries[0].point.x) < 0x1p10)) continue;
+        const std::uint32_t hint = seed % data.triangle_count();
+        for (const PointKernel& kernel : {point_kernel(), portable_point_kernel()}) {
+          std::vector<PointDistance> found(size);
+          ++asked;
+          if (!kernel.group(data, queries, hint, found)) continue;
+          ++answered;
+          for (std::size_t i = 0; i < size; ++i)
+            expect_same_bits(found[i], kernel.one(data, queries[i].point, queries[i].roundings, no_slot));
+        }
+      }
+    }
+  }
+  EXPECT_GT(2 * answered, asked);
+}
+
+/// The bounds of groups hold the exact distance, whatever `closest_point` says.
+TEST(ClosestPoints, HoldTheExactDistance) {
+  for (const TriangleMesh& mesh : hard_meshes()) {
+    const Bvh bvh(mesh);
+    for (const double spread : {0.0, 1e-6, 0.02}) {
+      const std::vector<Vector3d> queries = neighbours(mesh, 17, spread, 21);
+      const std::vector<ClosestPoint> found = closest_points(bvh, queries);
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        const ExactLength truth = exact_distance(queries[i], mesh);
+        EXPECT_GE(truth.compare(found[i].distance.lower), 0);
+        EXPECT_LE(truth.compare(found[i].distance.upper), 0);
+      }
+    }
+  }
+}
+
+TEST(ClosestPoints, AreThoseAskedOneByOneForAnyNumberOfNeighbours) {
+  std::vector<TriangleMesh> meshes = hard_meshes();
+  meshes.push_back(icosphere(5));
+  for (const TriangleMesh& mesh : meshes) {
+    const Bvh bvh(mesh);
+    for (std::size_t size = 1; size <= 2 * group_width + 1; ++size) {
+      std::vector<Vector3d> queries;
+      for (const double spread : {0.0, 1e-4, 0.01, 2.0})
+        for (const Vector3d& query : neighbours(mesh, size, spread, static_cast<std::uint32_t>(size)))
+          queries.push_back(query);
+      const std::vector<ClosestPoint> found = closest_points(bvh, queries);
+      for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], closest_point(bvh, queries[i]));
+    }
+  }
+}
+
+/// The first queries are so far away that the mesh is a point beside their distances: they leave no hint.
+TEST(ClosestPoints, OfFarAndNearQueriesAreThoseAskedOneByOne) {
+  const Bvh bvh(icosphere(3));
+  std::vector<Vector3d> queries(5, Vector3d(1e15, 2e15, 3e15));
+  for (int i = 0; i < 20; ++i) queries.emplace_back(1.1, 0.01 * i, i % 10 == 9 ? 1e15 : 0.0);
+  const std::vector<ClosestPoint> found = closest_points(bvh, queries);
+  for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], closest_point(bvh, queries[i]));
 }
 
 TEST(ClosestPoints, OfNoneAreNone) { EXPECT_TRUE(closest_points(Bvh(cube(1)), {}).empty()); }

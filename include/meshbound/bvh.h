@@ -84,10 +84,10 @@ struct QueryOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The answers are the same for every value.
 };
 
-/// `closest_point` for each of many queries, with the same answers to the last bit: faster by a warm start, as each
-/// search begins at the triangle that the query before it found, so in an order where neighbours follow one another
-/// (along a curve, a grid, a surface) rather than at random. Throws `InvalidInput` as above when one of the queries is
-/// to be refused. Expected O(log n) for each.
+/// `closest_point` for each of many queries, with the same answers to the last bit. Each search begins at the triangle
+/// that the query before it found, and up to eight queries near one another share a walk over the tree: fast in an order
+/// where neighbours follow one another (along a curve, a grid, a surface). Throws `InvalidInput` as above when one of
+/// the queries is to be refused. Expected O(log n) for each.
 [[nodiscard]] std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::Vector3d> queries,
                                                        const QueryOptions& options = {});
 

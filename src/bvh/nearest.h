@@ -197,8 +197,9 @@ inline std::size_t edge_towards(const Bvh::Data& data, std::uint32_t slot, const
   const auto& normal = data.normals[slot];
   const Vec3 n{normal[0], normal[1], normal[2]}, ap = p - t.a;
   const double outside[3] = {dot(cross(t.ab, n), ap), dot(cross(t.ac - t.ab, n), ap - t.ab), dot(cross(n, t.ac), ap)};
-  const std::size_t edge =
-      outside[0] >= outside[1] ? (outside[0] >= outside[2] ? 0 : 2) : (outside[1] >= outside[2] ? 1 : 2);
+  // Without branches on which it is: they would be guessed wrong half the time.
+  const std::size_t of_two = outside[1] > outside[0] ? 1 : 0, is_third = outside[2] > outside[of_two] ? 1 : 0;
+  const std::size_t edge = of_two + is_third * (2 - of_two);
   return outside[edge] > 0 ? edge : 3;
 }
 

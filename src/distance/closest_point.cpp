@@ -2,6 +2,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -33,6 +34,17 @@ ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d&
   return {{point, data.triangle_of_slot[0]}, {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)}};
 }
 
+/// Queries are answered together (`MeasureGroup`) up to this distance from one another, and start where the last one
+/// ended up to that one. In longest edges of the triangle that was found there: eight queries in Morton order beside a
+/// scan mostly are within two.
+constexpr double group_extent = 3, hint_extent = 32;
+/// Fewer are not worth it.
+constexpr std::size_t min_group = 3;
+/// Queries further away, in working units, are never answered together: single precision would overflow.
+constexpr double max_group_magnitude = 0x1p10;
+/// How many queries are answered one by one, at most, after a group was none: each failure doubles their number.
+constexpr std::size_t max_pause = 255;
+
 /// How far the certified lower bound may stay below the nearest distance, in units of `dual_error`: the interval
 /// becomes at most 1/16 wider.
 constexpr double allowed_loss = 0.25;
@@ -41,33 +53,109 @@ constexpr double allowed_loss = 0.25;
 class PointQueries {
  public:
   explicit PointQueries(const Bvh::Data& data, std::uint32_t hint = no_slot)
-      : data_(data), map_(data.frame), measure_(point_kernel()), hint_(hint) {}
+      : data_(data), map_(data.frame), kernel_(point_kernel()), hint_(hint) {}
 
   ClosestPoint operator()(const Eigen::Vector3d& query) {
-    const Vec3 model{query.x(), query.y(), query.z()};
-    if (!(largest_magnitude_of(model) <= largest_coordinate))
-      throw InvalidInput("the query point has a coordinate that is not finite or is beyond 2^1000");
-    const Vec3 p = map_(model);
-    const double magnitude = std::max(1.0, largest_magnitude_of(p));
-    if (!(magnitude <= max_magnitude)) return closest_of_point_like(data_, query);
-    // Twice the error, so that the roundings of limits made from it are covered.
-    const PointRoundings roundings{2 * primal_error * magnitude, allowed_loss * dual_error * magnitude};
-    const PointDistance found = measure_(data_, p, roundings, hint_);
-    hint_ = found.nearest.slot;
-    Goal goal;
-    set_slack(goal, magnitude, data_.frame.error + map_.rounding_of(model));
-    const double upper = goal.proven_upper(found.nearest.squared, 0);
-    return {{to_eigen(map_.to_model(p - found.offset)), data_.triangle_of_slot[found.nearest.slot]},
-            {map_.length_down(std::max(0.0, goal.proven_lower(found.separated, 0))), map_.length_up(upper)}};
+    const Placed placed = place(query);
+    if (placed.is_far) return closest_of_point_like(data_, query);
+    return closest(placed, kernel_.one(data_, placed.query.point, placed.query.roundings, hint_));
+  }
+
+  /// Answers several queries: neighbours that follow one another together, as long as that is of use.
+  void answer(std::span<const Eigen::Vector3d> queries, std::span<ClosestPoint> answers) {
+    std::size_t alone = 1;  // so many more are answered one by one: the first one, for a hint
+    std::size_t pause = 0;
+    for (std::size_t begin = 0; begin < queries.size();) {
+      if (alone > 0) {
+        answers[begin] = (*this)(queries[begin]);
+        ++begin;
+        --alone;
+        continue;
+      }
+      const std::size_t count = neighbours(queries.subspan(begin));
+      if (count < min_group) {
+        alone = std::max<std::size_t>(count, 1);
+      } else if (answer_group(answers.subspan(begin, count))) {
+        begin += count;
+        pause = 0;
+      } else {
+        alone = pause = std::min(2 * pause + count, max_pause);
+      }
+    }
   }
 
   [[nodiscard]] std::uint32_t hint() const { return hint_; }
 
  private:
+  /// A query in the working frame.
+  struct Placed {
+    GroupQuery query;
+    double magnitude = 1;
+    double error = 0;     ///< of its coordinates
+    bool is_far = false;  ///< the mesh is a point beside its distance
+  };
+
+  [[nodiscard]] Placed place(const Eigen::Vector3d& query) const {
+    const Vec3 model{query.x(), query.y(), query.z()};
+    if (!(largest_magnitude_of(model) <= largest_coordinate))
+      throw InvalidInput("the query point has a coordinate that is not finite or is beyond 2^1000");
+    Placed placed;
+    placed.query.point = map_(model);
+    placed.magnitude = std::max(1.0, largest_magnitude_of(placed.query.point));
+    placed.error = data_.frame.error + map_.rounding_of(model);
+    placed.is_far = !(placed.magnitude <= max_magnitude);
+    // Twice the error, so that the roundings of limits made from it are covered.
+    placed.query.roundings = {2 * primal_error * placed.magnitude, allowed_loss * dual_error * placed.magnitude};
+    return placed;
+  }
+
+  ClosestPoint closest(const Placed& placed, const PointDistance& found) {
+    hint_ = found.nearest.slot;
+    last_ = placed.query.point;
+    set_slack(goal_, placed.magnitude, placed.error);
+    const double upper = goal_.proven_upper(found.nearest.squared, 0);
+    return {{to_eigen(map_.to_model(placed.query.point - found.offset)), data_.triangle_of_slot[found.nearest.slot]},
+            {map_.length_down(std::max(0.0, goal_.proven_lower(found.separated, 0))), map_.length_up(upper)}};
+  }
+
+  /// Places the first queries, as far as they are neighbours of the query before them, and returns their number.
+  /// Forgets the hint where the first one is far from that: a search that begins there takes longer than one that
+  /// begins at the root.
+  std::size_t neighbours(std::span<const Eigen::Vector3d> queries) {
+    if (hint_ == no_slot) return 0;  // all before were too far away for one
+    const Triangle& t = data_.corners[hint_];
+    const double edge_squared = squared_length(data_.vertices[t[1]] - data_.vertices[t[0]]);
+    const std::size_t most = std::min(queries.size(), group_width);
+    Vec3 first = last_;
+    for (std::size_t count = 0; count < most; ++count) {
+      placed_[count] = place(queries[count]);
+      if (placed_[count].magnitude > max_group_magnitude) return count;
+      const double squared = squared_length(placed_[count].query.point - first);
+      if (count == 0 && squared > hint_extent * hint_extent * edge_squared) hint_ = no_slot;
+      if (squared > group_extent * group_extent * edge_squared) return count;
+      if (count == 0) first = placed_[0].query.point;
+    }
+    return most;
+  }
+
+  /// Answers the first of the queries that are placed. False, and no answer, where that takes longer than one by one.
+  bool answer_group(std::span<ClosestPoint> answers) {
+    std::array<GroupQuery, group_width> group;
+    std::array<PointDistance, group_width> found;
+    const std::size_t count = answers.size();
+    for (std::size_t i = 0; i < count; ++i) group[i] = placed_[i].query;
+    if (!kernel_.group(data_, std::span(group).first(count), hint_, std::span(found).first(count))) return false;
+    for (std::size_t i = 0; i < count; ++i) answers[i] = closest(placed_[i], found[i]);
+    return true;
+  }
+
   const Bvh::Data& data_;
   FrameMap map_;
-  MeasurePoint measure_;
+  Goal goal_;  ///< for its rounding slacks, which are those of the query at hand
+  PointKernel kernel_;
   std::uint32_t hint_;
+  Vec3 last_;                               ///< the query that found it
+  std::array<Placed, group_width> placed_;  ///< those of a group
 };
 
 /// What a thread found last: where its next query begins if it asks the same tree.
@@ -95,7 +183,7 @@ std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::
   with_team(static_cast<int>(std::min(wanted, useful)), [&] {
     for_each_range(queries.size(), queries_per_task, [&](std::size_t begin, std::size_t end) {
       PointQueries ask(bvh.data());
-      for (std::size_t i = begin; i < end; ++i) answers[i] = ask(queries[i]);
+      ask.answer(queries.subspan(begin, end - begin), std::span(answers).subspan(begin, end - begin));
     });
   });
   return answers;

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The choice among the kernels of a search, by processor.
-#include "distance/kernel/point_query.h"
 #include "distance/kernel/search_kernel.h"
 #include "numeric/rounding.h"
 #include "numeric/vector_code.h"
 
 namespace meshbound {
 
-MeasurePoint avx2_point_kernel();
 std::unique_ptr<SearchKernel> make_portable_search_kernel(const Bvh::Data& target, const Goal& goal);
 std::unique_ptr<SearchKernel> make_avx2_search_kernel(const Bvh::Data& target, const Goal& goal);
-
-MeasurePoint point_kernel() {
-#if defined(MESHBOUND_HAS_AVX2)
-  if (uses_avx2()) return avx2_point_kernel();
-#endif
-  return portable_point_kernel();
-}
 
 std::unique_ptr<SearchKernel> make_search_kernel(const Bvh::Data& target, const Goal& goal) {
 #if defined(MESHBOUND_HAS_AVX2)

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "distance/kernel/point_query_impl.h"
 #include "distance/kernel/search_kernel_impl.h"
 
 namespace meshbound {
-
-MeasurePoint portable_point_kernel() { return measure_point; }
 
 std::unique_ptr<SearchKernel> make_portable_search_kernel(const Bvh::Data& target, const Goal& goal) {
   return std::make_unique<SearchKernelImpl>(target, goal);

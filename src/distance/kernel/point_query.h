@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
@@ -27,8 +29,28 @@ struct PointRoundings {
 using MeasurePoint = PointDistance (*)(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,
                                        std::uint32_t hint);
 
+/// Queries that are measured together.
+inline constexpr std::size_t group_width = 8;
+
+struct GroupQuery {
+  Vec3 point;
+  PointRoundings roundings;
+};
+
+/// `MeasurePoint` for up to `group_width` queries (at least one) at once, with the same answers to the last bit. Fast
+/// where they are near one another beside their distances or the triangles; false, and no answer, where so many
+/// triangles are near that they are asked sooner one by one. `hint`: a slot near the group.
+using MeasureGroup = bool (*)(const Bvh::Data& data, std::span<const GroupQuery> queries, std::uint32_t hint,
+                              std::span<PointDistance> answers);
+
+/// An implementation of point queries.
+struct PointKernel {
+  MeasurePoint one;
+  MeasureGroup group;
+};
+
 /// The fastest implementation that this machine runs, and the one that any machine runs. Both give the same bits.
-MeasurePoint point_kernel();
-MeasurePoint portable_point_kernel();
+PointKernel point_kernel();
+PointKernel portable_point_kernel();
 
 }  // namespace meshbound

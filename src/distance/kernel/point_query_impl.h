@@ -30,33 +30,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "distance/kernel/level_walk.h"
 #include "distance/kernel/point_query.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
-
-/// By a word of bits: the lanes whose bits are set, in order; 0 behind them.
-inline constexpr auto packed_lanes = [] {
-  std::array<std::array<std::uint8_t, node_width>, 1U << node_width> table{};
-  for (unsigned bits = 0; bits < table.size(); ++bits) {
-    std::size_t count = 0;
-    for (std::uint8_t lane = 0; lane < node_width; ++lane)
-      if ((bits >> lane & 1U) != 0) table[bits][count++] = lane;
-  }
-  return table;
-}();
-
-inline Mask8 lanes_of(unsigned bits) {
-  const auto& packed = packed_lanes[bits];
-#if defined(__AVX2__)
-  return reinterpret_cast<Mask8>(
-      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(packed.data()))));
-#else
-  Mask8 lanes;
-  for (std::size_t i = 0; i < node_width; ++i) lanes[i] = packed[i];
-  return lanes;
-#endif
-}
 
 /// Lane i of the result is the sum of the lanes of d[i], whose last one is 0.
 inline Double4 sums_of_lanes(const std::array<Double4, 4>& d) {
@@ -87,6 +65,14 @@ inline Double4 squared_triangle_box_distances(const Bvh::Data& data, std::uint32
   return sums_of_lanes(squared);
 }
 
+/// The quotient m^2 / o.o of the file's comment, 0 where m is not positive.
+inline Double4 separation_squared(const CornerTriangle<Double4>& t, const Vec<Double4>& p,
+                                  const TriangleOffset<Double4>& to) {
+  const Vec<Double4> ap = p - t.a;
+  const Double4 along = minimum(dot(to.offset, ap), minimum(dot(to.offset, ap - t.ab), dot(to.offset, ap - t.ac)));
+  return select(along > 0.0, along * along / to.squared_distance, Double4{});
+}
+
 class PointSearch {
  public:
   PointSearch(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings)
@@ -99,11 +85,11 @@ class PointSearch {
         last_slot_(static_cast<std::int64_t>(data.triangle_count()) - 1) {}
 
   PointDistance run(std::uint32_t hint) {
-    first_block_ = hint == no_slot ? block_by_boxes() : step_over(data_, p_, hint) / block_width;
+    first_block_ = hint == no_slot ? block_by_boxes(data_, box_) : step_over(data_, p_, hint) / block_width;
     test_block(first_block_);
     update_limit();
     if (!walk_by_levels()) {
-      test_block(block_by_boxes());
+      test_block(block_by_boxes(data_, box_));
       update_limit();
       if (!walk_by_levels()) walk_near();
     }
@@ -118,34 +104,23 @@ class PointSearch {
     return found;
   }
 
+  /// The lower bound that `run` proves where it is not `wanted` at once: given the least squared distance.
+  double separated_beyond(double nearest_squared, double wanted) {
+    limit_ = limit_of(nearest_squared);
+    return separated_within_limit(wanted);
+  }
+
  private:
   static constexpr unsigned all_lanes = 15;
-  static constexpr std::uint32_t capacity = 64;  ///< nodes or blocks of a level; a warm start leaves five of them
-
-  /// The block that one reaches by taking the nearest box of each node, from the root down.
-  [[nodiscard]] std::uint32_t block_by_boxes() const {
-    std::uint32_t index = 0;
-    for (std::uint32_t level = data_.levels() - 1; level > 0; --level) {
-      const Float8 squared = squared_box_distances(data_.nodes[data_.level_begin[level] + index], box_);
-      std::uint32_t nearest = 0;
-      for (std::uint32_t lane = 1; lane < node_width; ++lane)
-        if (squared[lane] < squared[nearest]) nearest = lane;
-      index = index * node_width + nearest;
-    }
-    return std::min(index, data_.block_count() - 1);
-  }
 
   void update_limit() {
     const Double4& s = best_.squared_distance;
-    const double reach = std::sqrt(std::min(std::min(s[0], s[1]), std::min(s[2], s[3]))) + roundings_.primal;
-    limit_ = prune_limit(reach * reach);
+    limit_ = limit_of(std::min(std::min(s[0], s[1]), std::min(s[2], s[3])));
   }
 
-  /// The quotient m^2 / o.o of the file's comment, 0 where m is not positive.
-  [[nodiscard]] Double4 separation_squared(const CornerTriangle<Double4>& t, const TriangleOffset<Double4>& to) const {
-    const Vec<Double4> ap = lanes_ - t.a;
-    const Double4 along = minimum(dot(to.offset, ap), minimum(dot(to.offset, ap - t.ab), dot(to.offset, ap - t.ac)));
-    return select(along > 0.0, along * along / to.squared_distance, Double4{});
+  [[nodiscard]] float limit_of(double squared) const {
+    const double reach = std::sqrt(squared) + roundings_.primal;
+    return prune_limit(reach * reach);
   }
 
   void test_block(std::uint32_t block) { test(slots_of_block(data_, block)); }
@@ -153,7 +128,7 @@ class PointSearch {
   void test(const std::array<std::uint32_t, block_width>& triangles) {
     const CornerTriangle<Double4> t = triangles_at(data_, triangles);
     const TriangleOffset<Double4> to = closest_on_triangle(t, lanes_);
-    separated_squared_ = minimum(separated_squared_, separation_squared(t, to));
+    separated_squared_ = minimum(separated_squared_, separation_squared(t, lanes_, to));
     const Mask4 slots{triangles[0], triangles[1], triangles[2], triangles[3]};
     const Mask4 nearer = (to.squared_distance < best_.squared_distance) |
                          ((to.squared_distance == best_.squared_distance) & (slots < slots_));
@@ -173,36 +148,11 @@ class PointSearch {
     return best;
   }
 
-  /// Nodes or blocks of one level; room for a whole node behind them.
-  struct Level {
-    std::uint32_t count = 0;
-    std::uint32_t index[capacity + node_width];
-  };
-
-  /// The children of the members of a level of nodes that are within the limit. False when there are too many.
-  bool open(std::uint32_t level, const Level& from, Level& children) const {
-    const BvhNode* const nodes = data_.nodes.data() + data_.level_begin[level];
-    const Float8 limit = broadcast8(limit_);
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < from.count; ++i) {
-      const unsigned hits = lane_bits(squared_box_distances(nodes[from.index[i]], box_) < limit);
-      const Mask8 index = lanes_of(hits) + static_cast<std::int32_t>(from.index[i] * node_width);
-      std::memcpy(&children.index[count], &index, sizeof index);
-      count += static_cast<std::uint32_t>(std::popcount(hits));
-      if (count > capacity) return false;
-    }
-    children.count = count;
-    return true;
-  }
-
   bool walk_by_levels() {
     Level levels[2];
-    levels[0].count = 1;
-    levels[0].index[0] = 0;
-    std::uint32_t now = 0;
-    for (std::uint32_t level = data_.levels() - 1; level > 0; --level, now = 1 - now)
-      if (!open(level, levels[now], levels[1 - now])) return false;
-    test_blocks(levels[now]);
+    const Level* const blocks = blocks_within(data_, box_, limit_, levels);
+    if (blocks == nullptr) return false;
+    test_blocks(*blocks);
     update_limit();
     return true;
   }
@@ -214,7 +164,7 @@ class PointSearch {
 
   /// Tests the triangles whose boxes are within the limit, four at a time whatever their blocks.
   void test_blocks(const Level& blocks) {
-    std::uint32_t slots[capacity * block_width + node_width];
+    std::uint32_t slots[Level::capacity * block_width + node_width];
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < blocks.count; ++i) {
       const unsigned hits = lanes_within_limit(blocks.index[i]);
@@ -242,7 +192,7 @@ class PointSearch {
     double least = wanted;
     visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
       const CornerTriangle<Double4> t = triangles_of_block(data_, block);
-      const Double4 squared = separation_squared(t, closest_on_triangle(t, lanes_));
+      const Double4 squared = separation_squared(t, lanes_, closest_on_triangle(t, lanes_));
       const Mask4 passes = squared >= broadcast4(wanted * wanted);
       for (unsigned fails = ~lane_bits(passes) & lanes_within_limit(block); fails != 0; fails &= fails - 1) {
         const std::int64_t slot = std::int64_t{block} * block_width + std::countr_zero(fails);

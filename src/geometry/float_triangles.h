@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+/// Triangles in single precision, each seen from eight points at once, in coordinates around a centre nearby: bounds of
+/// distances that tell which triangles need doubles. Compiled once per instruction set (numeric/isa.h).
+///
+/// Let u = 2^-24 and m be at least the magnitude of every coordinate. Corners and points are rounded to floats with an
+/// error of u m a coordinate. Whatever o is, the distance of p from a triangle is at least the least o . (p - c) / |o|
+/// over its corners c, as in numeric/rounding.h. As computed, by o . (p - a) - o . (c - a), that errs by 4um (corners
+/// and points), 7um (the two differences), 21um (the products with o, 3u of at most 2 sqrt(3) m each) and 4um (the last
+/// difference). The comparison of its square with r^2 o.o errs by 5u of at most 2 sqrt(3) m, less than 18um. Together
+/// less than 64um, which is `float_error` m. For r >= 2^-30, and with o.o taken as 2^-62 at least, all numbers of the
+/// comparison are normal or too small to pass it. None overflows while m < 2^14.
+#pragma once
+#include <cstddef>
+
+#include "geometry/vec3.h"
+#include "numeric/simd.h"
+
+namespace meshbound {
+inline namespace MESHBOUND_ISA {
+
+inline constexpr float float_error = 64 * 0x1p-24F;
+inline constexpr float least_float_error = 0x1p-30F;
+
+/// A point of a triangle that is nearly the closest to each of eight points, by the vector o from there.
+struct FloatOffset {
+  Float8 squared;  ///< o.o
+  Float8 along;    ///< the least o . (p - c) over the corners c
+
+  /// The lanes whose points are proven to be further away than `distance`, given `distance` + `float_error` m.
+  [[nodiscard]] Mask8 is_beyond(const Float8& distance_and_error) const {
+    const Float8 length_squared = maximum(squared, broadcast8(0x1p-62F));
+    return (along > 0.0F) & (along * along >= (distance_and_error * distance_and_error) * length_squared);
+  }
+};
+
+/// Eight triangles, and what of each does not depend on the points.
+class FloatTriangles {
+ public:
+  static constexpr std::size_t width = 8;
+
+  /// By their corners, lane by lane.
+  FloatTriangles(const Vec<Float8>& a, const Vec<Float8>& b, const Vec<Float8>& c)
+      : a_(a),
+        ab_(b - a),
+        ac_(c - a),
+        bc_(c - b),
+        lo_{minimum(a.x, minimum(b.x, c.x)), minimum(a.y, minimum(b.y, c.y)), minimum(a.z, minimum(b.z, c.z))},
+        hi_{maximum(a.x, maximum(b.x, c.x)), maximum(a.y, maximum(b.y, c.y)), maximum(a.z, maximum(b.z, c.z))},
+        per_ab_(reciprocal(dot(ab_, ab_))),
+        ab_ac_(dot(ab_, ac_)),
+        bc_ab_(dot(bc_, ab_)),
+        per_ac_(reciprocal(dot(ac_, ac_))),
+        per_bc_(reciprocal(dot(bc_, bc_))) {
+    across_ = ac_ - (ab_ac_ * per_ab_) * ab_;
+    per_across_ = reciprocal(dot(across_, across_));
+  }
+
+  /// The largest magnitude of a coordinate of each.
+  [[nodiscard]] Float8 magnitude() const {
+    return maximum(maximum(maximum(hi_.x, -lo_.x), maximum(hi_.y, -lo_.y)), maximum(hi_.z, -lo_.z));
+  }
+
+  /// The squared distances from the points to the box of triangle i.
+  [[nodiscard]] Float8 box_squared(std::size_t i, const Vec<Float8>& p) const {
+    const Vec<Float8> below = at(lo_, i) - p, above = p - at(hi_, i);
+    const Float8 x = maximum(maximum(below.x, above.x), Float8{}), y = maximum(maximum(below.y, above.y), Float8{}),
+                 z = maximum(maximum(below.z, above.z), Float8{});
+    return x * x + y * y + z * z;
+  }
+
+  /// As `closest_on_triangle`, with less care for slivers: no bound depends on how near the point comes.
+  [[nodiscard]] FloatOffset offset(std::size_t i, const Vec<Float8>& p) const {
+    const Float8 one = broadcast8(1.0F);
+    const Vec<Float8> ab = at(ab_, i), ac = at(ac_, i), ap = p - at(a_, i);
+    const Float8 ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
+    const Float8 w = clamped(dot(at(across_, i), ap) * broadcast8(per_across_[i]), one);
+    const Float8 v = clamped((ab_ap - w * broadcast8(ab_ac_[i])) * broadcast8(per_ab_[i]), one - w);
+    Vec<Float8> best = (ap - v * ab) - w * ac;
+    Float8 squared = squared_length(best);
+    keep_nearer(best, squared, ap - clamped(ac_ap * broadcast8(per_ac_[i]), one) * ac);
+    const Float8 along_bc = (ac_ap - ab_ap - broadcast8(bc_ab_[i])) * broadcast8(per_bc_[i]);
+    keep_nearer(best, squared, (ap - ab) - clamped(along_bc, one) * at(bc_, i));
+    const Float8 at_a = dot(best, ap);
+    return {squared, minimum(at_a, minimum(at_a - dot(best, ab), at_a - dot(best, ac)))};
+  }
+
+ private:
+  static Float8 reciprocal(const Float8& x) { return x > 0.0F ? 1.0F / (x > 0.0F ? x : broadcast8(1.0F)) : Float8{}; }
+  static Float8 clamped(const Float8& x, const Float8& most) { return maximum(minimum(x, most), Float8{}); }
+  static void keep_nearer(Vec<Float8>& best, Float8& squared, const Vec<Float8>& offset) {
+    const Float8 other = squared_length(offset);
+    const Mask8 nearer = other < squared;
+    best.x = nearer ? offset.x : best.x;
+    best.y = nearer ? offset.y : best.y;
+    best.z = nearer ? offset.z : best.z;
+    squared = minimum(squared, other);
+  }
+  [[nodiscard]] static Vec<Float8> at(const Vec<Float8>& of_triangles, std::size_t i) {
+    return {broadcast8(of_triangles.x[i]), broadcast8(of_triangles.y[i]), broadcast8(of_triangles.z[i])};
+  }
+
+  Vec<Float8> a_, ab_, ac_, bc_, lo_, hi_, across_;
+  Float8 per_ab_, ab_ac_, bc_ab_, per_ac_, per_bc_, per_across_;
+};
+
+}  // namespace MESHBOUND_ISA
+}  // namespace meshbound
