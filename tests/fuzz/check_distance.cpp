@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "fuzz/choices.h"
 #include "fuzz/claims.h"
@@ -38,7 +39,7 @@ TriangleMesh repeated(TriangleMesh mesh, int threads) {
 }
 
 void check_same(const Bounds& one, const Bounds& many) {
-  require(one.lower == many.lower && one.upper == many.upper, "several threads find other bounds than one");
+  require(one.lower == many.lower && one.upper == many.upper, "several threads, or queries together, find other bounds than one");
 }
 
 /// Several threads find what one finds, and the exact distance agrees.
@@ -61,6 +62,23 @@ void check_closest_point(const Bvh& tree, const TriangleMesh& mesh, const Eigen:
   require(exact.compare(closest.distance.lower) >= 0, "closest point: lower is above the distance");
   require(std::isinf(closest.distance.upper) || exact.compare(closest.distance.upper) <= 0,
           "closest point: upper is below the distance");
+}
+
+/// Queries answered together have the answers of one by one, to the bit: corners and middles, neighbours or not.
+void check_closest_points(const Bvh& tree, const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3d> queries;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) queries.push_back(mesh.vertices[v]);
+    queries.push_back(mesh.vertices[t[0]] + 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]));
+    if (!queries.back().allFinite()) queries.pop_back();
+  }
+  const std::vector<ClosestPoint> answers = closest_points(tree, queries, {1});
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const ClosestPoint one = closest_point(tree, queries[i]);
+    check_same(one.distance, answers[i].distance);
+    require(one.point.triangle == answers[i].point.triangle && one.point.position == answers[i].point.position,
+            "queries answered together find another point than one by one");
+  }
 }
 
 }  // namespace
@@ -98,6 +116,7 @@ void check_distance(Bytes content) {
   check_meet(distance.a_to_b.bounds, other.a_to_b.bounds);
   check_meet(distance.b_to_a.bounds, other.b_to_a.bounds);
   check_closest_point(*tree_b, b, a.vertices[a.triangles[0][0]]);
+  check_closest_points(*tree_b, a);
   // Chosen by bits that choose nothing else, and seldom: it takes as long as a thousand of the others, longest with
   // cross-culling, which compares all of these triangles with each other.
   if (how < 128 || kind < 192) return;
