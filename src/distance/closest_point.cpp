@@ -65,6 +65,7 @@ class PointQueries {
   void answer(std::span<const Eigen::Vector3d> queries, std::span<ClosestPoint> answers) {
     std::size_t alone = 1;  // so many more are answered one by one: the first one, for a hint
     std::size_t pause = 0;
+    std::array<Placed, group_width> placed;
     for (std::size_t begin = 0; begin < queries.size();) {
       if (alone > 0) {
         answers[begin] = (*this)(queries[begin]);
@@ -72,10 +73,10 @@ class PointQueries {
         --alone;
         continue;
       }
-      const std::size_t count = neighbours(queries.subspan(begin));
+      const std::size_t count = neighbours(queries.subspan(begin), placed);
       if (count < min_group) {
         alone = std::max<std::size_t>(count, 1);
-      } else if (answer_group(answers.subspan(begin, count))) {
+      } else if (answer_group(std::span(placed).first(count), answers.subspan(begin, count))) {
         begin += count;
         pause = 0;
       } else {
@@ -121,31 +122,31 @@ class PointQueries {
   /// Places the first queries, as far as they are neighbours of the query before them, and returns their number.
   /// Forgets the hint where the first one is far from that: a search that begins there takes longer than one that
   /// begins at the root.
-  std::size_t neighbours(std::span<const Eigen::Vector3d> queries) {
+  std::size_t neighbours(std::span<const Eigen::Vector3d> queries, std::array<Placed, group_width>& placed) {
     if (hint_ == no_slot) return 0;  // all before were too far away for one
     const Triangle& t = data_.corners[hint_];
     const double edge_squared = squared_length(data_.vertices[t[1]] - data_.vertices[t[0]]);
     const std::size_t most = std::min(queries.size(), group_width);
     Vec3 first = last_;
     for (std::size_t count = 0; count < most; ++count) {
-      placed_[count] = place(queries[count]);
-      if (placed_[count].magnitude > max_group_magnitude) return count;
-      const double squared = squared_length(placed_[count].query.point - first);
+      placed[count] = place(queries[count]);
+      if (placed[count].magnitude > max_group_magnitude) return count;
+      const double squared = squared_length(placed[count].query.point - first);
       if (count == 0 && squared > hint_extent * hint_extent * edge_squared) hint_ = no_slot;
       if (squared > group_extent * group_extent * edge_squared) return count;
-      if (count == 0) first = placed_[0].query.point;
+      if (count == 0) first = placed[0].query.point;
     }
     return most;
   }
 
-  /// Answers the first of the queries that are placed. False, and no answer, where that takes longer than one by one.
-  bool answer_group(std::span<ClosestPoint> answers) {
+  /// Answers neighbours together. False, and no answer, where that takes longer than one by one.
+  bool answer_group(std::span<const Placed> placed, std::span<ClosestPoint> answers) {
     std::array<GroupQuery, group_width> group;
     std::array<PointDistance, group_width> found;
     const std::size_t count = answers.size();
-    for (std::size_t i = 0; i < count; ++i) group[i] = placed_[i].query;
+    for (std::size_t i = 0; i < count; ++i) group[i] = placed[i].query;
     if (!kernel_.group(data_, std::span(group).first(count), hint_, std::span(found).first(count))) return false;
-    for (std::size_t i = 0; i < count; ++i) answers[i] = closest(placed_[i], found[i]);
+    for (std::size_t i = 0; i < count; ++i) answers[i] = closest(placed[i], found[i]);
     return true;
   }
 
@@ -154,8 +155,7 @@ class PointQueries {
   Goal goal_;  ///< for its rounding slacks, which are those of the query at hand
   PointKernel kernel_;
   std::uint32_t hint_;
-  Vec3 last_;                               ///< the query that found it
-  std::array<Placed, group_width> placed_;  ///< those of a group
+  Vec3 last_;  ///< the query that found it
 };
 
 /// What a thread found last: where its next query begins if it asks the same tree.
