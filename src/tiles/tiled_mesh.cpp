@@ -11,6 +11,7 @@
 #include "numeric/ranked_numbers.h"
 #include "simplify/ended_by.h"
 #include "tiles/equal_positions.h"
+#include "tiles/tile_borders.h"
 
 namespace meshbound {
 namespace {
@@ -157,8 +158,7 @@ std::vector<std::uint32_t> TiledMesh::weights() const {
 }
 
 /// The tiles of the original: of the first vertex at each position.
-void TiledMesh::cut_original(const Pass& how, const UseTile& use) const {
-  const std::vector<std::uint32_t> weights = this->weights();
+void TiledMesh::cut_original(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const {
   ItemStore<CutItem> items(original_.space());
   original_.for_each_vertex([&](std::uint32_t v, const Eigen::Vector3d& p) {
     if (joined(v) == v) items.append({to_vec3(p), v, weights[v]});
@@ -166,9 +166,8 @@ void TiledMesh::cut_original(const Pass& how, const UseTile& use) const {
   cut_into_tiles(std::move(items), how.max_weight, how.cut, original_.space(), use);
 }
 
-void TiledMesh::cut_near_seams(const Pass& how, const UseTile& use) const {
+void TiledMesh::cut_near_seams(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const {
   const std::vector<std::uint8_t> is_near = vertices_near_seams(how.rings);
-  const std::vector<std::uint32_t> weights = this->weights();
   ItemStore<CutItem> items(original_.space());
   for (std::uint32_t v = 0; v < is_near.size(); ++v)
     if (is_near[v] != 0) items.append({to_vec3(proven_.mesh.vertices[v]), v, weights[v]});
@@ -177,6 +176,7 @@ void TiledMesh::cut_near_seams(const Pass& how, const UseTile& use) const {
 
 void TiledMesh::find_owners(const Pass& how) {
   if (is_original_) position_ = first_at_positions(original_);
+  const std::vector<std::uint32_t> weights = this->weights();
   std::vector<std::uint32_t> owner;
   std::uint32_t tiles = 0;
   const auto own = [&](std::span<const std::uint32_t> vertices) {
@@ -185,10 +185,11 @@ void TiledMesh::find_owners(const Pass& how) {
     ++tiles;
   };
   if (is_original_)
-    cut_original(how, own);
+    cut_original(how, weights, own);
   else
-    cut_near_seams(how, own);
+    cut_near_seams(how, weights, own);
   owner.resize(now_->vertex_count(), no_index);
+  if (!is_original_) smooth_tile_borders(proven_.mesh.triangles, weights, how.max_weight, owner);
   owner_ = std::move(owner);
   for (std::uint32_t v = 0; v < position_.size(); ++v) owner_[v] = owner_[position_[v]];
   triangles_.emplace(original_.space(), tiles);

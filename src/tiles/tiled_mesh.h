@@ -91,8 +91,8 @@ class TiledMesh {
   [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams(int rings) const;
   [[nodiscard]] std::vector<std::uint32_t> weights() const;
   void find_owners(const Pass& how);
-  void cut_original(const Pass& how, const UseTile& use) const;
-  void cut_near_seams(const Pass& how, const UseTile& use) const;
+  void cut_original(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
+  void cut_near_seams(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
   void find_triangles();
   void find_originals();
   void find_what_stays();
