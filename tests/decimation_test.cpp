@@ -56,13 +56,14 @@ class WatchingDriver : public CollapseDriver {
   mutable std::atomic<int> asked = 0, in_vain = 0;
 };
 
-/// After the first pass most regions have nothing left to try: to build the mesh of a driver for them takes time.
+/// After the first pass most regions have nothing left to try: to build the mesh of a driver for them takes time (7 of
+/// 27 regions here).
 TEST(Drivers, AreAskedOnlyForRegionsWithOpenEdges) {
   const auto driver = std::make_shared<WatchingDriver>();
-  SimplifyOptions options = within(0.01, driver);
+  SimplifyOptions options = within(0.001, driver);
   options.threads = 1;
   const SimplifyResult result = simplify_with_bound(datasets::torus(1, 0.3, 120, 48), options);
-  EXPECT_TRUE(result.last().collapses_performed > 0);
+  EXPECT_TRUE(holds(datasets::torus(1, 0.3, 120, 48), result.last()));
   EXPECT_GT(driver->asked, 0);
   EXPECT_EQ(driver->in_vain, 0);
 }
