@@ -3,6 +3,7 @@
 // finds, on charts that overlap, touch, mirror each other, are slivers or have no area at all.
 #include "meshbound/texture_deviation.h"
 
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "reference/texture_oracle.h"
+#include "texture/approximate.h"
 
 namespace meshbound {
 namespace texture_deviation_test {
@@ -467,6 +469,50 @@ TEST(TexturedMeshes, AreComparedInThePrecisionOfBoth) {
     }
   }
   EXPECT_EQ(textured_meshes(mesh, exact, mesh, exact)[0].triangles[0].coordinates[0], Eigen::Vector2d(0.1, 0.1));
+}
+
+/// Sums of products that cancel, underflow, overflow and are exactly zero lie in their intervals.
+TEST(Approximate, EnclosesSumsOfProducts) {
+  Random random(1);
+  std::uniform_int_distribution<int> exponent(-560, 200), spread(-60, 60), kind(0, 5);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  for (int run = 0; run < 20000; ++run) {
+    const int scale = exponent(random);
+    std::array<Approximate, 3> a, b;
+    mpq_class exact = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto number = [&] {
+        return kind(random) == 0 ? 0.0 : std::ldexp(mantissa(random), scale + spread(random));
+      };
+      a[i] = {number(), 0};
+      b[i] = {number(), 0};
+      if (i == 2 && kind(random) == 0 && b[1].value != 0) a[2] = {-a[1].value, 0}, b[2] = b[1];
+      exact += mpq_class(a[i].value) * mpq_class(b[i].value);
+    }
+    const Approximate sum = sum_of_products(a, b);
+    if (sum.is_zero()) {
+      EXPECT_EQ(exact, 0);
+    }
+    if (!std::isfinite(sum.error)) continue;
+    EXPECT_LE(abs(mpq_class(sum.value) - exact), mpq_class(sum.error));
+  }
+}
+
+/// A corner of a triangle that runs far beyond a small candidate in the texture says nothing of what both cover:
+/// neither of the two looks at corners may drop a candidate that is far away only where they overlap.
+TEST(TextureDeviation, FindsTheFarCornerOfASmallTriangleInALargeOne) {
+  const auto lifted = [](double height) {
+    TexturedMesh mesh = grid(8, [&](double s, double t) {
+      return Corner{{s, t, s == 0.5 && t == 0.5 ? height : 0.0}, {s, t}};
+    });
+    return mesh;
+  };
+  const TexturedMesh large = grid(1, [](double s, double t) { return Corner{{s, t, 0}, {s, t}}; });
+  for (const double height : {1e-3, 0.25, 4.0}) {
+    const TextureDeviation found = measured(large, lifted(height));
+    expect_value(found.a_to_b.bounds, height);
+    expect_value(found.b_to_a.bounds, height);
+  }
 }
 
 }  // namespace texture_deviation_test

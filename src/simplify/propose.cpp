@@ -159,6 +159,7 @@ bool Proposer::fits(Vec3 point) {
 bool Proposer::keeps_appearance(Vec3 point) {
   if ((!turns_ || turns_->holds(point)) && (!texture_ || texture_->holds(point))) return true;
   by_bound_ = false;
+  if (texture_) texture_deviation_ = std::min(texture_deviation_.value_or(HUGE_VALF), texture_->deviation());
   return false;
 }
 
@@ -235,6 +236,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   ++counts.tried;
   by_bound_ = false;
   deviation_ = 0;
+  texture_deviation_.reset();
   if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   const AllowedEnds ends = allowed_ends(edge);
@@ -255,7 +257,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
   if (const auto lower = minimax(tried_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (deviation_ <= 1 && fits(end)) return end;
+    if (deviation_ <= 1 && !is_texture_far() && fits(end)) return end;
   }
   return std::nullopt;
 }
@@ -295,6 +297,7 @@ void Proposer::take_few() {
 
 /// The placement, reached from `point`, where the largest distance is smallest or small enough.
 std::optional<Vec3> Proposer::minimax(Vec3 point) {
+  if (is_texture_far()) return std::nullopt;
   if (!set_faces(point)) {
     point = 0.5 * (state_.mesh.position(star_.kept) + state_.mesh.position(star_.gone));
     if (!set_faces(point)) return std::nullopt;
@@ -326,6 +329,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point) {
     MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     if (full_limit_ * step.here <= limit_) {
       if (fits(point)) return point;
+      if (is_texture_far()) return std::nullopt;
       if (!found_.empty()) {
         for (const Stray& stray : found_) add_stray(stray, point);
         strays_.insert(strays_.end(), found_.begin(), found_.end());

@@ -32,6 +32,12 @@ bool RegionCollapses::is_open(Corner edge) const {
   return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >= refused_at;
 }
 
+bool RegionCollapses::has_open_edge() const {
+  bool has_open = false;
+  for_each_edge([&](Corner e) { has_open = has_open || is_open(e); });
+  return has_open;
+}
+
 bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[mesh().edge(edge)] > clock_at_start_; }
 
 bool RegionCollapses::make(Vec3 point) {

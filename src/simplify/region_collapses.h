@@ -49,6 +49,7 @@ class RegionCollapses {
       });
     }
   }
+  [[nodiscard]] bool has_open_edge() const;
   [[nodiscard]] bool must_stop() const { return ended_ || limits_.must_stop(region_.removed_faces); }
 
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the

@@ -5,50 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/longest_edge.h"
+#include "texture/overlay_numbers.h"
 
 namespace meshbound {
 namespace {
-
-/// A number type in which a line is evaluated: doubles with an error bound, or integers.
-template <class Number>
-struct TexturePoint {
-  Number x, y;
-};
-
-template <class Number>
-Number number_of(double x, const ExactUnits& units);
-template <>
-Approximate number_of<Approximate>(double x, const ExactUnits& /*units*/) {
-  return {x, 0};
-}
-template <>
-mpz_class number_of<mpz_class>(double x, const ExactUnits& units) {
-  return in_units(x, units.texture);
-}
-
-template <class Number>
-std::array<TexturePoint<Number>, 3> texture_points(const ChartTriangle& t, const ExactUnits& units) {
-  std::array<TexturePoint<Number>, 3> points;
-  for (std::size_t k = 0; k < 3; ++k) {
-    points[k].x = number_of<Number>(t.source->coordinates[k].x(), units);
-    points[k].y = number_of<Number>(t.source->coordinates[k].y(), units);
-  }
-  return points;
-}
-
-template <class Number>
-TexturePoint<Number> operator-(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
-  return {Number(p.x - q.x), Number(p.y - q.y)};
-}
-template <class Number>
-Number cross(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
-  return Number(p.x * q.y) - Number(p.y * q.x);
-}
-template <class Number>
-Number dot(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
-  return Number(p.x * q.x) + Number(p.y * q.y);
-}
 
 /// Value of line `number` of candidate `t` at the texture coordinate `at`; `b` holds the texture coordinates of `t`.
 template <class Number>
@@ -73,19 +33,9 @@ Number line_at(const ChartTriangle& t, const std::array<TexturePoint<Number>, 3>
 }
 
 template <class Number>
-Number weighted(const std::array<Number, 3>& line, const std::array<Number, 3>& weights) {
-  return Number(line[0] * weights[0]) + Number(line[1] * weights[1]) + Number(line[2] * weights[2]);
-}
-
-template <class Number>
 std::array<Number, 3> cross_of_lines(const std::array<Number, 3>& p, const std::array<Number, 3>& q) {
   return {Number(Number(p[1] * q[2]) - Number(p[2] * q[1])), Number(Number(p[2] * q[0]) - Number(p[0] * q[2])),
           Number(Number(p[0] * q[1]) - Number(p[1] * q[0]))};
-}
-
-template <class Number>
-Number sum(const std::array<Number, 3>& x) {
-  return Number(x[0] + x[1]) + x[2];
 }
 
 template <class Number>
@@ -114,57 +64,6 @@ std::array<Approximate, 3> near(const std::array<mpz_class, 3>& exact) {
   return result;
 }
 
-ExactPoint exact_point(const Eigen::Vector3d& p, const ExactUnits& units) {
-  return {in_units(p.x(), units.position), in_units(p.y(), units.position), in_units(p.z(), units.position)};
-}
-
-ExactPoint scaled(const ExactPoint& p, const mpz_class& by) { return {p.x * by, p.y * by, p.z * by}; }
-
-ExactPoint sum_of(const ExactPoint& p, const ExactPoint& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-
-ExactPoint weighted_corners(const ChartTriangle& t, const std::array<mpz_class, 3>& weights, const ExactUnits& units) {
-  ExactPoint p{0, 0, 0};
-  for (std::size_t k = 0; k < 3; ++k)
-    if (sgn(weights[k]) != 0) p = sum_of(p, scaled(exact_point(t.source->corners[k], units), weights[k]));
-  return p;
-}
-
-double as_double(const mpz_class& numerator, const mpz_class& denominator, int unit) {
-  mpz_class above = numerator, below = denominator;
-  if (unit >= 0)
-    above <<= static_cast<mp_bitcnt_t>(unit);
-  else
-    below <<= static_cast<mp_bitcnt_t>(-unit);
-  mpq_class quotient(above, below);
-  quotient.canonicalize();
-  return quotient.get_d();
-}
-
-Eigen::Vector3d as_doubles(const ExactPoint& p, const mpz_class& denominator, int unit) {
-  return {as_double(p.x, denominator, unit), as_double(p.y, denominator, unit), as_double(p.z, denominator, unit)};
-}
-
-/// The length of a vector: an interval, from 0 to infinity where squares would overflow.
-Bounds length_bounds(const std::array<Approximate, 3>& v) {
-  const double largest = std::max({std::fabs(v[0].value), std::fabs(v[1].value), std::fabs(v[2].value)});
-  if (v[0].is_zero() && v[1].is_zero() && v[2].is_zero()) return {0, 0};
-  if (!(largest < 0x1p500)) return {};
-  const double error = (v[0].error + v[1].error + v[2].error) * Approximate::grown + Approximate::tiny;
-  const double length = std::sqrt(v[0].value * v[0].value + v[1].value * v[1].value + v[2].value * v[2].value);
-  const double rounding = length * (8 * unit_roundoff);  // 3 u by the sum of squares and its root
-  Bounds bounds{std::max(0.0, next_down(length - error - rounding)), next_up(length + error + rounding)};
-  if (largest < 0x1p-300) bounds = {0, next_up(2 * largest + error)};  // squares might underflow
-  return bounds.upper >= 0 ? bounds : Bounds{};                        // not a number: nothing is known
-}
-
-/// The point of a triangle that is nearest to p, rounded.
-Eigen::Vector3d nearest_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
-  std::array<Vec3, 3> c;
-  for (std::size_t k = 0; k < 3; ++k) c[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
-  const Vec3 offset = closest_on_triangle(longest_edge_first(c), Vec3{p.x(), p.y(), p.z()}).offset;
-  return p - Eigen::Vector3d(offset.x, offset.y, offset.z);
-}
-
 using Ends = std::array<const Eigen::Vector2d*, 2>;
 
 /// The ends of the edge opposite to a corner.
@@ -178,13 +77,6 @@ bool is_end(const Ends& ends, const Eigen::Vector2d& at) {
 }
 
 }  // namespace
-
-Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
-  std::array<Approximate, 3> offset;
-  for (Eigen::Index i = 0; i < 3; ++i)
-    offset[static_cast<std::size_t>(i)] = Approximate{x[i], 0} - Approximate{y[i], 0};
-  return length_bounds(offset);
-}
 
 ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units) {
   ChartTriangle result{&triangle, Chart::Area, false, {0, 1, 2}};
@@ -211,16 +103,14 @@ void Overlay::begin(const ChartTriangle& a) {
   candidates_.clear();
   for (std::size_t i = 0; i < 3; ++i) {
     LineData line;
-    line.exact = std::make_unique<ExactWeights>();
     line.at[i] = {1, 0};
-    (*line.exact)[i] = 1;
     if (a.chart == Chart::Area) line.ends = edge_of(a, i);
     lines_.push_back(std::move(line));
   }
 }
 
 void Overlay::add(const ChartTriangle& b) {
-  Candidate candidate{&b, {}, static_cast<std::uint8_t>(b.chart == Chart::Area ? 3 : 4)};
+  Candidate candidate{&b, {}, static_cast<std::uint8_t>(b.chart == Chart::Area ? 3 : 4), {}};
   const auto points = texture_points<Approximate>(b, units_);
   const auto at = texture_points<Approximate>(*a_, units_);
   for (std::uint32_t number = 0; number < candidate.line_count; ++number) {
@@ -275,14 +165,16 @@ std::span<const Overlay::Line> Overlay::lines_of(std::uint32_t candidate) const 
 Overlay::Node Overlay::given(const std::array<double, 3>& weights) {
   Node node;
   node.second = Node::is_given;
-  node.given = weights;
   for (std::size_t i = 0; i < 3; ++i) node.weights[i] = {weights[i], 0};
   return node;
 }
 
 const Overlay::ExactWeights& Overlay::exact(Line line) {
   LineData& data = lines_[line];
-  if (!data.exact) {
+  if (!data.exact && line < 3) {
+    data.exact = std::make_unique<ExactWeights>();
+    (*data.exact)[line] = 1;
+  } else if (!data.exact) {
     const ChartTriangle& b = *candidates_[data.candidate].triangle;
     const auto points = texture_points<mpz_class>(b, units_), at = texture_points<mpz_class>(*a_, units_);
     data.exact = std::make_unique<ExactWeights>();
@@ -299,8 +191,8 @@ Overlay::ExactWeights Overlay::exact(const Node& node) {
   }
   if (node.second == Node::is_given) {
     int unit = no_bit;
-    for (const double w : node.given) unit = std::min(unit, lowest_bit(w));
-    for (std::size_t i = 0; i < 3; ++i) weights[i] = in_units(node.given[i], unit);
+    for (const Approximate& w : node.weights) unit = std::min(unit, lowest_bit(w.value));
+    for (std::size_t i = 0; i < 3; ++i) weights[i] = in_units(node.weights[i].value, unit);
     return weights;
   }
   weights = cross_of_lines(exact(node.first), exact(node.second));
@@ -336,7 +228,9 @@ bool Overlay::lies_on(const Node& node, const LineData& line) const {
 
 int Overlay::side(Line line, const Node& node) {
   int sign = 0;
-  if (sign_is_known(weighted(lines_[line].at, node.weights), sign)) return sign;
+  const bool is_corner = node.second == Node::is_corner;
+  const Approximate at = is_corner ? lines_[line].at[node.first] : weighted(lines_[line].at, node.weights);
+  if (sign_is_known(at, sign)) return sign;
   if (lies_on(node, lines_[line])) return 0;
   return sgn(weighted(exact(line), exact(node)));
 }
@@ -366,108 +260,6 @@ void Overlay::clip(Polygon& polygon, std::uint32_t candidate) {
 bool Overlay::covers(std::uint32_t candidate, const Node& node) {
   const auto lines = lines_of(candidate);
   return std::all_of(lines.begin(), lines.end(), [&](Line line) { return side(line, node) >= 0; });
-}
-
-Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
-  const Candidate& c = candidates_[candidate];
-  if (c.triangle->chart == Chart::Area) {
-    const Bounds bounds = near_distance(c, node);
-    if (bounds.upper - bounds.lower <= precision) return bounds;
-  }
-  return exact_distance(c, node);
-}
-
-Bounds Overlay::near_distance(const Candidate& candidate, const Node& node) const {
-  const TexturedTriangle &a = *a_->source, &b = *candidate.triangle->source;
-  Weights to;
-  for (std::size_t k = 0; k < 3; ++k) to[k] = weighted(lines_[candidate.lines[k]].at, node.weights);
-  const auto only = std::find_if(to.begin(), to.end(), [](const Approximate& w) { return !w.is_zero(); });
-  const bool is_corner = only != to.end() && std::all_of(only + 1, to.end(), [](const auto& w) { return w.is_zero(); });
-  if (is_corner && node.second == Node::is_corner)
-    return distance_bounds(a.corners[node.first], b.corners[static_cast<std::size_t>(only - to.begin())]);
-  std::array<Approximate, 3> offset;
-  const Approximate from_sum = sum(node.weights), to_sum = sum(to);
-  const Eigen::Vector3d origin = a.corners[0];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Approximate from_weight = node.weights[k] / from_sum, to_weight = to[k] / to_sum;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto axis = static_cast<Eigen::Index>(i);
-      const Approximate from_way = Approximate{a.corners[k][axis], 0} - Approximate{origin[axis], 0};
-      const Approximate to_way = Approximate{b.corners[k][axis], 0} - Approximate{origin[axis], 0};
-      offset[i] = offset[i] + (from_weight * from_way - to_weight * to_way);
-    }
-  }
-  return length_bounds(offset);
-}
-
-/// A point of A, and all points of a candidate with its texture coordinate: a point, a segment or a triangle. All
-/// coordinates have one denominator.
-struct Overlay::Fibre {
-  ExactPoint point;
-  std::array<ExactPoint, 3> corners;
-  std::size_t corner_count = 1;
-  mpz_class denominator;
-};
-
-Overlay::Fibre Overlay::fibre(const Candidate& candidate, const Node& node) {
-  const ChartTriangle& b = *candidate.triangle;
-  const ExactWeights weights = exact(node);
-  const mpz_class total = sum(weights);
-  const ExactPoint point = weighted_corners(*a_, weights, units_);
-  if (b.chart == Chart::Point) {
-    Fibre result{point, {}, 3, total};
-    for (std::size_t k = 0; k < 3; ++k) result.corners[k] = scaled(exact_point(b.source->corners[k], units_), total);
-    return result;
-  }
-  if (b.chart == Chart::Area) {
-    ExactWeights to;
-    for (std::size_t k = 0; k < 3; ++k) to[k] = weighted(exact(candidate.lines[k]), weights);
-    const mpz_class to_total = sum(to);
-    return {scaled(point, to_total), {scaled(weighted_corners(b, to, units_), total)}, 1, total * to_total};
-  }
-  // The candidate is a segment in the texture. The points with one coordinate run from the edge between the ends of the
-  // segment to one of the two other edges, at the same share of the way along the segment.
-  const auto uv = texture_points<mpz_class>(b, units_);
-  const auto &low = uv[b.along[0]], &middle = uv[b.along[1]], &high = uv[b.along[2]];
-  const auto corner = [&](std::size_t k) { return exact_point(b.source->corners[b.along[k]], units_); };
-  const mpz_class length = dot<mpz_class>(high - low, high - low), turn = dot<mpz_class>(high - low, middle - low);
-  const mpz_class at = weighted(exact(candidate.lines[2]), weights);
-  const bool is_before = sgn(turn) > 0 && at <= total * turn;
-  const mpz_class start = is_before ? mpz_class(0) : turn, part = is_before ? turn : mpz_class(length - turn);
-  const mpz_class left = total * length - at, along_part = at - total * start;
-  const ExactPoint across = sum_of(scaled(corner(0), left), scaled(corner(2), at));
-  const ExactPoint round = sum_of(scaled(corner(is_before ? 0 : 1), total * part - along_part),
-                                  scaled(corner(is_before ? 1 : 2), along_part));
-  return {scaled(point, length * part), {scaled(across, part), scaled(round, length)}, 2, total * length * part};
-}
-
-Bounds Overlay::exact_distance(const Candidate& candidate, const Node& node) {
-  const Fibre f = fibre(candidate, node);
-  SquaredLength squared;
-  if (f.corner_count == 1) {
-    const ExactPoint offset = f.point - f.corners[0];
-    squared = {dot(offset, offset), 1};
-  } else {
-    squared = f.corner_count == 2 ? squared_distance_to_segment(f.point, f.corners[0], f.corners[1])
-                                  : squared_distance_to_triangle(f.point, f.corners);
-  }
-  squared.denominator *= f.denominator * f.denominator;
-  return root_bounds(squared, units_.position);
-}
-
-TextureWitness Overlay::witness(std::uint32_t candidate, const Node& node) {
-  const Candidate& c = candidates_[candidate];
-  const Fibre f = fibre(c, node);
-  std::array<Eigen::Vector3d, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k)
-    corners[k] = as_doubles(f.corners[std::min(k, f.corner_count - 1)], f.denominator, units_.position);
-  TextureWitness witness;
-  witness.from = {as_doubles(f.point, f.denominator, units_.position), a_->source->triangle};
-  witness.nearest = {nearest_on(corners, witness.from.position), c.triangle->source->triangle};
-  const std::array<double, 3> weights = rounded(node);
-  for (std::size_t i = 0; i < 3; ++i) witness.coordinate += weights[i] * a_->source->coordinates[i];
-  witness.distance = (witness.from.position - witness.nearest.position).norm();
-  return witness;
 }
 
 std::array<double, 3> Overlay::rounded(const Node& node) {

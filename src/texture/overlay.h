@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,7 +54,6 @@ class Overlay {
     Line first = 0;                       ///< a line through the point; or the number of a corner
     Line second = is_corner;              ///< another one
     Weights weights;                      ///< times one positive number
-    std::array<double, 3> given{};        ///< `weights` of a point that is given by them
     const Eigen::Vector2d* at = nullptr;  ///< its texture coordinate if it is a corner of a triangle, else null
   };
   struct PolygonCorner {
@@ -94,6 +94,11 @@ class Overlay {
   /// candidate must cover the point. An interval wider than `precision` is computed again exactly, to neighbouring
   /// doubles.
   [[nodiscard]] Bounds distance(std::uint32_t candidate, const Node& node, double precision);
+  /// Whether a quick look shows that no point of A is farther than `limit` from the point of the candidate with its
+  /// texture coordinate. Both must have an area in the texture. The offset between these points is linear in the
+  /// texture coordinate, so its length over what both cover is at most that at the corners of either, wherever these
+  /// lie. O(1).
+  [[nodiscard]] bool is_within(std::uint32_t candidate, double limit);
   /// The point and that nearest point, rounded to doubles.
   [[nodiscard]] TextureWitness witness(std::uint32_t candidate, const Node& node);
   /// The area of the polygon as a share of that of A.
@@ -111,10 +116,13 @@ class Overlay {
     std::array<const Eigen::Vector2d*, 2> ends{};
     std::unique_ptr<ExactWeights> exact;  ///< `at` in integers, once asked for
   };
+  /// By axis and corner of A: the vector from the candidate, continued as a plane, to A at equal texture coordinates.
+  using Offsets = std::array<std::array<Approximate, 3>, 3>;
   struct Candidate {
     const ChartTriangle* triangle;
     std::array<Line, 4> lines;
     std::uint8_t line_count;
+    std::optional<Offsets> offsets;  ///< once asked for
   };
 
   /// Whether the point lies on the line by construction: it was made of the line, of an equal edge of another triangle,
@@ -123,7 +131,8 @@ class Overlay {
   [[nodiscard]] const ExactWeights& exact(Line line);
   [[nodiscard]] ExactWeights exact(const Node& node);
   [[nodiscard]] Node crossing(Line line, Line other);
-  [[nodiscard]] Bounds near_distance(const Candidate& candidate, const Node& node) const;
+  [[nodiscard]] Offsets offsets_at_corners(const Candidate& candidate) const;
+  [[nodiscard]] Bounds near_distance(Candidate& candidate, const Node& node);
   [[nodiscard]] Bounds exact_distance(const Candidate& candidate, const Node& node);
   struct Fibre;
   [[nodiscard]] Fibre fibre(const Candidate& candidate, const Node& node);

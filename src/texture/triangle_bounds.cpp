@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -17,16 +18,21 @@ namespace {
 /// The triangles of a mesh, found by their content, in whatever order their corners come.
 class Triangles {
  public:
-  explicit Triangles(const std::vector<TexturedTriangle>& triangles) {
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) sorted_.push_back({content(triangles[i]), i});
+  /// `triangles` must outlive this. O(n log n).
+  explicit Triangles(const std::vector<TexturedTriangle>& triangles) : triangles_(triangles) {
+    sorted_.reserve(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) sorted_.emplace_back(key(content(triangles[i])), i);
     std::sort(sorted_.begin(), sorted_.end());
   }
 
-  /// The index of such a triangle; `no_index` if there is none.
+  /// The smallest index of such a triangle; `no_index` if there is none.
   [[nodiscard]] std::uint32_t find(const TexturedTriangle& t) const {
     const Content wanted = content(t);
-    const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted, std::uint32_t{0}));
-    return at != sorted_.end() && at->first == wanted ? at->second : no_index;
+    const std::uint64_t wanted_key = key(wanted);
+    auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted_key, std::uint32_t{0}));
+    for (; at != sorted_.end() && at->first == wanted_key; ++at)
+      if (content(triangles_[at->second]) == wanted) return at->second;
+    return no_index;
   }
   [[nodiscard]] bool has(const TexturedTriangle& t) const { return find(t) != no_index; }
 
@@ -44,12 +50,23 @@ class Triangles {
     return all;
   }
 
-  std::vector<std::pair<Content, std::uint32_t>> sorted_;
+  /// Equal for equal contents, rarely for others.
+  static std::uint64_t key(const Content& content) {
+    constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
+    std::uint64_t key = content.first;
+    for (const Corner& corner : content.second)
+      for (const double x : corner) key = (std::rotl(key, 5) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * odd;  // no -0
+    return key;
+  }
+
+  const std::vector<TexturedTriangle>& triangles_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted_;  ///< by key
 };
 
 /// The boxes, in the texture, of the triangles that only one of two meshes has.
 BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b) {
   std::vector<Eigen::AlignedBox3d> boxes;
+  if (b == new_b) return BoxTree(std::move(boxes));
   const auto add = [&](const TexturedMesh& of, const Triangles& others) {
     for (const TexturedTriangle& t : of.triangles)
       if (!others.has(t)) boxes.push_back(box_in_texture(t));

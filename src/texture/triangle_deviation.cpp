@@ -277,8 +277,10 @@ std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
   if (!Covering().is_complete(overlay, spanning_candidates(overlay, 0))) return std::nullopt;
   double upper = 0;
-  for (std::uint32_t c = 0; c < overlay.candidates(); ++c)
+  for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
+    if (overlay.is_within(c, upper)) continue;
     upper = std::max(upper, upper_at_corners(overlay, covered_by(overlay, c), c, precision));
+  }
   return upper;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Refuses collapses that would move the texture too far, by the samples around them.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +36,11 @@ class TextureGuard {
   void begin(const TexturedStar& star);
   /// Whether the samples stay within the limit of the map with the vertex at `point`. O(samples * faces).
   [[nodiscard]] bool holds(Vec3 point);
+  /// How far the texture would have moved at the placement that was refused last, in limits: a guess, seldom more than
+  /// the truth; 0 where no sample has refused it.
+  [[nodiscard]] float deviation() const {
+    return exceeding_squared_ > 0 ? static_cast<float>(std::sqrt(exceeding_squared_) / map_.limit) : 0;
+  }
   /// Writes the coordinates that `holds` accepted last to the faces that stay.
   void apply(TextureMap& map) const;
   /// Assigns the samples of the star to the faces that stay, as `holds` has matched them. Call once the mesh has
@@ -107,6 +113,7 @@ class TextureGuard {
   std::vector<Match> matches_, matches_before_;  ///< by sample: the last match, and that before the last Newton step
   bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be changed
   bool accepted_ = false;
+  double exceeding_squared_ = 0;  ///< the squared distance of a sample for which a placement was refused
   std::vector<std::uint32_t> found_;
 };
 

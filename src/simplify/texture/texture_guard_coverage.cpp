@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+/// What `TextureGuard` looks up in the original: whether it has far points with the coordinates that the faces would
+/// cover, or cover no more.
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/no_index.h"
+#include "simplify/texture/texture_guard.h"
+#include "simplify/texture/weighted_points.h"
+
+namespace meshbound {
+namespace {
+
+/// The strip between a line of the original and the line that a collapse makes of it, in the texture, is sampled at
+/// these shares of the way across.
+constexpr std::array<double, 3> shares_of_strip = {0.02, 0.5, 0.98};
+
+/// Points of a face that are compared with the original, by their weights; the first weight is that of the moving
+/// vertex. The third edge of a face is the first one of the next face, or a line.
+constexpr std::array<std::array<double, 3>, 5> tested_points = {
+    {{1, 0, 0}, {0.75, 0.25, 0}, {0.5, 0.5, 0}, {0.25, 0.75, 0}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}};
+
+/// An edge that becomes a line is compared at the ends of this many parts.
+constexpr int parts_of_line = 8;
+
+}  // namespace
+
+/// Whether edge k of a face that stays (edge 1 is opposite to the vertex) is a line, or becomes one by merging with the
+/// line of a removed face.
+bool TextureGuard::becomes_line(std::size_t face, std::size_t k) const {
+  const Corner c = star_.moved[face];
+  const Corner edge = k == 0 ? c : k == 1 ? next_corner(c) : previous_corner(c);
+  if (lines_.is_line(mesh_, edge)) return true;
+  const Corner across = mesh_.twin(edge);
+  if (std::find(star_.removed.begin(), star_.removed.end(), across / 3) == star_.removed.end()) return false;
+  const auto is_other_line = [&](Corner other) {
+    return mesh_.edge(other) != mesh_.edge(star_.edge) && lines_.is_line(mesh_, other);
+  };
+  return is_other_line(next_corner(across)) || is_other_line(previous_corner(across));
+}
+
+/// Whether no point of the original whose coordinate lies in the strip between its line and that of the faces, in the
+/// texture, is farther away than the limit: the result would show that texture at the line, or lack it there.
+bool TextureGuard::is_border_free(std::size_t i) {
+  const TextureMap::Sample& sample = map_.sample(samples_[i]);
+  double least = HUGE_VAL;
+  Eigen::Vector2d nearest = sample.coordinate;
+  std::uint32_t material = 0;
+  const auto visit = [&](const CornerCoordinates& t, std::size_t k, std::uint32_t face) {
+    const std::size_t next = (k + 1) % 3;
+    const Eigen::Vector2d p = t[k] + closest_share(t[k], t[next], sample.coordinate) * (t[next] - t[k]);
+    if (!((p - sample.coordinate).squaredNorm() < least)) return;
+    least = (p - sample.coordinate).squaredNorm();
+    nearest = p;
+    material = map_.material(face);
+  };
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].chart != charts_[i]) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (becomes_line(f, k)) visit(faces_[f].coordinates, k, faces_[f].number);
+  }
+  return least == 0 || least == HUGE_VAL || is_strip_free(sample, nearest, material);
+}
+
+bool TextureGuard::is_strip_free(const TextureMap::Sample& sample, const Eigen::Vector2d& nearest,
+                                 std::uint32_t material) {
+  return std::none_of(shares_of_strip.begin(), shares_of_strip.end(), [&](double share) {
+    const Eigen::Vector2d between = sample.coordinate + share * (nearest - sample.coordinate);
+    return map_.atlas().has_far_point(between, material, sample.at, map_.limit, found_);
+  });
+}
+
+bool TextureGuard::are_borders_free() {
+  if (!lines_.is_line(mesh_, star_.edge)) return true;
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    if (map_.sample(samples_[i]).is_on_line && !is_border_free(i)) return false;
+  return are_lines_near();
+}
+
+/// Whether the original has no far point with the coordinate of a sample that no face covers any more: the texture
+/// would seem to have moved there.
+bool TextureGuard::are_uncovered_free() {
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Match& m = matches_[i];
+    if (m.is_inside) continue;
+    const TextureMap::Sample& sample = map_.sample(samples_[i]);
+    const CornerCoordinates& t = faces_[m.face].coordinates;
+    const Eigen::Vector2d nearest = m.weights[0] * t[0] + m.weights[1] * t[1] + m.weights[2] * t[2];
+    const std::uint32_t material = map_.material(faces_[m.face].number);
+    if (map_.atlas().has_far_point(sample.coordinate, material, sample.at, map_.limit, found_)) return false;
+    if (!is_strip_free(sample, nearest, material)) return false;
+  }
+  return true;
+}
+
+bool TextureGuard::is_near_original(const Face& face, const std::array<double, 3>& weights) {
+  const CornerCoordinates& t = face.coordinates;
+  const Eigen::Vector2d coordinate = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
+  const double squared =
+      map_.atlas().squared_distance(coordinate, map_.material(face.number), point_of(face.at, weights), found_);
+  return squared <= map_.limit * map_.limit || squared == HUGE_VAL;
+}
+
+/// Whether points of the faces are near the points of the original with the same coordinates, where such points exist.
+bool TextureGuard::are_faces_near() {
+  const Face* before = nullptr;
+  for (const Face& face : faces_) {
+    if (face.chart == no_index) continue;
+    const bool is_vertex_known =
+        before != nullptr && before->chart == face.chart && before->coordinates[0] == face.coordinates[0];
+    before = &face;
+    const auto first = tested_points.begin() + (is_vertex_known ? 1 : 0);
+    if (!std::all_of(first, tested_points.end(), [&](const auto& weights) { return is_near_original(face, weights); }))
+      return false;
+  }
+  return true;
+}
+
+/// Compares the edges at the vertex that are lines after the collapse of an edge of a line, as `are_faces_near`
+/// compares faces.
+bool TextureGuard::are_lines_near() {
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].chart == no_index) continue;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{2}}) {
+      if (!becomes_line(f, k)) continue;
+      for (int i = 1; i < parts_of_line; ++i) {
+        std::array<double, 3> weights{};
+        weights[k] = static_cast<double>(i) / parts_of_line;
+        weights[(k + 1) % 3] = 1 - weights[k];
+        if (!is_near_original(faces_[f], weights)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace meshbound

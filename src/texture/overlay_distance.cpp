@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+/// Distances between points of a triangle and of a candidate with the same texture coordinate.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/longest_edge.h"
+#include "texture/overlay.h"
+#include "texture/overlay_numbers.h"
+
+namespace meshbound {
+namespace {
+
+ExactPoint exact_point(const Eigen::Vector3d& p, const ExactUnits& units) {
+  return {in_units(p.x(), units.position), in_units(p.y(), units.position), in_units(p.z(), units.position)};
+}
+
+ExactPoint scaled(const ExactPoint& p, const mpz_class& by) { return {p.x * by, p.y * by, p.z * by}; }
+
+ExactPoint sum_of(const ExactPoint& p, const ExactPoint& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+
+ExactPoint weighted_corners(const ChartTriangle& t, const std::array<mpz_class, 3>& weights, const ExactUnits& units) {
+  ExactPoint p{0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (sgn(weights[k]) != 0) p = sum_of(p, scaled(exact_point(t.source->corners[k], units), weights[k]));
+  return p;
+}
+
+double as_double(const mpz_class& numerator, const mpz_class& denominator, int unit) {
+  mpz_class above = numerator, below = denominator;
+  if (unit >= 0)
+    above <<= static_cast<mp_bitcnt_t>(unit);
+  else
+    below <<= static_cast<mp_bitcnt_t>(-unit);
+  mpq_class quotient(above, below);
+  quotient.canonicalize();
+  return quotient.get_d();
+}
+
+Eigen::Vector3d as_doubles(const ExactPoint& p, const mpz_class& denominator, int unit) {
+  return {as_double(p.x, denominator, unit), as_double(p.y, denominator, unit), as_double(p.z, denominator, unit)};
+}
+
+/// The length of a vector: an interval, from 0 to infinity where squares would overflow.
+Bounds length_bounds(const std::array<Approximate, 3>& v) {
+  const double largest = std::max({std::fabs(v[0].value), std::fabs(v[1].value), std::fabs(v[2].value)});
+  if (v[0].is_zero() && v[1].is_zero() && v[2].is_zero()) return {0, 0};
+  if (!(largest < 0x1p500)) return {};
+  const double error = (v[0].error + v[1].error + v[2].error) * Approximate::grown + Approximate::tiny;
+  const double length = std::sqrt(v[0].value * v[0].value + v[1].value * v[1].value + v[2].value * v[2].value);
+  const double rounding = length * (8 * unit_roundoff);  // 3 u by the sum of squares and its root
+  Bounds bounds{std::max(0.0, next_down(length - error - rounding)), next_up(length + error + rounding)};
+  if (largest < 0x1p-300) bounds = {0, next_up(2 * largest + error)};  // squares might underflow
+  return bounds.upper >= 0 ? bounds : Bounds{};                        // not a number: nothing is known
+}
+
+/// The point of a triangle that is nearest to p, rounded.
+Eigen::Vector3d nearest_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
+  std::array<Vec3, 3> c;
+  for (std::size_t k = 0; k < 3; ++k) c[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
+  const Vec3 offset = closest_on_triangle(longest_edge_first(c), Vec3{p.x(), p.y(), p.z()}).offset;
+  return p - Eigen::Vector3d(offset.x, offset.y, offset.z);
+}
+
+}  // namespace
+
+Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  std::array<Approximate, 3> offset;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    offset[static_cast<std::size_t>(i)] = Approximate{x[i], 0} - Approximate{y[i], 0};
+  return length_bounds(offset);
+}
+
+Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
+  Candidate& c = candidates_[candidate];
+  if (c.triangle->chart == Chart::Area) {
+    const Bounds bounds = near_distance(c, node);
+    if (bounds.upper - bounds.lower <= precision) return bounds;
+  }
+  return exact_distance(c, node);
+}
+
+bool Overlay::is_within(std::uint32_t candidate, double limit) {
+  Candidate& c = candidates_[candidate];
+  const Polygon corners = whole();
+  const auto is_near = [&](const Node& node) { return near_distance(c, node).upper <= limit; };
+  if (std::all_of(corners.begin(), corners.end(), [&](const PolygonCorner& p) { return is_near(p.node); })) return true;
+  return is_near(crossing(c.lines[0], c.lines[1])) && is_near(crossing(c.lines[1], c.lines[2])) &&
+         is_near(crossing(c.lines[2], c.lines[0]));
+}
+
+/// A corner p of A, less the point of the candidate's plane with its texture coordinate: that is corner 0 plus
+/// the shares of the lines 1 and 2 in twice the area of the candidate times the ways to its other corners.
+Overlay::Offsets Overlay::offsets_at_corners(const Candidate& candidate) const {
+  const TexturedTriangle &a = *a_->source, &b = *candidate.triangle->source;
+  const auto uv = texture_points<Approximate>(*candidate.triangle, units_);
+  Approximate area = cross<Approximate>(uv[1] - uv[0], uv[2] - uv[0]);
+  if (candidate.triangle->turned) area = -area;
+  Offsets offsets;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto line = [&](std::size_t k) { return lines_[candidate.lines[k]].at[corner]; };
+    const std::array<bool, 3> is_on = {line(0).is_zero(), line(1).is_zero(), line(2).is_zero()};
+    const bool is_end = is_on[0] && is_on[1] != is_on[2];  // equal to corner 1 or 2 of the candidate
+    const std::size_t from = is_end ? (is_on[1] ? 2 : 1) : 0;
+    const Approximate second = is_end ? Approximate{} : line(1) / area, third = is_end ? Approximate{} : line(2) / area;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      const auto way = [&](const Eigen::Vector3d& p) {
+        return Approximate{p[axis], 0} - Approximate{b.corners[from][axis], 0};
+      };
+      offsets[i][corner] = way(a.corners[corner]) - (second * way(b.corners[1]) + third * way(b.corners[2]));
+    }
+  }
+  return offsets;
+}
+
+Bounds Overlay::near_distance(Candidate& candidate, const Node& node) {
+  if (!candidate.offsets) candidate.offsets = offsets_at_corners(candidate);
+  const Offsets& offsets = *candidate.offsets;
+  if (node.second == Node::is_corner)
+    return length_bounds({offsets[0][node.first], offsets[1][node.first], offsets[2][node.first]});
+  const Approximate total = sum(node.weights);
+  return length_bounds({weighted(offsets[0], node.weights) / total, weighted(offsets[1], node.weights) / total,
+                        weighted(offsets[2], node.weights) / total});
+}
+
+/// A point of A, and all points of a candidate with its texture coordinate: a point, a segment or a triangle. All
+/// coordinates have one denominator.
+struct Overlay::Fibre {
+  ExactPoint point;
+  std::array<ExactPoint, 3> corners;
+  std::size_t corner_count = 1;
+  mpz_class denominator;
+};
+
+Overlay::Fibre Overlay::fibre(const Candidate& candidate, const Node& node) {
+  const ChartTriangle& b = *candidate.triangle;
+  const ExactWeights weights = exact(node);
+  const mpz_class total = sum(weights);
+  const ExactPoint point = weighted_corners(*a_, weights, units_);
+  if (b.chart == Chart::Point) {
+    Fibre result{point, {}, 3, total};
+    for (std::size_t k = 0; k < 3; ++k) result.corners[k] = scaled(exact_point(b.source->corners[k], units_), total);
+    return result;
+  }
+  if (b.chart == Chart::Area) {
+    ExactWeights to;
+    for (std::size_t k = 0; k < 3; ++k) to[k] = weighted(exact(candidate.lines[k]), weights);
+    const mpz_class to_total = sum(to);
+    return {scaled(point, to_total), {scaled(weighted_corners(b, to, units_), total)}, 1, total * to_total};
+  }
+  // The candidate is a segment in the texture. The points with one coordinate run from the edge between the ends of the
+  // segment to one of the two other edges, at the same share of the way along the segment.
+  const auto uv = texture_points<mpz_class>(b, units_);
+  const auto &low = uv[b.along[0]], &middle = uv[b.along[1]], &high = uv[b.along[2]];
+  const auto corner = [&](std::size_t k) { return exact_point(b.source->corners[b.along[k]], units_); };
+  const mpz_class length = dot<mpz_class>(high - low, high - low), turn = dot<mpz_class>(high - low, middle - low);
+  const mpz_class at = weighted(exact(candidate.lines[2]), weights);
+  const bool is_before = sgn(turn) > 0 && at <= total * turn;
+  const mpz_class start = is_before ? mpz_class(0) : turn, part = is_before ? turn : mpz_class(length - turn);
+  const mpz_class left = total * length - at, along_part = at - total * start;
+  const ExactPoint across = sum_of(scaled(corner(0), left), scaled(corner(2), at));
+  const ExactPoint round = sum_of(scaled(corner(is_before ? 0 : 1), total * part - along_part),
+                                  scaled(corner(is_before ? 1 : 2), along_part));
+  return {scaled(point, length * part), {scaled(across, part), scaled(round, length)}, 2, total * length * part};
+}
+
+Bounds Overlay::exact_distance(const Candidate& candidate, const Node& node) {
+  const Fibre f = fibre(candidate, node);
+  SquaredLength squared;
+  if (f.corner_count == 1) {
+    const ExactPoint offset = f.point - f.corners[0];
+    squared = {dot(offset, offset), 1};
+  } else {
+    squared = f.corner_count == 2 ? squared_distance_to_segment(f.point, f.corners[0], f.corners[1])
+                                  : squared_distance_to_triangle(f.point, f.corners);
+  }
+  squared.denominator *= f.denominator * f.denominator;
+  return root_bounds(squared, units_.position);
+}
+
+TextureWitness Overlay::witness(std::uint32_t candidate, const Node& node) {
+  const Candidate& c = candidates_[candidate];
+  const Fibre f = fibre(c, node);
+  std::array<Eigen::Vector3d, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k)
+    corners[k] = as_doubles(f.corners[std::min(k, f.corner_count - 1)], f.denominator, units_.position);
+  TextureWitness witness;
+  witness.from = {as_doubles(f.point, f.denominator, units_.position), a_->source->triangle};
+  witness.nearest = {nearest_on(corners, witness.from.position), c.triangle->source->triangle};
+  const std::array<double, 3> weights = rounded(node);
+  for (std::size_t i = 0; i < 3; ++i) witness.coordinate += weights[i] * a_->source->coordinates[i];
+  witness.distance = (witness.from.position - witness.nearest.position).norm();
+  return witness;
+}
+
+}  // namespace meshbound
