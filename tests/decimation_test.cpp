@@ -228,8 +228,8 @@ TEST_P(Decimation, PlacesVerticesByWhatProofsHaveFound) {
   EXPECT_LT(result.last().faces(), 1450U);
 }
 
-/// The originals of a cap reach from its middle to its rim, across tens of faces: 182 faces are left if they are covered
-/// by cuts alone, 148 as it is.
+/// The originals of a cap reach from its middle to its rim, across tens of faces: 182 faces are left if they are
+/// covered by cuts alone, 148 as it is.
 TEST_P(Decimation, CoversTheSliversOfACapByPatches) {
   const TriangleMesh cylinder = datasets::cylinder(1, 4, 360);
   const SimplifyResult result = simplify_with_bound(cylinder, options(0.00449));

@@ -39,7 +39,8 @@ TriangleMesh repeated(TriangleMesh mesh, int threads) {
 }
 
 void check_same(const Bounds& one, const Bounds& many) {
-  require(one.lower == many.lower && one.upper == many.upper, "several threads, or queries together, find other bounds than one");
+  require(one.lower == many.lower && one.upper == many.upper,
+          "several threads, or queries together, find other bounds than one");
 }
 
 /// Several threads find what one finds, and the exact distance agrees.
