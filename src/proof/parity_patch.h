@@ -124,8 +124,8 @@ struct Window {
   /// Whether a triangle, clipped to the prism over the window and `margin` around it, has no height beyond `limit`.
   [[nodiscard]] bool heights_within(const ProjectedTriangle& t, double margin, double limit) const {
     const Clipped polygon = clipped(t, margin);
-    return std::all_of(polygon.corner.begin(), polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count),
-                       [&](const Projected& p) { return std::abs(p.h) <= limit; });
+    const std::span<const Projected> corners = polygon.corners();
+    return std::all_of(corners.begin(), corners.end(), [&](const Projected& p) { return std::abs(p.h) <= limit; });
   }
 };
 
