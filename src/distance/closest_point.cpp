@@ -126,9 +126,9 @@ class PointQueries {
     if (hint_ == no_slot) return 0;  // all before were too far away for one
     const Triangle& t = data_.corners[hint_];
     const double edge_squared = squared_length(data_.vertices[t[1]] - data_.vertices[t[0]]);
-    const std::size_t most = std::min(queries.size(), group_width);
+    const std::size_t max_count = std::min(queries.size(), group_width);
     Vec3 first = last_;
-    for (std::size_t count = 0; count < most; ++count) {
+    for (std::size_t count = 0; count < max_count; ++count) {
       placed[count] = place(queries[count]);
       if (placed[count].magnitude > max_group_magnitude) return count;
       const double squared = squared_length(placed[count].query.point - first);
@@ -136,7 +136,7 @@ class PointQueries {
       if (squared > group_extent * group_extent * edge_squared) return count;
       if (count == 0) first = placed[0].query.point;
     }
-    return most;
+    return max_count;
   }
 
   /// Answers neighbours together. False, and no answer, where that takes longer than one by one.

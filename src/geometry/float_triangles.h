@@ -19,7 +19,7 @@ namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
 inline constexpr float float_error = 64 * 0x1p-24F;
-inline constexpr float least_float_error = 0x1p-30F;
+inline constexpr float min_float_error = 0x1p-30F;
 
 /// A point of a triangle that is nearly the closest to each of eight points, by the vector o from there.
 struct FloatOffset {
@@ -86,7 +86,7 @@ class FloatTriangles {
 
  private:
   static Float8 reciprocal(const Float8& x) { return x > 0.0F ? 1.0F / (x > 0.0F ? x : broadcast8(1.0F)) : Float8{}; }
-  static Float8 clamped(const Float8& x, const Float8& most) { return maximum(minimum(x, most), Float8{}); }
+  static Float8 clamped(const Float8& x, const Float8& max) { return maximum(minimum(x, max), Float8{}); }
   static void keep_nearer(Vec<Float8>& best, Float8& squared, const Vec<Float8>& offset) {
     const Float8 other = squared_length(offset);
     const Mask8 nearer = other < squared;

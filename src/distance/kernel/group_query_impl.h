@@ -67,7 +67,7 @@ class GroupSearch {
     const Vec<Float8> steps{step(global.x), step(global.y), step(global.z)};
     lo_ = global - steps;
     hi_ = global + steps;
-    error_ = magnitude(local_) * float_error + least_float_error;
+    error_ = magnitude(local_) * float_error + min_float_error;
   }
 
   /// As `MeasureGroup`.
