@@ -8,6 +8,7 @@ target_compile_options(meshbound_warnings INTERFACE -Wno-unknown-pragmas -Wno-si
   -Wno-unused-parameter -Wno-unused-variable)
 # Vectors of 128 bits, whose arithmetic is that of IEEE doubles; relaxed ones would not be.
 set(MESHBOUND_COMPILER_HAS_AVX2 OFF CACHE INTERNAL "AVX2 is no part of WebAssembly")
+set(MESHBOUND_COMPILER_HAS_AVX512 OFF CACHE INTERNAL "nor is AVX-512")
 set(compat ${PROJECT_SOURCE_DIR}/bindings/js/compat/standard_library.h)
 add_compile_options(-include ${compat} -fwasm-exceptions -msimd128)
 add_link_options(-fwasm-exceptions)

@@ -130,6 +130,7 @@ TEST(ClosestPoint, IsTheSameWhateverWasAskedBefore) {
 }
 
 TEST(ClosestPoint, IsTheSameForEveryHintAndInstructionSet) {
+  const std::vector<PointKernel> kernels = point_kernels();
   for (const TriangleMesh& mesh : hard_meshes()) {
     const Bvh bvh(mesh);
     const Bvh::Data& data = bvh.data();
@@ -139,8 +140,8 @@ TEST(ClosestPoint, IsTheSameForEveryHintAndInstructionSet) {
       const PointRoundings roundings{2 * primal_error * magnitude, 0.25 * dual_error * magnitude};
       const PointDistance cold = point_kernel().one(data, p, roundings, no_slot);
       for (std::uint32_t hint = 0; hint < data.triangle_count(); hint += 7) {
-        for (const MeasurePoint kernel : {point_kernel().one, portable_point_kernel().one}) {
-          const PointDistance warm = kernel(data, p, roundings, hint);
+        for (const PointKernel& kernel : kernels) {
+          const PointDistance warm = kernel.one(data, p, roundings, hint);
           ASSERT_EQ(warm.nearest.slot, cold.nearest.slot);
           ASSERT_EQ(warm.nearest.squared, cold.nearest.squared);
           ASSERT_EQ(warm.separated, cold.separated);
@@ -223,24 +224,26 @@ GroupQuery placed(const Bvh::Data& data, const Vector3d& query, double loss) {
   return {p, {2 * primal_error * magnitude, loss * dual_error * magnitude}};
 }
 
-/// Groups of every size, from equal points to ones as far apart as the mesh is large, for both instruction sets; with
+/// Groups of every size, from equal points to ones as far apart as the mesh is large, for every instruction set; with
 /// no loss allowed, where planes mostly fail to prove the distance, too.
 TEST(ClosestPoints, OfAGroupHaveTheBitsOfEachByItself) {
   std::vector<TriangleMesh> meshes = hard_meshes();
   meshes.push_back(icosphere(5));
+  const std::vector<PointKernel> kernels = point_kernels();
   std::size_t answered = 0, asked = 0;
   for (const TriangleMesh& mesh : meshes) {
     const Bvh bvh(mesh);
     const Bvh::Data& data = bvh.data();
     std::uint32_t seed = 0;
     for (const double spread : {0.0, 1e-12, 1e-6, 1e-3, 0.02, 0.5}) {
-      for (std::size_t size = 1; size <= group_width; ++size) {
+      for (std::size_t size = 1; size <= max_group_width; ++size) {
         std::vector<GroupQuery> queries;
         for (const Vector3d& query : neighbours(mesh, size, spread, ++seed))
           queries.push_back(placed(data, query, size % 2 == 0 ? 0 : 0.25));
         if (!(std::fabs(queries[0].point.x) < 0x1p10)) continue;
-        const std::uint32_t hint = seed % data.triangle_count();
-        for (const PointKernel& kernel : {point_kernel(), portable_point_kernel()}) {
+        const std::uint32_t hint = size % 5 == 0 ? no_slot : seed % data.triangle_count();
+        for (const PointKernel& kernel : kernels) {
+          if (size > kernel.group_width) continue;
           std::vector<PointDistance> found(size);
           ++asked;
           if (!kernel.group(data, queries, hint, found)) continue;
@@ -275,7 +278,7 @@ TEST(ClosestPoints, AreThoseAskedOneByOneForAnyNumberOfNeighbours) {
   meshes.push_back(icosphere(5));
   for (const TriangleMesh& mesh : meshes) {
     const Bvh bvh(mesh);
-    for (std::size_t size = 1; size <= 2 * group_width + 1; ++size) {
+    for (std::size_t size = 1; size <= 2 * max_group_width + 1; ++size) {
       std::vector<Vector3d> queries;
       for (const double spread : {0.0, 1e-4, 0.01, 2.0})
         for (const Vector3d& query : neighbours(mesh, size, spread, static_cast<std::uint32_t>(size)))

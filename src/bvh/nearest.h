@@ -63,6 +63,26 @@ inline Vec<Double4> gather4(const Vec3& p, const Vec3& q, const Vec3& r, const V
   return lanes({coordinates(p), coordinates(q), coordinates(r), coordinates(s)});
 }
 
+#if defined(__AVX512F__)
+inline Double8 joined(const Double4& low, const Double4& high) {
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+}
+inline Vec<Double8> joined(const Vec<Double4>& low, const Vec<Double4>& high) {
+  return {joined(low.x, high.x), joined(low.y, high.y), joined(low.z, high.z)};
+}
+#endif
+
+/// The points at(0), at(1) and so on, as many as there are lanes.
+template <class At>
+Vec<Doubles> gather(const At& at) {
+  const Vec<Double4> low = gather4(at(0), at(1), at(2), at(3));
+#if defined(__AVX512F__)
+  return joined(low, gather4(at(4), at(5), at(6), at(7)));
+#else
+  return low;
+#endif
+}
+
 /// Four triangles by their slots, lane by lane. Their corners are gathered: storing a copy for each block made testing
 /// a leaf hardly faster and took 72 of 200 bytes a triangle, which building had to write.
 inline CornerTriangle<Double4> triangles_at(const Bvh::Data& data,
@@ -75,6 +95,15 @@ inline CornerTriangle<Double4> triangles_at(const Bvh::Data& data,
   const Vec<Double4> a = corner(0);
   return {a, corner(1) - a, corner(2) - a};
 }
+
+#if defined(__AVX512F__)
+/// Eight triangles by their slots, lane by lane.
+[[gnu::always_inline]] inline CornerTriangle<Double8> triangles_at(const Bvh::Data& data, const std::array<std::uint32_t, 8>& s) {
+  const CornerTriangle<Double4> low = triangles_at(data, std::array{s[0], s[1], s[2], s[3]}),
+                                high = triangles_at(data, std::array{s[4], s[5], s[6], s[7]});
+  return {joined(low.a, high.a), joined(low.ab, high.ab), joined(low.ac, high.ac)};
+}
+#endif
 
 /// The slots of a block; the last block repeats its last triangle in unused lanes.
 inline std::array<std::uint32_t, block_width> slots_of_block(const Bvh::Data& data, std::uint32_t block) {

@@ -37,7 +37,7 @@ ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d&
 /// Queries are answered together (`MeasureGroup`) up to this distance from one another, and start where the last one
 /// ended up to that one. In longest edges of the triangle that was found there: eight queries in Morton order beside a
 /// scan mostly are within two.
-constexpr double group_extent = 3, hint_extent = 32;
+constexpr double group_extent = 5, hint_extent = 8;
 /// Fewer are not worth it.
 constexpr std::size_t min_group = 3;
 /// Queries further away, in working units, are never answered together: single precision would overflow.
@@ -65,7 +65,7 @@ class PointQueries {
   void answer(std::span<const Eigen::Vector3d> queries, std::span<ClosestPoint> answers) {
     std::size_t alone = 1;  // so many more are answered one by one: the first one, for a hint
     std::size_t pause = 0;
-    std::array<Placed, group_width> placed;
+    std::array<Placed, max_group_width> placed;
     for (std::size_t begin = 0; begin < queries.size();) {
       if (alone > 0) {
         answers[begin] = (*this)(queries[begin]);
@@ -122,27 +122,30 @@ class PointQueries {
   /// Places the first queries, as far as they are neighbours of the query before them, and returns their number.
   /// Forgets the hint where the first one is far from that: a search that begins there takes longer than one that
   /// begins at the root.
-  std::size_t neighbours(std::span<const Eigen::Vector3d> queries, std::array<Placed, group_width>& placed) {
+  std::size_t neighbours(std::span<const Eigen::Vector3d> queries, std::array<Placed, max_group_width>& placed) {
     if (hint_ == no_slot) return 0;  // all before were too far away for one
     const Triangle& t = data_.corners[hint_];
     const double edge_squared = squared_length(data_.vertices[t[1]] - data_.vertices[t[0]]);
-    const std::size_t max_count = std::min(queries.size(), group_width);
+    const std::size_t max_count = std::min(queries.size(), kernel_.group_width);
     Vec3 first = last_;
     for (std::size_t count = 0; count < max_count; ++count) {
       placed[count] = place(queries[count]);
       if (placed[count].magnitude > max_group_magnitude) return count;
       const double squared = squared_length(placed[count].query.point - first);
-      if (count == 0 && squared > hint_extent * hint_extent * edge_squared) hint_ = no_slot;
-      if (squared > group_extent * group_extent * edge_squared) return count;
-      if (count == 0) first = placed[0].query.point;
+      if (count == 0) {
+        if (squared > hint_extent * hint_extent * edge_squared) hint_ = no_slot;
+        first = placed[0].query.point;
+      } else if (squared > group_extent * group_extent * edge_squared) {
+        return count;
+      }
     }
     return max_count;
   }
 
   /// Answers neighbours together. False, and no answer, where that takes longer than one by one.
   bool answer_group(std::span<const Placed> placed, std::span<ClosestPoint> answers) {
-    std::array<GroupQuery, group_width> group;
-    std::array<PointDistance, group_width> found;
+    std::array<GroupQuery, max_group_width> group;
+    std::array<PointDistance, max_group_width> found;
     const std::size_t count = answers.size();
     for (std::size_t i = 0; i < count; ++i) group[i] = placed[i].query;
     if (!kernel_.group(data_, std::span(group).first(count), hint_, std::span(found).first(count))) return false;

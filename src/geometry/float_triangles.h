@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Triangles in single precision, each seen from eight points at once, in coordinates around a centre nearby: bounds of
+/// Triangles in single precision, each seen from several points at once, in coordinates around a centre nearby: bounds of
 /// distances that tell which triangles need doubles. Compiled once per instruction set (numeric/isa.h).
 ///
 /// Let u = 2^-24 and m be at least the magnitude of every coordinate. Corners and points are rounded to floats with an
@@ -21,25 +21,25 @@ inline namespace MESHBOUND_ISA {
 inline constexpr float float_error = 64 * 0x1p-24F;
 inline constexpr float min_float_error = 0x1p-30F;
 
-/// A point of a triangle that is nearly the closest to each of eight points, by the vector o from there.
+/// A point of a triangle that is nearly the closest to each of the points, by the vector o from there.
 struct FloatOffset {
-  Float8 squared;  ///< o.o
-  Float8 along;    ///< the least o . (p - c) over the corners c
+  Floats squared;  ///< o.o
+  Floats along;    ///< the least o . (p - c) over the corners c
 
   /// The lanes whose points are proven to be further away than `distance`, given `distance` + `float_error` m.
-  [[nodiscard]] Mask8 is_beyond(const Float8& distance_and_error) const {
-    const Float8 length_squared = maximum(squared, broadcast8(0x1p-62F));
+  [[nodiscard]] FloatsMask is_beyond(const Floats& distance_and_error) const {
+    const Floats length_squared = maximum(squared, broadcast_floats(0x1p-62F));
     return (along > 0.0F) & (along * along >= (distance_and_error * distance_and_error) * length_squared);
   }
 };
 
-/// Eight triangles, and what of each does not depend on the points.
+/// As many triangles as floats have lanes, and what of each does not depend on the points.
 class FloatTriangles {
  public:
-  static constexpr std::size_t width = 8;
+  static constexpr std::size_t width = floats_width;
 
   /// By their corners, lane by lane.
-  FloatTriangles(const Vec<Float8>& a, const Vec<Float8>& b, const Vec<Float8>& c)
+  FloatTriangles(const Vec<Floats>& a, const Vec<Floats>& b, const Vec<Floats>& c)
       : a_(a),
         ab_(b - a),
         ac_(c - a),
@@ -56,51 +56,51 @@ class FloatTriangles {
   }
 
   /// The largest magnitude of a coordinate of each.
-  [[nodiscard]] Float8 magnitude() const {
+  [[nodiscard]] Floats magnitude() const {
     return maximum(maximum(maximum(hi_.x, -lo_.x), maximum(hi_.y, -lo_.y)), maximum(hi_.z, -lo_.z));
   }
 
   /// The squared distances from the points to the box of triangle i.
-  [[nodiscard]] Float8 box_squared(std::size_t i, const Vec<Float8>& p) const {
-    const Vec<Float8> below = at(lo_, i) - p, above = p - at(hi_, i);
-    const Float8 x = maximum(maximum(below.x, above.x), Float8{}), y = maximum(maximum(below.y, above.y), Float8{}),
-                 z = maximum(maximum(below.z, above.z), Float8{});
+  [[nodiscard]] Floats box_squared(std::size_t i, const Vec<Floats>& p) const {
+    const Vec<Floats> below = at(lo_, i) - p, above = p - at(hi_, i);
+    const Floats x = maximum(maximum(below.x, above.x), Floats{}), y = maximum(maximum(below.y, above.y), Floats{}),
+                 z = maximum(maximum(below.z, above.z), Floats{});
     return x * x + y * y + z * z;
   }
 
   /// As `closest_on_triangle`, with less care for slivers: no bound depends on how near the point comes.
-  [[nodiscard]] FloatOffset offset(std::size_t i, const Vec<Float8>& p) const {
-    const Float8 one = broadcast8(1.0F);
-    const Vec<Float8> ab = at(ab_, i), ac = at(ac_, i), ap = p - at(a_, i);
-    const Float8 ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
-    const Float8 w = clamped(dot(at(across_, i), ap) * broadcast8(per_across_[i]), one);
-    const Float8 v = clamped((ab_ap - w * broadcast8(ab_ac_[i])) * broadcast8(per_ab_[i]), one - w);
-    Vec<Float8> best = (ap - v * ab) - w * ac;
-    Float8 squared = squared_length(best);
-    keep_nearer(best, squared, ap - clamped(ac_ap * broadcast8(per_ac_[i]), one) * ac);
-    const Float8 along_bc = (ac_ap - ab_ap - broadcast8(bc_ab_[i])) * broadcast8(per_bc_[i]);
+  [[nodiscard]] FloatOffset offset(std::size_t i, const Vec<Floats>& p) const {
+    const Floats one = broadcast_floats(1.0F);
+    const Vec<Floats> ab = at(ab_, i), ac = at(ac_, i), ap = p - at(a_, i);
+    const Floats ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
+    const Floats w = clamped(dot(at(across_, i), ap) * broadcast_floats(per_across_[i]), one);
+    const Floats v = clamped((ab_ap - w * broadcast_floats(ab_ac_[i])) * broadcast_floats(per_ab_[i]), one - w);
+    Vec<Floats> best = (ap - v * ab) - w * ac;
+    Floats squared = squared_length(best);
+    keep_nearer(best, squared, ap - clamped(ac_ap * broadcast_floats(per_ac_[i]), one) * ac);
+    const Floats along_bc = (ac_ap - ab_ap - broadcast_floats(bc_ab_[i])) * broadcast_floats(per_bc_[i]);
     keep_nearer(best, squared, (ap - ab) - clamped(along_bc, one) * at(bc_, i));
-    const Float8 at_a = dot(best, ap);
+    const Floats at_a = dot(best, ap);
     return {squared, minimum(at_a, minimum(at_a - dot(best, ab), at_a - dot(best, ac)))};
   }
 
  private:
-  static Float8 reciprocal(const Float8& x) { return x > 0.0F ? 1.0F / (x > 0.0F ? x : broadcast8(1.0F)) : Float8{}; }
-  static Float8 clamped(const Float8& x, const Float8& max) { return maximum(minimum(x, max), Float8{}); }
-  static void keep_nearer(Vec<Float8>& best, Float8& squared, const Vec<Float8>& offset) {
-    const Float8 other = squared_length(offset);
-    const Mask8 nearer = other < squared;
+  static Floats reciprocal(const Floats& x) { return x > 0.0F ? 1.0F / (x > 0.0F ? x : broadcast_floats(1.0F)) : Floats{}; }
+  static Floats clamped(const Floats& x, const Floats& max) { return maximum(minimum(x, max), Floats{}); }
+  static void keep_nearer(Vec<Floats>& best, Floats& squared, const Vec<Floats>& offset) {
+    const Floats other = squared_length(offset);
+    const FloatsMask nearer = other < squared;
     best.x = nearer ? offset.x : best.x;
     best.y = nearer ? offset.y : best.y;
     best.z = nearer ? offset.z : best.z;
     squared = minimum(squared, other);
   }
-  [[nodiscard]] static Vec<Float8> at(const Vec<Float8>& of_triangles, std::size_t i) {
-    return {broadcast8(of_triangles.x[i]), broadcast8(of_triangles.y[i]), broadcast8(of_triangles.z[i])};
+  [[nodiscard]] static Vec<Floats> at(const Vec<Floats>& of_triangles, std::size_t i) {
+    return {broadcast_floats(of_triangles.x[i]), broadcast_floats(of_triangles.y[i]), broadcast_floats(of_triangles.z[i])};
   }
 
-  Vec<Float8> a_, ab_, ac_, bc_, lo_, hi_, across_;
-  Float8 per_ab_, ab_ac_, bc_ab_, per_ac_, per_bc_, per_across_;
+  Vec<Floats> a_, ab_, ac_, bc_, lo_, hi_, across_;
+  Floats per_ab_, ab_ac_, bc_ab_, per_ac_, per_bc_, per_across_;
 };
 
 }  // namespace MESHBOUND_ISA

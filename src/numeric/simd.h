@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Short vectors by the compiler's vector extension: one source for AVX2 and for any other machine.
+/// Short vectors by the compiler's vector extension: one source for AVX2, AVX-512 and any other machine.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 #include "numeric/isa.h"
@@ -73,6 +74,52 @@ inline Float8 square_root(Float8 a) {
 #endif
 }
 
+#if defined(__AVX512F__)
+using Double8 = double __attribute__((vector_size(64)));
+using Float16 = float __attribute__((vector_size(64)));
+
+inline Double8 select(decltype(Double8{} < Double8{}) mask, Double8 yes, Double8 no) { return mask ? yes : no; }
+inline Double8 maximum(Double8 a, Double8 b) { return _mm512_max_pd(a, b); }
+inline Double8 minimum(Double8 a, Double8 b) { return _mm512_min_pd(a, b); }
+inline Float16 maximum(Float16 a, Float16 b) { return _mm512_max_ps(a, b); }
+inline Float16 minimum(Float16 a, Float16 b) { return _mm512_min_ps(a, b); }
+inline Float16 square_root(Float16 a) { return _mm512_sqrt_ps(a); }
+
+using Doubles = Double8;
+using Floats = Float16;
+#else
+using Doubles = Double4;
+using Floats = Float8;
+#endif
+/// `Doubles` and `Floats`: as wide as the machine's vectors.
+inline constexpr std::size_t doubles_width = sizeof(Doubles) / sizeof(double),
+                             floats_width = sizeof(Floats) / sizeof(float);
+using DoublesMask = decltype(Doubles{} < Doubles{});
+using FloatsMask = decltype(Floats{} < Floats{});
+
+inline Doubles broadcast_doubles(double x) { return x - Doubles{}; }  // not +, for -0
+inline Floats broadcast_floats(float x) { return x - Floats{}; }
+
+/// The largest and the smallest lane.
+inline float largest_lane(Floats a) {
+#if defined(__AVX512F__)
+  return _mm512_reduce_max_ps(a);
+#else
+  float most = a[0];
+  for (std::size_t i = 1; i < floats_width; ++i) most = most < a[i] ? a[i] : most;
+  return most;
+#endif
+}
+
+inline double smallest_lane(Doubles a) {
+#if defined(__AVX512F__)
+  return _mm512_reduce_min_pd(a);
+#else
+  const double low = a[0] < a[1] ? a[0] : a[1], high = a[2] < a[3] ? a[2] : a[3];
+  return low < high ? low : high;
+#endif
+}
+
 inline double horizontal_maximum(Double4 a) {
   const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
   return low > high ? low : high;
@@ -98,6 +145,16 @@ inline unsigned lane_bits(Mask4 mask) {
   return bits;
 #endif
 }
+
+#if defined(__AVX512F__)
+inline unsigned lane_bits(decltype(Float16{} < Float16{}) mask) {
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask));
+}
+
+inline unsigned lane_bits(decltype(Double8{} < Double8{}) mask) {
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
+}
+#endif
 
 /// The mask whose lane i is set where bit i is.
 inline Mask4 mask_of_lanes(unsigned bits) { return (Mask4{1, 2, 4, 8} & static_cast<std::int64_t>(bits)) != 0; }

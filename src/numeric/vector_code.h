@@ -7,6 +7,9 @@ namespace meshbound {
 /// off.
 [[nodiscard]] bool uses_avx2();
 
+/// Likewise for AVX-512 (F, DQ, VL and BW).
+[[nodiscard]] bool uses_avx512();
+
 namespace internal {
 
 /// For tests that compare whole runs, and nothing else: true allows portable kernels only. Kernels that were chosen

@@ -33,15 +33,17 @@ inline namespace MESHBOUND_ISA {
 /// By how many times `PointRoundings::primal` the limit of a query exceeds its distance.
 inline constexpr double group_margin = 4;
 
-/// Eight numbers rounded to nearest.
-inline Float8 to_float(const Double4& low, const Double4& high) {
-#if defined(__AVX2__)
+/// Numbers rounded to nearest.
+inline Floats to_floats(const Doubles& low, const Doubles& high) {
+#if defined(__AVX512F__)
+  return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low)), _mm512_cvtpd_ps(high), 1);
+#elif defined(__AVX2__)
   return _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low));
 #else
-  Float8 all;
-  for (int i = 0; i < 4; ++i) {
+  Floats all;
+  for (std::size_t i = 0; i < doubles_width; ++i) {
     all[i] = static_cast<float>(low[i]);
-    all[i + 4] = static_cast<float>(high[i]);
+    all[i + doubles_width] = static_cast<float>(high[i]);
   }
   return all;
 #endif
@@ -52,8 +54,8 @@ class GroupSearch {
   GroupSearch(const Bvh::Data& data, std::span<const GroupQuery> queries)
       : data_(data), queries_(queries), all_queries_((1U << queries.size()) - 1), box_(box_of(queries)) {
     centre_ = 0.5 * (box_.lo + box_.hi);
-    Vec<Float8> global;
-    for (std::size_t i = 0; i < group_width; ++i) {
+    Vec<Floats> global;
+    for (std::size_t i = 0; i < floats_width; ++i) {
       const Vec3& p = queries_[std::min(i, queries_.size() - 1)].point;
       const Vec3 around = p - centre_;
       local_.x[i] = static_cast<float>(around.x);
@@ -63,8 +65,8 @@ class GroupSearch {
       global.y[i] = static_cast<float>(p.y);
       global.z[i] = static_cast<float>(p.z);
     }
-    const auto step = [](const Float8& x) { return maximum(x, -x) * 0x1p-23F + std::numeric_limits<float>::min(); };
-    const Vec<Float8> steps{step(global.x), step(global.y), step(global.z)};
+    const auto step = [](const Floats& x) { return maximum(x, -x) * 0x1p-23F + std::numeric_limits<float>::min(); };
+    const Vec<Floats> steps{step(global.x), step(global.y), step(global.z)};
     lo_ = global - steps;
     hi_ = global + steps;
     error_ = magnitude(local_) * float_error + min_float_error;
@@ -74,7 +76,7 @@ class GroupSearch {
   bool run(std::uint32_t hint, std::span<PointDistance> answers) {
     measure_start(hint);
     Level levels[2];
-    const float limit = prune_limit(square(largest(limit_)));
+    const float limit = prune_limit(square(largest_lane(limit_)));
     const Level* const blocks = blocks_within(data_, FloatQuery(box_.lo, box_.hi), limit, levels);
     if (blocks == nullptr) return false;
     measure_near(*blocks);
@@ -86,7 +88,13 @@ class GroupSearch {
 
  private:
   /// Beyond these a group takes longer than its queries one by one. Beside a scan it has 9 pairs and 40 triangles.
-  static constexpr std::uint32_t max_pairs = 16 * group_width, max_triangles = 192;
+  static constexpr std::uint32_t max_pairs = 16 * floats_width, max_triangles = 24 * floats_width;
+
+  static constexpr std::uint32_t blocks_at_once = floats_width / block_width;
+  using FloatSlots = std::array<std::uint32_t, floats_width>;
+
+  /// One of so many queries walks over the surface: each step waits for the one before it.
+  static constexpr std::size_t queries_per_start = 3;
 
   /// A triangle, seen from all queries.
   struct Measured {
@@ -104,12 +112,7 @@ class GroupSearch {
   };
 
   static double square(double x) { return x * x; }
-  static float largest(const Float8& x) {
-    float most = x[0];
-    for (int i = 1; i < 8; ++i) most = std::max(most, x[i]);
-    return most;
-  }
-  static Float8 magnitude(const Vec<Float8>& v) {
+  static Floats magnitude(const Vec<Floats>& v) {
     return maximum(maximum(v.x, -v.x), maximum(maximum(v.y, -v.y), maximum(v.z, -v.z)));
   }
   static Box box_of(std::span<const GroupQuery> queries) {
@@ -124,8 +127,9 @@ class GroupSearch {
   /// First limits: by the blocks that a walk over the surface leads each query to.
   void measure_start(std::uint32_t slot) {
     Level blocks;
-    for (const GroupQuery& query : queries_) {
-      slot = step_over(data_, query.point, slot);
+    if (slot == no_slot) slot = block_by_boxes(data_, FloatQuery(queries_[0].point)) * block_width;
+    for (std::size_t i = 0; i < queries_.size(); i += queries_per_start) {
+      slot = step_over(data_, queries_[i].point, slot);
       const std::uint32_t block = slot / block_width;
       const std::uint32_t is_new = is_measured(block) ? 0 : 1;
       start_[blocks.count] = static_cast<std::int32_t>(block);
@@ -140,19 +144,19 @@ class GroupSearch {
   }
 
   /// Whether the box of a block is within the limit of any query (`prune_limit` says why limits are this much larger).
-  [[nodiscard]] bool is_near(std::uint32_t block, const Float8& limit_squared) const {
+  [[nodiscard]] bool is_near(std::uint32_t block, const Floats& limit_squared) const {
     const BvhNode& node = data_.nodes[data_.level_begin[1] + block / node_width];
     const std::uint32_t child = block % node_width;
-    const auto outside = [&](std::size_t axis, const Float8& lo, const Float8& hi) {
-      return maximum(maximum(broadcast8(node.lo[axis][child]) - hi, lo - broadcast8(node.hi[axis][child])), Float8{});
+    const auto outside = [&](std::size_t axis, const Floats& lo, const Floats& hi) {
+      return maximum(maximum(broadcast_floats(node.lo[axis][child]) - hi, lo - broadcast_floats(node.hi[axis][child])), Floats{});
     };
-    const Vec<Float8> apart{outside(0, lo_.x, hi_.x), outside(1, lo_.y, hi_.y), outside(2, lo_.z, hi_.z)};
+    const Vec<Floats> apart{outside(0, lo_.x, hi_.x), outside(1, lo_.y, hi_.y), outside(2, lo_.z, hi_.z)};
     return lane_bits(squared_length(apart) < limit_squared) != 0;
   }
 
   /// Measures those of the blocks that are within the limit of any query.
   void measure_near(const Level& blocks) {
-    const Float8 limit_squared = limit_ * limit_ * (1 + 0x1p-19F) + std::numeric_limits<float>::min();
+    const Floats limit_squared = limit_ * limit_ * (1 + 0x1p-19F) + std::numeric_limits<float>::min();
     Level near;
     for (std::uint32_t i = 0; i < blocks.count; ++i) {
       near.index[near.count] = blocks.index[i];
@@ -161,29 +165,33 @@ class GroupSearch {
     measure(near);
   }
 
-  /// Measures blocks, two at a time.
+  /// Measures blocks, as many at a time as fill the lanes.
   void measure(const Level& blocks) {
-    std::uint32_t i = 0;
-    for (; i + 1 < blocks.count; i += 2) measure_blocks(blocks.index[i], blocks.index[i + 1], 0xff);
-    if (i < blocks.count) measure_blocks(blocks.index[i], blocks.index[i], 0x0f);
+    FloatSlots slots;
+    for (std::uint32_t i = 0; i < blocks.count; i += blocks_at_once) {
+      for (std::uint32_t k = 0; k < blocks_at_once; ++k) {
+        const auto block = slots_of_block(data_, blocks.index[std::min(i + k, blocks.count - 1)]);
+        std::copy(block.begin(), block.end(), &slots[k * block_width]);
+      }
+      const std::uint32_t used = std::min(blocks.count - i, blocks_at_once) * block_width;
+      measure_triangles(slots, (1U << used) - 1);
+    }
   }
 
-  /// Corner k of the triangles of two blocks, from the centre.
-  [[nodiscard]] Vec<Float8> corners(const std::array<std::uint32_t, block_width>& s,
-                                    const std::array<std::uint32_t, block_width>& t, std::size_t k) const {
-    const Vec<Double4> centre = broadcast4(centre_);
-    const auto at = [&](std::uint32_t slot) -> const Vec3& { return data_.vertices[data_.corners[slot][k]]; };
-    const Vec<Double4> low = gather4(at(s[0]), at(s[1]), at(s[2]), at(s[3])) - centre,
-                       high = gather4(at(t[0]), at(t[1]), at(t[2]), at(t[3])) - centre;
-    return {to_float(low.x, high.x), to_float(low.y, high.y), to_float(low.z, high.z)};
+  /// Corner k of the triangles, from the centre.
+  [[nodiscard]] Vec<Floats> corners(const FloatSlots& slots, std::size_t k) const {
+    const Vec<Doubles> centre = broadcast_doubles(centre_);
+    const auto at = [&](std::size_t i) -> const Vec3& { return data_.vertices[data_.corners[slots[i]][k]]; };
+    const Vec<Doubles> low = gather(at) - centre,
+                       high = gather([&](std::size_t i) -> const Vec3& { return at(i + doubles_width); }) - centre;
+    return {to_floats(low.x, high.x), to_floats(low.y, high.y), to_floats(low.z, high.z)};
   }
 
-  /// Measures the triangles of two blocks whose boxes are within the limit of any query, and lowers the limits.
-  void measure_blocks(std::uint32_t first, std::uint32_t second, unsigned used) {
-    const auto s = slots_of_block(data_, first), t = slots_of_block(data_, second);
-    const FloatTriangles triangles(corners(s, t, 0), corners(s, t, 1), corners(s, t, 2));
-    error_ = maximum(error_, broadcast8(largest(triangles.magnitude())) * float_error);
-    const Float8 within = limit_ + error_, within_squared = within * within;
+  /// Measures the triangles whose boxes are within the limit of any query, and lowers the limits.
+  void measure_triangles(const FloatSlots& slots, unsigned used) {
+    const FloatTriangles triangles(corners(slots, 0), corners(slots, 1), corners(slots, 2));
+    error_ = maximum(error_, broadcast_floats(largest_lane(triangles.magnitude())) * float_error);
+    const Floats within = limit_ + error_, within_squared = within * within;
     unsigned near = 0;
     for (std::size_t i = 0; i < FloatTriangles::width; ++i)
       near |= (lane_bits(triangles.box_squared(i, local_) < within_squared) != 0 ? 1U : 0U) << i;
@@ -191,7 +199,7 @@ class GroupSearch {
       const auto i = static_cast<std::size_t>(std::countr_zero(near));
       Measured& measured = measured_[measured_count_];
       measured.offset = triangles.offset(i, local_);
-      measured.slot = i < block_width ? s[i] : t[i - block_width];
+      measured.slot = slots[i];
       squared_ = minimum(squared_, measured.offset.squared);
       measured_count_ = std::min(measured_count_ + 1, max_triangles);
     }
@@ -201,7 +209,7 @@ class GroupSearch {
   /// The pairs that single precision does not tell to be beyond the limit. False where there are too many.
   bool collect_pairs() {
     if (measured_count_ == max_triangles) return false;
-    const Float8 limit_and_error = limit_ + error_;
+    const Floats limit_and_error = limit_ + error_;
     for (std::uint32_t i = 0; i < measured_count_; ++i) {
       const Measured& measured = measured_[i];
       for (unsigned near = ~lane_bits(measured.offset.is_beyond(limit_and_error)) & all_queries_; near != 0;
@@ -215,24 +223,27 @@ class GroupSearch {
 
   void test_pairs() {
     const std::uint32_t last = pair_count_ - 1;
-    for (std::uint32_t i = 0; i < pair_count_; i += block_width) {
-      const Pair &a = pairs_[i], &b = pairs_[std::min(i + 1, last)], &c = pairs_[std::min(i + 2, last)],
-                 &d = pairs_[std::min(i + 3, last)];
-      const CornerTriangle<Double4> t = triangles_at(data_, {a.slot, b.slot, c.slot, d.slot});
-      const Vec<Double4> p =
-          gather4(queries_[a.query].point, queries_[b.query].point, queries_[c.query].point, queries_[d.query].point);
-      const TriangleOffset<Double4> to = closest_on_triangle(t, p);
-      const Double4 separated = separation_squared(t, p, to);
-      int lane = 0;
-      for (const Pair* const pair : {&a, &b, &c, &d}) {
-        Best& best = best_[pair->query];
+    for (std::uint32_t i = 0; i < pair_count_; i += doubles_width) {
+      std::array<Pair, doubles_width> together;
+      Slots slots;
+      for (std::uint32_t lane = 0; lane < doubles_width; ++lane) {
+        together[lane] = pairs_[std::min(i + lane, last)];
+        slots[lane] = together[lane].slot;
+      }
+      const CornerTriangle<Doubles> t = triangles_at(data_, slots);
+      const Vec<Doubles> p =
+          gather([&](std::size_t lane) -> const Vec3& { return queries_[together[lane].query].point; });
+      const TriangleOffset<Doubles> to = closest_on_triangle(t, p);
+      const Doubles separated = separation_squared(t, p, to);
+      for (std::size_t lane = 0; lane < doubles_width; ++lane) {
+        const auto& [slot, query] = together[lane];
+        Best& best = best_[query];
         const double squared = to.squared_distance[lane];
         best.separated_squared = std::min(best.separated_squared, separated[lane]);
-        if (squared < best.nearest.squared || (squared == best.nearest.squared && pair->slot < best.nearest.slot)) {
-          best.nearest = {squared, pair->slot};
+        if (squared < best.nearest.squared || (squared == best.nearest.squared && slot < best.nearest.slot)) {
+          best.nearest = {squared, slot};
           best.offset = {to.offset.x[lane], to.offset.y[lane], to.offset.z[lane]};
         }
-        ++lane;
       }
     }
   }
@@ -253,16 +264,16 @@ class GroupSearch {
   unsigned all_queries_;
   Box box_;  ///< of the queries
   Vec3 centre_;
-  Vec<Float8> local_;    ///< the queries, from the centre
-  Vec<Float8> lo_, hi_;  ///< the queries in the working frame, as intervals
-  Float8 error_;         ///< `float_error` for the coordinates seen so far
-  Float8 squared_ = broadcast8(std::numeric_limits<float>::infinity());  ///< the least of those measured
-  Float8 limit_ = broadcast8(std::numeric_limits<float>::infinity());    ///< no triangle further away is of interest
-  Mask8 start_ = Mask8{} - 1;                                            ///< the blocks that the walks led to
+  Vec<Floats> local_;    ///< the queries, from the centre
+  Vec<Floats> lo_, hi_;  ///< the queries in the working frame, as intervals
+  Floats error_;         ///< `float_error` for the coordinates seen so far
+  Floats squared_ = broadcast_floats(std::numeric_limits<float>::infinity());  ///< the least of those measured
+  Floats limit_ = broadcast_floats(std::numeric_limits<float>::infinity());    ///< no triangle further away is of interest
+  FloatsMask start_ = FloatsMask{} - 1;                                            ///< the blocks that the walks led to
   std::uint32_t measured_count_ = 0, pair_count_ = 0;
   std::array<Measured, max_triangles + 1> measured_;
   std::array<Pair, max_pairs> pairs_;
-  std::array<Best, group_width> best_;
+  std::array<Best, floats_width> best_;
 };
 
 inline bool measure_group(const Bvh::Data& data, std::span<const GroupQuery> queries, std::uint32_t hint,

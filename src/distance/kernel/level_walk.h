@@ -50,7 +50,7 @@ inline std::uint32_t block_by_boxes(const Bvh::Data& data, const FloatQuery& que
 
 /// Nodes or blocks of one level, at most `capacity` of them; room for a whole node behind them.
 struct Level {
-  static constexpr std::uint32_t capacity = 64;  ///< a warm start leaves five of them, for a group of queries twenty
+  static constexpr std::uint32_t capacity = 128;  ///< a warm start leaves five of them, for a group of queries twenty
   std::uint32_t count = 0;
   std::uint32_t index[capacity + node_width];
 };

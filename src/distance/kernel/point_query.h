@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
@@ -29,17 +30,17 @@ struct PointRoundings {
 using MeasurePoint = PointDistance (*)(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,
                                        std::uint32_t hint);
 
-/// Queries that are measured together.
-inline constexpr std::size_t group_width = 8;
+/// The most queries that any kernel measures together.
+inline constexpr std::size_t max_group_width = 16;
 
 struct GroupQuery {
   Vec3 point;
   PointRoundings roundings;
 };
 
-/// `MeasurePoint` for up to `group_width` queries (at least one) at once, with the same answers to the last bit. Fast
+/// `MeasurePoint` for up to `PointKernel::group_width` queries (at least one) at once, with the same answers to the last bit. Fast
 /// where they are near one another beside their distances or the triangles; false, and no answer, where so many
-/// triangles are near that they are asked sooner one by one. `hint`: a slot near the group.
+/// triangles are near that they are asked sooner one by one. `hint`: a slot near the group, or `no_slot`.
 using MeasureGroup = bool (*)(const Bvh::Data& data, std::span<const GroupQuery> queries, std::uint32_t hint,
                               std::span<PointDistance> answers);
 
@@ -47,10 +48,13 @@ using MeasureGroup = bool (*)(const Bvh::Data& data, std::span<const GroupQuery>
 struct PointKernel {
   MeasurePoint one;
   MeasureGroup group;
+  std::size_t group_width;
 };
 
-/// The fastest implementation that this machine runs, and the one that any machine runs. Both give the same bits.
+/// The fastest implementation that this machine runs.
 PointKernel point_kernel();
-PointKernel portable_point_kernel();
+
+/// All that this machine runs. They give the same bits.
+std::vector<PointKernel> point_kernels();
 
 }  // namespace meshbound

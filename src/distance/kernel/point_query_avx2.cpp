@@ -4,6 +4,6 @@
 
 namespace meshbound {
 
-PointKernel avx2_point_kernel() { return {measure_point, measure_group}; }
+PointKernel avx2_point_kernel() { return {measure_point, measure_group, floats_width}; }
 
 }  // namespace meshbound

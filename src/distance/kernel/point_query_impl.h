@@ -66,11 +66,24 @@ inline Double4 squared_triangle_box_distances(const Bvh::Data& data, std::uint32
 }
 
 /// The quotient m^2 / o.o of the file's comment, 0 where m is not positive.
-inline Double4 separation_squared(const CornerTriangle<Double4>& t, const Vec<Double4>& p,
-                                  const TriangleOffset<Double4>& to) {
-  const Vec<Double4> ap = p - t.a;
-  const Double4 along = minimum(dot(to.offset, ap), minimum(dot(to.offset, ap - t.ab), dot(to.offset, ap - t.ac)));
-  return select(along > 0.0, along * along / to.squared_distance, Double4{});
+template <class Lanes>
+[[gnu::always_inline]] inline Lanes separation_squared(const CornerTriangle<Lanes>& t, const Vec<Lanes>& p, const TriangleOffset<Lanes>& to) {
+  const Vec<Lanes> ap = p - t.a;
+  const Lanes along = minimum(dot(to.offset, ap), minimum(dot(to.offset, ap - t.ab), dot(to.offset, ap - t.ac)));
+  return select(along > 0.0, along * along / to.squared_distance, Lanes{});
+}
+
+/// Triangles that are tested together.
+using Slots = std::array<std::uint32_t, doubles_width>;
+
+inline DoublesMask lanes_of(const Slots& slots) {
+  DoublesMask lanes;
+  for (std::size_t i = 0; i < doubles_width; ++i) lanes[i] = slots[i];
+  return lanes;
+}
+
+inline Vec<Doubles> broadcast_doubles(const Vec3& v) {
+  return {broadcast_doubles(v.x), broadcast_doubles(v.y), broadcast_doubles(v.z)};
 }
 
 class PointSearch {
@@ -79,17 +92,16 @@ class PointSearch {
       : data_(data),
         p_(p),
         coordinates_(coordinates(p)),
-        lanes_(broadcast4(p)),
+        lanes_(broadcast_doubles(p)),
         box_(p),
         roundings_(roundings),
-        last_slot_(static_cast<std::int64_t>(data.triangle_count()) - 1) {}
+        last_slot_(data.triangle_count() - 1) {}
 
   PointDistance run(std::uint32_t hint) {
-    first_block_ = hint == no_slot ? block_by_boxes(data_, box_) : step_over(data_, p_, hint) / block_width;
-    test_block(first_block_);
+    test_first(hint == no_slot ? block_by_boxes(data_, box_) * block_width : step_over(data_, p_, hint));
     update_limit();
     if (!walk_by_levels()) {
-      test_block(block_by_boxes(data_, box_));
+      test_first(block_by_boxes(data_, box_) * block_width);
       update_limit();
       if (!walk_by_levels()) walk_near();
     }
@@ -98,8 +110,7 @@ class PointSearch {
     found.nearest = {best_.squared_distance[lane], static_cast<std::uint32_t>(slots_[lane])};
     found.offset = {best_.offset.x[lane], best_.offset.y[lane], best_.offset.z[lane]};
     const double wanted = std::max(0.0, std::sqrt(found.nearest.squared) - roundings_.allowed);
-    const Mask4 is_separated = separated_squared_ >= broadcast4(wanted * wanted);
-    const bool separated = lane_bits(is_separated) == all_lanes;
+    const bool separated = smallest_lane(separated_squared_) >= wanted * wanted;
     found.separated = wanted > 0 && !separated ? separated_within_limit(wanted) : wanted;
     return found;
   }
@@ -111,26 +122,28 @@ class PointSearch {
   }
 
  private:
-  static constexpr unsigned all_lanes = 15;
-
-  void update_limit() {
-    const Double4& s = best_.squared_distance;
-    limit_ = limit_of(std::min(std::min(s[0], s[1]), std::min(s[2], s[3])));
-  }
+  void update_limit() { limit_ = limit_of(smallest_lane(best_.squared_distance)); }
 
   [[nodiscard]] float limit_of(double squared) const {
     const double reach = std::sqrt(squared) + roundings_.primal;
     return prune_limit(reach * reach);
   }
 
-  void test_block(std::uint32_t block) { test(slots_of_block(data_, block)); }
+  /// Tests a triangle and its neighbours in memory.
+  void test_first(std::uint32_t slot) {
+    first_ = slot / doubles_width;
+    Slots slots;
+    for (std::size_t i = 0; i < doubles_width; ++i)
+      slots[i] = std::min(static_cast<std::uint32_t>(first_ * doubles_width + i), last_slot_);
+    test(slots);
+  }
 
-  void test(const std::array<std::uint32_t, block_width>& triangles) {
-    const CornerTriangle<Double4> t = triangles_at(data_, triangles);
-    const TriangleOffset<Double4> to = closest_on_triangle(t, lanes_);
+  [[gnu::always_inline]] void test(const Slots& triangles) {
+    const CornerTriangle<Doubles> t = triangles_at(data_, triangles);
+    const TriangleOffset<Doubles> to = closest_on_triangle(t, lanes_);
     separated_squared_ = minimum(separated_squared_, separation_squared(t, lanes_, to));
-    const Mask4 slots{triangles[0], triangles[1], triangles[2], triangles[3]};
-    const Mask4 nearer = (to.squared_distance < best_.squared_distance) |
+    const DoublesMask slots = lanes_of(triangles);
+    const DoublesMask nearer = (to.squared_distance < best_.squared_distance) |
                          ((to.squared_distance == best_.squared_distance) & (slots < slots_));
     best_.squared_distance = select(nearer, to.squared_distance, best_.squared_distance);
     best_.offset.x = select(nearer, to.offset.x, best_.offset.x);
@@ -141,7 +154,7 @@ class PointSearch {
 
   [[nodiscard]] int best_lane() const {
     int best = 0;
-    for (int lane = 1; lane < static_cast<int>(block_width); ++lane) {
+    for (int lane = 1; lane < static_cast<int>(doubles_width); ++lane) {
       const double least = best_.squared_distance[best], squared = best_.squared_distance[lane];
       if (squared < least || (squared == least && slots_[lane] < slots_[best])) best = lane;
     }
@@ -170,17 +183,20 @@ class PointSearch {
       const unsigned hits = lanes_within_limit(blocks.index[i]);
       const Mask8 slot = lanes_of(hits) + static_cast<std::int32_t>(blocks.index[i] * block_width);
       std::memcpy(&slots[count], &slot, sizeof slot);
-      if (blocks.index[i] != first_block_) count += static_cast<std::uint32_t>(std::popcount(hits));
+      if (blocks.index[i] * block_width / doubles_width != first_) count += static_cast<std::uint32_t>(std::popcount(hits));
     }
-    const std::uint32_t last = count - 1, last_slot = data_.triangle_count() - 1;
-    const auto slot = [&](std::uint32_t i) { return std::min(slots[std::min(i, last)], last_slot); };
-    for (std::uint32_t i = 0; i < count; i += block_width) test({slot(i), slot(i + 1), slot(i + 2), slot(i + 3)});
+    for (std::uint32_t i = 0; i < count; i += doubles_width) {
+      Slots together;
+      for (std::uint32_t k = 0; k < doubles_width; ++k)
+        together[k] = std::min(slots[std::min(i + k, count - 1)], last_slot_);
+      test(together);
+    }
   }
 
   void walk_near() {
     QueryCounters counters;
     visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
-      test_block(block);
+      test_first(block * block_width);
       update_limit();
       return limit_;
     });
@@ -190,13 +206,14 @@ class PointSearch {
   double separated_within_limit(double wanted) const {
     QueryCounters counters;
     double least = wanted;
+    const Vec<Double4> p = broadcast4(p_);
     visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
       const CornerTriangle<Double4> t = triangles_of_block(data_, block);
-      const Double4 squared = separation_squared(t, lanes_, closest_on_triangle(t, lanes_));
+      const Double4 squared = separation_squared(t, p, closest_on_triangle(t, p));
       const Mask4 passes = squared >= broadcast4(wanted * wanted);
       for (unsigned fails = ~lane_bits(passes) & lanes_within_limit(block); fails != 0; fails &= fails - 1) {
-        const std::int64_t slot = std::int64_t{block} * block_width + std::countr_zero(fails);
-        const auto triangle = triangle_at(data_, static_cast<std::uint32_t>(std::min(slot, last_slot_)));
+        const std::uint32_t slot = block * block_width + static_cast<std::uint32_t>(std::countr_zero(fails));
+        const auto triangle = triangle_at(data_, std::min(slot, last_slot_));
         least = std::min(least, best_separation(triangle, p_, wanted));
       }
       return limit_;
@@ -207,16 +224,16 @@ class PointSearch {
   const Bvh::Data& data_;
   Vec3 p_;
   Double4 coordinates_;  ///< of the query
-  Vec<Double4> lanes_;   ///< the query, in each lane
+  Vec<Doubles> lanes_;   ///< the query, in each lane
   FloatQuery box_;       ///< the query, as a box of floats
   PointRoundings roundings_;
-  std::int64_t last_slot_;
-  std::uint32_t first_block_ = 0;
+  std::uint32_t last_slot_;
+  std::uint32_t first_ = 0;  ///< which of the runs of `doubles_width` slots `test_first` tested
   float limit_ = 0;  ///< squared
   // In each lane, the best of that lane's triangles in all blocks tested.
-  TriangleOffset<Double4> best_{{}, broadcast4(std::numeric_limits<double>::infinity())};
-  Mask4 slots_{};
-  Double4 separated_squared_ = broadcast4(std::numeric_limits<double>::infinity());
+  TriangleOffset<Doubles> best_{{}, broadcast_doubles(std::numeric_limits<double>::infinity())};
+  DoublesMask slots_{};
+  Doubles separated_squared_ = broadcast_doubles(std::numeric_limits<double>::infinity());
 };
 
 inline PointDistance measure_point(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,

@@ -3,6 +3,6 @@
 
 namespace meshbound {
 
-PointKernel portable_point_kernel() { return {measure_point, measure_group}; }
+PointKernel portable_point_kernel() { return {measure_point, measure_group, floats_width}; }
 
 }  // namespace meshbound
