@@ -2,7 +2,9 @@
 #include "meshbound/proximity.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "distance/kernel/search_kernel.h"
 #include "distance/shortcuts/point_like.h"
@@ -12,8 +14,20 @@
 #include "numeric/rounding.h"
 
 namespace meshbound {
+namespace {
+
+/// The least power of two that is at least x >= 1.
+double power_of_two_from(double x) {
+  constexpr std::uint64_t next_exponent = std::uint64_t{1} << 52;
+  const auto bits = std::bit_cast<std::uint64_t>(x), mantissa = bits % next_exponent;
+  return std::bit_cast<double>(bits - mantissa + (mantissa != 0 ? next_exponent : 0));
+}
+
+}  // namespace
+
 struct Proximity::Impl {
-  explicit Impl(const Bvh& model) : bvh(model), data(model.data()), slot_of_triangle(data.triangle_count()) {
+  explicit Impl(const Bvh& model)
+      : bvh(model), data(model.data()), map(data.frame), slot_of_triangle(data.triangle_count()) {
     for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
       slot_of_triangle[data.triangle_of_slot[slot]] = slot;
   }
@@ -23,9 +37,9 @@ struct Proximity::Impl {
     if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_coordinate)
       throw InvalidInput("a query point has a coordinate that is not finite or is beyond 2^1000");
     const Vec3 model{point.x(), point.y(), point.z()};
-    const Vec3 working = data.frame.to_working(model);
+    const Vec3 working = map(model);
     magnitude = std::max(magnitude, largest_magnitude_of(working));
-    error = std::max(error, data.frame.rounding_of(model));
+    error = std::max(error, map.rounding_of(model));
     return working;
   }
 
@@ -33,9 +47,9 @@ struct Proximity::Impl {
   SearchKernel& kernel_for(double tolerance, double magnitude, double error) {
     Goal goal;
     goal.decide_only = true;
-    goal.tolerance = data.frame.working_length_down(tolerance);
+    goal.tolerance = map.working_length_down(tolerance);
     // Powers of two, so that neighbouring triangles share one goal.
-    set_slack(goal, std::exp2(std::ceil(std::log2(magnitude))), data.frame.error + error);
+    set_slack(goal, power_of_two_from(magnitude), data.frame.error + error);
     if (!kernel || goal.tolerance != current.tolerance || goal.slack != current.slack) {
       kernel = make_search_kernel(data, goal);
       current = goal;
@@ -46,6 +60,7 @@ struct Proximity::Impl {
 
   const Bvh& bvh;
   const Bvh::Data& data;
+  FrameMap map;
   std::vector<std::uint32_t> slot_of_triangle;
   std::unique_ptr<SearchKernel> kernel;
   Goal current;
@@ -87,14 +102,14 @@ double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hi
   double magnitude = 1, error = 0;
   const Vec3 p = impl_->load(point, magnitude, error);
   if (!(magnitude <= max_magnitude)) return closest_point(impl_->bvh, point).distance.upper;
-  SearchKernel& kernel = impl_->kernel_for(impl_->data.frame.length_down(impl_->current.tolerance), magnitude, error);
+  SearchKernel& kernel = impl_->kernel_for(impl_->map.length_down(impl_->current.tolerance), magnitude, error);
   // The slack and the roundings of `proven_upper` are taken off, so that the bound that is returned is at most
   // `enough`.
   const double accepted =
-      std::max(0.0, impl_->data.frame.working_length_down(enough) * (1 - 16 * unit_roundoff) - impl_->current.slack);
+      std::max(0.0, impl_->map.working_length_down(enough) * (1 - 16 * unit_roundoff) - impl_->current.slack);
   const Nearest nearest = kernel.nearest(p, impl_->slot_of_triangle[hint], accepted * accepted);
   hint = impl_->data.triangle_of_slot[nearest.slot];
-  return impl_->data.frame.length_up(impl_->current.proven_upper(nearest.squared, 0));
+  return impl_->map.length_up(impl_->current.proven_upper(nearest.squared, 0));
 }
 
 }  // namespace meshbound

@@ -60,6 +60,10 @@ class FrameMap {
     const double model = unit_ * working;
     return scale_ != 0 && scale_ * model == working ? model : frame_.length_down(working);
   }
+  [[nodiscard]] double working_length_down(double model) const {
+    const double working = scale_ * model;
+    return scale_ != 0 && unit_ * working == model ? working : frame_.working_length_down(model);
+  }
 
  private:
   [[nodiscard]] bool is_exact(double x) const { return x == 0 || std::fabs(x) >= is_exact_from_; }
