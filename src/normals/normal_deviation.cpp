@@ -17,7 +17,7 @@ namespace {
 
 constexpr double tie_share = 1e-9;          ///< of the diagonal of A: distances that differ by less are equal
 constexpr double rounding_share = 0x1p-40;  ///< of the largest coordinate: likewise
-constexpr std::size_t grain = 256;          ///< faces that a thread takes at once
+constexpr std::size_t grain = 1024;         ///< faces that a thread takes at once
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -108,25 +108,50 @@ class StandIns {
   StandIns(const MeshView& a, const MeshView& b, int threads)
       : faces_(b), tree_(faces_.mesh(), {threads}), boxes_(faces_.boxes()), tie_(tie_of(a)) {}
 
-  [[nodiscard]] FaceTurn of(const Corners& corners, const Eigen::Vector3d& normal, std::uint32_t triangle) const {
-    FaceTurn turn;
-    turn.from = {(corners[0] + corners[1] + corners[2]) / 3, triangle};
-    const double reach = closest_point(tree_, turn.from.position).distance.upper + tie_;
+  /// The turns of the faces of A from `begin` to below `end`: of those above the tolerance, of the first that turns
+  /// most, and of some others.
+  [[nodiscard]] std::vector<FaceTurn> of(const MeshView& a, std::size_t begin, std::size_t end,
+                                         double tolerance) const {
+    std::vector<SurfacePoint> middles;
+    std::vector<Eigen::Vector3d> positions, normals;
+    for (std::size_t t = begin; t < end; ++t) {
+      const Corners corners = corners_of(a, t);
+      const auto normal = normal_of(corners);
+      if (!normal) continue;
+      middles.push_back({(corners[0] + corners[1] + corners[2]) / 3, static_cast<std::uint32_t>(t)});
+      positions.push_back(middles.back().position);
+      normals.push_back(*normal);
+    }
+    const std::vector<ClosestPoint> closest = closest_points(tree_, positions, {1});
+    std::vector<FaceTurn> turns;
+    double worst = 0;
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+      // The face that stands for this one turns no more than the one that is found nearest.
+      const double at_most = degrees_between(normals[i], faces_.normal(closest[i].point.triangle));
+      if (at_most < worst && at_most <= tolerance) continue;
+      turns.push_back(turn_of(middles[i], normals[i], closest[i].distance.upper + tie_));
+      worst = std::max(worst, turns.back().degrees);
+    }
+    return turns;
+  }
+
+ private:
+  /// The turn from a face to that of the faces within `reach` of its middle which turns least.
+  [[nodiscard]] FaceTurn turn_of(const SurfacePoint& middle, const Eigen::Vector3d& normal, double reach) const {
+    FaceTurn turn{middle, {}, HUGE_VAL};
     std::vector<std::uint32_t> near;
     const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach);
-    boxes_.find({turn.from.position - around, turn.from.position + around}, near);
-    turn.degrees = HUGE_VAL;
+    boxes_.find({middle.position - around, middle.position + around}, near);
     for (const std::uint32_t f : near) {
-      const Eigen::Vector3d offset = offset_from(faces_.corners(f), turn.from.position);
+      const Eigen::Vector3d offset = offset_from(faces_.corners(f), middle.position);
       const double degrees = degrees_between(normal, faces_.normal(f));
       if (offset.stableNorm() > reach || degrees >= turn.degrees) continue;
       turn.degrees = degrees;
-      turn.nearest = {turn.from.position - offset, faces_.source(f)};
+      turn.nearest = {middle.position - offset, faces_.source(f)};
     }
     return turn;
   }
 
- private:
   Faces faces_;
   Bvh tree_;
   BoxTree boxes_;
@@ -141,24 +166,21 @@ NormalDeviation normal_deviation(const MeshView& a, const MeshView& b, const Nor
   if (options.tolerance && !(*options.tolerance >= 0))
     throw InvalidInput("the normal tolerance must be an angle in degrees, 0 or more");
   const StandIns stand_ins(a, b, options.threads);
-  std::vector<std::optional<FaceTurn>> turns(a.triangle_count());
+  std::vector<std::vector<FaceTurn>> turns(a.triangle_count() / grain + 1);  // by range
   with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
-    for_each_range(turns.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const Corners corners = corners_of(a, t);
-        if (const auto normal = normal_of(corners))
-          turns[t] = stand_ins.of(corners, *normal, static_cast<std::uint32_t>(t));
-      }
+    for_each_range(a.triangle_count(), grain, [&](std::size_t begin, std::size_t end) {
+      turns[begin / grain] = stand_ins.of(a, begin, end, options.tolerance.value_or(180));
     });
   });
   NormalDeviation result;
-  for (const std::optional<FaceTurn>& turn : turns) {
-    if (!turn) continue;
-    if (!result.worst || turn->degrees > result.degrees) {
-      result.degrees = turn->degrees;
-      result.worst = turn;
+  for (const std::vector<FaceTurn>& of_range : turns) {
+    for (const FaceTurn& turn : of_range) {
+      if (!result.worst || turn.degrees > result.degrees) {
+        result.degrees = turn.degrees;
+        result.worst = turn;
+      }
+      if (options.tolerance && turn.degrees > *options.tolerance) result.exceeding.push_back(turn);
     }
-    if (options.tolerance && turn->degrees > *options.tolerance) result.exceeding.push_back(*turn);
   }
   return result;
 }

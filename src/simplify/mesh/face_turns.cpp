@@ -14,11 +14,38 @@ namespace {
 /// Squared distances that differ by less than this share count as equal: the nearest point lies on a common edge.
 constexpr double tie = 1e-9;
 
-double squared_distance(const std::array<Vec3, 3>& t, Vec3 p) {
+double outside(double lo, double hi, double x) { return std::max(std::max(lo - x, x - hi), 0.0); }
+
+}  // namespace
+
+void NearestTriangle::add(const std::array<Vec3, 3>& t) {
+  const auto [low_x, high_x] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
+  const auto [low_z, high_z] = std::minmax({t[0].z, t[1].z, t[2].z});
+  triangles_.push_back({t, {{low_x, low_y, low_z}, {high_x, high_y, high_z}}});
+}
+
+double NearestTriangle::squared_distance(std::size_t i, Vec3 p) const {
+  const std::array<Vec3, 3>& t = triangles_[i].corners;
   return squared_length(closest_on_triangle(CornerTriangle<double>{t[0], t[1] - t[0], t[2] - t[0]}, p).offset);
 }
 
-}  // namespace
+bool NearestTriangle::may_be_within(std::size_t i, Vec3 p, double squared) const {
+  const auto& [lo, hi] = triangles_[i].box;
+  const Vec3 apart{outside(lo.x, hi.x, p.x), outside(lo.y, hi.y, p.y), outside(lo.z, hi.z, p.z)};
+  return squared_length(apart) * (1 - tie) <= squared;
+}
+
+std::size_t NearestTriangle::operator()(Vec3 p) {
+  double least = squared_distance(nearest_, p);
+  const std::size_t first = nearest_;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (i == first || !may_be_within(i, p, least)) continue;
+    const double squared = squared_distance(i, p);
+    if (squared < least || (squared == least && i < nearest_)) least = squared, nearest_ = i;
+  }
+  return nearest_;
+}
 
 FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, double max_degrees)
     : lists(start.face_count()),
@@ -46,16 +73,14 @@ void FaceTurns::give_back(const ArrayMesh& mesh, std::span<const std::uint32_t> 
     lists.for_each(f, [&](std::uint32_t s) { samples.push_back(s); });
     lists.clear(f);
   }
-  for (const std::uint32_t s : samples) {
-    double least = HUGE_VAL;
-    std::uint32_t nearest = no_index;
-    for (const std::uint32_t f : faces) {
-      if (mesh.is_removed(f)) continue;
-      const double squared = squared_distance(mesh.triangle(f), samples_[s].at);
-      if (nearest == no_index || squared < least) least = squared, nearest = f;
-    }
-    lists.give_to(s, nearest);
+  NearestTriangle nearest;
+  std::vector<std::uint32_t> present;
+  for (const std::uint32_t f : faces) {
+    if (mesh.is_removed(f)) continue;
+    nearest.add(mesh.triangle(f));
+    present.push_back(f);
   }
+  for (const std::uint32_t s : samples) lists.give_to(s, present[nearest(samples_[s].at)]);
 }
 
 void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed) {
@@ -70,27 +95,26 @@ void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32
     add_samples(c / 3);
   }
   for (const std::uint32_t f : removed) add_samples(f);
-  squared_.resize(faces_.size());
-}
-
-/// Sets the squared distances of the faces from the sample, and returns the nearest face.
-std::size_t TurnGuard::nearest(const FaceTurns::Sample& sample) {
-  for (std::size_t f = 0; f < faces_.size(); ++f) squared_[f] = squared_distance(faces_[f].corners, sample.at);
-  return static_cast<std::size_t>(std::min_element(squared_.begin(), squared_.end()) - squared_.begin());
 }
 
 bool TurnGuard::turns_little(const FaceTurns::Sample& sample) {
   const auto is_allowed = [&](const Face& face) { return turns_.allows(sample.normal, face.normal); };
   if (std::all_of(faces_.begin(), faces_.end(), is_allowed)) return true;  // whichever is nearest
-  const double least = squared_[nearest(sample)];
+  const std::size_t nearest = nearest_(sample.at);
+  if (is_allowed(faces_[nearest])) return true;
+  const double limit = (1 + tie) * nearest_.squared_distance(nearest, sample.at);
   for (std::size_t f = 0; f < faces_.size(); ++f)
-    if (squared_[f] <= (1 + tie) * least && is_allowed(faces_[f])) return true;
+    if (is_allowed(faces_[f]) && nearest_.may_be_within(f, sample.at, limit) &&
+        nearest_.squared_distance(f, sample.at) <= limit)
+      return true;
   return false;
 }
 
 bool TurnGuard::holds(Vec3 point) {
+  nearest_.clear();
   for (Face& face : faces_) {
     face.corners[0] = point;
+    nearest_.add(face.corners);
     face.normal = turns_.normal(face.number, face.corners);
   }
   return std::all_of(samples_.begin(), samples_.end(), [&](std::uint32_t s) { return turns_little(turns_.sample(s)); });
@@ -99,7 +123,7 @@ bool TurnGuard::holds(Vec3 point) {
 void TurnGuard::give_samples(FaceTurns& turns) {
   for (const Face& face : faces_) turns.lists.clear(face.number);
   for (const std::uint32_t f : removed_) turns.lists.clear(f);
-  for (const std::uint32_t s : samples_) turns.lists.give_to(s, faces_[nearest(turns.sample(s))].number);
+  for (const std::uint32_t s : samples_) turns.lists.give_to(s, faces_[nearest_(turns.sample(s).at)].number);
 }
 
 }  // namespace meshbound

@@ -6,10 +6,34 @@
 #include <span>
 #include <vector>
 
+#include "bvh/bvh_data.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/sample_lists.h"
 
 namespace meshbound {
+
+/// A few triangles, for the nearest one to each of many points. Boxes tell which ones need not be looked at.
+class NearestTriangle {
+ public:
+  void clear() { triangles_.clear(), nearest_ = 0; }
+  void add(const std::array<Vec3, 3>& corners);
+
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
+  [[nodiscard]] double squared_distance(std::size_t i, Vec3 p) const;
+  /// Whether triangle i is not proven to be further from p than that.
+  [[nodiscard]] bool may_be_within(std::size_t i, Vec3 p, double squared) const;
+  /// The nearest triangle to p, the first of several. There must be one. Begins at the one that it found last, so
+  /// points near one another should follow each other.
+  [[nodiscard]] std::size_t operator()(Vec3 p);
+
+ private:
+  struct Boxed {
+    std::array<Vec3, 3> corners;
+    Box box;
+  };
+  std::vector<Boxed> triangles_;
+  std::size_t nearest_ = 0;
+};
 
 /// The centroids of the original's faces with their normals, each assigned to the face of the mesh that it was found
 /// nearest to. They guide decimation and prove nothing. Threads may change what belongs to faces of different regions
@@ -48,7 +72,7 @@ class TurnGuard {
   /// Starts anew with the faces that stay, by the corner that moves, and those that go. O(samples).
   void begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed);
   /// Whether no sample turns too much with the vertex at `point`: the one of the nearest faces that turns least counts.
-  /// O(samples * faces).
+  /// O(samples * faces), most of which are a look at a box.
   [[nodiscard]] bool holds(Vec3 point);
   /// Assigns the samples to the faces that stay, as `holds` has placed them last.
   void give_samples(FaceTurns& turns);
@@ -60,13 +84,12 @@ class TurnGuard {
     std::uint32_t number = 0;
   };
   [[nodiscard]] bool turns_little(const FaceTurns::Sample& sample);
-  [[nodiscard]] std::size_t nearest(const FaceTurns::Sample& sample);
 
   const FaceTurns& turns_;
   const ArrayMesh& mesh_;
   std::vector<Face> faces_;
   std::vector<std::uint32_t> removed_, samples_;
-  std::vector<double> squared_;  ///< by face: squared distance of the sample in work
+  NearestTriangle nearest_;  ///< of the faces
 };
 
 }  // namespace meshbound
