@@ -9,6 +9,7 @@
 
 #include "numeric/no_index.h"
 #include "simplify/cover/face_box.h"
+#include "simplify/mesh/nearest_triangle.h"
 #include "simplify/texture/texture_guard.h"
 
 namespace meshbound {
@@ -148,17 +149,14 @@ class Undoing {
     }
   }
   void give_samples(std::uint32_t number) {
-    for (const std::uint32_t s : samples_) {
-      const Vec3 p = state_.samples.at(s);
-      double min_squared = HUGE_VAL;
-      std::uint32_t best = no_index;
-      for (const EditLog::Stamp& stamp : stamps_of(number)) {
-        if (state_.mesh.is_removed(stamp.face)) continue;
-        const double squared = squared_distance(state_.mesh.triangle(stamp.face), p);
-        if (squared < min_squared) min_squared = squared, best = stamp.face;
-      }
-      state_.samples.give_to(s, best);
+    nearest_.clear();
+    faces_.clear();
+    for (const EditLog::Stamp& stamp : stamps_of(number)) {
+      if (state_.mesh.is_removed(stamp.face)) continue;
+      nearest_.add(state_.mesh.triangle(stamp.face));
+      faces_.push_back(stamp.face);
     }
+    for (const std::uint32_t s : samples_) state_.samples.give_to(s, faces_[nearest_(state_.samples.at(s))]);
   }
 
   void restore_appearance(std::uint32_t number) {
@@ -179,6 +177,7 @@ class Undoing {
   std::priority_queue<std::uint32_t> wanted_;
   std::size_t undone_ = 0;
   std::vector<std::uint32_t> at_fault_, changed_, samples_, faces_;
+  NearestTriangle nearest_;
 };
 
 /// The face nearest to a vertex of the original.

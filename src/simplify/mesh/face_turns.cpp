@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -14,38 +13,7 @@ namespace {
 /// Squared distances that differ by less than this share count as equal: the nearest point lies on a common edge.
 constexpr double tie = 1e-9;
 
-double outside(double lo, double hi, double x) { return std::max(std::max(lo - x, x - hi), 0.0); }
-
 }  // namespace
-
-void NearestTriangle::add(const std::array<Vec3, 3>& t) {
-  const auto [low_x, high_x] = std::minmax({t[0].x, t[1].x, t[2].x});
-  const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
-  const auto [low_z, high_z] = std::minmax({t[0].z, t[1].z, t[2].z});
-  triangles_.push_back({t, {{low_x, low_y, low_z}, {high_x, high_y, high_z}}});
-}
-
-double NearestTriangle::squared_distance(std::size_t i, Vec3 p) const {
-  const std::array<Vec3, 3>& t = triangles_[i].corners;
-  return squared_length(closest_on_triangle(CornerTriangle<double>{t[0], t[1] - t[0], t[2] - t[0]}, p).offset);
-}
-
-bool NearestTriangle::may_be_within(std::size_t i, Vec3 p, double squared) const {
-  const auto& [lo, hi] = triangles_[i].box;
-  const Vec3 apart{outside(lo.x, hi.x, p.x), outside(lo.y, hi.y, p.y), outside(lo.z, hi.z, p.z)};
-  return squared_length(apart) * (1 - tie) <= squared;
-}
-
-std::size_t NearestTriangle::operator()(Vec3 p) {
-  double least = squared_distance(nearest_, p);
-  const std::size_t first = nearest_;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    if (i == first || !may_be_within(i, p, least)) continue;
-    const double squared = squared_distance(i, p);
-    if (squared < least || (squared == least && i < nearest_)) least = squared, nearest_ = i;
-  }
-  return nearest_;
-}
 
 FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, double max_degrees)
     : lists(start.face_count()),

@@ -6,34 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "bvh/bvh_data.h"
 #include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/nearest_triangle.h"
 #include "simplify/mesh/sample_lists.h"
 
 namespace meshbound {
-
-/// A few triangles, for the nearest one to each of many points. Boxes tell which ones need not be looked at.
-class NearestTriangle {
- public:
-  void clear() { triangles_.clear(), nearest_ = 0; }
-  void add(const std::array<Vec3, 3>& corners);
-
-  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
-  [[nodiscard]] double squared_distance(std::size_t i, Vec3 p) const;
-  /// Whether triangle i is not proven to be further from p than that.
-  [[nodiscard]] bool may_be_within(std::size_t i, Vec3 p, double squared) const;
-  /// The nearest triangle to p, the first of several. There must be one. Begins at the one that it found last, so
-  /// points near one another should follow each other.
-  [[nodiscard]] std::size_t operator()(Vec3 p);
-
- private:
-  struct Boxed {
-    std::array<Vec3, 3> corners;
-    Box box;
-  };
-  std::vector<Boxed> triangles_;
-  std::size_t nearest_ = 0;
-};
 
 /// The centroids of the original's faces with their normals, each assigned to the face of the mesh that it was found
 /// nearest to. They guide decimation and prove nothing. Threads may change what belongs to faces of different regions
