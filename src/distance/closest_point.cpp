@@ -34,9 +34,9 @@ ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d&
   return {{point, data.triangle_of_slot[0]}, {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)}};
 }
 
-/// Queries are answered together (`MeasureGroup`) up to this distance from one another, and start where the last one
-/// ended up to that one. In longest edges of the triangle that was found there: eight queries in Morton order beside a
-/// scan mostly are within two.
+/// Queries are answered together (`MeasureGroup`) up to this distance from the first of them, and that one starts where
+/// the last one ended up to the other distance. In longest edges of the triangle that was found there: eight queries in
+/// Morton order beside a scan mostly are within two. Measured there: 3 to 6 edges differ by 3%.
 constexpr double group_extent = 5, hint_extent = 8;
 /// Fewer are not worth it.
 constexpr std::size_t min_group = 3;
@@ -119,9 +119,9 @@ class PointQueries {
             {map_.length_down(std::max(0.0, goal_.proven_lower(found.separated, 0))), map_.length_up(upper)}};
   }
 
-  /// Places the first queries, as far as they are neighbours of the query before them, and returns their number.
-  /// Forgets the hint where the first one is far from that: a search that begins there takes longer than one that
-  /// begins at the root.
+  /// Places the first queries, as far as they are neighbours of the first one, and returns their number. Forgets the
+  /// hint where that one is far from the query before it: a search that begins there takes longer than one that begins
+  /// at the root.
   std::size_t neighbours(std::span<const Eigen::Vector3d> queries, std::array<Placed, max_group_width>& placed) {
     if (hint_ == no_slot) return 0;  // all before were too far away for one
     const Triangle& t = data_.corners[hint_];

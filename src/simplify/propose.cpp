@@ -115,7 +115,7 @@ void Proposer::gather_samples() {
   samples_.add_faces(taken_);
   samples_.compare(faces_);
   if (texture_) texture_->begin({star_.edge, star_.moved, star_.removed});
-  if (turns_) turns_->begin(star_.moved, star_.removed);
+  if (turns_) turns_->begin(star_.moved, star_.removed, state_.tolerance);
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.

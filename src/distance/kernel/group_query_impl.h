@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// `MeasureGroup`. Compiled once per instruction set (numeric/isa.h).
 ///
-///     each query walks over the surface, from where the one before it ended; the blocks there give first limits
+///     one query in three walks over the surface, from where the one before it ended: the blocks there give first limits
 ///     level by level: keep the children whose boxes are within the largest limit of the box around the group
 ///     in single precision, each triangle of their blocks against all queries at once: lower limits
-///     in doubles, four at a time: the pairs of a triangle and a query that are not proven to be beyond the limit
+///     in doubles, by vectors: the pairs of a triangle and a query that are not proven to be beyond the limit
 ///
 /// Why an answer has the bits that `PointSearch` gives. Limits only fall; let U be that of a query at the end, and d
 /// the least computed distance among its pairs. A triangle without a pair is further away than U: its box is, or single

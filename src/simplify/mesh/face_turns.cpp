@@ -6,12 +6,16 @@
 #include <numbers>
 
 #include "numeric/no_index.h"
+#include "simplify/cover/face_box.h"
 
 namespace meshbound {
 namespace {
 
 /// Squared distances that differ by less than this share count as equal: the nearest point lies on a common edge.
 constexpr double tie = 1e-9;
+
+/// Faces around a vertex that are looked at: a hub has thousands, around which each collapse would look.
+constexpr std::size_t max_around = 24;
 
 }  // namespace
 
@@ -51,7 +55,10 @@ void FaceTurns::give_back(const ArrayMesh& mesh, std::span<const std::uint32_t> 
   for (const std::uint32_t s : samples) lists.give_to(s, present[nearest(samples_[s].at)]);
 }
 
-void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed) {
+void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed, double reach) {
+  moved_.assign(moved.begin(), moved.end());
+  squared_reach_ = reach * reach;
+  neighbours_.reset();
   faces_.clear();
   samples_.clear();
   removed_.assign(removed.begin(), removed.end());
@@ -65,17 +72,58 @@ void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32
   for (const std::uint32_t f : removed) add_samples(f);
 }
 
+/// Of the faces that share a vertex with those that move. All of these vertices belong to the region of the collapse,
+/// so no other thread changes the faces or their samples.
+void TurnGuard::find_neighbours() {
+  around_.clear();
+  for (const Corner c : moved_) {
+    for (const std::uint32_t v : {mesh_.end(c), mesh_.apex(c)}) {
+      std::size_t seen = 0;
+      mesh_.for_each_corner(v, [&](Corner d) {
+        around_.push_back(d / 3);
+        return ++seen < max_around;
+      });
+    }
+  }
+  std::sort(around_.begin(), around_.end());
+  around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+  neighbours_.emplace();
+  for (const std::uint32_t f : around_) {
+    const auto is_f = [f](const Face& face) { return face.number == f; };
+    if (std::any_of(faces_.begin(), faces_.end(), is_f) ||
+        std::find(removed_.begin(), removed_.end(), f) != removed_.end())
+      continue;
+    turns_.lists.for_each(f, [&](std::uint32_t s) { neighbours_->push_back({s, f, -1}); });
+  }
+}
+
+bool TurnGuard::is_allowed_by_all(const FaceTurns::Sample& sample) const {
+  return std::all_of(faces_.begin(), faces_.end(),
+                     [&](const Face& face) { return turns_.allows(sample.normal, face.normal); });
+}
+
 bool TurnGuard::turns_little(const FaceTurns::Sample& sample) {
-  const auto is_allowed = [&](const Face& face) { return turns_.allows(sample.normal, face.normal); };
-  if (std::all_of(faces_.begin(), faces_.end(), is_allowed)) return true;  // whichever is nearest
+  if (is_allowed_by_all(sample)) return true;  // whichever is nearest
+  const auto is_allowed = [&](std::size_t f) { return turns_.allows(sample.normal, faces_[f].normal); };
   const std::size_t nearest = nearest_(sample.at);
-  if (is_allowed(faces_[nearest])) return true;
+  if (is_allowed(nearest)) return true;
   const double limit = (1 + tie) * nearest_.squared_distance(nearest, sample.at);
   for (std::size_t f = 0; f < faces_.size(); ++f)
-    if (is_allowed(faces_[f]) && nearest_.may_be_within(f, sample.at, limit) &&
+    if (is_allowed(f) && nearest_.may_be_within(f, sample.at, limit) &&
         nearest_.squared_distance(f, sample.at) <= limit)
       return true;
   return false;
+}
+
+bool TurnGuard::stays_or_turns_little(Neighbour& neighbour) {
+  const FaceTurns::Sample& sample = turns_.sample(neighbour.sample);
+  if (!nearest_.may_any_be_within(sample.at, squared_reach_) || is_allowed_by_all(sample)) return true;
+  if (neighbour.squared < 0) neighbour.squared = squared_distance(mesh_.triangle(neighbour.face), sample.at);
+  const double nearer = (1 - tie) * neighbour.squared;
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    if (nearest_.may_be_within(f, sample.at, nearer) && nearest_.squared_distance(f, sample.at) < nearer)
+      return turns_little(sample);
+  return true;
 }
 
 bool TurnGuard::holds(Vec3 point) {
@@ -85,7 +133,11 @@ bool TurnGuard::holds(Vec3 point) {
     nearest_.add(face.corners);
     face.normal = turns_.normal(face.number, face.corners);
   }
-  return std::all_of(samples_.begin(), samples_.end(), [&](std::uint32_t s) { return turns_little(turns_.sample(s)); });
+  if (!std::all_of(samples_.begin(), samples_.end(), [&](std::uint32_t s) { return turns_little(turns_.sample(s)); }))
+    return false;
+  if (!neighbours_) find_neighbours();
+  return std::all_of(neighbours_->begin(), neighbours_->end(),
+                     [&](Neighbour& neighbour) { return stays_or_turns_little(neighbour); });
 }
 
 void TurnGuard::give_samples(FaceTurns& turns) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,10 +47,12 @@ class TurnGuard {
  public:
   TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {}
 
-  /// Starts anew with the faces that stay, by the corner that moves, and those that go. O(samples).
-  void begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed);
+  /// Starts anew with the faces that stay, by the corner that moves, and those that go. Samples of other faces are
+  /// looked at up to a distance of `reach`. O(samples).
+  void begin(std::span<const Corner> moved, std::span<const std::uint32_t> removed, double reach);
   /// Whether no sample turns too much with the vertex at `point`: the one of the nearest faces that turns least counts.
-  /// O(samples * faces), most of which are a look at a box.
+  /// Also of samples of the faces around, which one of these faces may then be nearer to than their own. O(samples *
+  /// faces), most of which are a look at a box.
   [[nodiscard]] bool holds(Vec3 point);
   /// Assigns the samples to the faces that stay, as `holds` has placed them last.
   void give_samples(FaceTurns& turns);
@@ -60,12 +63,23 @@ class TurnGuard {
     Vec3 normal;
     std::uint32_t number = 0;
   };
+  /// A sample of a face around.
+  struct Neighbour {
+    std::uint32_t sample, face;
+    double squared;  ///< distance of the sample from that face, negative where it is not known yet
+  };
+  [[nodiscard]] bool is_allowed_by_all(const FaceTurns::Sample& sample) const;
   [[nodiscard]] bool turns_little(const FaceTurns::Sample& sample);
+  [[nodiscard]] bool stays_or_turns_little(Neighbour& neighbour);
+  void find_neighbours();
 
   const FaceTurns& turns_;
   const ArrayMesh& mesh_;
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> removed_, samples_;
+  std::vector<std::uint32_t> removed_, samples_, around_;
+  std::vector<Corner> moved_;
+  double squared_reach_ = 0;
+  std::optional<std::vector<Neighbour>> neighbours_;  ///< once they are looked for
   NearestTriangle nearest_;  ///< of the faces
 };
 

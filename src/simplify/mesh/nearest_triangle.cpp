@@ -16,11 +16,28 @@ double outside(double lo, double hi, double x) { return std::max(std::max(lo - x
 
 }  // namespace
 
-void NearestTriangle::add(const std::array<Vec3, 3>& t) {
-  const auto [low_x, high_x] = std::minmax({t[0].x, t[1].x, t[2].x});
-  const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
-  const auto [low_z, high_z] = std::minmax({t[0].z, t[1].z, t[2].z});
-  triangles_.push_back({t, {low_x, low_y, low_z}, {high_x, high_y, high_z}});
+void NearestTriangle::Extent::extend(Vec3 p) {
+  lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+  hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+}
+
+bool NearestTriangle::Extent::may_be_within(Vec3 p, double squared) const {
+  const Vec3 apart{outside(lo.x, hi.x, p.x), outside(lo.y, hi.y, p.y), outside(lo.z, hi.z, p.z)};
+  return squared_length(apart) * (1 - box_rounding) <= squared;
+}
+
+void NearestTriangle::clear() {
+  triangles_.clear();
+  box_ = {};
+  nearest_ = 0;
+}
+
+void NearestTriangle::add(const std::array<Vec3, 3>& corners) {
+  Boxed& triangle = triangles_.emplace_back(Boxed{corners, {}});
+  for (const Vec3 p : corners) {
+    triangle.box.extend(p);
+    box_.extend(p);
+  }
 }
 
 double NearestTriangle::squared_distance(std::size_t i, Vec3 p) const {
@@ -28,10 +45,10 @@ double NearestTriangle::squared_distance(std::size_t i, Vec3 p) const {
 }
 
 bool NearestTriangle::may_be_within(std::size_t i, Vec3 p, double squared) const {
-  const auto& [corners, lo, hi] = triangles_[i];
-  const Vec3 apart{outside(lo.x, hi.x, p.x), outside(lo.y, hi.y, p.y), outside(lo.z, hi.z, p.z)};
-  return squared_length(apart) * (1 - box_rounding) <= squared;
+  return triangles_[i].box.may_be_within(p, squared);
 }
+
+bool NearestTriangle::may_any_be_within(Vec3 p, double squared) const { return box_.may_be_within(p, squared); }
 
 std::size_t NearestTriangle::operator()(Vec3 p) {
   double least = squared_distance(nearest_, p);

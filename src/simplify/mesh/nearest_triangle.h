@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -11,23 +12,31 @@ namespace meshbound {
 /// A few triangles, for the nearest one to each of many points. Boxes tell which ones need not be looked at.
 class NearestTriangle {
  public:
-  void clear() { triangles_.clear(), nearest_ = 0; }
+  void clear();
   void add(const std::array<Vec3, 3>& corners);
 
   /// As computed.
   [[nodiscard]] double squared_distance(std::size_t i, Vec3 p) const;
   /// Whether triangle i is not proven to be further from p than that.
   [[nodiscard]] bool may_be_within(std::size_t i, Vec3 p, double squared) const;
+  /// Whether the box around all of them is not proven to be further from p than that.
+  [[nodiscard]] bool may_any_be_within(Vec3 p, double squared) const;
   /// The nearest triangle to p, the first of several. There must be one. Begins at the one that it found last, so
   /// points near one another should follow each other.
   [[nodiscard]] std::size_t operator()(Vec3 p);
 
  private:
+  struct Extent {
+    Vec3 lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    void extend(Vec3 p);
+    [[nodiscard]] bool may_be_within(Vec3 p, double squared) const;
+  };
   struct Boxed {
     std::array<Vec3, 3> corners;
-    Vec3 lo, hi;
+    Extent box;
   };
   std::vector<Boxed> triangles_;
+  Extent box_;
   std::size_t nearest_ = 0;
 };
 
