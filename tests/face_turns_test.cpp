@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "simplify/cover/face_box.h"
+#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/mesh/nearest_triangle.h"
 #include "simplify/propose.h"
@@ -83,9 +83,7 @@ std::uint32_t vertex_at(const ArrayMesh& mesh, double x, double y) {
 EdgeStar star_of(const ArrayMesh& mesh) {
   const std::uint32_t from = vertex_at(mesh, 1, 2), to = vertex_at(mesh, 2, 2);
   EdgeStar star;
-  mesh.for_each_corner(from, [&](Corner c) {
-    return mesh.end(c) != to || !star.gather(mesh, mesh.edge(c));
-  });
+  mesh.for_each_corner(from, [&](Corner c) { return mesh.end(c) != to || !star.gather(mesh, mesh.edge(c)); });
   return star;
 }
 

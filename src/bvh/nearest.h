@@ -98,7 +98,8 @@ inline CornerTriangle<Double4> triangles_at(const Bvh::Data& data,
 
 #if defined(__AVX512F__)
 /// Eight triangles by their slots, lane by lane.
-[[gnu::always_inline]] inline CornerTriangle<Double8> triangles_at(const Bvh::Data& data, const std::array<std::uint32_t, 8>& s) {
+[[gnu::always_inline]] inline CornerTriangle<Double8> triangles_at(const Bvh::Data& data,
+                                                                   const std::array<std::uint32_t, 8>& s) {
   const CornerTriangle<Double4> low = triangles_at(data, std::array{s[0], s[1], s[2], s[3]}),
                                 high = triangles_at(data, std::array{s[4], s[5], s[6], s[7]});
   return {joined(low.a, high.a), joined(low.ab, high.ab), joined(low.ac, high.ac)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Triangles in single precision, each seen from several points at once, in coordinates around a centre nearby: bounds of
-/// distances that tell which triangles need doubles. Compiled once per instruction set (numeric/isa.h).
+/// Triangles in single precision, each seen from several points at once, in coordinates around a centre nearby: bounds
+/// of distances that tell which triangles need doubles. Compiled once per instruction set (numeric/isa.h).
 ///
 /// Let u = 2^-24 and m be at least the magnitude of every coordinate. Corners and points are rounded to floats with an
 /// error of u m a coordinate. Whatever o is, the distance of p from a triangle is at least the least o . (p - c) / |o|
@@ -85,7 +85,9 @@ class FloatTriangles {
   }
 
  private:
-  static Floats reciprocal(const Floats& x) { return x > 0.0F ? 1.0F / (x > 0.0F ? x : broadcast_floats(1.0F)) : Floats{}; }
+  static Floats reciprocal(const Floats& x) {
+    return x > 0.0F ? 1.0F / (x > 0.0F ? x : broadcast_floats(1.0F)) : Floats{};
+  }
   static Floats clamped(const Floats& x, const Floats& max) { return maximum(minimum(x, max), Floats{}); }
   static void keep_nearer(Vec<Floats>& best, Floats& squared, const Vec<Floats>& offset) {
     const Floats other = squared_length(offset);
@@ -96,7 +98,8 @@ class FloatTriangles {
     squared = minimum(squared, other);
   }
   [[nodiscard]] static Vec<Floats> at(const Vec<Floats>& of_triangles, std::size_t i) {
-    return {broadcast_floats(of_triangles.x[i]), broadcast_floats(of_triangles.y[i]), broadcast_floats(of_triangles.z[i])};
+    return {broadcast_floats(of_triangles.x[i]), broadcast_floats(of_triangles.y[i]),
+            broadcast_floats(of_triangles.z[i])};
   }
 
   Vec<Floats> a_, ab_, ac_, bc_, lo_, hi_, across_;

@@ -8,10 +8,10 @@
 #include "numeric/no_index.h"
 #include "numeric/rounding.h"
 #include "proof/edge_neighbours.h"
-#include "simplify/cover/face_box.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
 #include "simplify/mesh/edge_queue.h"
+#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 

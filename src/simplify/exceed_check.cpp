@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "simplify/cover/face_box.h"
+#include "simplify/mesh/face_box.h"
 #include "simplify/repair.h"
 
 namespace meshbound {

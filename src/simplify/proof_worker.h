@@ -8,10 +8,10 @@
 
 #include "meshbound/proximity.h"
 #include "numeric/no_index.h"
-#include "simplify/cover/face_box.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
+#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/marked_ids.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"

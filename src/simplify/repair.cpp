@@ -8,7 +8,7 @@
 #include <span>
 
 #include "numeric/no_index.h"
-#include "simplify/cover/face_box.h"
+#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/nearest_triangle.h"
 #include "simplify/texture/texture_guard.h"
 

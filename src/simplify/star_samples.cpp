@@ -8,7 +8,7 @@
 #include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
-#include "simplify/cover/face_box.h"
+#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace {

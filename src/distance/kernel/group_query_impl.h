@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// `MeasureGroup`. Compiled once per instruction set (numeric/isa.h).
 ///
-///     one query in three walks over the surface, from where the one before it ended: the blocks there give first limits
+///     one query in three walks over the surface, from where the one before it ended; the blocks there: first limits
 ///     level by level: keep the children whose boxes are within the largest limit of the box around the group
 ///     in single precision, each triangle of their blocks against all queries at once: lower limits
 ///     in doubles, by vectors: the pairs of a triangle and a query that are not proven to be beyond the limit
@@ -148,7 +148,8 @@ class GroupSearch {
     const BvhNode& node = data_.nodes[data_.level_begin[1] + block / node_width];
     const std::uint32_t child = block % node_width;
     const auto outside = [&](std::size_t axis, const Floats& lo, const Floats& hi) {
-      return maximum(maximum(broadcast_floats(node.lo[axis][child]) - hi, lo - broadcast_floats(node.hi[axis][child])), Floats{});
+      return maximum(maximum(broadcast_floats(node.lo[axis][child]) - hi, lo - broadcast_floats(node.hi[axis][child])),
+                     Floats{});
     };
     const Vec<Floats> apart{outside(0, lo_.x, hi_.x), outside(1, lo_.y, hi_.y), outside(2, lo_.z, hi_.z)};
     return lane_bits(squared_length(apart) < limit_squared) != 0;
@@ -268,8 +269,9 @@ class GroupSearch {
   Vec<Floats> lo_, hi_;  ///< the queries in the working frame, as intervals
   Floats error_;         ///< `float_error` for the coordinates seen so far
   Floats squared_ = broadcast_floats(std::numeric_limits<float>::infinity());  ///< the least of those measured
-  Floats limit_ = broadcast_floats(std::numeric_limits<float>::infinity());    ///< no triangle further away is of interest
-  FloatsMask start_ = FloatsMask{} - 1;                                            ///< the blocks that the walks led to
+  Floats limit_ =
+      broadcast_floats(std::numeric_limits<float>::infinity());  ///< no triangle further away is of interest
+  FloatsMask start_ = FloatsMask{} - 1;                          ///< the blocks that the walks led to
   std::uint32_t measured_count_ = 0, pair_count_ = 0;
   std::array<Measured, max_triangles + 1> measured_;
   std::array<Pair, max_pairs> pairs_;

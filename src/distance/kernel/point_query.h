@@ -38,9 +38,9 @@ struct GroupQuery {
   PointRoundings roundings;
 };
 
-/// `MeasurePoint` for up to `PointKernel::group_width` queries (at least one) at once, with the same answers to the last bit. Fast
-/// where they are near one another beside their distances or the triangles; false, and no answer, where so many
-/// triangles are near that they are asked sooner one by one. `hint`: a slot near the group, or `no_slot`.
+/// `MeasurePoint` for up to `PointKernel::group_width` queries (at least one) at once, with the same answers to the
+/// last bit. Fast where they are near one another beside their distances or the triangles; false, and no answer, where
+/// so many triangles are near that they are asked sooner one by one. `hint`: a slot near the group, or `no_slot`.
 using MeasureGroup = bool (*)(const Bvh::Data& data, std::span<const GroupQuery> queries, std::uint32_t hint,
                               std::span<PointDistance> answers);
 

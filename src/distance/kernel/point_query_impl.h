@@ -67,7 +67,8 @@ inline Double4 squared_triangle_box_distances(const Bvh::Data& data, std::uint32
 
 /// The quotient m^2 / o.o of the file's comment, 0 where m is not positive.
 template <class Lanes>
-[[gnu::always_inline]] inline Lanes separation_squared(const CornerTriangle<Lanes>& t, const Vec<Lanes>& p, const TriangleOffset<Lanes>& to) {
+[[gnu::always_inline]] inline Lanes separation_squared(const CornerTriangle<Lanes>& t, const Vec<Lanes>& p,
+                                                       const TriangleOffset<Lanes>& to) {
   const Vec<Lanes> ap = p - t.a;
   const Lanes along = minimum(dot(to.offset, ap), minimum(dot(to.offset, ap - t.ab), dot(to.offset, ap - t.ac)));
   return select(along > 0.0, along * along / to.squared_distance, Lanes{});
@@ -144,7 +145,7 @@ class PointSearch {
     separated_squared_ = minimum(separated_squared_, separation_squared(t, lanes_, to));
     const DoublesMask slots = lanes_of(triangles);
     const DoublesMask nearer = (to.squared_distance < best_.squared_distance) |
-                         ((to.squared_distance == best_.squared_distance) & (slots < slots_));
+                               ((to.squared_distance == best_.squared_distance) & (slots < slots_));
     best_.squared_distance = select(nearer, to.squared_distance, best_.squared_distance);
     best_.offset.x = select(nearer, to.offset.x, best_.offset.x);
     best_.offset.y = select(nearer, to.offset.y, best_.offset.y);
@@ -183,7 +184,8 @@ class PointSearch {
       const unsigned hits = lanes_within_limit(blocks.index[i]);
       const Mask8 slot = lanes_of(hits) + static_cast<std::int32_t>(blocks.index[i] * block_width);
       std::memcpy(&slots[count], &slot, sizeof slot);
-      if (blocks.index[i] * block_width / doubles_width != first_) count += static_cast<std::uint32_t>(std::popcount(hits));
+      if (blocks.index[i] * block_width / doubles_width != first_)
+        count += static_cast<std::uint32_t>(std::popcount(hits));
     }
     for (std::uint32_t i = 0; i < count; i += doubles_width) {
       Slots together;
@@ -229,7 +231,7 @@ class PointSearch {
   PointRoundings roundings_;
   std::uint32_t last_slot_;
   std::uint32_t first_ = 0;  ///< which of the runs of `doubles_width` slots `test_first` tested
-  float limit_ = 0;  ///< squared
+  float limit_ = 0;          ///< squared
   // In each lane, the best of that lane's triangles in all blocks tested.
   TriangleOffset<Doubles> best_{{}, broadcast_doubles(std::numeric_limits<double>::infinity())};
   DoublesMask slots_{};

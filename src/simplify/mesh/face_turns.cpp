@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "numeric/no_index.h"
-#include "simplify/cover/face_box.h"
+#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace {

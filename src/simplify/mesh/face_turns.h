@@ -80,7 +80,7 @@ class TurnGuard {
   std::vector<Corner> moved_;
   double squared_reach_ = 0;
   std::optional<std::vector<Neighbour>> neighbours_;  ///< once they are looked for
-  NearestTriangle nearest_;  ///< of the faces
+  NearestTriangle nearest_;                           ///< of the faces
 };
 
 }  // namespace meshbound

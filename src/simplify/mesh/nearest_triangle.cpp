@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "simplify/cover/face_box.h"
+#include "simplify/mesh/face_box.h"
 
 namespace meshbound {
 namespace {
