@@ -72,8 +72,8 @@ void TurnGuard::begin(std::span<const Corner> moved, std::span<const std::uint32
   for (const std::uint32_t f : removed) add_samples(f);
 }
 
-/// Of the faces that share a vertex with those that move. All of these vertices belong to the region of the collapse,
-/// so no other thread changes the faces or their samples.
+/// Finds the samples of faces that share a vertex with a face of the star but are not in it. The vertices of a star all
+/// belong to the region of its collapse, so no other thread changes these faces or their samples.
 void TurnGuard::find_neighbours() {
   around_.clear();
   for (const Corner c : moved_) {
