@@ -15,6 +15,7 @@
 #include <string>
 
 #include "bvh/build.h"
+#include "bvh/build_kernels.h"
 #include "bvh/bvh_data.h"
 #include "bvh/nearest.h"
 #include "geometry/hilbert.h"
@@ -287,6 +288,72 @@ TEST(HilbertIndex, GoesThroughEachCellOnceAndFromEachToOneBesideIt) {
       int apart = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) apart += std::abs(way[i][axis] - way[i - 1][axis]);
       ASSERT_EQ(apart, 1) << bits << " bits, cell " << i;
+    }
+  }
+}
+
+TEST(HilbertIndex, OfManyCellsIsThatOfEachByEveryInstructionSet) {
+  std::mt19937 random(7);
+  for (int bits = 1; bits <= 21; ++bits) {
+    Cells cells;
+    for (Batch<std::uint32_t>* const along : {&cells.x, &cells.y, &cells.z})
+      for (std::uint32_t& cell : *along) cell = static_cast<std::uint32_t>(random()) >> (32 - bits);
+    for (const BuildKernels& kernels : all_build_kernels()) {
+      Batch<std::uint64_t> indices{};
+      kernels.hilbert_indices(cells, bits, indices);
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        ASSERT_EQ(indices[i], hilbert_index(cells.x[i], cells.y[i], cells.z[i], bits)) << bits << " bits, cell " << i;
+    }
+  }
+}
+
+/// Random half-edges in buckets of up to 70. One bucket in four has at most two of each edge, the others have pairs,
+/// borders, and edges of many triangles.
+struct RandomHalfEdges {
+  std::vector<std::uint32_t> far, id, end;
+  std::vector<std::uint8_t> upward;
+
+  explicit RandomHalfEdges(unsigned seed) {
+    std::mt19937 random(seed);
+    for (std::uint32_t bucket = 0; bucket < 200; ++bucket) {
+      const std::uint32_t most = bucket % 2 == 0 ? 12 : 70, size = static_cast<std::uint32_t>(random()) % most;
+      std::vector<std::uint32_t> ends(size);
+      for (std::uint32_t i = 0; i < size; ++i)
+        ends[i] = bucket % 4 == 0 ? i / 2 : static_cast<std::uint32_t>(random()) % (1 + size / 2);
+      std::shuffle(ends.begin(), ends.end(), random);
+      for (const std::uint32_t at : ends) {
+        id.push_back(static_cast<std::uint32_t>(4 * (far.size() / 3) + far.size() % 3));
+        far.push_back(at);
+        upward.push_back(static_cast<std::uint8_t>(random() % 2));
+      }
+      end.push_back(static_cast<std::uint32_t>(far.size()));
+    }
+    far.resize(far.size() + compared_at_once);
+    id.resize(far.size());
+    upward.resize(far.size());
+  }
+};
+
+TEST(HalfEdges, AreRingsInTheOrderOfTheirIdsByEveryInstructionSet) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const RandomHalfEdges edges(seed);
+    for (const BuildKernels& kernels : all_build_kernels()) {
+      std::vector<EdgeNeighbours> neighbours(edges.far.size() / 3 + 1);
+      kernels.match_half_edges({edges.far.data(), edges.id.data(), edges.upward.data()}, edges.end.data(), 0,
+                               edges.end.size(), neighbours.data());
+      for (std::size_t bucket = 0; bucket < edges.end.size(); ++bucket) {
+        const std::uint32_t begin = bucket == 0 ? 0 : edges.end[bucket - 1], end = edges.end[bucket];
+        if (end - begin > max_compared) continue;
+        for (std::uint32_t i = begin; i < end; ++i) {
+          std::uint32_t next = i;
+          do {
+            next = next + 1 == end ? begin : next + 1;
+          } while (edges.far[next] != edges.far[i]);
+          const Neighbour across = neighbours[i / 3][i % 3];
+          ASSERT_EQ(across.slot, next == i ? no_slot : next / 3) << "seed " << seed << ", half-edge " << i;
+          ASSERT_EQ(across.flipped, next != i && edges.upward[i] == edges.upward[next] ? 1U : 0U);
+        }
+      }
     }
   }
 }

@@ -9,40 +9,14 @@
 /// as in a triangle soup. Meshes whose triangles share all their vertices pay for a look at the result only.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 #include "bvh/build.h"
+#include "bvh/build_kernels.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
-
-/// Half-edges in a bucket from which they are sorted instead of compared with each other, which is done by the bits of
-/// a word: ten times what a vertex of a scan has.
-constexpr std::uint32_t max_compared = 64;
-
-/// They are compared eight at a time, so what lies behind a bucket is read too.
-constexpr std::uint32_t compared_at_once = 8;
-
-/// Bit i: whether far[i] is equal to `wanted`, of `compared_at_once`.
-std::uint64_t equal_bits(const std::uint32_t* far, std::uint32_t wanted) {
-#if defined(__SSE2__)
-  const __m128i all = _mm_set1_epi32(static_cast<int>(wanted));
-  const auto* const from = reinterpret_cast<const __m128i*>(far);
-  const __m128i low = _mm_cmpeq_epi32(_mm_loadu_si128(from), all),
-                high = _mm_cmpeq_epi32(_mm_loadu_si128(from + 1), all);
-  return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(low)) | _mm_movemask_ps(_mm_castsi128_ps(high)) << 4);
-#else
-  std::uint64_t bits = 0;
-  for (std::uint32_t i = 0; i < compared_at_once; ++i) bits |= std::uint64_t{far[i] == wanted} << i;
-  return bits;
-#endif
-}
 
 /// Vertices that make one task: a closed surface has twice as many triangles as vertices.
 constexpr std::size_t vertices_per_task = triangles_per_task / 2;
@@ -88,12 +62,14 @@ class HalfEdgeMatching {
         id_(array_in<std::uint32_t>(scratch)),
         upward_(array_in<std::uint8_t>(scratch)),
         seams_(runs_),
+        large_(runs_),
         size_(runs_, 0) {
     bucket_end_.resize(data.vertices.size());
-    far_.resize(3 * data.corners.size() + compared_at_once);
+    const std::size_t read = 3 * data.corners.size() + compared_at_once;
+    far_.resize(read);
+    id_.resize(read);
+    upward_.resize(read);
     std::fill_n(far_.end() - compared_at_once, compared_at_once, 0);
-    id_.resize(3 * data.corners.size());
-    upward_.resize(3 * data.corners.size());
   }
 
   void run() {
@@ -151,6 +127,7 @@ class HalfEdgeMatching {
     std::uint32_t sum = 0;
     for (std::uint32_t v = first_vertex_[run]; v < first_vertex_[run + 1]; ++v) {
       const std::uint32_t size = bucket_end_[v];
+      if (size > max_compared) large_[run].push_back(v);
       bucket_end_[v] = sum;
       sum += size;
     }
@@ -182,57 +159,17 @@ class HalfEdgeMatching {
     for_each_seam_edge(run, add);
   }
 
-  /// Half-edges of one edge form a ring in the order of their ids: a pair on a manifold edge, more where more triangles
-  /// meet, nothing on a border.
   void match(std::uint32_t run) {
     const std::size_t before = edges_before(run);
+    const HalfEdges edges{far_.data() + before, id_.data() + before, upward_.data() + before};
     const std::uint32_t first = first_vertex_[run], count = first_vertex_[run + 1] - first;
     for_each_range(count, vertices_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = first + begin; v < first + end; ++v) {
-        const std::size_t from = before + (v == first ? 0 : bucket_end_[v - 1]);
-        const auto size = static_cast<std::uint32_t>(before + bucket_end_[v] - from);
-        if (size > max_compared)
-          match_by_sorting(from, size);
-        else
-          match_by_comparing(from, size);
-      }
+      kernels_.match_half_edges(edges, bucket_end_.data() + first, begin, end, data_.neighbours.data());
     });
-  }
-
-  /// Compares the first half-edge of each edge with all others: a word of bits holds those that are left.
-  void match_by_comparing(std::size_t from, std::uint32_t count) {
-    const std::uint32_t* const far = far_.data() + from;
-    std::uint64_t left = count == 0 ? 0 : ~std::uint64_t{0} >> (max_compared - count);
-    while (left != 0) {
-      const int first = std::countr_zero(left);
-      std::uint64_t equal = 0;
-      for (std::uint32_t begin = 0; begin < count; begin += compared_at_once)
-        equal |= equal_bits(far + begin, far[first]) << begin;
-      std::uint64_t others = equal & left & (left - 1);
-      left &= ~equal;
-      link_ring(from, first, others);
+    for (const std::uint32_t v : large_[run]) {
+      const std::uint32_t from = v == first ? 0 : bucket_end_[v - 1];
+      match_by_sorting(before + from, bucket_end_[v] - from);
     }
-  }
-
-  /// Links the half-edges of an edge: `first` and the later ones whose bits are set, of the bucket that begins at
-  /// `from`.
-  void link_ring(std::size_t from, int first, std::uint64_t others) {
-    const auto edge = [&](int i) { return from + static_cast<std::size_t>(i); };
-    if (others == 0) {
-      data_.neighbours[id_[edge(first)] / 4][id_[edge(first)] % 4] = {};
-      return;
-    }
-    int last = first;
-    for (; others != 0; others &= others - 1) {
-      const int next = std::countr_zero(others);
-      link(edge(last), edge(next));
-      last = next;
-    }
-    link(edge(last), edge(first));
-  }
-
-  void link(std::size_t from, std::size_t to) {
-    data_.neighbours[id_[from] / 4][id_[from] % 4] = {id_[to] / 4 & no_slot, upward_[from] == upward_[to] ? 1U : 0U};
   }
 
   void match_by_sorting(std::size_t from, std::uint32_t count) {
@@ -259,12 +196,14 @@ class HalfEdgeMatching {
   Ends ends_;
   const std::vector<std::uint32_t>& first_vertex_;  ///< by run
   std::uint32_t runs_;
-  Array<std::uint32_t> bucket_end_;           ///< by vertex, from the first half-edge of its run
-  Array<std::uint32_t> far_;                  ///< by bucket: `HalfEdge::far` of its half-edges
-  Array<std::uint32_t> id_;                   ///< by bucket: `HalfEdge::id`
-  Array<std::uint8_t> upward_;                ///< by bucket: `HalfEdge::upward`
-  std::vector<std::vector<SeamEdge>> seams_;  ///< by run, in the order of their ids
-  std::vector<std::uint32_t> size_;           ///< half-edges by run
+  BuildKernels kernels_ = build_kernels();
+  Array<std::uint32_t> bucket_end_;                ///< by vertex, from the first half-edge of its run
+  Array<std::uint32_t> far_;                       ///< by bucket: `HalfEdge::far` of its half-edges
+  Array<std::uint32_t> id_;                        ///< by bucket: `HalfEdge::id`
+  Array<std::uint8_t> upward_;                     ///< by bucket: `HalfEdge::upward`
+  std::vector<std::vector<SeamEdge>> seams_;       ///< by run, in the order of their ids
+  std::vector<std::vector<std::uint32_t>> large_;  ///< by run: vertices whose half-edges are sorted
+  std::vector<std::uint32_t> size_;                ///< half-edges by run
 };
 
 template <class Ends>

@@ -115,8 +115,8 @@ std::size_t max_used_vertices(const MeshView& mesh) { return std::min(mesh.verte
 
 /// The arrays of `Bvh::Data`. Above the lowest level there are 1/8 + 1/64 + ... = 1/7 of its nodes.
 std::size_t tree_bytes(const MeshView& mesh) {
-  constexpr std::size_t by_triangle = sizeof(Triangle) + sizeof(std::array<Neighbour, 3>) +
-                                      sizeof(std::array<float, 3>) + sizeof(std::uint32_t),
+  constexpr std::size_t by_triangle = sizeof(Triangle) + sizeof(EdgeNeighbours) + sizeof(std::array<float, 3>) +
+                                      sizeof(std::uint32_t),
                         by_vertex = sizeof(Vec3) + sizeof(std::uint32_t), rounding = 4096;
   const std::size_t lowest_nodes = mesh.triangle_count() / (block_width * node_width);
   return by_triangle * mesh.triangle_count() + by_vertex * max_used_vertices(mesh) +

@@ -37,6 +37,9 @@ struct Neighbour {
   std::uint32_t flipped : 1 = 0;  ///< runs along the edge the same way: its normal points to the other side
 };
 
+/// [k]: across the edge from corner k to corner k + 1.
+using EdgeNeighbours = std::array<Neighbour, 3>;
+
 struct Bvh::Data {
   Data() = default;
   explicit Data(std::size_t arena_bytes) : arena(arena_bytes) {}
@@ -55,8 +58,7 @@ struct Bvh::Data {
       array_in<std::uint32_t>(arena);  ///< index in the mesh that the tree was built from
   // By slot: the index of a triangle along the curve.
   Array<Triangle> corners = array_in<Triangle>(arena);
-  Array<std::array<Neighbour, 3>> neighbours =
-      array_in<std::array<Neighbour, 3>>(arena);  ///< [k] across the edge from corner k to corner k + 1
+  Array<EdgeNeighbours> neighbours = array_in<EdgeNeighbours>(arena);
   Array<std::array<float, 3>> normals = array_in<std::array<float, 3>>(arena);  ///< unit, or 0 for zero area; a hint
   Array<std::uint32_t> triangle_of_slot = array_in<std::uint32_t>(arena);
   // By level: nodes[level_begin[l] + i] has the children 8 i ... 8 i + 7 of level l - 1; level 0 are the blocks.

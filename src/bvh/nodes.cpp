@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "bvh/build.h"
-#include "bvh/leaf_kernel.h"
+#include "bvh/build_kernels.h"
 #include "bvh/nearest.h"
 #include "bvh/node_boxes.h"
 #include "numeric/tasks.h"
@@ -59,8 +59,9 @@ void build_nodes_and_normals(Bvh::Data& data) {
     data.level_begin.push_back(data.level_begin.back() + sizes[level]);
   data.nodes.resize(data.level_begin.back());
   data.normals.resize(data.triangle_count());
-  const BuildLeaves build_leaves = leaf_kernel();
-  for_each_range(sizes[1], nodes_per_task, [&](std::size_t begin, std::size_t end) { build_leaves(data, begin, end); });
+  const BuildKernels kernels = build_kernels();
+  for_each_range(sizes[1], nodes_per_task,
+                 [&](std::size_t begin, std::size_t end) { kernels.build_leaves(data, begin, end); });
   for (std::uint32_t level = 2; level < sizes.size(); ++level) {
     for_each_range(sizes[level], nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)

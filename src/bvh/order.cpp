@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bvh/build.h"
-#include "geometry/hilbert.h"
+#include "bvh/build_kernels.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
@@ -119,9 +119,6 @@ void sort_by_key(Array<Keyed>& items, Array<Keyed>& scratch, int first, int end,
   if (passes % 2 == 0) items.swap(scratch);
 }
 
-/// Triangles whose corners are fetched before any of them is worked on: the processor then waits for many at a time.
-constexpr std::size_t fetched_at_once = 64;
-
 Vec3 corner_sum(const MeshView& mesh, std::size_t triangle) {
   Vec3 sum;
   for (const std::uint32_t v : mesh.triangle(triangle)) {
@@ -145,16 +142,22 @@ void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::s
   items.resize(n);
   other.resize(n);
   const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::min(std::max(x * scale, 0.0), cells)); };
+  const BuildKernels kernels = build_kernels();
   for_each_range(n, triangles_per_task, [&](std::size_t begin, std::size_t end) {
-    std::array<Vec3, fetched_at_once> sums;
-    for (std::size_t first = begin; first < end; first += fetched_at_once) {
-      const std::size_t taken = std::min(fetched_at_once, end - first);
+    Batch<Vec3> sums;
+    Cells of_sums;
+    Batch<std::uint64_t> along_curve;
+    for (std::size_t first = begin; first < end; first += triangles_at_once) {
+      const std::size_t taken = std::min<std::size_t>(triangles_at_once, end - first);
       for (std::size_t i = 0; i < taken; ++i) sums[i] = corner_sum(mesh, first + i);
       for (std::size_t i = 0; i < taken; ++i) {
         const Vec3 centroid = to_working((1.0 / 3) * sums[i]) - box.lo;
-        const std::uint64_t along_curve = hilbert_index(cell(centroid.x), cell(centroid.y), cell(centroid.z), bits);
-        items[first + i] = along_curve << index_bits | (first + i);
+        of_sums.x[i] = cell(centroid.x);
+        of_sums.y[i] = cell(centroid.y);
+        of_sums.z[i] = cell(centroid.z);
       }
+      kernels.hilbert_indices(of_sums, bits, along_curve);
+      for (std::size_t i = 0; i < taken; ++i) items[first + i] = along_curve[i] << index_bits | (first + i);
     }
   });
   sort_by_key(items, other, index_bits, index_bits + 3 * bits, runs);

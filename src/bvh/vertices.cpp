@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bvh/build.h"
+#include "bvh/build_kernels.h"
 #include "numeric/no_index.h"
 #include "numeric/tasks.h"
 
@@ -16,9 +17,6 @@ constexpr std::uint32_t of_earlier_run = 0xffffffff;
 
 /// Most runs that pay: every run has a table of all vertices.
 constexpr std::size_t max_runs = 16;
-
-/// Their data fits into the first-level cache.
-constexpr std::uint32_t triangles_at_once = 64;
 
 struct Run {
   explicit Run(Arena& scratch)

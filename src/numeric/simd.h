@@ -91,7 +91,8 @@ using Floats = Float16;
 using Doubles = Double4;
 using Floats = Float8;
 #endif
-/// `Doubles` and `Floats`: as wide as the machine's vectors.
+/// `Doubles`, `Floats` and `Words`: as wide as the machine's vectors.
+using Words = std::uint32_t __attribute__((vector_size(sizeof(Floats))));
 inline constexpr std::size_t doubles_width = sizeof(Doubles) / sizeof(double),
                              floats_width = sizeof(Floats) / sizeof(float);
 using DoublesMask = decltype(Doubles{} < Doubles{});
@@ -99,6 +100,22 @@ using FloatsMask = decltype(Floats{} < Floats{});
 
 inline Doubles broadcast_doubles(double x) { return x - Doubles{}; }  // not +, for -0
 inline Floats broadcast_floats(float x) { return x - Floats{}; }
+
+/// By lane: all bits are the highest one.
+inline Words signs(Words a) {
+  using Signed = std::int32_t __attribute__((vector_size(sizeof(Words))));
+  return reinterpret_cast<Words>(reinterpret_cast<Signed>(a) >> 31);
+}
+
+/// `yes` in the lanes where all bits of the mask are set, `no` in those where none is.
+inline Words select_by_sign(Words mask, Words yes, Words no) {
+#if defined(__AVX2__) && !defined(__AVX512F__)
+  return reinterpret_cast<Words>(
+      _mm256_blendv_ps(reinterpret_cast<__m256>(no), reinterpret_cast<__m256>(yes), reinterpret_cast<__m256>(mask)));
+#else
+  return (mask & yes) | (~mask & no);
+#endif
+}
 
 /// The largest and the smallest lane.
 inline float largest_lane(Floats a) {

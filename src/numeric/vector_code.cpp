@@ -16,7 +16,8 @@ bool uses_avx2() {
 bool uses_avx512() {
 #if defined(MESHBOUND_HAS_AVX512)
   return !internal::portable_kernels && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("fma");
+         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("fma");
 #else
   return false;
 #endif

@@ -7,7 +7,7 @@ namespace meshbound {
 /// off.
 [[nodiscard]] bool uses_avx2();
 
-/// Likewise for AVX-512 (F, DQ, VL and BW).
+/// Likewise for AVX-512 (F, DQ, VL, BW and CD).
 [[nodiscard]] bool uses_avx512();
 
 namespace internal {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Compiled with -mavx2 (src/CMakeLists.txt); only called where the processor has it.
-#include "bvh/leaf_kernel_impl.h"
+#include "bvh/build_kernels_impl.h"
 
 namespace meshbound {
 
-BuildLeaves avx2_leaf_kernel() { return build_leaves; }
+BuildKernels avx2_build_kernels() { return {hilbert_indices, match_half_edges, build_leaves}; }
 
 }  // namespace meshbound

@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: MIT
-/// `BuildLeaves`. Compiled once per instruction set (numeric/isa.h).
+/// The functions of `BuildKernels`. Compiled once per instruction set (numeric/isa.h).
 #pragma once
 #include <algorithm>
 
-#include "bvh/leaf_kernel.h"
+#include "bvh/build_kernels.h"
+#include "bvh/match_half_edges.h"
 #include "bvh/nearest.h"
 #include "bvh/node_boxes.h"
+#include "geometry/hilbert.h"
+#include "geometry/hilbert_lanes.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
+
+/// Lanes of 128 bits are slower than the table.
+inline void hilbert_indices(const Cells& cells, int bits, Batch<std::uint64_t>& indices) {
+#if defined(__AVX2__)
+  hilbert_indices_in_lanes(cells.x.data(), cells.y.data(), cells.z.data(), triangles_at_once, bits, indices.data());
+#else
+  for (std::size_t i = 0; i < triangles_at_once; ++i)
+    indices[i] = hilbert_index(cells.x[i], cells.y[i], cells.z[i], bits);
+#endif
+}
 
 inline void store_normals(Bvh::Data& data, std::uint32_t block, const CornerTriangle<Double4>& t) {
   const Vec<Double4> normal = cross(t.ab, t.ac);
