@@ -47,7 +47,8 @@ Array<std::uint32_t> seam_positions(const Bvh::Data& data);
 
 /// Fills `neighbours`. `first_vertex`: as `place_vertices` returned it.
 void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
-void build_nodes_and_normals(Bvh::Data& data);
+/// Returns whether all triangles have an area.
+bool build_nodes_and_normals(Bvh::Data& data);
 
 /// Adds to `neighbours` what follows at the ends of triangles that are segments. Needs the normals. Takes O(n), and
 /// O(m log m) for m segments.

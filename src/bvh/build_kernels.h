@@ -45,8 +45,8 @@ struct BuildKernels {
   void (*match_half_edges)(const HalfEdges& edges, const std::uint32_t* bucket_end, std::size_t begin, std::size_t end,
                            EdgeNeighbours* neighbours);
   /// Fills the lowest nodes of a tree from `begin` to below `end`, and the normals of the triangles in their blocks:
-  /// each corner is fetched once for both.
-  void (*build_leaves)(Bvh::Data& data, std::size_t begin, std::size_t end);
+  /// each corner is fetched once for both. Returns whether all of these triangles have an area.
+  bool (*build_leaves)(Bvh::Data& data, std::size_t begin, std::size_t end);
 };
 
 /// The fastest implementation that this machine runs, and all that it runs. They give the same bits.

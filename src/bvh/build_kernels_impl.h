@@ -23,7 +23,8 @@ inline void hilbert_indices(const Cells& cells, int bits, Batch<std::uint64_t>& 
 #endif
 }
 
-inline void store_normals(Bvh::Data& data, std::uint32_t block, const CornerTriangle<Double4>& t) {
+/// Returns whether all triangles of the block have an area.
+inline bool store_normals(Bvh::Data& data, std::uint32_t block, const CornerTriangle<Double4>& t) {
   const Vec<Double4> normal = cross(t.ab, t.ac);
   const Double4 norm = square_root(squared_length(normal)), scale = select(norm > 0.0, 1.0 / norm, Double4{});
   const Vec<Double4> unit = scale * normal;
@@ -31,9 +32,10 @@ inline void store_normals(Bvh::Data& data, std::uint32_t block, const CornerTria
   for (std::uint32_t i = 0; i < count; ++i)
     data.normals[first + i] = {static_cast<float>(unit.x[i]), static_cast<float>(unit.y[i]),
                                static_cast<float>(unit.z[i])};
+  return lane_bits(norm > 0.0) == (1U << block_width) - 1;
 }
 
-inline void build_leaf(Bvh::Data& data, std::uint32_t block, BvhNode& node) {
+inline bool build_leaf(Bvh::Data& data, std::uint32_t block, BvhNode& node) {
   const std::array<std::uint32_t, block_width> slots = slots_of_block(data, block);
   std::array<std::array<Double4, block_width>, 3> corners;
   for (std::size_t i = 0; i < block_width; ++i)
@@ -47,20 +49,22 @@ inline void build_leaf(Bvh::Data& data, std::uint32_t block, BvhNode& node) {
   }
   set_child(node, block % node_width, lo, hi);
   const Vec<Double4> a = lanes(corners[0]);
-  store_normals(data, block, {a, lanes(corners[1]) - a, lanes(corners[2]) - a});
+  return store_normals(data, block, {a, lanes(corners[1]) - a, lanes(corners[2]) - a});
 }
 
-inline void build_leaves(Bvh::Data& data, std::size_t begin, std::size_t end) {
+inline bool build_leaves(Bvh::Data& data, std::size_t begin, std::size_t end) {
+  bool all_have_area = true;
   for (std::size_t i = begin; i < end; ++i) {
     BvhNode& node = data.nodes[data.level_begin[1] + i];
     for (std::uint32_t k = 0; k < node_width; ++k) {
       const auto block = static_cast<std::uint32_t>(i) * node_width + k;
       if (block < data.block_count())
-        build_leaf(data, block, node);
+        all_have_area &= build_leaf(data, block, node);
       else
         set_empty(node, k);
     }
   }
+  return all_have_area;
 }
 
 }  // namespace MESHBOUND_ISA

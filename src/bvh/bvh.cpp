@@ -148,8 +148,7 @@ std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs, c
   stop.check();
   build_adjacency(*data, first_vertex, scratch);
   stop.check();
-  build_nodes_and_normals(*data);
-  link_segments(*data);
+  if (!build_nodes_and_normals(*data)) link_segments(*data);
   return data;
 }
 

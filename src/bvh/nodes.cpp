@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 
 #include "bvh/build.h"
 #include "bvh/build_kernels.h"
@@ -51,7 +52,7 @@ constexpr std::size_t nodes_per_task = triangles_per_task / (block_width * node_
 
 }  // namespace
 
-void build_nodes_and_normals(Bvh::Data& data) {
+bool build_nodes_and_normals(Bvh::Data& data) {
   const std::vector<std::uint32_t> sizes = level_sizes(data.block_count());
   data.level_begin.assign(1, 0);
   data.level_begin.push_back(0);  // level 0 has no nodes: its members are the blocks
@@ -60,14 +61,17 @@ void build_nodes_and_normals(Bvh::Data& data) {
   data.nodes.resize(data.level_begin.back());
   data.normals.resize(data.triangle_count());
   const BuildKernels kernels = build_kernels();
-  for_each_range(sizes[1], nodes_per_task,
-                 [&](std::size_t begin, std::size_t end) { kernels.build_leaves(data, begin, end); });
+  std::atomic<bool> all_have_area{true};
+  for_each_range(sizes[1], nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    if (!kernels.build_leaves(data, begin, end)) all_have_area = false;
+  });
   for (std::uint32_t level = 2; level < sizes.size(); ++level) {
     for_each_range(sizes[level], nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         build_node(data, level, static_cast<std::uint32_t>(i), sizes[level - 1]);
     });
   }
+  return all_have_area;
 }
 
 Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index) {

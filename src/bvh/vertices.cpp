@@ -21,12 +21,14 @@ constexpr std::size_t max_runs = 16;
 struct Run {
   explicit Run(Arena& scratch)
       : local(array_in<std::uint32_t>(scratch)),
-        used(array_in<std::uint32_t>(scratch)),
+        own_used(array_in<std::uint32_t>(scratch)),
         rank(array_in<std::uint32_t>(scratch)),
         positions(array_in<Vec3>(scratch)) {}
 
   Array<std::uint32_t> local;       ///< by the mesh's vertex: its number among those that the run uses
-  Array<std::uint32_t> used;        ///< by local number: the mesh's vertex, in the end its final number
+  Array<std::uint32_t> own_used;    ///< what `used` shows, but for the first run, where that is the tree's array
+  std::uint32_t* used = nullptr;    ///< by local number: the mesh's vertex, in the end its final number
+  std::uint32_t count = 0;          ///< of used vertices
   Array<std::uint32_t> rank;        ///< by local number: number among those that no earlier run uses, or that mark
   Array<Vec3> positions;            ///< by local number, in the working frame; of the first run they are the tree's
   std::vector<std::uint64_t> seen;  ///< a bit for each of the mesh's vertices; empty where there is one run only
@@ -45,11 +47,12 @@ class Renumbering {
   std::vector<std::uint32_t> run() {
     data_.corners.resize(mesh_.triangle_count());
     data_.vertices.resize(std::min(mesh_.vertex_count(), 3 * mesh_.triangle_count()));
-    data_.source_vertex.resize(data_.vertices.size());
+    data_.source_vertex.resize(data_.vertices.size() + 1);  // as `used`
     // By one thread: each thread's own heap would have to grow first.
     for (std::uint32_t r = 0; r < runs_; ++r) {
       run_[r].local.resize(mesh_.vertex_count());
-      run_[r].used.resize(max_used(r) + 1);  // what is no new vertex is written behind the last one
+      run_[r].own_used.resize(r > 0 ? max_used(r) + 1 : 0);
+      run_[r].used = r > 0 ? run_[r].own_used.data() : data_.source_vertex.data();
       run_[r].rank.resize(r > 0 ? max_used(r) : 0);
       run_[r].positions.resize(r > 0 ? max_used(r) : 0);
       run_[r].seen.resize(runs_ > 1 ? mesh_.vertex_count() / 64 + 1 : 0);
@@ -99,11 +102,11 @@ class Renumbering {
       for (std::uint32_t i = 0; i < size; ++i)
         data_.corners[slot + i] = longest_edge_first(run, positions, triangles[i]);
     }
-    run.used.resize(count);
+    run.count = count;
   }
 
   /// Returns the number of vertices that have a number then. Without a branch on whether this one is new, which would
-  /// be guessed wrong one time in six.
+  /// be guessed wrong one time in six: what is no new vertex is written behind the last one.
   std::uint32_t number_vertex(Run& run, std::uint32_t v, std::uint32_t count) const {
     const std::uint32_t known = run.local[v];
     const bool is_new = known == no_index;
@@ -145,10 +148,9 @@ class Renumbering {
   /// Returns how many vertices the run is the first to use.
   std::uint32_t rank_vertices(std::uint32_t r) {
     Run& run = run_[r];
-    if (r == 0) return static_cast<std::uint32_t>(run.used.size());
+    if (r == 0) return run.count;
     std::uint32_t count = 0;
-    for (std::size_t i = 0; i < run.used.size(); ++i)
-      run.rank[i] = owner(run.used[i], r) == r ? count++ : of_earlier_run;
+    for (std::uint32_t i = 0; i < run.count; ++i) run.rank[i] = owner(run.used[i], r) == r ? count++ : of_earlier_run;
     return count;
   }
 
@@ -159,11 +161,8 @@ class Renumbering {
 
   void store_vertices(std::uint32_t r, const std::vector<std::uint32_t>& first_vertex) {
     Run& run = run_[r];
-    if (r == 0) {
-      std::copy(run.used.begin(), run.used.end(), data_.source_vertex.begin());
-      return;
-    }
-    for (std::uint32_t i = 0; i < run.used.size(); ++i) {
+    if (r == 0) return;  // they stand where they belong
+    for (std::uint32_t i = 0; i < run.count; ++i) {
       const std::uint32_t v = run.used[i];
       if (run.rank[i] == of_earlier_run) {
         const std::uint32_t earlier = owner(v, r);
