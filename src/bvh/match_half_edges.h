@@ -71,8 +71,6 @@ inline void match_by_comparing(const HalfEdges& edges, std::uint32_t count, Edge
 }
 
 #if defined(__AVX512F__)
-static_assert(std::bit_cast<std::uint32_t>(Neighbour{1, 1}) == 0x80000001);
-
 /// Links a bucket of at most 16 half-edges where at most two of them belong to each edge. Returns false, and does
 /// nothing, elsewhere.
 inline bool match_pairs(const HalfEdges& edges, std::uint32_t count, EdgeNeighbours* neighbours) {
@@ -91,14 +89,14 @@ inline bool match_pairs(const HalfEdges& edges, std::uint32_t count, EdgeNeighbo
                 partner = _mm512_sub_epi32(_mm512_set1_epi32(31), _mm512_lzcnt_epi32(earlier)),
                 partner_ids = _mm512_permutexvar_epi32(partner, ids),
                 partner_upward = _mm512_permutexvar_epi32(partner, upward),
-                flipped = _mm512_slli_epi32(_mm512_xor_si512(_mm512_xor_si512(upward, partner_upward), one), 31);
+                flipped = _mm512_xor_si512(_mm512_xor_si512(upward, partner_upward), one);
   alignas(64) std::array<std::uint32_t, 16> id, partner_id, flip;
   _mm512_store_si512(id.data(), _mm512_maskz_compress_epi32(second, ids));
   _mm512_store_si512(partner_id.data(), _mm512_maskz_compress_epi32(second, partner_ids));
   _mm512_store_si512(flip.data(), _mm512_maskz_compress_epi32(second, flipped));
   for (unsigned i = 0; i < pairs; ++i) {
-    neighbours[id[i] / 4][id[i] % 4] = std::bit_cast<Neighbour>(partner_id[i] / 4 | flip[i]);
-    neighbours[partner_id[i] / 4][partner_id[i] % 4] = std::bit_cast<Neighbour>(id[i] / 4 | flip[i]);
+    neighbours[id[i] / 4][id[i] % 4] = {partner_id[i] / 4 & no_slot, flip[i] & 1U};
+    neighbours[partner_id[i] / 4][partner_id[i] % 4] = {id[i] / 4 & no_slot, flip[i] & 1U};
   }
   return true;
 }
