@@ -13,13 +13,16 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
+#include "numeric/no_index.h"
 #include "proof/edge_neighbours.h"
+#include "reference/hard_meshes.h"
 #include "reference/small_meshes.h"
 #include "simplify/cover/candidate_faces.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
 #include "simplify/kernel/kernels.h"
+#include "simplify/mesh/spatial_order.h"
 
 namespace meshbound {
 namespace simplify_kernels_test {
@@ -277,6 +280,53 @@ std::vector<Vec3> positions(const TriangleMesh& mesh) {
   std::vector<Vec3> result;
   for (const Vector3d& p : mesh.vertices) result.push_back({p.x(), p.y(), p.z()});
   return result;
+}
+
+TEST(EdgeNeighbours, OfATreeAreThoseWithoutOne) {
+  for (const Shape& shape : shapes()) {
+    for (const TriangleMesh& mesh : {shape.mesh, reference::unwelded(shape.mesh)}) {
+      const std::vector<Vec3> vertices = positions(mesh);
+      EXPECT_EQ(edge_neighbours(Bvh(mesh), vertices, mesh.triangles), edge_neighbours(vertices, mesh.triangles));
+    }
+  }
+}
+
+/// Triangles between few points, each of which several vertices stand at: edges of many triangles, triangles twice,
+/// and triangles without area.
+TriangleMesh crowd_of_triangles(unsigned seed) {
+  std::mt19937 random(seed);
+  TriangleMesh mesh;
+  for (int v = 0; v < 16; ++v) mesh.vertices.emplace_back(random() % 2, random() % 3, random() % 2);
+  for (int t = 0; t < 40; ++t) {
+    Triangle& corners = mesh.triangles.emplace_back();
+    for (std::uint32_t& v : corners) v = static_cast<std::uint32_t>(random() % 16);
+  }
+  return mesh;
+}
+
+TEST(EdgeNeighbours, OfATreeComeInPairs) {
+  std::size_t pairs = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const TriangleMesh mesh = crowd_of_triangles(seed);
+    const auto neighbours = edge_neighbours(Bvh(mesh), positions(mesh), mesh.triangles);
+    const auto edge = [&](std::size_t t, std::size_t k) {
+      const Vector3d &p = mesh.vertices[mesh.triangles[t][k]], &q = mesh.vertices[mesh.triangles[t][(k + 1) % 3]];
+      return is_before(p, q) ? std::pair(p, q) : std::pair(q, p);
+    };
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t across = neighbours[t][k];
+        if (across == no_index) continue;
+        ASSERT_NE(across, t);
+        int partners = 0;
+        for (std::size_t j = 0; j < 3; ++j) partners += edge(across, j) == edge(t, k) && neighbours[across][j] == t;
+        ASSERT_EQ(partners, 1) << "seed " << seed << ", triangle " << t << ", edge " << k;
+        ASSERT_NE(edge(t, k).first, edge(t, k).second);
+        ++pairs;
+      }
+    }
+  }
+  EXPECT_GT(pairs, 1000U);
 }
 
 /// Points spread over a triangle, by their barycentric coordinates; the corners are among them.

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "bvh/bvh_data.h"
 #include "reference/small_meshes.h"
 
 namespace spatial_order_test {
@@ -60,6 +61,13 @@ TEST(SpatialOrder, BringsNeighboursTogether) {
   const TriangleMesh before = shuffled_sphere(4);
   const SpatialOrder after = spatial_order(before, {1});
   EXPECT_LT(way(after.mesh), 0.1 * way(before));
+}
+
+TEST(SpatialOrder, IsThatOfTheTree) {
+  const TriangleMesh mesh = shuffled_sphere(5);
+  const Bvh tree(mesh, {1});
+  const auto& of_tree = tree.data().triangle_of_slot;
+  EXPECT_EQ(spatial_order(mesh, {1}).triangle, std::vector<std::uint32_t>(of_tree.begin(), of_tree.end()));
 }
 
 TEST(SpatialOrder, DoesNotDependOnTheNumberOfThreads) {

@@ -30,6 +30,9 @@ void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 /// Fills `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so the order is unique.
 void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
 
+/// The triangles of a mesh in the order of the slots of its tree, without the tree. Throws as a tree does.
+std::vector<std::uint32_t> triangles_along_curve(const MeshView& mesh, const BvhOptions& options);
+
 /// The first of n items that belongs to run `r`, where the items are divided into `runs` equal runs.
 inline std::uint32_t run_begin(std::uint32_t n, std::uint32_t r, std::uint32_t runs) {
   return static_cast<std::uint32_t>(std::uint64_t{n} * r / runs);

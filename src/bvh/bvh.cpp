@@ -195,6 +195,22 @@ std::size_t useful_threads(int wanted, std::size_t triangles) {
   return std::min(max_threads, 1 + triangles / triangles_per_thread);
 }
 
+std::vector<std::uint32_t> triangles_along_curve(const MeshView& mesh, const BvhOptions& options) {
+  check_floating_point_model();
+  check_size(mesh);
+  options.stop.check();
+  Bvh::Data data;
+  Arena scratch;
+  const std::size_t threads = useful_threads(options.threads, mesh.triangle_count());
+  with_team(static_cast<int>(threads), [&] {
+    set_frame(data, checked_box(mesh));
+    options.stop.check();
+    hilbert_order(data, mesh, scratch, threads);
+  });
+  options.stop.check();
+  return {data.triangle_of_slot.begin(), data.triangle_of_slot.end()};
+}
+
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box) {
   static std::atomic<std::uint64_t> last_serial{0};
   data.serial = ++last_serial;

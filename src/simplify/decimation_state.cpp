@@ -7,7 +7,6 @@
 
 #include "numeric/no_index.h"
 #include "numeric/rounding.h"
-#include "proof/edge_neighbours.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
 #include "simplify/mesh/edge_queue.h"
@@ -86,7 +85,7 @@ void Samples::add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle
 }
 
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-                 const CoverAssignment& cover, double spacing)
+                 const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double spacing)
     : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), no_index) {
   for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
   const auto nearest_face = [&](std::uint32_t original, Vec3 p) {
@@ -95,7 +94,6 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       return squared_distance(mesh.triangle(f), p) < squared_distance(mesh.triangle(g), p);
     });
   };
-  const auto neighbours = edge_neighbours(vertices, triangles);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (cover.faces_of(t).empty()) continue;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -145,6 +143,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
     : vertices(original_vertices),
       triangles(original_triangles),
       tree(original_tree),
+      neighbours(edge_neighbours(tree, vertices, triangles)),
       mesh(std::move(start)),
       faces(mesh.face_count()),
       source_vertex(std::move(vertex_of_vertex)),
@@ -191,7 +190,7 @@ void DecimationState::reset_quadrics() {
 void DecimationState::set_samples(double for_tolerance) {
   const double spacing = spacing_of_samples * for_tolerance;
   samples = starts_as_original ? Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing)
-                               : Samples(vertices, triangles, mesh, cover, spacing);
+                               : Samples(vertices, triangles, mesh, neighbours, cover, spacing);
 }
 
 void DecimationState::grow_tolerance(double to) {

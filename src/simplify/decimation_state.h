@@ -9,6 +9,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
+#include "proof/edge_neighbours.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
 #include "simplify/mesh/array_mesh.h"
@@ -35,7 +36,7 @@ class Samples {
   /// Takes samples for a mesh that is no longer the original: each sample gets the nearest of the faces that cover its
   /// triangle. Originals without a cover have no samples.
   Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-          const CoverAssignment& cover, double spacing);
+          const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double spacing);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
@@ -167,9 +168,10 @@ struct DecimationState {
   /// much gives 4% more faces.
   static constexpr double spacing_of_samples = 3;
 
-  const std::vector<Vec3>& vertices;       ///< of the original
-  const std::vector<Triangle>& triangles;  ///< of the original
-  const Bvh& tree;                         ///< of the original
+  const std::vector<Vec3>& vertices;                 ///< of the original
+  const std::vector<Triangle>& triangles;            ///< of the original
+  const Bvh& tree;                                   ///< of the original
+  const std::vector<TriangleNeighbours> neighbours;  ///< of the original, across its edges
 
   ArrayMesh mesh;
   std::size_t faces = 0;  ///< those left

@@ -23,11 +23,10 @@ class ProofWorkers::Worker {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  /// `neighbours` are those of the original's edges, the same for all threads.
-  Worker(const DecimationState& state, const std::vector<std::array<std::uint32_t, 3>>& neighbours)
+  explicit Worker(const DecimationState& state)
       : state_(state),
         cover_(state.vertices, state.triangles),
-        original_{state.vertices, state.triangles, neighbours},
+        original_{state.vertices, state.triangles, state.neighbours},
         parity_(state.triangles.size()),
         patches_(state.mesh.face_count()),
         proximity_(state.tree) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/proof_workers.h"
 
-#include "proof/edge_neighbours.h"
 #include "simplify/proof_worker.h"
 
 namespace meshbound {
 
-ProofWorkers::ProofWorkers(const DecimationState& state, int threads)
-    : neighbours_(edge_neighbours(state.vertices, state.triangles)) {
-  for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<Worker>(state, neighbours_));
+ProofWorkers::ProofWorkers(const DecimationState& state, int threads) {
+  for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<Worker>(state));
 }
 ProofWorkers::~ProofWorkers() = default;
 

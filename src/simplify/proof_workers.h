@@ -41,7 +41,6 @@ class ProofWorkers {
   [[nodiscard]] Worker& of_thread(std::size_t thread) { return *workers_[thread]; }
 
  private:
-  const std::vector<std::array<std::uint32_t, 3>> neighbours_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
