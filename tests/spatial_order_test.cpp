@@ -65,7 +65,7 @@ TEST(SpatialOrder, BringsNeighboursTogether) {
 
 TEST(SpatialOrder, IsThatOfTheTree) {
   const TriangleMesh mesh = shuffled_sphere(5);
-  const Bvh tree(mesh, {1});
+  const meshbound::Bvh tree(mesh, {1});
   const auto& of_tree = tree.data().triangle_of_slot;
   EXPECT_EQ(spatial_order(mesh, {1}).triangle, std::vector<std::uint32_t>(of_tree.begin(), of_tree.end()));
 }
