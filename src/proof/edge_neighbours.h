@@ -11,7 +11,7 @@
 
 namespace meshbound {
 
-/// By triangle.
+/// Of one triangle: the triangles across its edges, [k] across the edge from corner k to corner k + 1.
 using TriangleNeighbours = std::array<std::uint32_t, 3>;
 
 /// By triangle, which triangle lies across the edge from corner k to corner k + 1: the other one of an edge that has
@@ -21,10 +21,11 @@ using TriangleNeighbours = std::array<std::uint32_t, 3>;
 [[nodiscard]] std::vector<TriangleNeighbours> edge_neighbours(std::span<const Vec3> vertices,
                                                               std::span<const Triangle> triangles);
 
-/// The same by the hints of a tree of these triangles, each of which is checked; several times as fast. Where more than
-/// two triangles have an edge, those that share its vertices by their indices, and are two, are neighbours here. Either
-/// way an edge of a triangle has one partner at most, whose partner it is: the edges between the triangles of a set
-/// come in pairs, which is what a parity proof relies on. O(n).
+/// The neighbours that `tree`, built of these triangles, has found; each pair is checked by the positions of its
+/// corners. Differs from the function above at edges of more than two triangles only: two of them that have the edge's
+/// vertices for themselves, by index, may be neighbours here. Both functions give an edge of a triangle one partner at
+/// most, whose partner it is, so that the edges inside a set of triangles come in pairs: a parity proof relies on that.
+/// O(n).
 [[nodiscard]] std::vector<TriangleNeighbours> edge_neighbours(const Bvh& tree, std::span<const Vec3> vertices,
                                                               std::span<const Triangle> triangles);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meshbound/triangle_mesh.h"
+#include "proof/edge_neighbours.h"
 #include "proof/parity_patch.h"
 
 namespace meshbound {
@@ -16,7 +17,7 @@ namespace meshbound {
 struct OriginalSoup {
   const std::vector<Vec3>& vertices;
   const std::vector<Triangle>& triangles;
-  const std::vector<std::array<std::uint32_t, 3>>& neighbours;
+  const std::vector<TriangleNeighbours>& neighbours;
 
   [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t t) const {
     return {vertices[triangles[t][0]], vertices[triangles[t][1]], vertices[triangles[t][2]]};
