@@ -27,8 +27,8 @@ class ProofWorkers::Worker {
       : state_(state),
         cover_(state.vertices, state.triangles),
         original_{state.vertices, state.triangles, state.neighbours},
-        parity_(state.triangles.size()),
         patches_(state.mesh.face_count()),
+        originals_(state.triangles.size()),
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
     affected_marks_.reserve(state.triangles.size());
@@ -54,6 +54,13 @@ class ProofWorkers::Worker {
       if (!holds(at[k], corners, limit)) continue;
       only = at[k];
       return;
+    }
+    if (at[0] != no_index) {
+      const std::uint32_t under = face_under(middle_of(corners), at[0]);
+      if (holds(under, corners, limit)) {
+        only = under;
+        return;
+      }
     }
     find_around(at, grown(box_of(corners), state_.tolerance));
     cover_by_found(
@@ -82,9 +89,18 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
     near = triangle_near(face, middle_of(corners), near);
-    if (parity_.covers(original_, corners, limit, state_.magnitude, near)) return true;
-    return proximity_.triangle_within({to_eigen(corners[0]), to_eigen(corners[1]), to_eigen(corners[2])}, limit,
-                                      near) == Verdict::Within;
+    open_parts_.clear();
+    originals_.cover(
+        original_, {corners, 0}, limit, state_.magnitude,
+        [&](const Corners& part) {
+          (void)proximity_.upper_distance(to_eigen(middle_of(part)), near);
+          return near;
+        },
+        open_parts_);
+    return std::all_of(open_parts_.begin(), open_parts_.end(), [&](const PatchCover::Part& part) {
+      const auto& [a, b, c] = part.corners;
+      return proximity_.triangle_within({to_eigen(a), to_eigen(b), to_eigen(c)}, limit, near) == Verdict::Within;
+    });
   }
 
   /// Covers of the originals that relied on these faces, which have just been changed, by index below `affected()`.
@@ -202,6 +218,7 @@ class ProofWorkers::Worker {
     const ArrayMesh& mesh;
     const Usable& is_usable;
 
+    void prefetch(std::uint32_t /*face*/) const {}
     [[nodiscard]] Corners corners(std::uint32_t face) const { return mesh.triangle(face); }
     [[nodiscard]] std::uint32_t neighbour(std::uint32_t face, std::size_t k) const {
       const Corner twin = mesh.twin(3 * face + static_cast<Corner>(k));
@@ -268,6 +285,29 @@ class ProofWorkers::Worker {
     int halvings = 0;
   };
 
+  /// The face above or below which a point lies, seen along the normals of the faces, or one on the way there. Walks from
+  /// `face` across the edge that the point is furthest beyond: a sample that others go with is not always near theirs.
+  [[nodiscard]] std::uint32_t face_under(Vec3 p, std::uint32_t face) const {
+    for (int steps = 0; steps < max_steps; ++steps) {
+      const Corners c = state_.mesh.triangle(face);
+      const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
+      std::uint32_t next = no_index;
+      double furthest = 0;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const Vec3 edge = c[(k + 1) % 3] - c[k];
+        const double beyond = dot(cross(p - c[k], edge), normal);
+        if (!(beyond > 0) || !(beyond * beyond > furthest * squared_length(edge))) continue;
+        const Corner twin = state_.mesh.twin(3 * face + k);
+        if (twin == no_index) continue;
+        furthest = beyond * beyond / squared_length(edge);
+        next = twin / 3;
+      }
+      if (next == no_index) break;
+      face = next;
+    }
+    return face;
+  }
+
   /// Like `CandidateFaces::holds`, for faces that are asked for once.
   bool holds(std::uint32_t face, const Corners& points, double limit) {
     Prepared& prepared = prepared_[face % prepared_.size()];
@@ -298,7 +338,7 @@ class ProofWorkers::Worker {
     found_.clear();
     found_marks_.clear();
     for (const std::uint32_t f : changed) {
-      if (state_.mesh.is_removed(f) || !box_of(state_.mesh.triangle(f)).intersects(reach)) continue;
+      if (state_.mesh.is_removed(f) || !box_meets(state_.mesh.triangle(f), reach)) continue;
       found_marks_.insert(f);
       found_.push_back(f);
     }
@@ -324,7 +364,7 @@ class ProofWorkers::Worker {
         if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
           const std::uint32_t f = d / 3;
-          if (found_marks_.contains(f) || !is_wanted(f) || !box_of(state_.mesh.triangle(f)).intersects(reach))
+          if (found_marks_.contains(f) || !is_wanted(f) || !box_meets(state_.mesh.triangle(f), reach))
             return true;
           found_marks_.insert(f);
           found_.push_back(f);
@@ -385,7 +425,7 @@ class ProofWorkers::Worker {
     const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
     chosen_.clear();
     for (const std::uint32_t f : found_)
-      if (box_of(state_.mesh.triangle(f)).intersects(reach)) chosen_.push_back(f);
+      if (box_meets(state_.mesh.triangle(f), reach)) chosen_.push_back(f);
     if (chosen_.size() <= CandidateFaces::capacity) return;
     const double squared_tolerance = state_.tolerance * state_.tolerance;
     std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
@@ -408,7 +448,6 @@ class ProofWorkers::Worker {
       const double squared = squared_length(state_.samples.at(s) - middle);
       if (squared < min_squared) min_squared = squared, best = state_.samples.triangle_near(s);
     }
-    (void)proximity_.upper_distance(to_eigen(middle), best);
     return best;
   }
 
@@ -420,8 +459,7 @@ class ProofWorkers::Worker {
   const DecimationState& state_;
   ForwardCover cover_;
   OriginalSoup original_;
-  ParityProof parity_;
-  PatchCover patches_;
+  PatchCover patches_, originals_;
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
@@ -443,6 +481,9 @@ class ProofWorkers::Worker {
 
   /// An original that so many faces covered before needs more cuts than a proof by patches costs.
   static constexpr std::size_t many_faces = 8;
+
+  /// A walk to the face under a point takes one or two steps where the faces are large.
+  static constexpr int max_steps = 8;
 
   /// Faces that are looked at around an original triangle.
   static constexpr std::size_t max_found = 4096;

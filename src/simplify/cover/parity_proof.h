@@ -47,6 +47,7 @@ class ParityProof {
   template <class Soup>
   [[nodiscard]] bool covers(const Soup& soup, const std::array<Vec3, 3>& triangle, double tolerance, double magnitude,
                             std::uint32_t seed) {
+    obstacle_ = {};
     return set_view(triangle, tolerance, magnitude) && grow(soup, seed);
   }
   /// As `covers`; P grows from the first of `likely` that lies above or below a point in the middle of the triangle,

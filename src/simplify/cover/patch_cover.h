@@ -32,21 +32,38 @@ class PatchCover {
   template <class Soup>
   void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude,
              std::span<const std::uint32_t> likely, std::vector<std::uint32_t>& faces, std::vector<Part>& open) {
-    Part part = whole;
-    for (int tries = 0; tries < max_tries; ++tries) {
-      if (parity_.covers_from(mesh, part.corners, tolerance, magnitude, likely)) {
-        faces.insert(faces.end(), parity_.patch().begin(), parity_.patch().end());
-        return;
-      }
-      const ParityProof::Obstacle obstacle = parity_.obstacle();
-      const double share = (obstacle.depth + clearance * tolerance) / obstacle.height;
-      if (!(share < max_share)) break;
-      part = without_strip(part, obstacle.side, share, open);
-    }
-    open.push_back(part);
+    const auto covers = [&](const std::array<Vec3, 3>& corners) {
+      return parity_.covers_from(mesh, corners, tolerance, magnitude, likely);
+    };
+    if (cut_strips(whole, tolerance, covers, max_tries, open))
+      faces.insert(faces.end(), parity_.patch().begin(), parity_.patch().end());
+  }
+  /// As above, without the faces; `seed_near(corners)` is one that lies above or below the middle of a part, if any does.
+  /// One strip is cut off at most: where it is not enough, `whole` stays open as it is.
+  template <class Soup, class SeedNear>
+  void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude, const SeedNear& seed_near,
+             std::vector<Part>& open) {
+    const auto covers = [&](const std::array<Vec3, 3>& corners) {
+      return parity_.covers(mesh, corners, tolerance, magnitude, seed_near(corners));
+    };
+    if (!cut_strips(whole, tolerance, covers, 2, open)) open.assign(1, whole);
   }
 
  private:
+  /// Cuts strips off until `covers` holds for the corners of the rest. False where it does not: then the rest is open,
+  /// too.
+  template <class Covers>
+  [[nodiscard]] bool cut_strips(const Part& whole, double tolerance, const Covers& covers, int tries,
+                                std::vector<Part>& open) {
+    Part rest = whole;
+    for (; !covers(rest.corners); --tries) {
+      const ParityProof::Obstacle obstacle = parity_.obstacle();
+      const double share = (obstacle.depth + clearance * tolerance) / obstacle.height;
+      if (tries == 1 || !(share < max_share)) return open.push_back(rest), false;
+      rest = without_strip(rest, obstacle.side, share, open);
+    }
+    return true;
+  }
   /// The part beyond a strip along its edge from corner `side`; the strip goes to `open`.
   [[nodiscard]] static Part without_strip(const Part& part, std::size_t side, double share, std::vector<Part>& open);
 

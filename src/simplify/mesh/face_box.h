@@ -2,6 +2,7 @@
 /// Boxes of triangles in the working frame, and distances from them.
 #pragma once
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 
 #include "geometry/eigen_vec3.h"
@@ -17,6 +18,16 @@ inline Eigen::AlignedBox3d box_of(const std::array<Vec3, 3>& corners) {
 }
 inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
   return {box.min().array() - by, box.max().array() + by};
+}
+
+/// Whether the box of a triangle and another one have a point in common.
+inline bool box_meets(const std::array<Vec3, 3>& corners, const Eigen::AlignedBox3d& box) {
+  const auto meets = [](double p, double q, double r, double min, double max) {
+    return std::min(std::min(p, q), r) <= max && std::max(std::max(p, q), r) >= min;
+  };
+  const auto& [a, b, c] = corners;
+  return meets(a.x, b.x, c.x, box.min().x(), box.max().x()) && meets(a.y, b.y, c.y, box.min().y(), box.max().y()) &&
+         meets(a.z, b.z, c.z, box.min().z(), box.max().z());
 }
 
 /// As computed, for guides; a proof asks `PreparedTriangle`.
