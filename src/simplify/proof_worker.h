@@ -93,7 +93,7 @@ class ProofWorkers::Worker {
     originals_.cover(
         original_, {corners, 0}, limit, state_.magnitude,
         [&](const Corners& part) {
-          (void)proximity_.upper_distance(to_eigen(middle_of(part)), near);
+          (void)proximity_.upper_distance(to_eigen(middle_of(part)), near, limit);
           return near;
         },
         open_parts_);
@@ -364,9 +364,7 @@ class ProofWorkers::Worker {
         if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
           const std::uint32_t f = d / 3;
-          if (found_marks_.contains(f) || !is_wanted(f) || !box_meets(state_.mesh.triangle(f), reach))
-            return true;
-          found_marks_.insert(f);
+          if (!found_marks_.insert(f) || !is_wanted(f) || !box_meets(state_.mesh.triangle(f), reach)) return true;
           found_.push_back(f);
           return true;
         });
