@@ -77,7 +77,11 @@ class ProofWorkers::Worker {
     found_.clear();
     boxes.find(grown(box_of(corners), state_.tolerance), found_);
     std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
-    cover_in_sub_triangles(corners, limit, faces);
+    const auto one = std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
+    if (one != found_.end())
+      faces.push_back(*one);
+    else
+      cover_in_sub_triangles(corners, limit, faces);
   }
 
   /// Whether a face is near the original; `near` is an original triangle to start with, and the one found.
