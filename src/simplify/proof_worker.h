@@ -77,7 +77,8 @@ class ProofWorkers::Worker {
     found_.clear();
     boxes.find(grown(box_of(corners), state_.tolerance), found_);
     std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
-    const auto one = std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
+    const auto one =
+        std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
     if (one != found_.end())
       faces.push_back(*one);
     else
@@ -289,8 +290,9 @@ class ProofWorkers::Worker {
     int halvings = 0;
   };
 
-  /// The face above or below which a point lies, seen along the normals of the faces, or one on the way there. Walks from
-  /// `face` across the edge that the point is furthest beyond: a sample that others go with is not always near theirs.
+  /// The face above or below which a point lies, seen along the normals of the faces, or one on the way there. Walks
+  /// from `face` across the edge that the point is furthest beyond: a sample that others go with is not always near
+  /// theirs.
   [[nodiscard]] std::uint32_t face_under(Vec3 p, std::uint32_t face) const {
     for (int steps = 0; steps < max_steps; ++steps) {
       const Corners c = state_.mesh.triangle(face);

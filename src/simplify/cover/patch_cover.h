@@ -38,8 +38,8 @@ class PatchCover {
     if (cut_strips(whole, tolerance, covers, max_tries, open))
       faces.insert(faces.end(), parity_.patch().begin(), parity_.patch().end());
   }
-  /// As above, without the faces; `seed_near(corners)` is one that lies above or below the middle of a part, if any does.
-  /// One strip is cut off at most: where it is not enough, `whole` stays open as it is.
+  /// As above, without the faces; `seed_near(corners)` is one that lies above or below the middle of a part, if any
+  /// does. One strip is cut off at most: where it is not enough, `whole` stays open as it is.
   template <class Soup, class SeedNear>
   void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude, const SeedNear& seed_near,
              std::vector<Part>& open) {
