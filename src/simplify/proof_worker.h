@@ -55,8 +55,9 @@ class ProofWorkers::Worker {
       only = at[k];
       return;
     }
-    if (at[0] != no_index) {
-      const std::uint32_t under = face_under(middle_of(corners), at[0]);
+    const auto known = std::find_if(at.begin(), at.end(), [](std::uint32_t f) { return f != no_index; });
+    if (known != at.end()) {
+      const std::uint32_t under = face_under(middle_of(corners), *known);
       if (holds(under, corners, limit)) {
         only = under;
         return;

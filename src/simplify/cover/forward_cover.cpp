@@ -16,6 +16,9 @@ constexpr double nearest_cut = 0.05;
 /// An edge whose ends share a face is cut only when the others do too: it weighs as if it were this much shorter.
 constexpr double held_edge_weight = 1e-3;
 
+/// Up to so many candidates are asked as fast all at once as one after another.
+constexpr int few_candidates = 16;
+
 FaceMask lowest(FaceMask mask) { return mask & (~mask + 1); }
 
 }  // namespace
@@ -27,6 +30,7 @@ void ForwardCover::begin(double tolerance) {
   candidates_.clear(tolerance);
   const double shortest = shortest_edge_share * tolerance;
   shortest_squared_edge_ = shortest * shortest;
+  last_ = 0;
   ++round_;
 }
 
@@ -57,8 +61,13 @@ bool ForwardCover::are_corners_near(std::uint32_t triangle, FaceMask allowed) {
 
 FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
   const auto& t = triangles_[triangle];
-  const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
-  return lowest((common & preferred) != 0 ? common & preferred : common);
+  const auto holding_all = [&](FaceMask among) {
+    return mask_of(t[0], among) & mask_of(t[1], among) & mask_of(t[2], among);
+  };
+  if (size() > few_candidates)
+    if (const FaceMask common = holding_all(last_ & allowed); common != 0) return common;
+  const FaceMask common = holding_all(allowed);
+  return last_ = lowest((common & preferred) != 0 ? common & preferred : common);
 }
 
 FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {

@@ -45,7 +45,8 @@ class ForwardCover {
   /// Mask of the candidates used when the triangle is covered by those of `allowed`, 0 when it is not. `preferred` are
   /// tried first.
   [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
-  /// As `cover`, by a single candidate, without cutting the triangle.
+  /// As `cover`, by a single candidate, without cutting the triangle. The one that has covered the last triangle is tried
+  /// before all others: triangles that follow one another lie near each other.
   [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
   /// As `cover`, where nothing is known: of the candidates that hold the triangle the one nearest to its middle, or
   /// few pieces, for which small candidates are tried as well.
@@ -81,6 +82,7 @@ class ForwardCover {
   CandidateFaces candidates_;
   std::array<std::uint32_t, CandidateFaces::capacity> faces_{};
   double shortest_squared_edge_ = 0;
+  FaceMask last_ = 0;  ///< the candidate that has covered a triangle last
   std::uint32_t round_ = 0;
   std::vector<CachedMask> cache_;
   std::vector<Piece> open_;
