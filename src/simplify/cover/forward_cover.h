@@ -45,8 +45,8 @@ class ForwardCover {
   /// Mask of the candidates used when the triangle is covered by those of `allowed`, 0 when it is not. `preferred` are
   /// tried first.
   [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
-  /// As `cover`, by a single candidate, without cutting the triangle. The one that has covered the last triangle is tried
-  /// before all others: triangles that follow one another lie near each other.
+  /// As `cover`, by a single candidate, without cutting the triangle. The one that has covered the last triangle is
+  /// tried before all others: triangles that follow one another lie near each other.
   [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
   /// As `cover`, where nothing is known: of the candidates that hold the triangle the one nearest to its middle, or
   /// few pieces, for which small candidates are tried as well.
