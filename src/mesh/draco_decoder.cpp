@@ -35,7 +35,7 @@ constexpr unsigned flag_metadata = 0x80;  // in the second byte of flags
 std::optional<std::uint32_t> declared_triangles(std::string_view bytes) {
   if (bytes.size() < header_size) return std::nullopt;
   const auto byte_at = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
-  const std::uint16_t version = DRACO_BITSTREAM_VERSION(byte_at(major_at), byte_at(minor_at));
+  const auto version = static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(byte_at(major_at), byte_at(minor_at)));
   if (version < DRACO_BITSTREAM_VERSION(2, 2)) return std::nullopt;
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data() + header_size, bytes.size() - header_size, version);

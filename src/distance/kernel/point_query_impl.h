@@ -132,7 +132,7 @@ class PointSearch {
 
   /// Tests a triangle and its neighbours in memory.
   void test_first(std::uint32_t slot) {
-    first_ = slot / doubles_width;
+    first_ = slot / std::uint32_t{doubles_width};
     Slots slots;
     for (std::size_t i = 0; i < doubles_width; ++i)
       slots[i] = std::min(static_cast<std::uint32_t>(first_ * doubles_width + i), last_slot_);
