@@ -85,6 +85,14 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
 
 namespace {
 
+void check_texture(const SimplifyOptions& options, std::size_t triangles) {
+  if (options.texture_coordinates.empty()) return;
+  if (options.texture_coordinates.size() != triangles)
+    throw InvalidInput("texture coordinates must be given for every triangle of the original, or not at all");
+  if (!options.materials.empty() && options.materials.size() != triangles)
+    throw InvalidInput("materials must be given for every triangle of the original, or not at all");
+}
+
 /// A number for each triangle, taken in this order: equal where the material and the texture coordinates of the
 /// corners, in any order, are. Empty where neither texture nor normals count.
 std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<const std::uint32_t> order) {
@@ -92,10 +100,10 @@ std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<co
   std::map<Look, std::uint32_t> number_of;
   std::vector<std::uint32_t> looks;
   if (options.normal_tolerance) looks.assign(order.size(), 0);
-  if (options.texture_coordinates.size() != order.size()) return looks;
+  if (options.texture_coordinates.empty()) return looks;
   looks.clear();
   for (const std::uint32_t t : order) {
-    Look look{options.materials.size() == order.size() ? options.materials[t] : 0, {}};
+    Look look{options.materials.empty() ? 0 : options.materials[t], {}};
     auto& corners = std::get<1>(look);
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector2d& uv = options.texture_coordinates[t][k];
@@ -110,6 +118,7 @@ std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<co
 }  // namespace
 
 void Decimation::make_state(const StopToken& stop) {
+  check_texture(options_, order_.triangle.size());
   TriangleMesh framed;
   framed.triangles = start_mesh().triangles;
   for (const Vec3 p : start_points()) framed.vertices.emplace_back(p.x, p.y, p.z);
@@ -282,10 +291,6 @@ bool Decimation::is_seam(Corner edge) const {
 }
 
 void Decimation::set_texture() {
-  if (options_.texture_coordinates.size() != order_.triangle.size())
-    throw InvalidInput("texture coordinates must be given for every triangle of the original, or not at all");
-  if (!options_.materials.empty() && options_.materials.size() != order_.triangle.size())
-    throw InvalidInput("materials must be given for every triangle of the original, or not at all");
   std::vector<CornerCoordinates> coordinates;
   std::vector<std::uint32_t> materials;
   for (const std::uint32_t t : order_.triangle) {
