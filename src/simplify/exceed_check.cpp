@@ -62,7 +62,7 @@ std::vector<std::uint32_t> ExceedCheck::faces_near(const Eigen::AlignedBox3d& bo
   for (const std::uint32_t f : found_)
     if (!state_.mesh.is_removed(f) && !is_changed_.contains(f)) faces.push_back(f);
   for (const std::uint32_t f : changed_)
-    if (!state_.mesh.is_removed(f) && box_of(state_.mesh.triangle(f)).intersects(reach)) faces.push_back(f);
+    if (!state_.mesh.is_removed(f) && box_meets(state_.mesh.triangle(f), reach)) faces.push_back(f);
   return faces;
 }
 

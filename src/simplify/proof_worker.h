@@ -28,7 +28,7 @@ class ProofWorkers::Worker {
         cover_(state.vertices, state.triangles),
         original_{state.vertices, state.triangles, state.neighbours},
         patches_(state.mesh.face_count()),
-        originals_(state.triangles.size()),
+        original_patches_(state.triangles.size()),
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
     affected_marks_.reserve(state.triangles.size());
@@ -96,7 +96,7 @@ class ProofWorkers::Worker {
     if (!(limit > 0)) return false;
     near = triangle_near(face, middle_of(corners), near);
     open_parts_.clear();
-    originals_.cover(
+    original_patches_.cover(
         original_, {corners, 0}, limit, state_.magnitude,
         [&](const Corners& part) {
           (void)proximity_.upper_distance(to_eigen(middle_of(part)), near, limit);
@@ -224,7 +224,6 @@ class ProofWorkers::Worker {
     const ArrayMesh& mesh;
     const Usable& is_usable;
 
-    void prefetch(std::uint32_t /*face*/) const {}
     [[nodiscard]] Corners corners(std::uint32_t face) const { return mesh.triangle(face); }
     [[nodiscard]] std::uint32_t neighbour(std::uint32_t face, std::size_t k) const {
       const Corner twin = mesh.twin(3 * face + static_cast<Corner>(k));
@@ -464,7 +463,7 @@ class ProofWorkers::Worker {
   const DecimationState& state_;
   ForwardCover cover_;
   OriginalSoup original_;
-  PatchCover patches_, originals_;
+  PatchCover patches_, original_patches_;  ///< of faces, and of originals
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;

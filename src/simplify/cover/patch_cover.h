@@ -46,7 +46,10 @@ class PatchCover {
     const auto covers = [&](const std::array<Vec3, 3>& corners) {
       return parity_.covers(mesh, corners, tolerance, magnitude, seed_near(corners));
     };
-    if (!cut_strips(whole, tolerance, covers, 2, open)) open.assign(1, whole);
+    const std::size_t before = open.size();
+    if (cut_strips(whole, tolerance, covers, tries_with_one_strip, open)) return;
+    open.resize(before);
+    open.push_back(whole);
   }
 
  private:
@@ -68,7 +71,7 @@ class PatchCover {
   [[nodiscard]] static Part without_strip(const Part& part, std::size_t side, double share, std::vector<Part>& open);
 
   /// A triangle has three edges, and at one that runs along a crease with corners more than one strip may be needed.
-  static constexpr int max_tries = 6;
+  static constexpr int max_tries = 6, tries_with_one_strip = 2;
   /// The rest keeps away from what stood in the way by this share of the tolerance: ten times what shrinking moves it.
   static constexpr double clearance = 0.01;
   /// Where strips would take more than this share of the way to the corner across, the part is left as it is.
