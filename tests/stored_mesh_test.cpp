@@ -127,7 +127,11 @@ TEST(RankedNumbers, AreSortedAndFindTheirIndices) {
       std::vector<std::vector<std::uint32_t>>{{70000, 64, 4095, 0}, {}, {4096, 63, 64, 4294967294, 70000, 1}});
   const std::vector<std::uint32_t> expected{0, 1, 63, 64, 4095, 4096, 70000, 4294967294};
   ASSERT_EQ(numbers.ascending(), expected);
-  for (std::uint32_t i = 0; i < expected.size(); ++i) EXPECT_EQ(numbers.index_of(expected[i]), i);
+  for (std::uint32_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(numbers.index_of(expected[i]), i);
+    EXPECT_TRUE(numbers.contains(expected[i]));
+  }
+  for (const std::uint32_t none : {2U, 65U, 5000U, 70001U, 4294967293U}) EXPECT_FALSE(numbers.contains(none));
   EXPECT_TRUE(RankedNumbers(std::vector<Triangle>()).ascending().empty());
 }
 

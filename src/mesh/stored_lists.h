@@ -46,7 +46,7 @@ class ListReader {
   /// The next list; it must be there. Holds until the next call.
   [[nodiscard]] std::span<const std::uint32_t> next() {
     if (read_ == block_.size()) {
-      constexpr std::size_t block_size = 256;
+      constexpr std::size_t block_size = 2048;
       const std::size_t end = std::min(lists_->size(), next_ + block_size);
       block_ = lists_->range(next_, end);
       next_ = end;

@@ -22,6 +22,11 @@ class RankedNumbers {
   }
   /// Each number once, ascending.
   [[nodiscard]] const std::vector<std::uint32_t>& ascending() const { return ascending_; }
+  [[nodiscard]] bool contains(std::uint32_t number) const {
+    const std::size_t page = number / numbers_of_page;
+    return page < first_word_.size() && first_word_[page] != no_index &&
+           (words_[word_of(number)] & bit_of(number)) != 0;
+  }
   /// The index of a number of the set in `ascending`.
   [[nodiscard]] std::uint32_t index_of(std::uint32_t number) const {
     const std::size_t word = word_of(number);

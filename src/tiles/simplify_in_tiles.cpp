@@ -95,6 +95,7 @@ class TiledRun {
     TiledMesh::Pass how{cuts[k],
                         (k > 0 ? growth_of_later_tiles : 1) * tiles_.max_triangles,
                         k > 1 ? rings_of_later_pass : rings_of_second_pass,
+                        options_.tolerance,
                         [&](const TileInput& input) { return simplify_tile(input, of_tile_, stop_); },
                         {}};
     if (options_.progress) how.progress = [&](double share) { options_.progress(progress_at(k, share)); };

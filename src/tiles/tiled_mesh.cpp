@@ -20,9 +20,33 @@ namespace {
 /// triangles takes 0.8 kB with what proves it, an original 0.26 kB.
 constexpr std::uint32_t originals_of_vertex = 6;
 
+/// An original below a triangle of a tile's own may be covered by one that stays, to which it is near: then it is about
+/// this many tolerances away from what the two have in common, a tolerance to the side and one below.
+constexpr double width_of_rim = 1.5;
+
 std::uint32_t index_in(std::span<const std::uint32_t> ascending, std::uint32_t number) {
   return static_cast<std::uint32_t>(std::lower_bound(ascending.begin(), ascending.end(), number) - ascending.begin());
 }
+
+/// The first corner of each of some triangles of a mesh.
+class FirstCorners {
+ public:
+  FirstCorners(const StoredMesh& mesh, std::span<const std::uint32_t> triangles) {
+    for (const Triangle& corners :
+         gathered<Triangle>(triangles, mesh.triangle_count(),
+                            [&](std::size_t first, std::span<Triangle> to) { mesh.read_triangles(first, to); }))
+      vertices_.push_back(corners[0]);
+    ranked_.emplace(std::array{std::span<const std::uint32_t>(vertices_)});
+    positions_ = gathered<Vec3>(ranked_->ascending(), mesh.vertex_count(),
+                                [&](std::size_t first, std::span<Vec3> to) { mesh.read_vertices(first, to); });
+  }
+  [[nodiscard]] Vec3 operator[](std::size_t k) const { return positions_[ranked_->index_of(vertices_[k])]; }
+
+ private:
+  std::vector<std::uint32_t> vertices_;  ///< by triangle
+  std::optional<RankedNumbers> ranked_;
+  std::vector<Vec3> positions_;
+};
 
 template <class T>
 void release(std::vector<T>& v) {
@@ -85,6 +109,7 @@ TiledMesh::PassFacts TiledMesh::pass(const Pass& how, JobRunner& runner) {
     find_owners(how);
     find_triangles();
     find_what_stays();
+    squared_rim_ = width_of_rim * how.tolerance * width_of_rim * how.tolerance;
     if (!is_original_) find_originals();
     new_covers_.emplace(original_.space());
   });
@@ -230,14 +255,59 @@ void TiledMesh::find_what_stays() {
 }
 
 /// The originals of a tile: those that its own triangles cover, also in part, and those that its triangles are near.
+/// Some that other triangles cover are added later (`originals_at_rim`).
 void TiledMesh::find_originals() {
   originals_.emplace(original_.space(), triangles_->size());
+  beside_.emplace(original_.space(), triangles_->size());
   for_each_cover([&](std::uint32_t t, std::span<const std::uint32_t> cover) {
-    for (const std::uint32_t f : cover)
-      if (const std::uint32_t tile = tile_of(proven_.mesh.triangles[f]); tile != no_index) originals_->append(tile, t);
+    for (const std::uint32_t f : cover) {
+      const Triangle& corners = proven_.mesh.triangles[f];
+      if (const std::uint32_t tile = tile_of(corners); tile != no_index) {
+        originals_->append(tile, t);
+        continue;
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t tile = owner_[corners[k]];
+        const bool is_first = std::none_of(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(k),
+                                           [&](std::uint32_t v) { return owner_[v] == tile; });
+        if (tile != no_index && is_first) beside_->append(tile, t);
+      }
+    }
   });
   for (std::uint32_t tile = 0; tile < triangles_->size(); ++tile)
     for (const std::uint32_t f : (*triangles_)[tile]) originals_->append(tile, proven_.near[f]);
+}
+
+/// Whether a point is near the corner or the edge that a triangle has in common with what a tile owns.
+bool TiledMesh::is_at_rim(std::uint32_t tile, std::uint32_t triangle, Vec3 p) const {
+  std::array<Vec3, 3> common;
+  std::size_t count = 0;
+  for (const std::uint32_t v : proven_.mesh.triangles[triangle])
+    if (owner_[v] == tile) common[count++] = to_vec3(proven_.mesh.vertices[v]);
+  if (count == 0 || count == 3) return false;
+  Vec3 away = p - common[0];
+  if (count == 2) {
+    const Vec3 edge = common[1] - common[0];
+    away = away - std::clamp(dot(away, edge) / squared_length(edge), 0.0, 1.0) * edge;
+  }
+  return squared_length(away) <= squared_rim_;
+}
+
+/// The originals below the rim of what is the tile's own that triangles which stay cover: without them its triangles
+/// would hang over the edge of what the tile knows of the original, and be harder to prove near it. Those with their
+/// first corner there are enough for that.
+std::vector<std::uint32_t> TiledMesh::originals_at_rim(std::uint32_t tile) const {
+  std::vector<std::uint32_t> beside = (*beside_)[tile];
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  const NumberLists covers = cover_.at(beside);
+  const FirstCorners corners(original_, beside);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < beside.size(); ++k) {
+    const auto is_near = [&](std::uint32_t f) { return is_at_rim(tile, f, corners[k]); };
+    if (std::any_of(covers[k].begin(), covers[k].end(), is_near)) beside[count++] = beside[k];
+  }
+  beside.resize(count);
+  return beside;
 }
 
 std::vector<bool> TiledMesh::locked(const std::vector<std::uint32_t>& vertices) const {
@@ -257,7 +327,7 @@ MeshPart TiledMesh::find_numbers(std::uint32_t tile, TileNumbers& numbers) const
   if (is_original_) {
     numbers.originals = numbers.triangles;
   } else {
-    numbers.originals = RankedNumbers(std::array{(*originals_)[tile]}).ascending();
+    numbers.originals = RankedNumbers(std::array{(*originals_)[tile], originals_at_rim(tile)}).ascending();
   }
   numbers.cover = cover_of(tile, numbers);
   return part;
@@ -345,19 +415,17 @@ struct TiledMesh::Joined {
   std::vector<std::uint32_t> staying;      ///< vertices before that stay, ascending
   std::vector<std::uint32_t> staying_now;  ///< by these: the number now; `no_index` until it is met
   std::vector<std::uint32_t> before;       ///< by triangle now: its number before
+  std::optional<RankedNumbers> ranked;     ///< of `before`
   std::vector<std::uint32_t> by_before;    ///< triangles now, in the order of `before`
 
   void sort() {
-    by_before = numbers_below(before.size());
-    std::sort(by_before.begin(), by_before.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return before[i] < before[j]; });
+    ranked.emplace(std::array{std::span<const std::uint32_t>(before)});
+    by_before.resize(before.size());
+    for (std::uint32_t i = 0; i < before.size(); ++i) by_before[ranked->index_of(before[i])] = i;
   }
   [[nodiscard]] std::uint32_t triangle_now(std::uint32_t f) const {
-    const auto at = std::lower_bound(by_before.begin(), by_before.end(), f,
-                                     [&](std::uint32_t i, std::uint32_t number) { return before[i] < number; });
-    if (at == by_before.end() || before[*at] != f)
-      throw Error("internal error: a tile changed a triangle that another tile relies on");
-    return *at;
+    if (!ranked->contains(f)) throw Error("internal error: a tile changed a triangle that another tile relies on");
+    return by_before[ranked->index_of(f)];
   }
 };
 
@@ -429,7 +497,7 @@ void TiledMesh::join(std::vector<TileResult>& tiles) {
   source_triangle_ = std::move(into.source_triangle);
   at_seam_ = std::move(into.at_seam);
   is_original_ = false;
-  triangles_.reset(), originals_.reset(), new_covers_.reset();
+  triangles_.reset(), originals_.reset(), beside_.reset(), new_covers_.reset();
   release(owner_), release(stays_), release(position_);
 }
 

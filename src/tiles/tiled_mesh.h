@@ -47,6 +47,7 @@ class TiledMesh {
     TileCut cut;
     std::size_t max_weight = 0;  ///< of a tile: originals, and later triangles as well
     int rings = 0;               ///< of triangles around the seams that a later pass goes over
+    double tolerance = 0;        ///< what the tiles are simplified with
     Simplify simplify;
     std::function<void(double share)> progress;  ///< of the pass
   };
@@ -95,6 +96,8 @@ class TiledMesh {
   void cut_near_seams(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
   void find_triangles();
   void find_originals();
+  [[nodiscard]] bool is_at_rim(std::uint32_t tile, std::uint32_t triangle, Vec3 p) const;
+  [[nodiscard]] std::vector<std::uint32_t> originals_at_rim(std::uint32_t tile) const;
   void find_what_stays();
   MeshPart find_numbers(std::uint32_t tile, TileNumbers& numbers) const;
   [[nodiscard]] NumberLists cover_of(std::uint32_t tile, const TileNumbers& numbers) const;
@@ -129,6 +132,9 @@ class TiledMesh {
   std::vector<std::uint32_t> owner_;       ///< by vertex: its tile, or `no_index`
   std::optional<GrowingLists> triangles_;  ///< by tile: those with a vertex that it owns, ascending
   std::optional<GrowingLists> originals_;  ///< by tile of a mesh that is not the original
+  /// By such a tile: the originals that triangles which stay cover, of those with a vertex that the tile owns.
+  std::optional<GrowingLists> beside_;
+  double squared_rim_ = 0;                 ///< square of the width of a rim
   std::vector<std::uint8_t> stays_;        ///< by vertex
   std::optional<StoredLists> new_covers_;  ///< of the tiles, as triangles before the pass that have stayed
   std::mutex taking_;                      ///< for `new_covers_`
