@@ -19,6 +19,8 @@
 #include "reference/small_meshes.h"
 #include "simplify/cover/candidate_faces.h"
 #include "simplify/cover/cover_assignment.h"
+#include "simplify/cover/forward_cover.h"
+#include "simplify/cover/original_clusters.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
 #include "simplify/kernel/kernels.h"
@@ -207,6 +209,64 @@ TEST(CandidateFaces, HoldExactlyThoseThatAreNear) {
       }
     }
   }
+}
+
+/// Asked for all points at once, a face gives the answers that it gives for each.
+TEST(CandidateFaces, HoldAllPointsWhereTheyHoldEach) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto point = [&](double size) {
+    return Vec3{size * coordinate(random), size * coordinate(random), size * coordinate(random)};
+  };
+  CandidateFaces candidates;
+  int held = 0, lost = 0;
+  for (int round = 0; round < 500; ++round) {
+    candidates.clear(0.3);
+    for (int k = 0; k < 7; ++k) {
+      const Vec3 a = point(1), b = point(1);
+      candidates.add({a, b, k == 3 ? b : point(1)});  // one without area
+    }
+    const Vec3 centre = point(0.5);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 3; ++i) points.push_back(centre + point(0.2));
+    for (int k = 0; k < candidates.size(); ++k) {
+      const FaceMask one = FaceMask{1} << k;
+      const bool each =
+          std::all_of(points.begin(), points.end(), [&](Vec3 p) { return candidates.holding(p, one) == one; });
+      EXPECT_EQ(candidates.holds_all(k, points.size(), [&](std::size_t i) { return points[i]; }), each);
+      ++(each ? held : lost);
+    }
+  }
+  EXPECT_GT(held, 300);
+  EXPECT_GT(lost, 300);
+}
+
+/// A strip of squares along x, two triangles each, below two faces that meet at x = 10.
+TEST(ForwardCover, HoldsAClusterByOneFaceOrNot) {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i <= 20; ++i) {
+    vertices.push_back({static_cast<double>(i), 0, 0}), vertices.push_back({static_cast<double>(i), 1, 0});
+    if (i > 0) triangles.push_back({2 * i - 2, 2 * i, 2 * i - 1}), triangles.push_back({2 * i - 1, 2 * i, 2 * i + 1});
+  }
+  const OriginalClusters clusters(triangles, vertices.size());
+  ASSERT_EQ(clusters.count(), 3U);  // 16, 16 and 8 triangles
+  EXPECT_EQ(clusters.vertices(0).size(), 18U);
+  EXPECT_EQ(clusters.vertices(2).size(), 10U);
+  const auto ids = clusters.vertices(2);
+  EXPECT_EQ(std::set<std::uint32_t>(ids.begin(), ids.end()).size(), 10U);
+  EXPECT_EQ(OriginalClusters::cluster_of(39), 2U);
+  EXPECT_EQ(OriginalClusters::member(39), 1U << 7);
+
+  ForwardCover cover(vertices, triangles);
+  cover.begin(0.1);
+  cover.add({Vec3{-9, -9, 0.05}, Vec3{10, -9, 0.05}, Vec3{10, 29, 0.05}}, 5);
+  cover.add({Vec3{10, -9, 0.05}, Vec3{29, -9, 0.05}, Vec3{10, 29, 0.05}}, 6);
+  const FaceMask both = ForwardCover::first(2);
+  EXPECT_EQ(cover.hold_all(clusters.vertices(0), both), 1U);
+  EXPECT_EQ(cover.hold_all(clusters.vertices(0), 2), 0U) << "the other one is not near";
+  EXPECT_EQ(cover.hold_all(clusters.vertices(1), both), 0U) << "the two meet there";
+  EXPECT_EQ(cover.hold_all(clusters.vertices(2), both), 2U);
 }
 
 TEST(PlaneKernel, IsTheSameOnEveryProcessor) {

@@ -25,6 +25,13 @@ constexpr double max_between = 7;
 /// the last digit: it accepts an upper bound of the whole tolerance.
 constexpr double proven_share = 1 - 1e-4;
 
+/// One sample may represent two if the original rises by no more than this between them, in tolerances.
+constexpr double max_deviation_of_pair = 0.1;
+
+/// Vertices of the original that follow one another, of which one represents the others where it can: where a mesh has
+/// been simplified before, a face may have thousands of them.
+constexpr std::uint32_t max_followers = 7;
+
 /// Faces whose normals are further apart meet in a crease: 20 degrees.
 constexpr double max_cosine_of_crease = 0.94;
 
@@ -85,7 +92,7 @@ void Samples::add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle
 }
 
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-                 const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double spacing)
+                 const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double tolerance)
     : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), no_index) {
   for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
   const auto nearest_face = [&](std::uint32_t original, Vec3 p) {
@@ -94,13 +101,14 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       return squared_distance(mesh.triangle(f), p) < squared_distance(mesh.triangle(g), p);
     });
   };
+  const double spacing = DecimationState::spacing_of_samples * tolerance;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (cover.faces_of(t).empty()) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = triangles[t][k], w = triangles[t][(k + 1) % 3], across = neighbours[t][k];
       if (samples_[v].face == no_index) {
         triangle_near_[v] |= t;
-        give_to(v, nearest_face(t, vertices[v]));
+        samples_[v].face = nearest_face(t, vertices[v]);
       }
       if (across != no_index && across < t) continue;
       const std::uint32_t mark = is_border_or_crease(vertices, triangles, t, across) ? at_edge : 0;
@@ -108,6 +116,32 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       add_between(vertices[v], vertices[w], spacing, t | mark, [&](Vec3 p) { return nearest_face(t, p); });
     }
   }
+  std::uint32_t leader = no_index, followers = 0;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    if (samples_[v].face == no_index) continue;
+    if (leader != no_index && followers < max_followers && samples_[v].face == samples_[leader].face &&
+        are_alike(leader, v, vertices, triangles, tolerance)) {
+      go_with(v, leader);
+      ++followers;
+      continue;
+    }
+    give_to(v, samples_[v].face);
+    leader = v, followers = 0;
+  }
+}
+
+bool Samples::are_alike(std::uint32_t s, std::uint32_t t, const std::vector<Vec3>& vertices,
+                        const std::vector<Triangle>& triangles, double tolerance) const {
+  if (is_at_edge(s) || is_at_edge(t)) return false;
+  const Vec3 way = at(t) - at(s);
+  const double max_height = max_deviation_of_pair * tolerance;
+  const auto is_in_plane = [&](std::uint32_t sample) {
+    const auto& [i, j, k] = triangles[triangle_near(sample)];
+    const Vec3 normal = cross(vertices[j] - vertices[i], vertices[k] - vertices[i]);
+    const double height = dot(normal, way);
+    return height * height <= max_height * max_height * squared_length(normal);
+  };
+  return is_in_plane(s) && is_in_plane(t);
 }
 
 void EditLog::append(const EditLog& other) {
@@ -144,6 +178,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
       triangles(original_triangles),
       tree(original_tree),
       neighbours(edge_neighbours(tree, vertices, triangles)),
+      clusters(triangles, vertices.size()),
       mesh(std::move(start)),
       faces(mesh.face_count()),
       source_vertex(std::move(vertex_of_vertex)),
@@ -190,7 +225,7 @@ void DecimationState::reset_quadrics() {
 void DecimationState::set_samples(double for_tolerance) {
   const double spacing = spacing_of_samples * for_tolerance;
   samples = starts_as_original ? Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing)
-                               : Samples(vertices, triangles, mesh, neighbours, cover, spacing);
+                               : Samples(vertices, triangles, mesh, neighbours, cover, for_tolerance);
 }
 
 void DecimationState::grow_tolerance(double to) {

@@ -12,6 +12,7 @@
 #include "proof/edge_neighbours.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
+#include "simplify/cover/original_clusters.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/face_turns.h"
 #include "simplify/mesh/feature_lines.h"
@@ -33,16 +34,20 @@ class Samples {
   Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
           const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
           double spacing);
-  /// Takes samples for a mesh that is no longer the original: each sample gets the nearest of the faces that cover its
-  /// triangle. Originals without a cover have no samples.
+  /// Takes samples for a mesh that is no longer the original, to be simplified with this tolerance: each sample gets
+  /// the nearest of the faces that cover its triangle. Originals without a cover have no samples.
   Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-          const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double spacing);
+          const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double tolerance);
 
   [[nodiscard]] std::size_t size() const { return samples_.size(); }
   [[nodiscard]] Vec3 at(std::uint32_t sample) const { return samples_[sample].at; }
   [[nodiscard]] std::uint32_t triangle_near(std::uint32_t sample) const { return triangle_near_[sample] & ~at_edge; }
   /// Whether the sample lies on a border or a crease, where distances are largest: no other sample can represent it.
   [[nodiscard]] bool is_at_edge(std::uint32_t sample) const { return (triangle_near_[sample] & at_edge) != 0; }
+  /// Whether either sample lies in the plane of the original at the other: then a face near one is near the other too,
+  /// unless it ends between them.
+  [[nodiscard]] bool are_alike(std::uint32_t s, std::uint32_t t, const std::vector<Vec3>& vertices,
+                               const std::vector<Triangle>& triangles, double tolerance) const;
   /// The face of a sample; `no_index` if it has none.
   [[nodiscard]] std::uint32_t face_of(std::uint32_t sample) const {
     while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != no_index)
@@ -172,6 +177,7 @@ struct DecimationState {
   const std::vector<Triangle>& triangles;            ///< of the original
   const Bvh& tree;                                   ///< of the original
   const std::vector<TriangleNeighbours> neighbours;  ///< of the original, across its edges
+  const OriginalClusters clusters;                   ///< of the original
 
   ArrayMesh mesh;
   std::size_t faces = 0;  ///< those left

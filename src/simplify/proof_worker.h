@@ -27,11 +27,11 @@ class ProofWorkers::Worker {
       : state_(state),
         cover_(state.vertices, state.triangles),
         original_{state.vertices, state.triangles, state.neighbours},
+        affected_members_(state.clusters.count(), 0),
         patches_(state.mesh.face_count()),
         original_patches_(state.triangles.size()),
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
-    affected_marks_.reserve(state.triangles.size());
     vertex_marks_.reserve(state.mesh.vertex_count());
   }
 
@@ -114,8 +114,7 @@ class ProofWorkers::Worker {
   bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
     meets_seam_ = false;
     lost_point_.reset();
-    begin_affected();
-    for (const EditLog::Stamp& stamp : changed) add_affected(stamp.face);
+    find_affected(changed, [](const EditLog::Stamp& stamp) { return stamp.face; });
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_) {
@@ -144,10 +143,11 @@ class ProofWorkers::Worker {
     const std::size_t added_count = found_.size();
     begin_covers();
     in_pieces_.clear();
-    for (std::size_t i = 0; i < affected_.size(); ++i) {
-      const FaceMask used = cover_.cover_whole(affected_[i], added, 0);
-      set_cover(i, used);
-      if (used == 0) in_pieces_.push_back(i);
+    const bool has_large_faces = affected_.size() >= min_originals_of_face * added_count;
+    for (std::size_t first = 0; first < affected_.size();) {
+      const std::size_t end = has_large_faces ? end_of_cluster(first) : affected_.size();
+      if (!has_large_faces || !cover_cluster(first, end, added)) cover_one_by_one(first, end, added);
+      first = end;
     }
     if (in_pieces_.empty()) return true;
     enter_ring(added_count, owned);
@@ -183,8 +183,7 @@ class ProofWorkers::Worker {
 
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
   bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
-    begin_affected();
-    for (const std::uint32_t face : changed) add_affected(face);
+    find_affected(changed, [](std::uint32_t face) { return face; });
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     begin_covers();
     for (std::size_t i = 0; i < affected_.size(); ++i) {
@@ -197,14 +196,50 @@ class ProofWorkers::Worker {
   }
 
  private:
-  void begin_affected() {
+  /// Finds the originals that rely on these faces, cluster by cluster.
+  template <class Items, class FaceOf>
+  void find_affected(const Items& changed, const FaceOf& face_of) {
+    affected_clusters_.clear();
+    for (const auto& item : changed) {
+      const std::uint32_t face = face_of(item);
+      if (state_.is_fixed[face] != 0) continue;
+      for (const std::uint32_t t : state_.cover.originals_of(face)) {
+        OriginalClusters::Members& members = affected_members_[OriginalClusters::cluster_of(t)];
+        if (members == 0) affected_clusters_.push_back(OriginalClusters::cluster_of(t));
+        members |= OriginalClusters::member(t);
+      }
+    }
     affected_.clear();
-    affected_marks_.clear();
+    for (const std::uint32_t c : affected_clusters_) {
+      for (unsigned members = affected_members_[c]; members != 0; members &= members - 1)
+        affected_.push_back(c * OriginalClusters::size + static_cast<std::uint32_t>(std::countr_zero(members)));
+      affected_members_[c] = 0;
+    }
   }
-  void add_affected(std::uint32_t face) {
-    if (state_.is_fixed[face] != 0) return;
-    for (const std::uint32_t t : state_.cover.originals_of(face))
-      if (affected_marks_.insert(t)) affected_.push_back(t);
+  [[nodiscard]] std::size_t end_of_cluster(std::size_t first) const {
+    const std::uint32_t cluster = OriginalClusters::cluster_of(affected_[first]);
+    std::size_t end = first + 1;
+    while (end < affected_.size() && OriginalClusters::cluster_of(affected_[end]) == cluster) ++end;
+    return end;
+  }
+  /// Covers the affected originals of a cluster by a single candidate, if one holds the whole cluster.
+  bool cover_cluster(std::size_t first, std::size_t end, FaceMask allowed) {
+    const std::uint32_t cluster = OriginalClusters::cluster_of(affected_[first]);
+    if (end - first < min_affected_of_cluster) return false;
+    const FaceMask used = cover_.hold_all(state_.clusters.vertices(cluster), allowed);
+    if (used == 0) return false;
+    set_cover(first, used);
+    const auto covers = std::span(covers_).subspan(first, end - first);
+    std::fill(covers.begin(), covers.end(), covers.front());
+    return true;
+  }
+  /// Covers affected originals by a candidate each; what has none is to be covered in pieces.
+  void cover_one_by_one(std::size_t first, std::size_t end, FaceMask allowed) {
+    for (std::size_t i = first; i < end; ++i) {
+      const FaceMask used = cover_.cover_whole(affected_[i], allowed, 0);
+      set_cover(i, used);
+      if (used == 0) in_pieces_.push_back(i);
+    }
   }
   void begin_covers() {
     ids_.clear();
@@ -463,12 +498,13 @@ class ProofWorkers::Worker {
   const DecimationState& state_;
   ForwardCover cover_;
   OriginalSoup original_;
-  PatchCover patches_, original_patches_;  ///< of faces, and of originals
+  std::vector<OriginalClusters::Members> affected_members_;  ///< by cluster of originals, while they are found
+  PatchCover patches_, original_patches_;                    ///< of faces, and of originals
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
-  MarkedIds found_marks_, affected_marks_, vertex_marks_;
-  std::vector<std::uint32_t> found_, chosen_, affected_, ids_, drafted_;
+  MarkedIds found_marks_, vertex_marks_;
+  std::vector<std::uint32_t> found_, chosen_, affected_, affected_clusters_, ids_, drafted_;
   struct Run {
     std::size_t begin = 0, count = 0;
   };
@@ -482,6 +518,10 @@ class ProofWorkers::Worker {
   /// so many sub-triangles, each with candidates of its own. The cuts of sub-triangles and of covers count together.
   static constexpr int max_halvings = 16;
   static constexpr std::size_t max_sub_triangles = 4096;
+
+  /// Clusters are asked for as wholes where a face of a change covers so many originals, two clusters, and where so
+  /// many of a cluster count: it has some twelve vertices, each original three.
+  static constexpr std::size_t min_originals_of_face = 2 * OriginalClusters::size, min_affected_of_cluster = 6;
 
   /// An original that so many faces covered before needs more cuts than a proof by patches costs.
   static constexpr std::size_t many_faces = 8;

@@ -18,8 +18,6 @@ constexpr std::size_t max_outside = 8;
 
 /// Samples of a star above which it is thinned out.
 constexpr std::size_t max_samples = 96;
-/// One sample may represent two if the original rises by no more than this between them, in tolerances.
-constexpr double max_deviation_of_pair = 0.1;
 /// Cells along the curve that pairs them, as a power of two: a few thousand to an axis.
 constexpr int curve_bits = 12;
 
@@ -182,26 +180,12 @@ void StarSamples::sort_along_curve() {
   std::sort(order_.begin(), order_.end());
 }
 
-/// Whether either sample lies in the plane of the original at the other: then a face near one is near the other too,
-/// unless it ends between them.
-bool StarSamples::are_alike(std::size_t i, std::size_t j) const {
-  const Samples& samples = state_.samples;
-  if (samples.is_at_edge(ids_[i]) || samples.is_at_edge(ids_[j])) return false;
-  const Vec3 way = samples.at(ids_[j]) - samples.at(ids_[i]);
-  const double max_height = max_deviation_of_pair * state_.tolerance;
-  const auto is_in_plane = [&](std::uint32_t sample) {
-    const auto& v = state_.triangles[samples.triangle_near(sample)];
-    const Vec3 a = state_.vertices[v[0]];
-    const Vec3 normal = cross(state_.vertices[v[1]] - a, state_.vertices[v[2]] - a);
-    const double height = dot(normal, way);
-    return height * height <= max_height * max_height * squared_length(normal);
-  };
-  return is_in_plane(ids_[i]) && is_in_plane(ids_[j]);
-}
-
 /// Lets one sample stand for two that lie near each other in one plane: the one that is farther from the mesh.
 void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
   const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
+  const auto are_alike = [&](std::size_t i, std::size_t j) {
+    return state_.samples.are_alike(ids_[i], ids_[j], state_.vertices, state_.triangles, state_.tolerance);
+  };
   sort_along_curve();
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const std::size_t i = order_[k].second, j = order_[std::min(k + 1, order_.size() - 1)].second;

@@ -49,7 +49,6 @@ class StarSamples {
                                           float squared_limit) const;
   [[nodiscard]] std::size_t nearest(std::size_t i) const;
   void sort_along_curve();
-  [[nodiscard]] bool are_alike(std::size_t i, std::size_t j) const;
   void thin_out(std::span<const std::uint32_t> numbers);
 
   DecimationState& state_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "geometry/prepared_triangle.h"
@@ -33,6 +36,26 @@ class CandidateFaces {
 
   /// The members of `among` that are within the tolerance of p.
   [[nodiscard]] FaceMask holding(Vec3 p, FaceMask among);
+
+  /// Whether candidate k is within the tolerance of all these points, as `holding` tells: `at(i)` is point i of
+  /// `count`.
+  template <class At>
+  [[nodiscard]] bool holds_all(int k, std::size_t count, const At& at) {
+    const PlaneBlock& block = planes(static_cast<std::size_t>(k / PlaneBlock::lanes));
+    const auto lane = static_cast<std::size_t>(k % PlaneBlock::lanes);
+    const bool is_flat = ((flat_ >> k) & 1U) != 0;
+    const auto above = [&](int plane, Vec3 p) {
+      return block.x[plane][lane] * p.x + block.y[plane][lane] * p.y + block.z[plane][lane] * p.z +
+             block.offset[plane][lane];
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 p = at(i);
+      const bool is_inside =
+          std::abs(above(PlaneBlock::face, p)) <= tolerance_ && std::max({above(1, p), above(2, p), above(3, p)}) <= 0;
+      if (!(is_flat && is_inside) && !holds(k, p)) return false;
+    }
+    return true;
+  }
 
   /// The member of `among` that is nearest to p.
   [[nodiscard]] FaceMask nearest(Vec3 p, FaceMask among);

@@ -2,6 +2,7 @@
 #include "simplify/cover/forward_cover.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace meshbound {
 namespace {
@@ -68,6 +69,16 @@ FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, Fac
     if (const FaceMask common = holding_all(last_ & allowed); common != 0) return common;
   const FaceMask common = holding_all(allowed);
   return last_ = lowest((common & preferred) != 0 ? common & preferred : common);
+}
+
+FaceMask ForwardCover::hold_all(std::span<const std::uint32_t> vertices, FaceMask allowed) {
+  const auto at = [&](std::size_t i) { return vertices_[vertices[i]]; };
+  const auto holds = [&](FaceMask one) { return candidates_.holds_all(std::countr_zero(one), vertices.size(), at); };
+  if (const FaceMask one = last_ & allowed; one != 0 && holds(one)) return one;
+  FaceMask likely = mask_of(vertices.front(), allowed) & mask_of(vertices.back(), allowed) & ~last_;
+  for (; likely != 0; likely &= likely - 1)
+    if (holds(lowest(likely))) return last_ = lowest(likely);
+  return 0;
 }
 
 FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {

@@ -48,6 +48,9 @@ class ForwardCover {
   /// As `cover`, by a single candidate, without cutting the triangle. The one that has covered the last triangle is
   /// tried before all others: triangles that follow one another lie near each other.
   [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// A single candidate that holds all these vertices, and so whatever triangles they are the corners of; 0 if there is
+  /// none. The one that has covered the last triangle is tried before all others.
+  [[nodiscard]] FaceMask hold_all(std::span<const std::uint32_t> vertices, FaceMask allowed);
   /// As `cover`, where nothing is known: of the candidates that hold the triangle the one nearest to its middle, or
   /// few pieces, for which small candidates are tried as well.
   [[nodiscard]] FaceMask cover_thoroughly(std::uint32_t triangle, FaceMask allowed);

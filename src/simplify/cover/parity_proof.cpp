@@ -12,8 +12,8 @@ namespace {
 constexpr double rim_share = 1e-6;
 constexpr double min_rim = 0x1p-44;
 
-/// A patch of more triangles belongs to a triangle so large that cutting it is no slower.
-constexpr std::size_t largest_patch = 20000;
+/// A patch of more triangles is given up: a quarter of what a tile has.
+constexpr std::size_t largest_patch = std::size_t{1} << 18;
 
 }  // namespace
 

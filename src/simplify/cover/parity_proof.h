@@ -114,7 +114,8 @@ struct ParityProof::Sight {
     edge_seen = 3;
     for (std::size_t side = 0; side < 3; ++side)
       for (std::size_t k = 0; k < 3; ++k) outside[side][k] = proof.window_.outside(side, corners[k]);
-    if (std::max({std::abs(corners[0].h), std::abs(corners[1].h), std::abs(corners[2].h)}) <= proof.height_limit_)
+    const double limit = proof.height_limit_;
+    if (std::abs(corners[0].h) <= limit && std::abs(corners[1].h) <= limit && std::abs(corners[2].h) <= limit)
       return true;
     for (const auto& of_side : outside)
       if (std::min({of_side[0], of_side[1], of_side[2]}) > proof.rim_) return true;
