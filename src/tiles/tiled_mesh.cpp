@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "geometry/segment.h"
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
@@ -132,6 +133,15 @@ std::uint32_t TiledMesh::tile_of(const Triangle& corners) const {
   return owner_[a] == owner_[b] && owner_[b] == owner_[c] ? owner_[a] : no_index;
 }
 
+template <class Use>
+void TiledMesh::for_each_owner(const Triangle& corners, const Use& use) const {
+  const auto& [a, b, c] = corners;
+  const std::uint32_t i = owner_[a], j = owner_[b], k = owner_[c];
+  if (i != no_index) use(i);
+  if (j != no_index && j != i) use(j);
+  if (k != no_index && k != i && k != j) use(k);
+}
+
 /// Whether a tile of a mesh that is not the original has the triangle, as its own or as one that stays.
 bool TiledMesh::is_in(std::uint32_t tile, std::uint32_t triangle) const {
   const Triangle& corners = proven_.mesh.triangles[triangle];
@@ -222,11 +232,7 @@ void TiledMesh::find_owners(const Pass& how) {
 
 void TiledMesh::find_triangles() {
   now_->for_each_triangle([&](std::uint32_t t, const Triangle& corners) {
-    const auto& [a, b, c] = corners;
-    const std::uint32_t i = owner_[a], j = owner_[b], k = owner_[c];
-    if (i != no_index) triangles_->append(i, t);
-    if (j != no_index && j != i) triangles_->append(j, t);
-    if (k != no_index && k != i && k != j) triangles_->append(k, t);
+    for_each_owner(corners, [&](std::uint32_t tile) { triangles_->append(tile, t); });
   });
 }
 
@@ -262,16 +268,8 @@ void TiledMesh::find_originals() {
   for_each_cover([&](std::uint32_t t, std::span<const std::uint32_t> cover) {
     for (const std::uint32_t f : cover) {
       const Triangle& corners = proven_.mesh.triangles[f];
-      if (const std::uint32_t tile = tile_of(corners); tile != no_index) {
-        originals_->append(tile, t);
-        continue;
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t tile = owner_[corners[k]];
-        const bool is_first = std::none_of(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(k),
-                                           [&](std::uint32_t v) { return owner_[v] == tile; });
-        if (tile != no_index && is_first) beside_->append(tile, t);
-      }
+      GrowingLists& lists = tile_of(corners) != no_index ? *originals_ : *beside_;
+      for_each_owner(corners, [&](std::uint32_t tile) { lists.append(tile, t); });
     }
   });
   for (std::uint32_t tile = 0; tile < triangles_->size(); ++tile)
@@ -285,12 +283,7 @@ bool TiledMesh::is_at_rim(std::uint32_t tile, std::uint32_t triangle, Vec3 p) co
   for (const std::uint32_t v : proven_.mesh.triangles[triangle])
     if (owner_[v] == tile) common[count++] = to_vec3(proven_.mesh.vertices[v]);
   if (count == 0 || count == 3) return false;
-  Vec3 away = p - common[0];
-  if (count == 2) {
-    const Vec3 edge = common[1] - common[0];
-    away = away - std::clamp(dot(away, edge) / squared_length(edge), 0.0, 1.0) * edge;
-  }
-  return squared_length(away) <= squared_rim_;
+  return squared_distance_to_segment(p, common[0], common[count - 1]) <= squared_rim_;
 }
 
 /// The originals below the rim of what is the tile's own that triangles which stay cover: without them its triangles

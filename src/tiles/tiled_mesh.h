@@ -87,6 +87,9 @@ class TiledMesh {
   }
   /// The tile of a triangle, or `no_index` where it stays as it is.
   [[nodiscard]] std::uint32_t tile_of(const Triangle& corners) const;
+  /// Calls use(tile) for each tile that owns a corner, once.
+  template <class Use>
+  void for_each_owner(const Triangle& corners, const Use& use) const;
   [[nodiscard]] bool is_in(std::uint32_t tile, std::uint32_t triangle) const;
   [[nodiscard]] std::uint32_t tile_of_cover(std::span<const std::uint32_t> cover) const;
   [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams(int rings) const;

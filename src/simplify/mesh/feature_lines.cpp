@@ -6,17 +6,11 @@
 #include <utility>
 
 #include "geometry/position_table.h"
+#include "geometry/segment.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
-
-double squared_distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 way = b - a;
-  const double squared = squared_length(way);
-  const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0;
-  return squared_length(p - (a + share * way));
-}
 
 /// The corners across the other edges of the two faces that a collapse removes, those of one face next to each other.
 std::array<Corner, 4> outer_corners(const ArrayMesh& mesh, Corner edge) {
