@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <set>
+#include <string_view>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
@@ -23,7 +25,10 @@
 #include "simplify/cover/original_clusters.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
+#include "simplify/cover/slab_proof.h"
+#include "simplify/cover/slab_tree.h"
 #include "simplify/kernel/kernels.h"
+#include "simplify/mesh/face_box.h"
 #include "simplify/mesh/spatial_order.h"
 
 namespace meshbound {
@@ -340,6 +345,168 @@ std::vector<Vec3> positions(const TriangleMesh& mesh) {
   std::vector<Vec3> result;
   for (const Vector3d& p : mesh.vertices) result.push_back({p.x(), p.y(), p.z()});
   return result;
+}
+
+/// A mesh in the order of a curve, with what a proof by slabs asks of it.
+struct SlabScene {
+  explicit SlabScene(const TriangleMesh& unordered)
+      : mesh(spatial_order(unordered, {}).mesh),
+        vertices(positions(mesh)),
+        neighbours(edge_neighbours(vertices, mesh.triangles)),
+        soup{vertices, mesh.triangles, neighbours},
+        clusters(mesh.triangles, vertices.size()),
+        tree(soup, clusters),
+        proof(soup, clusters, tree) {}
+
+  TriangleMesh mesh;
+  std::vector<Vec3> vertices;
+  std::vector<TriangleNeighbours> neighbours;
+  OriginalSoup soup;
+  OriginalClusters clusters;
+  SlabTree tree;
+  SlabProof proof;
+};
+
+TEST(SlabKernel, IsTheSameOnEveryProcessor) {
+  const SlabKernel portable = portable_simplify_kernels().slabs, fastest = simplify_kernels().slabs;
+  if (portable.look == fastest.look) GTEST_SKIP() << "this processor has no AVX2";
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  unsigned met = 0, within = 0;
+  for (int round = 0; round < 2000; ++round) {
+    SlabView view;
+    view.middle = {unit(random), unit(random), 0};
+    view.up = {0, 0, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double angle = 2 * static_cast<double>(k) + 0.3 * unit(random);
+      view.side[k] = {std::cos(angle), std::sin(angle), 0};
+      view.side_offset[k] = 0.5;
+    }
+    view.height_limit = 0.3, view.rim = 1e-6;
+    SlabBlock block{};
+    for (int k = 0; k < SlabBlock::lanes; ++k) {
+      const double lean = 0.2 * unit(random);
+      block.x[k] = 2 * unit(random), block.y[k] = 2 * unit(random), block.z[k] = 0.5 * unit(random);
+      block.normal_x[k] = std::sin(lean), block.normal_z[k] = std::cos(lean);
+      block.radius[k] = k == 5 ? -HUGE_VAL : 0.2, block.half_thickness[k] = 0.01;
+    }
+    const SlabsSeen one = portable.look(block, view), two = fastest.look(block, view);
+    ASSERT_EQ(one.meets, two.meets);
+    ASSERT_EQ(one.within, two.within);
+    EXPECT_EQ(one.within & ~one.meets, 0U);
+    met |= one.meets, within |= one.within;
+  }
+  EXPECT_EQ(met, 0xdfU) << "all but the lane without a node";
+  EXPECT_EQ(within, 0xdfU);
+}
+
+/// What blocks say of a view holds of the triangles below them.
+TEST(SlabTree, HoldsEachClusterInOneLeafAndItsTrianglesInAllNodesAbove) {
+  const SlabScene scene(datasets::terrain(1, 48, 7));
+  ASSERT_EQ(scene.tree.levels(), 3U);  // 4,608 triangles, 288 clusters, 36 blocks of them
+  std::vector<int> found(scene.clusters.count(), 0);
+  for (std::uint32_t leaf = 0; leaf < scene.clusters.count(); ++leaf) {
+    const std::uint32_t cluster = scene.tree.cluster(leaf);
+    ++found[cluster];
+    bool is_closed = true;
+    for (std::uint32_t t = 16 * cluster; t < 16 * (cluster + 1); ++t)
+      for (const std::uint32_t across : scene.neighbours[t]) is_closed &= across != no_index;
+    for (std::uint32_t level = 0, node = leaf; level < scene.tree.levels(); ++level, node /= 8) {
+      const SlabTree::Block& block = scene.tree.block(level, node / 8);
+      const std::uint32_t k = node % 8;
+      const SlabBlock& slabs = block.slabs;
+      const bool says_closed = (block.is_closed >> k & 1) != 0;
+      EXPECT_TRUE(is_closed || !says_closed);
+      EXPECT_TRUE(level > 0 || says_closed == is_closed);
+      for (const std::uint32_t v : scene.clusters.vertices(cluster)) {
+        const Vec3 offset = scene.vertices[v] - Vec3{slabs.x[k], slabs.y[k], slabs.z[k]};
+        const Vec3 normal{slabs.normal_x[k], slabs.normal_y[k], slabs.normal_z[k]};
+        EXPECT_LE(length(offset), slabs.radius[k] + 1e-12);
+        EXPECT_LE(std::abs(dot(offset, normal)), slabs.half_thickness[k] + 1e-12);
+      }
+    }
+  }
+  EXPECT_EQ(found, std::vector<int>(scene.clusters.count(), 1));
+}
+
+/// A face in the plane of a triangle, around its first corner, `size` times as large as an edge of it.
+TriangleMesh face_along(const TriangleMesh& mesh, std::uint32_t t, double size, const std::function<double()>& noise) {
+  const Triangle& v = mesh.triangles[t];
+  const Vector3d at = mesh.vertices[v[0]], along = mesh.vertices[v[1]] - at;
+  const Vector3d normal = along.cross(mesh.vertices[v[2]] - at).normalized(), across = normal.cross(along);
+  TriangleMesh face{{}, {{0, 1, 2}}};
+  for (const auto& [x, y] : {std::pair(-0.5, -0.4), std::pair(0.7, -0.3), std::pair(-0.2, 0.6)})
+    face.vertices.emplace_back(at + size * (x * along + y * across) + noise() * normal);
+  return face;
+}
+
+std::array<Vec3, 3> corners_of(const TriangleMesh& face) {
+  const std::vector<Vec3> corners = positions(face);
+  return {corners[0], corners[1], corners[2]};
+}
+
+/// Random faces over many originals: the proof may fail where the bound holds, never the other way.
+TEST(SlabProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    const SlabScene scene(shape.mesh);
+    const Bvh original(scene.mesh);
+    ParityProof grown(scene.mesh.triangles.size());
+    std::mt19937 random(12);
+    std::normal_distribution<double> noise(0, 0.4 * shape.tolerance);
+    int covered = 0, missed = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const auto t = static_cast<std::uint32_t>(random() % scene.mesh.triangles.size());
+      const TriangleMesh face = face_along(scene.mesh, t, 0.5 + 0.002 * (i % 4000), [&] { return noise(random); });
+      const std::array<Vec3, 3> corners = corners_of(face);
+      std::uint32_t over = no_index;
+      if (!scene.proof.covers(corners, shape.tolerance, 2, over)) {
+        missed += grown.covers(scene.soup, corners, shape.tolerance, 2, t) ? 1 : 0;
+        continue;
+      }
+      ++covered;
+      EXPECT_NE(check_one_sided_tolerance(Bvh(face), original, shape.tolerance).verdict, Verdict::Exceeds);
+      ASSERT_NE(over, no_index);
+      const Vec3 middle = 0.35 * corners[0] + 0.34 * corners[1] + 0.31 * corners[2];
+      EXPECT_LE(squared_distance(scene.soup.corners(over), middle), shape.tolerance * shape.tolerance);
+    }
+    if (std::string_view(shape.name).starts_with("thin")) continue;  // two sheets in the prism: even parity
+    EXPECT_GT(covered, 100);
+    EXPECT_LT(missed, covered) << "of what a patch that grows proves";
+  }
+}
+
+/// A large face 0.01 above a square of 40 x 40 x 2 triangles, and what is wrong with the square.
+TEST(SlabProof, SeesHolesWallsAndSecondSheetsInsideWholeNodes) {
+  const std::array<Vec3, 3> face{Vec3{0.1, 0.1, 0.01}, Vec3{0.9, 0.12, 0.01}, Vec3{0.4, 0.9, 0.01}};
+  const auto covers = [&](const TriangleMesh& mesh) {
+    std::uint32_t over = no_index;
+    return SlabScene(mesh).proof.covers(face, 0.02, 1, over);
+  };
+  const TriangleMesh square = reference::unit_square(40);
+  EXPECT_TRUE(covers(square));
+  EXPECT_TRUE(covers(reference::both(square, reference::moved(square, {0, 0, 0.2})))) << "a sheet beyond the prism";
+  EXPECT_FALSE(covers(reference::both(square, reference::moved(square, {0, 0, 0.02})))) << "two sheets, even parity";
+  EXPECT_TRUE(covers(reference::both(reference::both(square, reference::moved(square, {0, 0, 0.02})),
+                                     reference::moved(square, {0, 0, 0.01}))))
+      << "three sheets";
+  for (const double x : {0.3, 0.45, 0.6}) {
+    TriangleMesh holed = square;
+    std::erase_if(holed.triangles, [&](const Triangle& t) {
+      const Vector3d middle = (square.vertices[t[0]] + square.vertices[t[1]] + square.vertices[t[2]]) / 3;
+      return std::abs(middle.x() - x) < 0.02 && std::abs(middle.y() - 0.35) < 0.02;
+    });
+    ASSERT_LT(holed.triangles.size(), square.triangles.size());
+    EXPECT_FALSE(covers(holed)) << "a hole at " << x;
+    TriangleMesh spiked = square;
+    for (Vector3d& p : spiked.vertices)
+      if ((p - Vector3d(x, 0.35, 0)).norm() < 0.02) p.z() = 0.05;
+    EXPECT_FALSE(covers(spiked)) << "a spike at " << x;
+  }
+  TriangleMesh outside = square;
+  for (Vector3d& p : outside.vertices)
+    if (p.x() > 0.92 || p.x() < 0.08) p.z() = 0.05;
+  EXPECT_TRUE(covers(outside)) << "what is beside the face does not count";
 }
 
 TEST(EdgeNeighbours, OfATreeAreThoseWithoutOne) {

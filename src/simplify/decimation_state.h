@@ -13,6 +13,7 @@
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
 #include "simplify/cover/original_clusters.h"
+#include "simplify/cover/slab_tree.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/face_turns.h"
 #include "simplify/mesh/feature_lines.h"
@@ -178,6 +179,7 @@ struct DecimationState {
   const Bvh& tree;                                   ///< of the original
   const std::vector<TriangleNeighbours> neighbours;  ///< of the original, across its edges
   const OriginalClusters clusters;                   ///< of the original
+  const SlabTree slabs;                              ///< of the original
 
   ArrayMesh mesh;
   std::size_t faces = 0;  ///< those left

@@ -11,6 +11,7 @@
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
+#include "simplify/cover/slab_proof.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/mesh/marked_ids.h"
 #include "simplify/proof_workers.h"
@@ -30,6 +31,7 @@ class ProofWorkers::Worker {
         affected_members_(state.clusters.count(), 0),
         patches_(state.mesh.face_count()),
         original_patches_(state.triangles.size()),
+        slab_proof_(original_, state.clusters, state.slabs),
         proximity_(state.tree) {
     found_marks_.reserve(state.mesh.face_count());
     vertex_marks_.reserve(state.mesh.vertex_count());
@@ -94,6 +96,7 @@ class ProofWorkers::Worker {
         return false;
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
+    if (is_large(corners, near) && slab_proof_.covers(corners, limit, state_.magnitude, near)) return true;
     near = triangle_near(face, middle_of(corners), near);
     open_parts_.clear();
     original_patches_.cover(
@@ -490,6 +493,12 @@ class ProofWorkers::Worker {
     return best;
   }
 
+  /// Whether a face is so large that slabs are worth a look, beside an original near it.
+  [[nodiscard]] bool is_large(const Corners& face, std::uint32_t near) const {
+    const auto squared_area = [](const Corners& c) { return squared_length(cross(c[1] - c[0], c[2] - c[0])); };
+    return squared_area(face) >= min_area_of_slabs * min_area_of_slabs * squared_area(original_.corners(near));
+  }
+
   struct Prepared {
     std::uint32_t face = no_index;
     Corners corners;
@@ -500,6 +509,7 @@ class ProofWorkers::Worker {
   OriginalSoup original_;
   std::vector<OriginalClusters::Members> affected_members_;  ///< by cluster of originals, while they are found
   PatchCover patches_, original_patches_;                    ///< of faces, and of originals
+  SlabProof slab_proof_;
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
   std::array<Prepared, 64> prepared_;
@@ -522,6 +532,10 @@ class ProofWorkers::Worker {
   /// Clusters are asked for as wholes where a face of a change covers so many originals, two clusters, and where so
   /// many of a cluster count: it has some twelve vertices, each original three.
   static constexpr std::size_t min_originals_of_face = 2 * OriginalClusters::size, min_affected_of_cluster = 6;
+
+  /// A face of this area, in originals, is proven by slabs: on the way down to it these cost what a patch of thirty
+  /// costs.
+  static constexpr double min_area_of_slabs = 32;
 
   /// An original that so many faces covered before needs more cuts than a proof by patches costs.
   static constexpr std::size_t many_faces = 8;

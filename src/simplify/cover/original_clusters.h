@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,6 +21,8 @@ class OriginalClusters {
   static constexpr std::uint32_t size = 16;
   /// Bit k stands for the k-th triangle of a cluster.
   using Members = std::uint16_t;
+  /// The corners of a triangle as indices of `vertices` of its cluster.
+  using Corners = std::array<std::uint8_t, 3>;
 
   /// O(n).
   OriginalClusters(const std::vector<Triangle>& triangles, std::size_t vertex_count);
@@ -32,9 +36,16 @@ class OriginalClusters {
   [[nodiscard]] std::span<const std::uint32_t> vertices(std::uint32_t cluster) const {
     return std::span(vertices_).subspan(first_vertex_[cluster], first_vertex_[cluster + 1] - first_vertex_[cluster]);
   }
+  static constexpr std::size_t max_vertices = std::size_t{3} * size;
+  /// Its triangles; the first one is original `size` times `cluster`.
+  [[nodiscard]] std::span<const Corners> triangles(std::uint32_t cluster) const {
+    const std::size_t first = std::size_t{cluster} * size;
+    return std::span(corners_).subspan(first, std::min<std::size_t>(size, corners_.size() - first));
+  }
 
  private:
   std::vector<std::uint32_t> vertices_, first_vertex_{0};
+  std::vector<Corners> corners_;  ///< by triangle
 };
 
 }  // namespace meshbound

@@ -33,7 +33,7 @@ class PatchCover {
   void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude,
              std::span<const std::uint32_t> likely, std::vector<std::uint32_t>& faces, std::vector<Part>& open) {
     const auto covers = [&](const std::array<Vec3, 3>& corners) {
-      return parity_.covers_from(mesh, corners, tolerance, magnitude, likely);
+      return parity_.covers_from_first(mesh, corners, tolerance, magnitude, likely);
     };
     if (cut_strips(whole, tolerance, covers, max_tries, open))
       faces.insert(faces.end(), parity_.patch().begin(), parity_.patch().end());

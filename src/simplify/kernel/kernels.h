@@ -3,6 +3,7 @@
 #include "simplify/kernel/deviation_kernel.h"
 #include "simplify/kernel/plane_kernel.h"
 #include "simplify/kernel/sample_kernel.h"
+#include "simplify/kernel/slab_kernel.h"
 
 namespace meshbound {
 
@@ -12,6 +13,7 @@ struct SimplifyKernels {
   SampleKernel samples;
   DeviationKernel deviations;
   PlaneKernel planes;
+  SlabKernel slabs;
 };
 
 /// The fastest implementation that this machine runs, and the one that any machine runs.
