@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Proofs by parity, by patches that grow and by whole nodes of a tree: they say nothing that the distance engine
 // denies.
+#include "simplify/cover/parity_proof.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +21,6 @@
 #include "reference/hard_meshes.h"
 #include "reference/small_meshes.h"
 #include "simplify/cover/original_clusters.h"
-#include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
 #include "simplify/cover/slab_proof.h"
 #include "simplify/cover/slab_tree.h"
