@@ -14,6 +14,7 @@
 
 namespace tiles_tool_test {
 
+using meshbound::testing_tools::command_line;
 using meshbound::testing_tools::content_of;
 using meshbound::testing_tools::run_shell;
 using meshbound::testing_tools::run_tool;
@@ -85,6 +86,16 @@ TEST_F(Tiles, SayHowMuchMemoryIsNeededAndWriteNothing) {
       run_tool(HAUSDORFF_DISTANCE, {in_folder("torus.ply"), in_folder("torus.ply"), "--memory", "10M"});
   EXPECT_EQ(distance.exit_code, 2);
   EXPECT_EQ(std::count(distance.err.begin(), distance.err.end(), '\n'), 1) << distance.err;
+}
+
+TEST_F(Tiles, SayWithinWhichLimitMemoryHasRunOut) {
+  const ToolRun run =
+      run_shell("ulimit -d 65536; " + command_line(SIMPLIFY_WITH_BOUND, {in_folder("torus.ply"), in_folder("none.ply"),
+                                                                         "--tolerance", "1%"}));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("out of memory within 64 MiB: allow more (--memory)"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(in_folder("none.ply")));
 }
 
 TEST_F(Tiles, DoNotGoWithWhatNeedsTheWholeMesh) {

@@ -34,6 +34,13 @@ void limit_memory(std::uint64_t bytes) {
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 
+std::string out_of_memory() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "out of memory";
+  return "out of memory within " + in_mebibytes(static_cast<double>(limit.rlim_cur)) +
+         ": allow more (--memory), or a larger tolerance, which leaves fewer triangles";
+}
+
 std::uint64_t peak_memory() {
   constexpr std::uint64_t kibibyte = 1024;
   rusage usage{};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/completion.h"
+#include "common/memory.h"
 #include "common/omp_spin.h"
 #include "common/progress.h"
 #include "common/provenance.h"
@@ -177,7 +178,7 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
   } catch (const Stopped& stopped) {
     return complain(app, std::string(stopped.what()) + "; nothing was written", ExitUndecided);
   } catch (const std::bad_alloc&) {
-    return complain(app, "out of memory");
+    return complain(app, out_of_memory());
   } catch (const std::exception& error) {
     return complain(app, error.what());
   }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "common/exit_code.h"
+#include "common/memory.h"
 #include "common/omp_spin.h"
 #include "common/signals.h"
 #include "mpi/rank_workers.h"
@@ -28,7 +29,7 @@ std::optional<int> run_rank(mpi::Communicator& ranks, const std::string& tool,
   try {
     return serve(ranks);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "%s: rank %d: out of memory\n", tool.c_str(), ranks.rank());
+    std::fprintf(stderr, "%s: rank %d: %s\n", tool.c_str(), ranks.rank(), out_of_memory().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: rank %d: %s\n", tool.c_str(), ranks.rank(), error.what());
   }
