@@ -305,6 +305,18 @@ TEST(SlabKernel, IsTheSameOnEveryProcessor) {
     ASSERT_EQ(one.within, two.within);
     EXPECT_EQ(one.within & ~one.meets, 0U);
     met |= one.meets, within |= one.within;
+    std::vector<Vec3> points;
+    for (int i = 0; i < 6; ++i) points.push_back({2 * unit(random), 2 * unit(random), 0.5 * unit(random)});
+    const std::vector<std::uint32_t> indices{5, 1, 2, 0, 4, 3};
+    alignas(32) std::array<std::uint64_t, 8> ours{}, theirs{};
+    portable.look_at_vertices(points.data(), indices, view, ours.data());
+    fastest.look_at_vertices(points.data(), indices, view, theirs.data());
+    ASSERT_EQ(ours, theirs);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const Vec3 p = points[indices[i]];
+      EXPECT_EQ((ours[i] & VertexSeen::too_high) != 0, std::abs(p.z) > view.height_limit);
+      EXPECT_EQ((ours[i] & 1) != 0, dot(p - view.middle, view.side[0]) > view.side_offset[0] + view.rim);
+    }
   }
   EXPECT_EQ(met, 0xdfU) << "all but the lane without a node";
   EXPECT_EQ(within, 0xdfU);

@@ -96,7 +96,7 @@ class ProofWorkers::Worker {
         return false;
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
-    if (is_large(corners, near) && slab_proof_.covers(corners, limit, state_.magnitude, near)) return true;
+    if (has_room_for_clusters(corners, near) && slab_proof_.covers(corners, limit, state_.magnitude, near)) return true;
     near = triangle_near(face, middle_of(corners), near);
     open_parts_.clear();
     original_patches_.cover(
@@ -493,10 +493,12 @@ class ProofWorkers::Worker {
     return best;
   }
 
-  /// Whether a face is so large that slabs are worth a look, beside an original near it.
-  [[nodiscard]] bool is_large(const Corners& face, std::uint32_t near) const {
-    const auto squared_area = [](const Corners& c) { return squared_length(cross(c[1] - c[0], c[2] - c[0])); };
-    return squared_area(face) >= min_area_of_slabs * min_area_of_slabs * squared_area(original_.corners(near));
+  /// Whether clusters as large as that of an original near a face fit into it: else it has no inner ones.
+  [[nodiscard]] bool has_room_for_clusters(const Corners& face, std::uint32_t near) const {
+    const auto twice_area = [](const Corners& c) { return length(cross(c[1] - c[0], c[2] - c[0])); };
+    const double perimeter = length(face[1] - face[0]) + length(face[2] - face[1]) + length(face[0] - face[2]);
+    const double incircle = twice_area(face) / perimeter;
+    return 2 * incircle * incircle >= min_incircle * min_incircle * twice_area(original_.corners(near));
   }
 
   struct Prepared {
@@ -533,9 +535,9 @@ class ProofWorkers::Worker {
   /// many of a cluster count: it has some twelve vertices, each original three.
   static constexpr std::size_t min_originals_of_face = 2 * OriginalClusters::size, min_affected_of_cluster = 6;
 
-  /// A face of this area, in originals, is proven by slabs: on the way down to it these cost what a patch of thirty
-  /// costs.
-  static constexpr double min_area_of_slabs = 32;
+  /// The radius of the incircle of a face that is proven by slabs, in square roots of the area of an original: of 16 of
+  /// these a cluster has a diameter of 4 at least. A smaller face lies below a hundred originals.
+  static constexpr double min_incircle = 4;
 
   /// An original that so many faces covered before needs more cuts than a proof by patches costs.
   static constexpr std::size_t many_faces = 8;

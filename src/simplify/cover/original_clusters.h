@@ -36,7 +36,7 @@ class OriginalClusters {
   [[nodiscard]] std::span<const std::uint32_t> vertices(std::uint32_t cluster) const {
     return std::span(vertices_).subspan(first_vertex_[cluster], first_vertex_[cluster + 1] - first_vertex_[cluster]);
   }
-  static constexpr std::size_t max_vertices = std::size_t{3} * size;
+  static constexpr std::size_t max_vertices = std::size_t{3} * size;  ///< of one cluster
   /// Its triangles; the first one is original `size` times `cluster`.
   [[nodiscard]] std::span<const Corners> triangles(std::uint32_t cluster) const {
     const std::size_t first = std::size_t{cluster} * size;

@@ -32,18 +32,19 @@ SlabView slabs_seen_from(const ParityView& from) {
 /// P, as far as it has to be looked at.
 class SlabProof::Patch {
  public:
-  Patch(const ParityView& view, const OriginalSoup& soup, const OriginalClusters& clusters)
-      : view_(view), clusters_(clusters), sight_{view, soup} {}
+  Patch(const SlabProof& proof, const ParityView& view, const SlabView& slabs)
+      : clusters_(proof.clusters_), kernel_(proof.kernel_), slabs_(slabs), sight_{view, proof.soup_} {}
 
   /// Adds the originals of a cluster that belong to P. False where one refutes the proof. In a cluster that is closed,
-  /// all edges have a neighbour.
+  /// all edges have a neighbour. A triangle beside the middle has an even number of crossings with the ray from there.
   [[nodiscard]] bool add_cluster(std::uint32_t cluster, bool is_closed) {
-    look_at_vertices(clusters_.vertices(cluster));
+    using Seen = VertexSeen;
+    kernel_.look_at_vertices(sight_.soup.vertices.data(), clusters_.vertices(cluster), slabs_, seen_.data());
     std::uint32_t t = cluster * OriginalClusters::size;
     for (const auto& [a, b, c] : clusters_.triangles(cluster)) {
-      const unsigned all = seen_[a] & seen_[b] & seen_[c], any = seen_[a] | seen_[b] | seen_[c];
-      const bool is_outside = (all & (beyond_side | above | below)) != 0;
-      const bool is_plain = is_closed && (any & too_high) == 0 && (all & beside_middle) != 0;
+      const std::uint64_t all = seen_[a] & seen_[b] & seen_[c], any = seen_[a] | seen_[b] | seen_[c];
+      const bool is_outside = (all & (Seen::beyond_side | Seen::above | Seen::below)) != 0;
+      const bool is_plain = is_closed && (any & Seen::too_high) == 0 && (all & Seen::beside_middle) != 0;
       if (!is_outside && !is_plain && !add(t)) return false;
       ++t;
     }
@@ -53,21 +54,6 @@ class SlabProof::Patch {
   [[nodiscard]] std::uint32_t over_middle() const { return is_odd_ ? over_middle_ : no_index; }
 
  private:
-  /// What is seen of a vertex, by more than the rim but for `too_high`. A triangle on one side of the middle along an
-  /// axis has an even number of crossings with the ray from there.
-  enum Seen : unsigned { beyond_side = 7, too_high = 8, above = 16, below = 32, beside_middle = 0x3c0 };
-
-  void look_at_vertices(std::span<const std::uint32_t> vertices) {
-    const auto bit = [](bool is_set, unsigned place) { return (is_set ? 1U : 0U) << place; };
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Projected p = view_.view.project(sight_.soup.vertices[vertices[i]]);
-      const double rim = view_.rim, limit = view_.height_limit, x = p.x - view_.centre_x, y = p.y - view_.centre_y;
-      const auto is_beyond = [&](std::size_t side) { return view_.window.outside(side, p) > rim; };
-      seen_[i] = bit(is_beyond(0), 0) | bit(is_beyond(1), 1) | bit(is_beyond(2), 2) |
-                 bit(!(std::abs(p.h) <= limit), 3) | bit(p.h > limit + rim, 4) | bit(p.h < -limit - rim, 5) |
-                 bit(x < -rim, 6) | bit(x > rim, 7) | bit(y < -rim, 8) | bit(y > rim, 9);
-    }
-  }
   /// Adds an original that meets the prism. False where that refutes the proof.
   [[nodiscard]] bool add(std::uint32_t t) {
     if (!sight_.look_at(t)) return sight_.is_beyond_heights();
@@ -77,10 +63,11 @@ class SlabProof::Patch {
     return true;
   }
 
-  const ParityView& view_;
   const OriginalClusters& clusters_;
+  const SlabKernel& kernel_;
+  const SlabView& slabs_;
   Sight<OriginalSoup> sight_;
-  std::array<unsigned, OriginalClusters::max_vertices> seen_;  ///< by vertex of a cluster
+  alignas(32) std::array<std::uint64_t, OriginalClusters::max_vertices> seen_;  ///< by vertex of a cluster
   bool is_odd_ = false;
   std::uint32_t over_middle_ = no_index;
 };
@@ -90,7 +77,7 @@ bool SlabProof::covers(const std::array<Vec3, 3>& triangle, double tolerance, do
   const std::optional<ParityView> view = ParityView::of(triangle, tolerance, magnitude);
   if (!view) return false;
   const SlabView slabs = slabs_seen_from(*view);
-  Patch patch(*view, soup_, clusters_);
+  Patch patch(*this, *view, slabs);
   struct BlockAt {
     std::uint32_t level, index;
   };

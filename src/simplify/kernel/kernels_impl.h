@@ -14,7 +14,7 @@ inline SimplifyKernels kernels_of_this_instruction_set() {
   return {{offsets, add_deviations},
           {linearise, weighted_sums, largest_along},
           {set_planes, test_slab, reach_in_slabs},
-          {look_at_slabs}};
+          {look_at_slabs, look_at_vertices}};
 }
 
 }  // namespace MESHBOUND_ISA

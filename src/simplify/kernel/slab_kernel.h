@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cstdint>
+#include <span>
 
 #include "geometry/vec3.h"
 
@@ -33,9 +35,21 @@ struct SlabsSeen {
   unsigned within;
 };
 
-/// What is asked of a block of nodes, see `SimplifyKernels`.
+/// Where a vertex lies, by more than the rim but for `too_high`.
+struct VertexSeen {
+  static constexpr unsigned beyond_side = 7;  ///< a bit for each side of the window
+  static constexpr unsigned too_high = 8;
+  static constexpr unsigned above = 16, below = 32;  ///< the prism
+  /// On one side of the line through the middle that runs along a side of the window: two bits for each.
+  static constexpr unsigned beside_middle = 0xfc0;
+};
+
+/// What is asked of nodes and of vertices, see `SimplifyKernels`.
 struct SlabKernel {
   SlabsSeen (*look)(const SlabBlock& block, const SlabView& view);
+  /// Sets the bits of `VertexSeen` of vertices by their indices; `seen` has room for a multiple of four.
+  void (*look_at_vertices)(const Vec3* vertices, std::span<const std::uint32_t> indices, const SlabView& view,
+                           std::uint64_t* seen);
 };
 
 }  // namespace meshbound

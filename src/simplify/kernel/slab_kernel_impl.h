@@ -37,5 +37,36 @@ inline SlabsSeen look_at_slabs(const SlabBlock& block, const SlabView& view) {
   return {low.meets | high.meets << 4, low.within | high.within << 4};
 }
 
+inline void look_at_vertices(const Vec3* vertices, std::span<const std::uint32_t> indices, const SlabView& view,
+                             std::uint64_t* seen) {
+  using Bits4 = std::uint64_t __attribute__((vector_size(32)));
+  const Vec<Double4> middle = broadcast_vector(view.middle), up = broadcast_vector(view.up);
+  const std::array side{broadcast_vector(view.side[0]), broadcast_vector(view.side[1]), broadcast_vector(view.side[2])};
+  const Double4 zero{}, rim = broadcast4(view.rim), limit = broadcast4(view.height_limit);
+  for (std::size_t first = 0; first < indices.size(); first += 4) {
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return vertices[indices[first + k < indices.size() ? first + k : first]];
+    };
+    const Vec3 &a = at(0), &b = at(1), &c = at(2), &d = at(3);
+    const Vec<Double4> q =
+        Vec<Double4>{Double4{a.x, b.x, c.x, d.x}, Double4{a.y, b.y, c.y, d.y}, Double4{a.z, b.z, c.z, d.z}} - middle;
+    const Double4 h = dot(q, up);
+    Bits4 bits{};
+    const auto set = [&bits](Mask4 where, unsigned place) {
+      bits |= reinterpret_cast<const Bits4&>(where) & (std::uint64_t{1} << place);
+    };
+    set(maximum(h, zero - h) > limit, 3);
+    set(h > limit + rim, 4);
+    set(h < zero - limit - rim, 5);
+    for (unsigned k = 0; k < 3; ++k) {
+      const Double4 along = dot(q, side[k]);
+      set(along - broadcast4(view.side_offset[k]) > rim, k);
+      set(along > rim, 6 + 2 * k);
+      set(along < zero - rim, 7 + 2 * k);
+    }
+    *reinterpret_cast<Bits4*>(seen + first) = bits;
+  }
+}
+
 }  // namespace MESHBOUND_ISA
 }  // namespace meshbound
