@@ -136,6 +136,35 @@ TEST(SlabTree, HoldsEachClusterInOneLeafAndItsTrianglesInAllNodesAbove) {
   EXPECT_EQ(found, std::vector<int>(scene.clusters.count(), 1));
 }
 
+/// Below 1e-154 squares are no normal numbers, and lengths off by up to a tenth: heights along such an axis would be,
+/// too.
+TEST(ParityView, HasNoAxesThatAreNotOfUnitLength) {
+  const auto view_over = [](double height) {
+    return ParityView::of({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, height, 0}}, 0.1, 1);
+  };
+  EXPECT_TRUE(view_over(1e-100).has_value());
+  for (double height = 1e-100; height > 1e-170; height /= 3) {
+    const std::optional<ParityView> view = view_over(height);
+    if (!view) continue;
+    EXPECT_NEAR(length(view->view.x_axis), 1, 1e-15);
+    EXPECT_NEAR(length(view->view.y_axis), 1, 1e-15);
+    EXPECT_NEAR(length(view->view.z_axis), 1, 1e-15);
+  }
+}
+
+TEST(SlabTree, HasNoNormalsThatAreNotOfUnitLength) {
+  for (double height = 1e-140; height > 1e-170; height /= 3) {
+    TriangleMesh flat = reference::unit_square(12);
+    for (Vector3d& p : flat.vertices) p.y() *= height;
+    const SlabScene scene(flat);
+    for (std::uint32_t node = 0; node < scene.clusters.count(); ++node) {
+      const SlabBlock& slabs = scene.tree.block(0, node / 8).slabs;
+      const Vec3 normal{slabs.normal_x[node % 8], slabs.normal_y[node % 8], slabs.normal_z[node % 8]};
+      EXPECT_TRUE(length(normal) == 0 || std::abs(length(normal) - 1) < 1e-14) << height << ' ' << length(normal);
+    }
+  }
+}
+
 /// A face in the plane of a triangle, around its first corner, `size` times as large as an edge of it.
 TriangleMesh face_along(const TriangleMesh& mesh, std::uint32_t t, double size, const std::function<double()>& noise) {
   const Triangle& v = mesh.triangles[t];

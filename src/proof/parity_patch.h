@@ -21,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/unit.h"
 #include "geometry/vec3.h"
 #include "numeric/no_index.h"
 
@@ -42,18 +43,18 @@ struct FaceView {
   }
 };
 
-/// Nothing for a face without area.
+/// Nothing for a face without an accurate area: the axes would not have the length 1.
 [[nodiscard]] inline std::optional<FaceView> view_of(const std::array<Vec3, 3>& face) {
   const Vec3 ab = face[1] - face[0], normal = cross(ab, face[2] - face[0]);
   const double area = length(normal);
-  if (!(area > 0)) return std::nullopt;
+  if (!(area > least_accurate_length)) return std::nullopt;
   FaceView view;
   view.origin = face[0];
   view.z_axis = (1 / area) * normal;
   // The normal of a thin face may lean; the axes are orthonormal nevertheless.
   const Vec3 along = ab - dot(ab, view.z_axis) * view.z_axis;
   const double along_length = length(along);
-  if (!(along_length > 0)) return std::nullopt;
+  if (!(along_length > least_accurate_length)) return std::nullopt;
   view.x_axis = (1 / along_length) * along;
   view.y_axis = cross(view.z_axis, view.x_axis);
   return view;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "geometry/unit.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -18,11 +18,6 @@ struct Node {
   double radius = 0, half_thickness = 0;
   bool is_closed = true;
 };
-
-Vec3 unit(Vec3 v) {
-  const double size = length(v);
-  return size > 0 ? (1 / size) * v : Vec3{};
-}
 
 Node node_of(const OriginalSoup& soup, const OriginalClusters& clusters, std::uint32_t cluster) {
   const std::span vertices = clusters.vertices(cluster);

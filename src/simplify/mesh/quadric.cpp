@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geometry/unit.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -14,12 +15,6 @@ constexpr double border_weight = 100;
 /// Where the surface is flat the quadric is singular but for rounding, and its minimum may be anywhere: it is believed
 /// within this many edge lengths only.
 constexpr double max_way = 5;
-
-/// Zero stays zero.
-Vec3 unit(Vec3 v) {
-  const double norm = length(v);
-  return norm > 0 ? (1 / norm) * v : v;
-}
 
 /// Perpendicular to a face, twice as long as its area.
 Vec3 doubled_area(const ArrayMesh& mesh, std::uint32_t face) {
