@@ -3,6 +3,7 @@
 #pragma once
 #include <utility>
 
+#include "geometry/vec_lanes.h"
 #include "numeric/rounding.h"
 #include "numeric/simd.h"
 #include "simplify/kernel/plane_kernel.h"
@@ -18,8 +19,7 @@ inline Double4 plane_at(const PlaneBlock& block, int plane, Double4 x, Double4 y
 }
 
 inline Vec<Double4> corner_lanes(const PlaneKernel::Corners* t, std::size_t k) {
-  return {Double4{t[0][k].x, t[1][k].x, t[2][k].x, t[3][k].x}, Double4{t[0][k].y, t[1][k].y, t[2][k].y, t[3][k].y},
-          Double4{t[0][k].z, t[1][k].z, t[2][k].z, t[3][k].z}};
+  return gather4(t[0][k], t[1][k], t[2][k], t[3][k]);
 }
 
 inline void store_plane(PlaneBlock& block, int plane, const Vec<Double4>& normal, const Vec<Double4>& through,

@@ -37,11 +37,12 @@ struct SlabsSeen {
 
 /// Where a vertex lies, by more than the rim but for `too_high`.
 struct VertexSeen {
-  static constexpr unsigned beyond_side = 7;  ///< a bit for each side of the window
+  static constexpr unsigned first_side = 1, beyond_side = 7 * first_side;  ///< a bit for each side of the window
   static constexpr unsigned too_high = 8;
   static constexpr unsigned above = 16, below = 32;  ///< the prism
-  /// On one side of the line through the middle that runs along a side of the window: two bits for each.
-  static constexpr unsigned beside_middle = 0xfc0;
+  /// Beyond and before the line through the middle that runs along a side of the window, a bit for each side.
+  static constexpr unsigned first_beyond_middle = 64, first_before_middle = 512;
+  static constexpr unsigned beside_middle = 7 * (first_beyond_middle | first_before_middle);
 };
 
 /// What is asked of nodes and of vertices, see `SimplifyKernels`.

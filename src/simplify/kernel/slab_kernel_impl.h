@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
 /// Compiled once per instruction set (numeric/isa.h).
 #pragma once
+#include "geometry/vec_lanes.h"
 #include "numeric/simd.h"
 #include "simplify/kernel/slab_kernel.h"
 
 namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
-inline Vec<Double4> broadcast_vector(Vec3 v) { return {broadcast4(v.x), broadcast4(v.y), broadcast4(v.z)}; }
-
 inline SlabsSeen look_at_four(const SlabBlock& block, std::size_t first, const SlabView& view) {
   const auto lanes = [first](const double* values) { return *reinterpret_cast<const Double4*>(values + first); };
-  const Vec<Double4> up = broadcast_vector(view.up);
+  const Vec<Double4> up = broadcast4(view.up);
   const Vec<Double4> normal{lanes(block.normal_x), lanes(block.normal_y), lanes(block.normal_z)};
-  const Vec<Double4> q = Vec<Double4>{lanes(block.x), lanes(block.y), lanes(block.z)} - broadcast_vector(view.middle);
+  const Vec<Double4> q = Vec<Double4>{lanes(block.x), lanes(block.y), lanes(block.z)} - broadcast4(view.middle);
   const Double4 zero{}, one = broadcast4(1), rim = broadcast4(view.rim), limit = broadcast4(view.height_limit);
   const Double4 radius = lanes(block.radius), reach = radius + rim + rim;
 
-  Double4 outside = dot(q, broadcast_vector(view.side[0])) - broadcast4(view.side_offset[0]);
+  Double4 outside = dot(q, broadcast4(view.side[0])) - broadcast4(view.side_offset[0]);
   for (std::size_t k = 1; k < 3; ++k)
-    outside = maximum(outside, dot(q, broadcast_vector(view.side[k])) - broadcast4(view.side_offset[k]));
+    outside = maximum(outside, dot(q, broadcast4(view.side[k])) - broadcast4(view.side_offset[k]));
   const Double4 up_q = dot(q, up), height = maximum(up_q, zero - up_q);
   const Double4 cosine = dot(normal, up);
   const Double4 sine = square_root(maximum(zero, one - cosine * cosine) + broadcast4(squared_sine_error));
@@ -40,29 +39,25 @@ inline SlabsSeen look_at_slabs(const SlabBlock& block, const SlabView& view) {
 inline void look_at_vertices(const Vec3* vertices, std::span<const std::uint32_t> indices, const SlabView& view,
                              std::uint64_t* seen) {
   using Bits4 = std::uint64_t __attribute__((vector_size(32)));
-  const Vec<Double4> middle = broadcast_vector(view.middle), up = broadcast_vector(view.up);
-  const std::array side{broadcast_vector(view.side[0]), broadcast_vector(view.side[1]), broadcast_vector(view.side[2])};
+  const Vec<Double4> middle = broadcast4(view.middle), up = broadcast4(view.up);
+  const std::array side{broadcast4(view.side[0]), broadcast4(view.side[1]), broadcast4(view.side[2])};
   const Double4 zero{}, rim = broadcast4(view.rim), limit = broadcast4(view.height_limit);
   for (std::size_t first = 0; first < indices.size(); first += 4) {
     const auto at = [&](std::size_t k) -> const Vec3& {
       return vertices[indices[first + k < indices.size() ? first + k : first]];
     };
-    const Vec3 &a = at(0), &b = at(1), &c = at(2), &d = at(3);
-    const Vec<Double4> q =
-        Vec<Double4>{Double4{a.x, b.x, c.x, d.x}, Double4{a.y, b.y, c.y, d.y}, Double4{a.z, b.z, c.z, d.z}} - middle;
+    const Vec<Double4> q = gather4(at(0), at(1), at(2), at(3)) - middle;
     const Double4 h = dot(q, up);
     Bits4 bits{};
-    const auto set = [&bits](Mask4 where, unsigned place) {
-      bits |= reinterpret_cast<const Bits4&>(where) & (std::uint64_t{1} << place);
-    };
-    set(maximum(h, zero - h) > limit, 3);
-    set(h > limit + rim, 4);
-    set(h < zero - limit - rim, 5);
+    const auto set = [&bits](Mask4 where, std::uint64_t bit) { bits |= reinterpret_cast<const Bits4&>(where) & bit; };
+    set(maximum(h, zero - h) > limit, VertexSeen::too_high);
+    set(h > limit + rim, VertexSeen::above);
+    set(h < zero - limit - rim, VertexSeen::below);
     for (unsigned k = 0; k < 3; ++k) {
       const Double4 along = dot(q, side[k]);
-      set(along - broadcast4(view.side_offset[k]) > rim, k);
-      set(along > rim, 6 + 2 * k);
-      set(along < zero - rim, 7 + 2 * k);
+      set(along - broadcast4(view.side_offset[k]) > rim, VertexSeen::first_side << k);
+      set(along > rim, VertexSeen::first_beyond_middle << k);
+      set(along < zero - rim, VertexSeen::first_before_middle << k);
     }
     *reinterpret_cast<Bits4*>(seen + first) = bits;
   }
