@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <random>
 #include <string>
@@ -219,9 +220,53 @@ TriangleMesh knots() {
   return mesh;
 }
 
+/// Six triangles meet at each edge.
+TriangleMesh threefold(const TriangleMesh& mesh) {
+  TriangleMesh result = mesh;
+  for (int copy = 0; copy < 2; ++copy)
+    result.triangles.insert(result.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  return result;
+}
+
+/// Edges of six triangles that lie far apart.
+TriangleMesh books() {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> offset(-0.1, 0.1);
+  TriangleMesh mesh;
+  for (std::uint32_t book = 0; book < 12000; ++book) {
+    for (std::uint32_t i = 0; i < 8; ++i)
+      mesh.vertices.emplace_back(offset(random) + i / 2, offset(random), offset(random));
+    for (std::uint32_t page = 2; page < 8; ++page) mesh.triangles.push_back({8 * book, 8 * book + 1, 8 * book + page});
+  }
+  return mesh;
+}
+
+/// With a quarter of a million triangles several chunks meet in each run of a build.
+TEST(Bvh, TrianglesAtAnEdgeFormARingInTheOrderOfTheirSlots) {
+  for (const TriangleMesh& mesh : {threefold(icosphere(6)), scrambled(icosphere(6)), books()}) {
+    for (const int threads : {1, 2, 5}) {
+      const Bvh bvh(mesh, {.threads = threads});
+      const Bvh::Data& data = bvh.data();
+      std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> at_edge;
+      for (std::uint32_t c = 0; c < 3 * data.triangle_count(); ++c) {
+        const std::uint32_t u = data.corners[c / 3][c % 3], v = data.corners[c / 3][(c + 1) % 3];
+        at_edge[std::minmax(u, v)].push_back(c);
+      }
+      for (const auto& [edge, corners] : at_edge) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+          const std::uint32_t c = corners[i], next = corners[(i + 1) % corners.size()];
+          const Neighbour across = data.neighbours[c / 3][c % 3];
+          ASSERT_EQ(across.slot, next == c ? no_slot : next / 3);
+          ASSERT_EQ(across.flipped == 1, next != c && data.corners[c / 3][c % 3] == data.corners[next / 3][next % 3]);
+        }
+      }
+    }
+  }
+}
+
 TEST(Bvh, IsTheSameForAnyNumberOfThreads) {
-  for (const TriangleMesh& mesh :
-       {icosphere(6), scrambled(icosphere(5)), random_soup(3, 20000, 0.1), unit_square(64), fan(20000), knots()}) {
+  for (const TriangleMesh& mesh : {icosphere(6), scrambled(icosphere(5)), random_soup(3, 20000, 0.1), unit_square(64),
+                                   fan(20000), knots(), threefold(icosphere(6)), books()}) {
     const Bvh one(mesh, {.threads = 1});
     for (const int threads : {2, 3, 20}) {
       SCOPED_TRACE(threads);
@@ -535,39 +580,6 @@ TEST(Bvh, BuildsAFanOfAHundredThousandTriangles) {
     for (const Neighbour& neighbour : neighbours) linked += neighbour.slot != no_slot ? 1 : 0;
   EXPECT_EQ(linked, 2 * std::size_t{n});
   EXPECT_NEAR(closest_point(bvh, {0.5, 0.2, 3}).distance.upper, 3, 1e-9);
-}
-
-TEST(Array, BeginsOnALargePageFromTheSizeOfOne) {
-  constexpr std::size_t page = large_page / sizeof(double);
-  for (const std::size_t n : {page - 1, page, page + 1, 3 * page + 5}) {
-    // Several at once: by chance one may begin there anyway.
-    std::vector<Array<double>> arrays(4, Array<double>(n));
-    for (Array<double>& array : arrays) {
-      EXPECT_TRUE(n < page || reinterpret_cast<std::uintptr_t>(array.data()) % large_page == 0) << n;
-      for (std::size_t i = 0; i < n; ++i) array[i] = static_cast<double>(i);
-      array.resize(2 * n);  // moves what is there
-      EXPECT_EQ(array[n - 1], static_cast<double>(n - 1));
-    }
-  }
-}
-
-TEST(Arena, GivesOutApartWhatItHasAndNoMore) {
-  Arena arena(large_page);
-  Array<char> first = array_in<char>(arena), second = array_in<char>(arena), third = array_in<char>(arena);
-  first.resize(100);
-  second.resize(large_page / 2);
-  EXPECT_TRUE(arena.owns(first.data()) && arena.owns(second.data()));
-  EXPECT_GE(second.data() - first.data(), 100);
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(second.data()) % 64, 0U);
-  third.resize(large_page / 2);
-  EXPECT_FALSE(arena.owns(third.data())) << "no room is left, so it comes from elsewhere";
-  std::fill(third.begin(), third.end(), 'x');
-  const Array<char> copy = first;
-  EXPECT_NE(copy.data(), first.data());
-  arena.clear();
-  Array<char> again = array_in<char>(arena);
-  again.resize(1);
-  EXPECT_EQ(again.data(), first.data());
 }
 
 TEST(Bvh, KeepsDegenerateAndSingleTriangles) {

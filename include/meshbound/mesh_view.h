@@ -62,6 +62,10 @@ class MeshView {
   [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }  ///< degenerate ones included
   [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;  ///< i < `vertex_count()`; a float is exact as a double
   [[nodiscard]] Triangle triangle(std::size_t i) const;       ///< i < `triangle_count()`
+  /// Asks the processor to fetch what `vertex` or `triangle` will read; any number is allowed. Where the compiler has
+  /// no word for that, nothing.
+  void prefetch_vertex(std::size_t i) const;
+  void prefetch_triangle(std::size_t i) const;  ///< as `prefetch_vertex`
 
  private:
   /// A third of `size`; throws `InvalidInput`, naming `what`, when that is no whole number.
@@ -77,6 +81,12 @@ class MeshView {
 };
 
 namespace detail {
+
+inline void prefetch([[maybe_unused]] const std::byte* from) {
+#if defined(__GNUC__)
+  __builtin_prefetch(from);
+#endif
+}
 
 /// A value at any alignment.
 template <class T>
@@ -101,6 +111,11 @@ inline Triangle MeshView::triangle(std::size_t i) const {
   if (!short_indices_) return detail::load<Triangle>(indices_ + i * sizeof(Triangle));
   const auto corners = detail::load<std::array<std::uint16_t, 3>>(indices_ + i * 3 * sizeof(std::uint16_t));
   return {corners[0], corners[1], corners[2]};
+}
+
+inline void MeshView::prefetch_vertex(std::size_t i) const { detail::prefetch(positions_ + i * stride_); }
+inline void MeshView::prefetch_triangle(std::size_t i) const {
+  detail::prefetch(indices_ + i * 3 * (short_indices_ ? sizeof(std::uint16_t) : sizeof(std::uint32_t)));
 }
 
 /// Copies a view into a mesh of its own.

@@ -42,8 +42,11 @@ void Arena::touch() {
 
 void* Arena::take(std::size_t bytes) noexcept {
   const std::size_t lines = (bytes + cache_line - 1) / cache_line * cache_line;
-  if (lines < bytes || lines > bytes_ - taken_) return nullptr;
-  return block_.get() + std::exchange(taken_, taken_ + lines);
+  std::size_t begin = taken_;
+  do {
+    if (lines < bytes || lines > bytes_ - begin) return nullptr;
+  } while (!taken_.compare_exchange_weak(begin, begin + lines));
+  return block_.get() + begin;
 }
 
 bool Arena::owns(const void* storage) const noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -17,8 +18,8 @@ inline constexpr std::size_t large_page = std::size_t{1} << 21;
 [[nodiscard]] void* allocate_on_large_pages(std::size_t bytes);
 void deallocate_from_large_pages(void* storage) noexcept;
 
-/// One block of memory for several arrays, on large pages. What it gives out is never taken back one by one. Not
-/// thread-safe.
+/// One block of memory for several arrays, on large pages. What it gives out is never taken back one by one, but by
+/// loans. Several threads may take memory at a time.
 class Arena {
  public:
   Arena() = default;  ///< has nothing to give
@@ -33,8 +34,19 @@ class Arena {
   /// Memory that begins at a cache line, which no other array then shares. Null where not enough is left.
   [[nodiscard]] void* take(std::size_t bytes) noexcept;
   [[nodiscard]] bool owns(const void* storage) const noexcept;
-  /// Takes everything back.
-  void clear() noexcept { taken_ = 0; }
+
+  /// Takes back at its end what was taken since its beginning. No other thread may take memory at either moment.
+  class Loan {
+   public:
+    explicit Loan(Arena& arena) : arena_(arena), taken_(arena.taken_) {}
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    ~Loan() { arena_.taken_ = taken_; }
+
+   private:
+    Arena& arena_;
+    std::size_t taken_;
+  };
 
  private:
   struct Release {
@@ -42,7 +54,7 @@ class Arena {
   };
   std::unique_ptr<std::byte, Release> block_;
   std::size_t bytes_ = 0;
-  std::size_t taken_ = 0;
+  std::atomic<std::size_t> taken_{0};
 };
 
 /// Leaves new elements as they are: a build writes each of them in parallel, and the first to touch a page pays for it.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "bvh/build_kernels.h"
 #include "bvh/bvh_data.h"
 #include "geometry/longest_edge.h"
 #include "numeric/no_index.h"
@@ -13,7 +15,7 @@ namespace meshbound {
 /// The steps of building `Bvh::Data`. Each fills the members that its comment names from those filled before, by tasks
 /// for the team of threads that it is called in (numeric/tasks.h). Work that cannot be cut into small tasks is cut into
 /// `runs`, one for each thread. Every step gives the same result for any number of threads and runs. Temporary memory
-/// comes from `scratch`, which each step leaves cleared.
+/// comes from the arena of the data: the arrays of later steps have room there.
 
 /// Triangles or vertices that make one task: some ten microseconds of work.
 inline constexpr std::size_t triangles_per_task = 4096;
@@ -28,7 +30,7 @@ std::size_t useful_threads(int wanted, std::size_t triangles);
 void set_frame(Bvh::Data& data, const Eigen::AlignedBox3d& box);
 
 /// Fills `triangle_of_slot`: triangles by the Hilbert index of their centroids, ties by index, so the order is unique.
-void hilbert_order(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
+void hilbert_order(Bvh::Data& data, const MeshView& mesh, std::size_t runs);
 
 /// The triangles of a mesh in the order of the slots of its tree, without the tree. Throws as a tree does.
 std::vector<std::uint32_t> triangles_along_curve(const MeshView& mesh, const BvhOptions& options);
@@ -38,10 +40,19 @@ inline std::uint32_t run_begin(std::uint32_t n, std::uint32_t r, std::uint32_t r
   return static_cast<std::uint32_t>(std::uint64_t{n} * r / runs);
 }
 
+/// Slots whose half-edges are matched at a time, a multiple of `triangles_at_once`. At most 2^16, few of whose
+/// half-edges belong to another chunk (one in 120); fewer where each run is to have two, for which the arena has room.
+inline std::uint32_t slots_per_chunk(std::size_t triangles, std::size_t runs) {
+  constexpr std::size_t most = std::size_t{1} << 16;
+  const std::size_t batches = (triangles / (2 * runs) + triangles_at_once - 1) / triangles_at_once;
+  return static_cast<std::uint32_t>(std::clamp(batches * triangles_at_once, std::size_t{triangles_at_once}, most));
+}
+
 /// Fills `vertices`, `source_vertex`, `corners` with the longest edge first (as `closest_on_triangle` wants it), and
 /// the frame's error. Vertices are numbered by first use along the slots, which are divided into `runs` equal runs.
-/// Returns for each run the first vertex that no run before it uses, and behind them the number of all vertices.
-std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs);
+/// Returns for each chunk of `slots_per_chunk` slots the first vertex that no chunk before it uses, and behind them the
+/// number of all vertices.
+std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, std::size_t runs);
 
 /// By vertex: the first vertex at the same position (coordinates of the working frame that are equal, 0 and -0 too),
 /// for the ends of edges that `neighbours` gives one triangle only and for all other vertices at such positions;
@@ -49,7 +60,7 @@ std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh,
 Array<std::uint32_t> seam_positions(const Bvh::Data& data);
 
 /// Fills `neighbours`. `first_vertex`: as `place_vertices` returned it.
-void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, Arena& scratch);
+void build_adjacency(Bvh::Data& data, const std::vector<std::uint32_t>& first_vertex, std::size_t runs);
 /// Returns whether all triangles have an area.
 bool build_nodes_and_normals(Bvh::Data& data);
 

@@ -123,30 +123,20 @@ std::size_t tree_bytes(const MeshView& mesh) {
          sizeof(BvhNode) * (lowest_nodes + lowest_nodes / 7) + rounding;
 }
 
-/// Bytes of scratch memory that `build_adjacency` takes, more than any other step: three half-edges a triangle.
-std::size_t scratch_bytes(const MeshView& mesh) {
-  constexpr std::size_t half_edges = 3 * (2 * sizeof(std::uint32_t) + 1), rounding = 4096;
-  return half_edges * mesh.triangle_count() + sizeof(std::uint32_t) * max_used_vertices(mesh) + rounding;
-}
-
 /// `stop` is looked at between the steps, each of which takes about 50 ns for a triangle.
 std::unique_ptr<const Bvh::Data> build(const MeshView& mesh, std::size_t runs, const StopToken& stop) {
   check_floating_point_model();
   check_size(mesh);
   stop.check();
   auto data = std::make_unique<Bvh::Data>(tree_bytes(mesh));
-  Arena scratch(scratch_bytes(mesh));
-  if (runs > 1) {
-    data->arena.touch();
-    scratch.touch();
-  }
+  if (runs > 1) data->arena.touch();
   set_frame(*data, checked_box(mesh));
   stop.check();
-  hilbert_order(*data, mesh, scratch, runs);
+  hilbert_order(*data, mesh, runs);
   stop.check();
-  const std::vector<std::uint32_t> first_vertex = place_vertices(*data, mesh, scratch, runs);
+  const std::vector<std::uint32_t> first_vertex = place_vertices(*data, mesh, runs);
   stop.check();
-  build_adjacency(*data, first_vertex, scratch);
+  build_adjacency(*data, first_vertex, runs);
   stop.check();
   if (!build_nodes_and_normals(*data)) link_segments(*data);
   return data;
@@ -200,12 +190,11 @@ std::vector<std::uint32_t> triangles_along_curve(const MeshView& mesh, const Bvh
   check_size(mesh);
   options.stop.check();
   Bvh::Data data;
-  Arena scratch;
   const std::size_t threads = useful_threads(options.threads, mesh.triangle_count());
   with_team(static_cast<int>(threads), [&] {
     set_frame(data, checked_box(mesh));
     options.stop.check();
-    hilbert_order(data, mesh, scratch, threads);
+    hilbert_order(data, mesh, threads);
   });
   options.stop.check();
   return {data.triangle_of_slot.begin(), data.triangle_of_slot.end()};

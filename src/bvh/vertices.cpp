@@ -4,6 +4,7 @@
 /// hundred vertices. What an earlier run uses too, it then takes from there; the numbers of the others follow those of
 /// the runs before. One run or many, the numbering is the same.
 #include <algorithm>
+#include <utility>
 
 #include "bvh/build.h"
 #include "bvh/build_kernels.h"
@@ -19,11 +20,11 @@ constexpr std::uint32_t of_earlier_run = 0xffffffff;
 constexpr std::size_t max_runs = 16;
 
 struct Run {
-  explicit Run(Arena& scratch)
-      : local(array_in<std::uint32_t>(scratch)),
-        own_used(array_in<std::uint32_t>(scratch)),
-        rank(array_in<std::uint32_t>(scratch)),
-        positions(array_in<Vec3>(scratch)) {}
+  explicit Run(Arena& arena)
+      : local(array_in<std::uint32_t>(arena)),
+        own_used(array_in<std::uint32_t>(arena)),
+        rank(array_in<std::uint32_t>(arena)),
+        positions(array_in<Vec3>(arena)) {}
 
   Array<std::uint32_t> local;       ///< by the mesh's vertex: its number among those that the run uses
   Array<std::uint32_t> own_used;    ///< what `used` shows, but for the first run, where that is the tree's array
@@ -37,17 +38,16 @@ struct Run {
 
 class Renumbering {
  public:
-  Renumbering(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs)
+  Renumbering(Bvh::Data& data, const MeshView& mesh, std::size_t runs)
       : data_(data),
         mesh_(mesh),
         runs_(static_cast<std::uint32_t>(std::min(runs, max_runs))),
-        run_(runs_, Run(scratch)),
+        run_(runs_, Run(data.arena)),
+        slots_(slots_per_chunk(mesh.triangle_count(), runs)),
+        first_of_chunk_((mesh.triangle_count() + slots_ - 1) / slots_ + 1),
         to_working_(data.frame) {}
 
   std::vector<std::uint32_t> run() {
-    data_.corners.resize(mesh_.triangle_count());
-    data_.vertices.resize(std::min(mesh_.vertex_count(), 3 * mesh_.triangle_count()));
-    data_.source_vertex.resize(data_.vertices.size() + 1);  // as `used`
     // By one thread: each thread's own heap would have to grow first.
     for (std::uint32_t r = 0; r < runs_; ++r) {
       run_[r].local.resize(mesh_.vertex_count());
@@ -65,10 +65,11 @@ class Renumbering {
     data_.source_vertex.resize(first_vertex[runs_]);
     for_each_run([&](std::uint32_t r) {
       store_vertices(r, first_vertex);
-      renumber_corners(r);
+      renumber_corners(r, first_vertex[r]);
     });
     for (const Run& run : run_) data_.frame.error = std::max(data_.frame.error, run.rounding);
-    return first_vertex;
+    first_of_chunk_.back() = first_vertex[runs_];
+    return std::move(first_of_chunk_);
   }
 
  private:
@@ -82,20 +83,23 @@ class Renumbering {
   }
   [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
 
-  /// Works in batches, in passes that do not depend on what was fetched just before: the processor then waits for many
-  /// entries at a time.
+  using Batch = std::array<Triangle, triangles_at_once>;
+
+  /// Works in batches, in passes that do not depend on what was fetched just before, and asks for what the next batch
+  /// needs while it works on this one: the processor then waits for many entries at a time, or not at all.
   void number_vertices(std::uint32_t r) {
     Run& run = run_[r];
     std::fill(run.local.begin(), run.local.end(), no_index);
     Vec3* const positions = r == 0 ? data_.vertices.data() : run.positions.data();
-    std::array<Triangle, triangles_at_once> triangles;
+    std::array<Batch, 2> batches;
     std::uint32_t count = 0;
     const std::uint32_t end = begin(r + 1);
-    for (std::uint32_t slot = begin(r); slot < end; slot += triangles_at_once) {
+    fetch(run, begin(r), end, batches[0]);
+    for (std::uint32_t slot = begin(r), odd = 0; slot < end; slot += triangles_at_once, odd ^= 1) {
       const std::uint32_t size = std::min(triangles_at_once, end - slot), known = count;
-      for (std::uint32_t i = 0; i < size; ++i) triangles[i] = mesh_.triangle(data_.triangle_of_slot[slot + i]);
-      for (std::uint32_t i = 0; i < size; ++i)
-        for (const std::uint32_t v : triangles[i]) __builtin_prefetch(&run.local[v]);
+      const Batch& triangles = batches[odd];
+      if (r == 0 && slot % slots_ == 0) first_of_chunk_[slot / slots_] = count;
+      fetch(run, slot + size, end, batches[odd ^ 1]);
       for (std::uint32_t i = 0; i < size; ++i)
         for (const std::uint32_t v : triangles[i]) count = number_vertex(run, v, count);
       place(run, positions, known, count);
@@ -103,6 +107,23 @@ class Renumbering {
         data_.corners[slot + i] = longest_edge_first(run, positions, triangles[i]);
     }
     run.count = count;
+  }
+
+  /// Reads the triangles of a batch that begins at a slot, and asks for their vertices and for the batch that follows.
+  void fetch(const Run& run, std::uint32_t slot, std::uint32_t end, Batch& batch) const {
+    const MeshView mesh = mesh_;
+    const std::uint32_t* const order = data_.triangle_of_slot.data();
+    const std::uint32_t* const local = run.local.data();
+    const std::uint32_t after = std::min(slot + triangles_at_once, end),
+                        ahead = std::min(slot + 2 * triangles_at_once, end);
+    for (std::uint32_t i = after; i < ahead; ++i) mesh.prefetch_triangle(order[i]);
+    for (std::uint32_t i = slot; i < after; ++i) batch[i - slot] = mesh.triangle(order[i]);
+    for (std::uint32_t i = slot; i < after; ++i) {
+      for (const std::uint32_t v : batch[i - slot]) {
+        __builtin_prefetch(local + v);
+        mesh.prefetch_vertex(v);
+      }
+    }
   }
 
   /// Returns the number of vertices that have a number then. Without a branch on whether this one is new, which would
@@ -176,25 +197,35 @@ class Renumbering {
     }
   }
 
-  void renumber_corners(std::uint32_t r) {
+  /// `next`: the number of the first vertex that no earlier run uses.
+  void renumber_corners(std::uint32_t r, std::uint32_t next) {
     if (r == 0) return;  // its local numbers are the final ones
-    for (std::uint32_t slot = begin(r); slot < begin(r + 1); ++slot)
-      for (std::uint32_t& v : data_.corners[slot]) v = run_[r].used[v];
+    for (std::uint32_t slot = begin(r); slot < begin(r + 1); ++slot) {
+      if (slot % slots_ == 0) first_of_chunk_[slot / slots_] = next;
+      for (std::uint32_t& v : data_.corners[slot]) {
+        v = run_[r].used[v];
+        next = std::max(next, v + 1);
+      }
+    }
   }
 
   Bvh::Data& data_;
   const MeshView& mesh_;
   std::uint32_t runs_;
   std::vector<Run> run_;
+  std::uint32_t slots_;                        ///< of a chunk
+  std::vector<std::uint32_t> first_of_chunk_;  ///< as `place_vertices` returns it
   FrameMap to_working_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, Arena& scratch, std::size_t runs) {
-  const std::vector<std::uint32_t> first_vertex = Renumbering(data, mesh, scratch, runs).run();
-  scratch.clear();
-  return first_vertex;
+std::vector<std::uint32_t> place_vertices(Bvh::Data& data, const MeshView& mesh, std::size_t runs) {
+  data.corners.resize(mesh.triangle_count());
+  data.vertices.resize(std::min(mesh.vertex_count(), 3 * mesh.triangle_count()));
+  data.source_vertex.resize(data.vertices.size() + 1);  // as `Run::used`
+  const Arena::Loan loan(data.arena);
+  return Renumbering(data, mesh, runs).run();
 }
 
 }  // namespace meshbound
