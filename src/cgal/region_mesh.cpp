@@ -5,6 +5,7 @@
 #include <array>
 
 #include "numeric/no_index.h"
+#include "numeric/ranked_numbers.h"
 
 namespace meshbound::cgal {
 namespace {
@@ -16,10 +17,16 @@ using Face = SurfaceMesh::Face_index;
 class Builder {
  public:
   Builder(const RegionCollapses& collapses, RegionMesh& into)
-      : collapses_(collapses), source_(collapses.mesh()), into_(into), mesh_(into.mesh) {}
+      : collapses_(collapses),
+        source_(collapses.mesh()),
+        into_(into),
+        mesh_(into.mesh),
+        faces_(lists_of_faces(collapses)),
+        vertices_(lists_of_corners()) {
+    into.vertex = vertices_.ascending();
+  }
 
   void run() {
-    list_faces();
     add_vertices();
     add_edges();
     add_faces();
@@ -27,45 +34,42 @@ class Builder {
   }
 
  private:
-  void list_faces() {
-    collapses_.for_each_edge([&](Corner c) {
-      for (const Corner side : {c, source_.twin(c)})
-        if (side != no_index && collapses_.owns_face(side / 3)) faces_.push_back(side / 3);
+  /// The faces at each edge of the region, as far as they belong to it.
+  static std::vector<std::array<std::uint32_t, 2>> lists_of_faces(const RegionCollapses& collapses) {
+    std::vector<std::array<std::uint32_t, 2>> lists;
+    collapses.for_each_edge([&](Corner c) {
+      const Corner twin = collapses.mesh().twin(c);
+      const bool has_face = collapses.owns_face(c / 3), has_twin = twin != no_index && collapses.owns_face(twin / 3);
+      if (has_face || has_twin) lists.push_back({has_face ? c / 3 : twin / 3, has_twin ? twin / 3 : c / 3});
     });
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-    for (const std::uint32_t f : faces_)
-      for (const std::uint32_t v : source_.corners(f)) into_.vertex.push_back(v);
-    std::sort(into_.vertex.begin(), into_.vertex.end());
-    into_.vertex.erase(std::unique(into_.vertex.begin(), into_.vertex.end()), into_.vertex.end());
+    return lists;
+  }
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> lists_of_corners() const {
+    std::vector<std::array<std::uint32_t, 3>> lists;
+    for (const std::uint32_t f : faces_.ascending()) lists.push_back(source_.corners(f));
+    return lists;
   }
 
   void add_vertices() {
     mesh_.reserve(static_cast<SurfaceMesh::size_type>(into_.vertex.size()),
-                  static_cast<SurfaceMesh::size_type>(2 * faces_.size()),
-                  static_cast<SurfaceMesh::size_type>(faces_.size()));
+                  static_cast<SurfaceMesh::size_type>(2 * faces_.ascending().size()),
+                  static_cast<SurfaceMesh::size_type>(faces_.ascending().size()));
     for (const std::uint32_t v : into_.vertex) {
       const Vec3 p = source_.position(v);
       mesh_.add_vertex({p.x, p.y, p.z});
     }
   }
   [[nodiscard]] Vertex vertex_of(std::uint32_t v) const {
-    const auto at = std::lower_bound(into_.vertex.begin(), into_.vertex.end(), v);
-    return Vertex(static_cast<SurfaceMesh::size_type>(at - into_.vertex.begin()));
+    return Vertex(static_cast<SurfaceMesh::size_type>(vertices_.index_of(v)));
   }
 
-  [[nodiscard]] bool has_face(Corner corner) const {
-    return corner != no_index && std::binary_search(faces_.begin(), faces_.end(), corner / 3);
-  }
-  [[nodiscard]] Halfedge& halfedge_of(Corner corner) {
-    const auto at = std::lower_bound(faces_.begin(), faces_.end(), corner / 3);
-    return halfedges_[static_cast<std::size_t>(at - faces_.begin())][corner % 3];
-  }
+  [[nodiscard]] bool has_face(Corner corner) const { return corner != no_index && faces_.contains(corner / 3); }
+  [[nodiscard]] Halfedge& halfedge_of(Corner corner) { return halfedges_[faces_.index_of(corner / 3)][corner % 3]; }
 
   void add_edges() {
-    halfedges_.resize(faces_.size());
+    halfedges_.resize(faces_.ascending().size());
     std::vector<std::uint32_t> edges_at(into_.vertex.size(), 0);
-    for (const std::uint32_t f : faces_) {
+    for (const std::uint32_t f : faces_.ascending()) {
       for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
         const Corner twin = source_.twin(c);
         const bool is_rim = !has_face(twin);
@@ -118,7 +122,7 @@ class Builder {
   const ArrayMesh& source_;
   RegionMesh& into_;
   SurfaceMesh& mesh_;
-  std::vector<std::uint32_t> faces_;                ///< ascending
+  RankedNumbers faces_, vertices_;
   std::vector<std::array<Halfedge, 3>> halfedges_;  ///< by face there and corner
   std::vector<Corner> rim_;                         ///< corners whose edge has no other face in the region
 };

@@ -12,7 +12,7 @@ namespace meshbound::cgal {
 /// The faces of one region of an array mesh as a `Surface_mesh`, which CGAL collapses and the array mesh follows.
 struct RegionMesh {
   /// Takes the faces whose corners all belong to the region. A vertex at its rim may have several fans of them, of
-  /// which CGAL finds only one; no collapse ever involves an edge at such a vertex. O(n log n).
+  /// which CGAL finds only one; no collapse ever involves an edge at such a vertex. O(n).
   explicit RegionMesh(const RegionCollapses& collapses);
 
   SurfaceMesh mesh;
