@@ -2,6 +2,8 @@
 #include "simplify/regions.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 
 #include "geometry/cut_axes.h"
@@ -20,8 +22,12 @@ constexpr double shifted_cut = 1.0 / 3;
 class Cutter {
  public:
   Cutter(const DecimationState& state, Split& into, int shift) : state_(state), into_(into), shift_(shift) {
-    for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
-      if (state.mesh.is_vertex(v)) vertices_.push_back(v);
+    const std::array<Vec3, 3>& axes = cut_axes[static_cast<std::size_t>(shift)];
+    for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v) {
+      if (!state.mesh.is_vertex(v)) continue;
+      const Vec3 p = state.mesh.position(v);
+      vertices_.push_back({{dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)}, v});
+    }
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
   /// By region: its vertices.
@@ -32,25 +38,40 @@ class Cutter {
   }
 
  private:
-  void cut(std::span<std::uint32_t> vertices, std::uint32_t regions, double share) {
+  struct Placed {
+    std::array<double, 3> along;  ///< the axes of the cuts
+    std::uint32_t vertex;
+  };
+
+  void cut(std::span<Placed> vertices, std::uint32_t regions, double share) {
     if (regions == 1) {
-      for (const std::uint32_t v : vertices) into_.region_of[v] = static_cast<std::uint32_t>(of_region_.size());
-      std::vector<std::uint32_t>& of_region = of_region_.emplace_back(vertices.begin(), vertices.end());
+      std::vector<std::uint32_t>& of_region = of_region_.emplace_back();
+      for (const Placed& placed : vertices) of_region.push_back(placed.vertex);
       std::sort(of_region.begin(), of_region.end());
+      for (const std::uint32_t v : of_region) into_.region_of[v] = static_cast<std::uint32_t>(of_region_.size()) - 1;
       return;
     }
-    Eigen::AlignedBox3d box;
-    for (const std::uint32_t v : vertices) box.extend(position(v));
-    Eigen::Index axis = 0;
-    box.sizes().maxCoeff(&axis);
-    const Vec3 direction = axes()[static_cast<std::size_t>(axis)];
-    const auto along = [&](std::uint32_t v) { return dot(direction, state_.mesh.position(v)); };
+    const std::size_t axis = longest_axis(vertices);
     const auto middle = static_cast<std::size_t>(share * static_cast<double>(vertices.size()));
-    std::nth_element(
-        vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
-        [&](std::uint32_t a, std::uint32_t b) { return along(a) < along(b) || (along(a) == along(b) && a < b); });
+    std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
+                     [axis](const Placed& p, const Placed& q) {
+                       return p.along[axis] < q.along[axis] || (p.along[axis] == q.along[axis] && p.vertex < q.vertex);
+                     });
     cut(vertices.first(middle), regions / 2, 0.5);
     cut(vertices.subspan(middle), regions - regions / 2, 0.5);
+  }
+
+  /// The axis along which the vertices extend furthest.
+  static std::size_t longest_axis(std::span<const Placed> vertices) {
+    std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, size{};
+    for (const Placed& placed : vertices) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lo[axis] = std::min(lo[axis], placed.along[axis]);
+        hi[axis] = std::max(hi[axis], placed.along[axis]);
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = hi[axis] - lo[axis];
+    return static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
   }
 
   /// Makes one region of those around a vertex with so many faces that a collapse next to one of its edges may be
@@ -65,7 +86,8 @@ class Cutter {
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f)
       if (!mesh.is_removed(f))
         for (const std::uint32_t v : mesh.corners(f)) ++faces[v];
-    for (const std::uint32_t hub : vertices_) {
+    for (const Placed& placed : vertices_) {
+      const std::uint32_t hub = placed.vertex;
       if (faces[hub] <= EdgeStar::max_faces) continue;
       mesh.for_each_corner(hub, [&](Corner c) {
         for (const std::uint32_t v : {mesh.end(c), mesh.apex(c)}) {
@@ -95,19 +117,13 @@ class Cutter {
       std::inplace_merge(into.begin(), into.begin() + middle, into.end());
     }
     of_region_ = std::move(kept);
-    for (const std::uint32_t v : vertices_) into_.region_of[v] = number[into_.region_of[v]];
-  }
-
-  [[nodiscard]] const std::array<Vec3, 3>& axes() const { return cut_axes[static_cast<std::size_t>(shift_)]; }
-  [[nodiscard]] Eigen::Vector3d position(std::uint32_t v) const {
-    const Vec3 p = state_.mesh.position(v);
-    return {dot(axes()[0], p), dot(axes()[1], p), dot(axes()[2], p)};
+    for (const Placed& placed : vertices_) into_.region_of[placed.vertex] = number[into_.region_of[placed.vertex]];
   }
 
   const DecimationState& state_;
   Split& into_;
   const int shift_;
-  std::vector<std::uint32_t> vertices_;
+  std::vector<Placed> vertices_;
   std::vector<std::vector<std::uint32_t>> of_region_;
 };
 
