@@ -62,10 +62,9 @@ class MeshView {
   [[nodiscard]] std::size_t triangle_count() const { return triangle_count_; }  ///< degenerate ones included
   [[nodiscard]] Eigen::Vector3d vertex(std::size_t i) const;  ///< i < `vertex_count()`; a float is exact as a double
   [[nodiscard]] Triangle triangle(std::size_t i) const;       ///< i < `triangle_count()`
-  /// Asks the processor to fetch what `vertex` or `triangle` will read; any number is allowed. Where the compiler has
-  /// no word for that, nothing.
-  void prefetch_vertex(std::size_t i) const;
-  void prefetch_triangle(std::size_t i) const;  ///< as `prefetch_vertex`
+  /// Asks the processor to fetch what `vertex(i)` will read. Does nothing where the compiler has no word for that.
+  void prefetch_vertex(std::size_t i) const;    ///< i < `vertex_count()`
+  void prefetch_triangle(std::size_t i) const;  ///< the same for `triangle(i)`, i < `triangle_count()`
 
  private:
   /// A third of `size`; throws `InvalidInput`, naming `what`, when that is no whole number.

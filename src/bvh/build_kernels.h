@@ -12,9 +12,9 @@ namespace meshbound {
 /// Triangles whose corners are fetched before any of them is worked on: the processor then waits for many at a time.
 inline constexpr std::uint32_t triangles_at_once = 64;
 
-/// A number for each of so many triangles.
-template <class Number>
-using Batch = std::array<Number, triangles_at_once>;
+/// A value for each of so many triangles.
+template <class Value>
+using Batch = std::array<Value, triangles_at_once>;
 
 /// Cells of the 2^bits grid.
 struct Cells {

@@ -83,21 +83,19 @@ class Renumbering {
   }
   [[nodiscard]] std::uint32_t begin(std::uint32_t r) const { return run_begin(data_.triangle_count(), r, runs_); }
 
-  using Batch = std::array<Triangle, triangles_at_once>;
-
   /// Works in batches, in passes that do not depend on what was fetched just before, and asks for what the next batch
   /// needs while it works on this one: the processor then waits for many entries at a time, or not at all.
   void number_vertices(std::uint32_t r) {
     Run& run = run_[r];
     std::fill(run.local.begin(), run.local.end(), no_index);
     Vec3* const positions = r == 0 ? data_.vertices.data() : run.positions.data();
-    std::array<Batch, 2> batches;
+    std::array<Batch<Triangle>, 2> batches;
     std::uint32_t count = 0;
     const std::uint32_t end = begin(r + 1);
     fetch(run, begin(r), end, batches[0]);
     for (std::uint32_t slot = begin(r), odd = 0; slot < end; slot += triangles_at_once, odd ^= 1) {
       const std::uint32_t size = std::min(triangles_at_once, end - slot), known = count;
-      const Batch& triangles = batches[odd];
+      const Batch<Triangle>& triangles = batches[odd];
       if (r == 0 && slot % slots_ == 0) first_of_chunk_[slot / slots_] = count;
       fetch(run, slot + size, end, batches[odd ^ 1]);
       for (std::uint32_t i = 0; i < size; ++i)
@@ -110,7 +108,7 @@ class Renumbering {
   }
 
   /// Reads the triangles of a batch that begins at a slot, and asks for their vertices and for the batch that follows.
-  void fetch(const Run& run, std::uint32_t slot, std::uint32_t end, Batch& batch) const {
+  void fetch(const Run& run, std::uint32_t slot, std::uint32_t end, Batch<Triangle>& batch) const {
     const MeshView mesh = mesh_;
     const std::uint32_t* const order = data_.triangle_of_slot.data();
     const std::uint32_t* const local = run.local.data();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "numeric/no_index.h"
 #include "numeric/ranked_numbers.h"
@@ -21,10 +22,8 @@ class Builder {
         source_(collapses.mesh()),
         into_(into),
         mesh_(into.mesh),
-        faces_(lists_of_faces(collapses)),
-        vertices_(lists_of_corners()) {
-    into.vertex = vertices_.ascending();
-  }
+        faces_(faces_of(collapses)),
+        vertices_(corners_of_faces()) {}
 
   void run() {
     add_vertices();
@@ -34,23 +33,23 @@ class Builder {
   }
 
  private:
-  /// The faces at each edge of the region, as far as they belong to it.
-  static std::vector<std::array<std::uint32_t, 2>> lists_of_faces(const RegionCollapses& collapses) {
-    std::vector<std::array<std::uint32_t, 2>> lists;
+  static RankedNumbers faces_of(const RegionCollapses& collapses) {
+    std::vector<std::uint32_t> faces;
     collapses.for_each_edge([&](Corner c) {
-      const Corner twin = collapses.mesh().twin(c);
-      const bool has_face = collapses.owns_face(c / 3), has_twin = twin != no_index && collapses.owns_face(twin / 3);
-      if (has_face || has_twin) lists.push_back({has_face ? c / 3 : twin / 3, has_twin ? twin / 3 : c / 3});
+      for (const Corner side : {c, collapses.mesh().twin(c)})
+        if (side != no_index && collapses.owns_face(side / 3)) faces.push_back(side / 3);
     });
-    return lists;
+    return RankedNumbers(std::array{std::move(faces)});
   }
-  [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> lists_of_corners() const {
-    std::vector<std::array<std::uint32_t, 3>> lists;
-    for (const std::uint32_t f : faces_.ascending()) lists.push_back(source_.corners(f));
-    return lists;
+
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> corners_of_faces() const {
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (const std::uint32_t f : faces_.ascending()) corners.push_back(source_.corners(f));
+    return corners;
   }
 
   void add_vertices() {
+    into_.vertex = vertices_.ascending();
     mesh_.reserve(static_cast<SurfaceMesh::size_type>(into_.vertex.size()),
                   static_cast<SurfaceMesh::size_type>(2 * faces_.ascending().size()),
                   static_cast<SurfaceMesh::size_type>(faces_.ascending().size()));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 
 #include "geometry/cut_axes.h"
@@ -26,7 +25,7 @@ class Cutter {
     for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v) {
       if (!state.mesh.is_vertex(v)) continue;
       const Vec3 p = state.mesh.position(v);
-      vertices_.push_back({{dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)}, v});
+      vertices_.push_back({Eigen::Vector3d(dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)), v});
     }
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
@@ -39,7 +38,7 @@ class Cutter {
 
  private:
   struct Placed {
-    std::array<double, 3> along;  ///< the axes of the cuts
+    Eigen::Vector3d along;  ///< the axes of the cuts
     std::uint32_t vertex;
   };
 
@@ -51,7 +50,10 @@ class Cutter {
       for (const std::uint32_t v : of_region) into_.region_of[v] = static_cast<std::uint32_t>(of_region_.size()) - 1;
       return;
     }
-    const std::size_t axis = longest_axis(vertices);
+    Eigen::AlignedBox3d box;
+    for (const Placed& placed : vertices) box.extend(placed.along);
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
     const auto middle = static_cast<std::size_t>(share * static_cast<double>(vertices.size()));
     std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
                      [axis](const Placed& p, const Placed& q) {
@@ -59,19 +61,6 @@ class Cutter {
                      });
     cut(vertices.first(middle), regions / 2, 0.5);
     cut(vertices.subspan(middle), regions - regions / 2, 0.5);
-  }
-
-  /// The axis along which the vertices extend furthest.
-  static std::size_t longest_axis(std::span<const Placed> vertices) {
-    std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, size{};
-    for (const Placed& placed : vertices) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        lo[axis] = std::min(lo[axis], placed.along[axis]);
-        hi[axis] = std::max(hi[axis], placed.along[axis]);
-      }
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) size[axis] = hi[axis] - lo[axis];
-    return static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
   }
 
   /// Makes one region of those around a vertex with so many faces that a collapse next to one of its edges may be
