@@ -39,14 +39,14 @@ inline CornerTriangle<double> triangle_at(const Bvh::Data& data, std::uint32_t s
 inline Double8 joined(const Double4& low, const Double4& high) {
   return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
 }
-inline Vec<Double8> joined(const Vec<Double4>& low, const Vec<Double4>& high) {
+[[gnu::always_inline]] inline Vec<Double8> joined(const Vec<Double4>& low, const Vec<Double4>& high) {
   return {joined(low.x, high.x), joined(low.y, high.y), joined(low.z, high.z)};
 }
 #endif
 
 /// The points at(0), at(1) and so on, as many as there are lanes.
 template <class At>
-Vec<Doubles> gather(const At& at) {
+[[gnu::always_inline]] inline Vec<Doubles> gather(const At& at) {
   const Vec<Double4> low = gather4(at(0), at(1), at(2), at(3));
 #if defined(__AVX512F__)
   return joined(low, gather4(at(4), at(5), at(6), at(7)));
@@ -55,26 +55,29 @@ Vec<Doubles> gather(const At& at) {
 #endif
 }
 
+/// Corner k of four triangles.
+[[gnu::always_inline]] inline Vec<Double4> corners_at(const Bvh::Data& data, const std::uint32_t* slots,
+                                                      std::size_t k) {
+  const auto at = [&](std::size_t i) -> const Vec3& { return data.vertices[data.corners[slots[i]][k]]; };
+  return gather4(at(0), at(1), at(2), at(3));
+}
+
 /// Four triangles by their slots, lane by lane. Their corners are gathered: storing a copy for each block made testing
 /// a leaf hardly faster and took 72 of 200 bytes a triangle, which building had to write.
 inline CornerTriangle<Double4> triangles_at(const Bvh::Data& data,
                                             const std::array<std::uint32_t, block_width>& slots) {
-  const Triangle *const s = &data.corners[slots[0]], *const t = &data.corners[slots[1]],
-                        *const u = &data.corners[slots[2]], *const v = &data.corners[slots[3]];
-  const auto corner = [&](std::size_t k) {
-    return gather4(data.vertices[(*s)[k]], data.vertices[(*t)[k]], data.vertices[(*u)[k]], data.vertices[(*v)[k]]);
-  };
-  const Vec<Double4> a = corner(0);
-  return {a, corner(1) - a, corner(2) - a};
+  const Vec<Double4> a = corners_at(data, slots.data(), 0);
+  return {a, corners_at(data, slots.data(), 1) - a, corners_at(data, slots.data(), 2) - a};
 }
 
 #if defined(__AVX512F__)
 /// Eight triangles by their slots, lane by lane.
 [[gnu::always_inline]] inline CornerTriangle<Double8> triangles_at(const Bvh::Data& data,
-                                                                   const std::array<std::uint32_t, 8>& s) {
-  const CornerTriangle<Double4> low = triangles_at(data, std::array{s[0], s[1], s[2], s[3]}),
-                                high = triangles_at(data, std::array{s[4], s[5], s[6], s[7]});
-  return {joined(low.a, high.a), joined(low.ab, high.ab), joined(low.ac, high.ac)};
+                                                                   const std::array<std::uint32_t, 8>& slots) {
+  const std::uint32_t *const low = slots.data(), *const high = low + 4;
+  const Vec<Double4> a = corners_at(data, low, 0), b = corners_at(data, low, 1), c = corners_at(data, low, 2),
+                     d = corners_at(data, high, 0), e = corners_at(data, high, 1), f = corners_at(data, high, 2);
+  return {joined(a, d), joined(b - a, e - d), joined(c - a, f - d)};
 }
 #endif
 
@@ -120,8 +123,8 @@ inline BoxDistances box_distances(const BvhNode& node, const FloatQuery& q) {
                  hi = *reinterpret_cast<const Float8*>(node.hi[axis]);
     const Float8 below = lo - q.hi[axis], above = q.lo[axis] - hi;
     const Float8 outside = maximum(maximum(below, above), Float8{}), from_centre = below - above;
-    distances.squared += outside * outside;
-    distances.centre += from_centre * from_centre;
+    distances.squared = multiply_add(outside, outside, distances.squared);
+    distances.centre = multiply_add(from_centre, from_centre, distances.centre);
   }
   return distances;
 }
@@ -233,11 +236,13 @@ inline constexpr int max_steps_over = 8;
 /// Walks from `slot` across the edge that p is furthest outside of, until p lies over a triangle or the walk has taken
 /// its steps; returns the triangle where it ends. Looks at no distances.
 inline std::uint32_t step_over(const Bvh::Data& data, const Vec3& p, std::uint32_t slot) {
+  std::uint32_t before = no_slot;
   for (int step = 0; step < max_steps_over; ++step) {
     const std::size_t edge = edge_towards(data, slot, triangle_at(data, slot), p);
     if (edge == 3) return slot;
     const Neighbour across = data.neighbours[slot][edge];
-    if (across.slot == no_slot) return slot;
+    if (across.slot == no_slot || across.slot == before) return slot;
+    before = slot;
     slot = across.slot;
   }
   return slot;

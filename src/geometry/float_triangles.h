@@ -21,15 +21,26 @@ inline namespace MESHBOUND_ISA {
 inline constexpr float float_error = 64 * 0x1p-24F;
 inline constexpr float min_float_error = 0x1p-30F;
 
+/// As `dot` and `squared_length`, with fewer roundings where the machine can do that.
+inline Floats product(const Vec<Floats>& a, const Vec<Floats>& b) {
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+}
+inline Floats squared_size(const Vec<Floats>& a) { return product(a, a); }
+/// a - s b
+inline Vec<Floats> less_times(const Vec<Floats>& a, const Floats& s, const Vec<Floats>& b) {
+  return {multiply_add(-s, b.x, a.x), multiply_add(-s, b.y, a.y), multiply_add(-s, b.z, a.z)};
+}
+
 /// A point of a triangle that is nearly the closest to each of the points, by the vector o from there.
 struct FloatOffset {
   Floats squared;  ///< o.o
   Floats along;    ///< the least o . (p - c) over the corners c
 
-  /// The lanes whose points are proven to be further away than `distance`, given `distance` + `float_error` m.
-  [[nodiscard]] FloatsMask is_beyond(const Floats& distance_and_error) const {
+  /// A bit for each lane whose point is proven to be further away than `distance`, given `distance` + `float_error` m.
+  [[nodiscard]] unsigned lanes_beyond(const Floats& distance_and_error) const {
     const Floats length_squared = maximum(squared, broadcast_floats(0x1p-62F));
-    return (along > 0.0F) & (along * along >= (distance_and_error * distance_and_error) * length_squared);
+    return less_bits(Floats{}, along) &
+           less_bits((distance_and_error * distance_and_error) * length_squared, along * along);
   }
 };
 
@@ -46,13 +57,13 @@ class FloatTriangles {
         bc_(c - b),
         lo_{minimum(a.x, minimum(b.x, c.x)), minimum(a.y, minimum(b.y, c.y)), minimum(a.z, minimum(b.z, c.z))},
         hi_{maximum(a.x, maximum(b.x, c.x)), maximum(a.y, maximum(b.y, c.y)), maximum(a.z, maximum(b.z, c.z))},
-        per_ab_(reciprocal(dot(ab_, ab_))),
-        ab_ac_(dot(ab_, ac_)),
-        bc_ab_(dot(bc_, ab_)),
-        per_ac_(reciprocal(dot(ac_, ac_))),
-        per_bc_(reciprocal(dot(bc_, bc_))) {
+        per_ab_(reciprocal(product(ab_, ab_))),
+        ab_ac_(product(ab_, ac_)),
+        bc_ab_(product(bc_, ab_)),
+        per_ac_(reciprocal(product(ac_, ac_))),
+        per_bc_(reciprocal(product(bc_, bc_))) {
     across_ = ac_ - (ab_ac_ * per_ab_) * ab_;
-    per_across_ = reciprocal(dot(across_, across_));
+    per_across_ = reciprocal(product(across_, across_));
   }
 
   /// The largest magnitude of a coordinate of each.
@@ -65,23 +76,24 @@ class FloatTriangles {
     const Vec<Floats> below = at(lo_, i) - p, above = p - at(hi_, i);
     const Floats x = maximum(maximum(below.x, above.x), Floats{}), y = maximum(maximum(below.y, above.y), Floats{}),
                  z = maximum(maximum(below.z, above.z), Floats{});
-    return x * x + y * y + z * z;
+    return squared_size({x, y, z});
   }
 
   /// As `closest_on_triangle`, with less care for slivers: no bound depends on how near the point comes.
   [[nodiscard]] FloatOffset offset(std::size_t i, const Vec<Floats>& p) const {
     const Floats one = broadcast_floats(1.0F);
     const Vec<Floats> ab = at(ab_, i), ac = at(ac_, i), ap = p - at(a_, i);
-    const Floats ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
-    const Floats w = clamped(dot(at(across_, i), ap) * broadcast_floats(per_across_[i]), one);
-    const Floats v = clamped((ab_ap - w * broadcast_floats(ab_ac_[i])) * broadcast_floats(per_ab_[i]), one - w);
-    Vec<Floats> best = (ap - v * ab) - w * ac;
-    Floats squared = squared_length(best);
-    keep_nearer(best, squared, ap - clamped(ac_ap * broadcast_floats(per_ac_[i]), one) * ac);
+    const Floats ab_ap = product(ab, ap), ac_ap = product(ac, ap);
+    const Floats w = clamped(product(at(across_, i), ap) * broadcast_floats(per_across_[i]), one);
+    const Floats v =
+        clamped(multiply_add(-w, broadcast_floats(ab_ac_[i]), ab_ap) * broadcast_floats(per_ab_[i]), one - w);
+    Vec<Floats> best = less_times(less_times(ap, v, ab), w, ac);
+    Floats squared = squared_size(best);
+    keep_nearer(best, squared, less_times(ap, clamped(ac_ap * broadcast_floats(per_ac_[i]), one), ac));
     const Floats along_bc = (ac_ap - ab_ap - broadcast_floats(bc_ab_[i])) * broadcast_floats(per_bc_[i]);
-    keep_nearer(best, squared, (ap - ab) - clamped(along_bc, one) * at(bc_, i));
-    const Floats at_a = dot(best, ap);
-    return {squared, minimum(at_a, minimum(at_a - dot(best, ab), at_a - dot(best, ac)))};
+    keep_nearer(best, squared, less_times(ap - ab, clamped(along_bc, one), at(bc_, i)));
+    const Floats at_a = product(best, ap);
+    return {squared, minimum(at_a, minimum(at_a - product(best, ab), at_a - product(best, ac)))};
   }
 
  private:
@@ -90,7 +102,7 @@ class FloatTriangles {
   }
   static Floats clamped(const Floats& x, const Floats& max) { return maximum(minimum(x, max), Floats{}); }
   static void keep_nearer(Vec<Floats>& best, Floats& squared, const Vec<Floats>& offset) {
-    const Floats other = squared_length(offset);
+    const Floats other = squared_size(offset);
     const FloatsMask nearer = other < squared;
     best.x = nearer ? offset.x : best.x;
     best.y = nearer ? offset.y : best.y;

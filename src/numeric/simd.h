@@ -91,6 +91,19 @@ using Floats = Float16;
 using Doubles = Double4;
 using Floats = Float8;
 #endif
+
+/// a b + c, rounded once where the machine can do that: for numbers whose last bits no result depends on.
+inline Float8 multiply_add(Float8 a, Float8 b, Float8 c) {
+#if defined(__FMA__)
+  return _mm256_fmadd_ps(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+#if defined(__AVX512F__)
+inline Float16 multiply_add(Float16 a, Float16 b, Float16 c) { return _mm512_fmadd_ps(a, b, c); }
+#endif
+
 /// `Doubles`, `Floats` and `Words`: as wide as the machine's vectors.
 using Words = std::uint32_t __attribute__((vector_size(sizeof(Floats))));
 inline constexpr std::size_t doubles_width = sizeof(Doubles) / sizeof(double),
@@ -172,6 +185,16 @@ inline unsigned lane_bits(decltype(Double8{} < Double8{}) mask) {
   return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
 }
 #endif
+
+/// Bit i of the result is set where a < b in lane i. With AVX-512, `lane_bits` would spread them over whole lanes
+/// first.
+inline unsigned less_bits(Floats a, Floats b) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+#else
+  return lane_bits(a < b);
+#endif
+}
 
 /// The mask whose lane i is set where bit i is.
 inline Mask4 mask_of_lanes(unsigned bits) { return (Mask4{1, 2, 4, 8} & static_cast<std::int64_t>(bits)) != 0; }

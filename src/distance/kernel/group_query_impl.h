@@ -77,7 +77,7 @@ class GroupSearch {
     measure_start(hint);
     Level levels[2];
     const float limit = prune_limit(square(largest_lane(limit_)));
-    const Level* const blocks = blocks_within(data_, FloatQuery(box_.lo, box_.hi), limit, levels);
+    const Level* const blocks = members_within(data_, FloatQuery(box_.lo, box_.hi), limit, 0, levels);
     if (blocks == nullptr) return false;
     measure_near(*blocks);
     if (!collect_pairs()) return false;
@@ -139,12 +139,12 @@ class GroupSearch {
     measure(blocks);
   }
 
-  [[nodiscard]] bool is_measured(std::uint32_t block) const {
-    return lane_bits(start_ == static_cast<std::int32_t>(block)) != 0;
+  [[nodiscard]] unsigned is_measured(std::uint32_t block) const {
+    return lane_bits(start_ == static_cast<std::int32_t>(block)) != 0 ? 1 : 0;
   }
 
   /// Whether the box of a block is within the limit of any query (`prune_limit` says why limits are this much larger).
-  [[nodiscard]] bool is_near(std::uint32_t block, const Floats& limit_squared) const {
+  [[nodiscard]] unsigned is_near(std::uint32_t block, const Floats& limit_squared) const {
     const BvhNode& node = data_.nodes[data_.level_begin[1] + block / node_width];
     const std::uint32_t child = block % node_width;
     const auto outside = [&](std::size_t axis, const Floats& lo, const Floats& hi) {
@@ -152,7 +152,7 @@ class GroupSearch {
                      Floats{});
     };
     const Vec<Floats> apart{outside(0, lo_.x, hi_.x), outside(1, lo_.y, hi_.y), outside(2, lo_.z, hi_.z)};
-    return lane_bits(squared_length(apart) < limit_squared) != 0;
+    return less_bits(squared_length(apart), limit_squared) != 0 ? 1 : 0;
   }
 
   /// Measures those of the blocks that are within the limit of any query.
@@ -161,7 +161,7 @@ class GroupSearch {
     Level near;
     for (std::uint32_t i = 0; i < blocks.count; ++i) {
       near.index[near.count] = blocks.index[i];
-      near.count += is_near(blocks.index[i], limit_squared) && !is_measured(blocks.index[i]) ? 1 : 0;
+      near.count += is_near(blocks.index[i], limit_squared) & (is_measured(blocks.index[i]) ^ 1U);
     }
     measure(near);
   }
@@ -195,7 +195,7 @@ class GroupSearch {
     const Floats within = limit_ + error_, within_squared = within * within;
     unsigned near = 0;
     for (std::size_t i = 0; i < FloatTriangles::width; ++i)
-      near |= (lane_bits(triangles.box_squared(i, local_) < within_squared) != 0 ? 1U : 0U) << i;
+      near |= (less_bits(triangles.box_squared(i, local_), within_squared) != 0 ? 1U : 0U) << i;
     for (near &= used; near != 0; near &= near - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(near));
       Measured& measured = measured_[measured_count_];
@@ -213,8 +213,7 @@ class GroupSearch {
     const Floats limit_and_error = limit_ + error_;
     for (std::uint32_t i = 0; i < measured_count_; ++i) {
       const Measured& measured = measured_[i];
-      for (unsigned near = ~lane_bits(measured.offset.is_beyond(limit_and_error)) & all_queries_; near != 0;
-           near &= near - 1) {
+      for (unsigned near = ~measured.offset.lanes_beyond(limit_and_error) & all_queries_; near != 0; near &= near - 1) {
         if (pair_count_ == max_pairs) return false;
         pairs_[pair_count_++] = {measured.slot, static_cast<std::uint32_t>(std::countr_zero(near))};
       }

@@ -72,13 +72,15 @@ inline bool open_level(const Bvh::Data& data, const FloatQuery& query, float lim
   return true;
 }
 
-/// The blocks whose boxes, and those of all nodes above them, are within the limit; null where a level has too many.
-/// `levels`: memory for the walk, which the result lies in.
-inline const Level* blocks_within(const Bvh::Data& data, const FloatQuery& query, float limit, Level (&levels)[2]) {
+/// The members of a level whose boxes, and those of all nodes above them, are within the limit: blocks at level 0. A
+/// tree without that level has one block, which is returned. Null where a level has too many. `levels`: memory for the
+/// walk, which the result lies in.
+inline Level* members_within(const Bvh::Data& data, const FloatQuery& query, float limit, std::uint32_t wanted_level,
+                             Level (&levels)[2]) {
   levels[0].count = 1;
   levels[0].index[0] = 0;
   std::uint32_t now = 0;
-  for (std::uint32_t level = data.levels() - 1; level > 0; --level, now = 1 - now)
+  for (std::uint32_t level = data.levels() - 1; level > wanted_level; --level, now = 1 - now)
     if (!open_level(data, query, limit, level, levels[now], levels[1 - now])) return nullptr;
   return &levels[now];
 }

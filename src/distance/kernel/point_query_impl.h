@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// `MeasurePoint`. Compiled once per instruction set (numeric/isa.h).
 ///
-///     walk over the surface from the hint, and test the block there: a first limit, mostly near its final value
+///     walk over the surface from the hint; the distance to a corner of the triangle there is a first limit
 ///     level by level: keep the children whose boxes are within the limit, in no order and without branches
+///     meanwhile, test the triangles there: before the blocks are reached, the limit is mostly near its final value
 ///     test the triangles of those blocks whose own boxes are within the limit too, about a third of them
 ///
 /// Where a level would hold too many nodes, the hint was a bad one: it begins again at the block that the nearest boxes
@@ -11,7 +12,8 @@
 ///
 /// The answer does not depend on the hint or the order. Limits are above the least computed distance d by `primal`, so
 /// a triangle whose computed distance is at most d, and whose box therefore is within d + `primal_error`, is met in any
-/// case: the answer is the least (squared distance, slot) of all triangles of the mesh.
+/// case: the answer is the least (squared distance, slot) of all triangles of the mesh. That of a corner, which is not
+/// a computed distance of a triangle, is used only where it is no less than the limit that follows it.
 ///
 /// The lower bound. Let L = d - allowed. A triangle that was not met lies in a box beyond d. One that was met is at
 /// least as far as the plane across its own offset o separates it from p: m / |o| with m the least o . (p - c) over its
@@ -78,9 +80,9 @@ template <class Lanes>
 using Slots = std::array<std::uint32_t, doubles_width>;
 
 inline DoublesMask lanes_of(const Slots& slots) {
-  DoublesMask lanes;
-  for (std::size_t i = 0; i < doubles_width; ++i) lanes[i] = slots[i];
-  return lanes;
+  std::uint32_t words __attribute__((vector_size(sizeof slots)));
+  std::memcpy(&words, slots.data(), sizeof words);
+  return __builtin_convertvector(words, DoublesMask);
 }
 
 inline Vec<Doubles> broadcast_doubles(const Vec3& v) {
@@ -99,20 +101,16 @@ class PointSearch {
         last_slot_(data.triangle_count() - 1) {}
 
   PointDistance run(std::uint32_t hint) {
-    test_first(hint == no_slot ? block_by_boxes(data_, box_) * block_width : step_over(data_, p_, hint));
-    update_limit();
-    if (!walk_by_levels()) {
-      test_first(block_by_boxes(data_, box_) * block_width);
-      update_limit();
-      if (!walk_by_levels()) walk_near();
-    }
+    if (!walk_from(hint == no_slot ? block_by_boxes(data_, box_) * block_width : step_over(data_, p_, hint)) &&
+        !walk_from(block_by_boxes(data_, box_) * block_width))
+      walk_near();
     PointDistance found;
     const int lane = best_lane();
     found.nearest = {best_.squared_distance[lane], static_cast<std::uint32_t>(slots_[lane])};
     found.offset = {best_.offset.x[lane], best_.offset.y[lane], best_.offset.z[lane]};
     const double wanted = std::max(0.0, std::sqrt(found.nearest.squared) - roundings_.allowed);
     const bool separated = smallest_lane(separated_squared_) >= wanted * wanted;
-    found.separated = wanted > 0 && !separated ? separated_within_limit(wanted) : wanted;
+    found.separated = wanted > 0 && !separated ? separated_beyond(found.nearest.squared, wanted) : wanted;
     return found;
   }
 
@@ -123,6 +121,9 @@ class PointSearch {
   }
 
  private:
+  /// More than the roundings of the squared distance to a corner, which a measured triangle shall not exceed.
+  static constexpr double corner_margin = 1 + 0x1p-20;
+
   void update_limit() { limit_ = limit_of(smallest_lane(best_.squared_distance)); }
 
   [[nodiscard]] float limit_of(double squared) const {
@@ -154,20 +155,28 @@ class PointSearch {
   }
 
   [[nodiscard]] int best_lane() const {
-    int best = 0;
-    for (int lane = 1; lane < static_cast<int>(doubles_width); ++lane) {
-      const double least = best_.squared_distance[best], squared = best_.squared_distance[lane];
-      if (squared < least || (squared == least && slots_[lane] < slots_[best])) best = lane;
-    }
+    unsigned ties = lane_bits(best_.squared_distance == broadcast_doubles(smallest_lane(best_.squared_distance)));
+    int best = std::countr_zero(ties);
+    for (ties &= ties - 1; ties != 0; ties &= ties - 1)
+      if (const int lane = std::countr_zero(ties); slots_[lane] < slots_[best]) best = lane;
     return best;
   }
 
-  bool walk_by_levels() {
+  /// Starts at a triangle. False where a level has too many members.
+  bool walk_from(std::uint32_t slot) {
+    const Vec3& corner = data_.vertices[data_.corners[slot][0]];
+    const float first_limit = limit_of(corner_margin * squared_length(p_ - corner));
     Level levels[2];
-    const Level* const blocks = blocks_within(data_, box_, limit_, levels);
-    if (blocks == nullptr) return false;
-    test_blocks(*blocks);
+    Level* members = members_within(data_, box_, first_limit, 1, levels);
+    test_first(slot);
     update_limit();
+    if (members == nullptr || limit_ > first_limit) return false;
+    if (data_.levels() > 1) {
+      Level& blocks = levels[members == &levels[0] ? 1 : 0];
+      if (!open_level(data_, box_, limit_, 1, *members, blocks)) return false;
+      members = &blocks;
+    }
+    test_blocks(*members);
     return true;
   }
 
@@ -176,21 +185,24 @@ class PointSearch {
     return lane_bits(squared_triangle_box_distances(data_, block, coordinates_) < broadcast4(double{limit_}));
   }
 
-  /// Tests the triangles whose boxes are within the limit, four at a time whatever their blocks.
+  /// Tests the triangles whose boxes are within the limit, as many at a time as fill the lanes, whatever their blocks.
   void test_blocks(const Level& blocks) {
-    std::uint32_t slots[Level::capacity * block_width + node_width];
+    std::array<std::uint32_t, Level::capacity * block_width + node_width> slots;
+    const Mask8 last = Mask8{} + static_cast<std::int32_t>(last_slot_);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < blocks.count; ++i) {
       const unsigned hits = lanes_within_limit(blocks.index[i]);
-      const Mask8 slot = lanes_of(hits) + static_cast<std::int32_t>(blocks.index[i] * block_width);
+      Mask8 slot = lanes_of(hits) + static_cast<std::int32_t>(blocks.index[i] * block_width);
+      slot = slot < last ? slot : last;
       std::memcpy(&slots[count], &slot, sizeof slot);
       if (blocks.index[i] * block_width / doubles_width != first_)
         count += static_cast<std::uint32_t>(std::popcount(hits));
     }
+    if (count == 0) return;
+    std::fill_n(&slots[count], doubles_width, slots[count - 1]);
     for (std::uint32_t i = 0; i < count; i += doubles_width) {
       Slots together;
-      for (std::uint32_t k = 0; k < doubles_width; ++k)
-        together[k] = std::min(slots[std::min(i + k, count - 1)], last_slot_);
+      std::memcpy(together.data(), &slots[i], sizeof together);
       test(together);
     }
   }
