@@ -7,10 +7,12 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bvh/bvh_data.h"
 #include "distance/kernel/point_query.h"
+#include "distance/query_order.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
@@ -170,6 +172,24 @@ TEST(ClosestPoint, ProvesNoMoreThanThePlanesOfEachTriangle) {
   }
 }
 
+/// The last block of a tree repeats its last triangle where it has fewer than four.
+TEST(ClosestPoint, IsNeverBeyondTheLastTriangle) {
+  for (int count = 9; count <= 40; ++count) {
+    const TriangleMesh mesh = random_soup(static_cast<std::uint32_t>(count), count, 0.1);
+    const Bvh bvh(mesh);
+    const Bvh::Data& data = bvh.data();
+    const std::uint32_t last = data.triangle_count() - 1;
+    const Vec3 corner = data.vertices[data.corners[last][1]];
+    for (const PointKernel& kernel : point_kernels()) {
+      for (std::uint32_t hint = 0; hint <= last; ++hint) {
+        const PointDistance found = kernel.one(data, corner, {2 * primal_error, 0.25 * dual_error}, hint);
+        EXPECT_EQ(found.nearest.slot, last);
+        EXPECT_LE(found.nearest.squared, 1e-30);
+      }
+    }
+  }
+}
+
 /// All boxes are equally near: more of them than the walk by levels holds.
 TEST(ClosestPoint, OfCopiesIsTheFirstAlongTheCurve) {
   const TriangleMesh one = single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -182,6 +202,33 @@ TEST(ClosestPoint, OfCopiesIsTheFirstAlongTheCurve) {
     EXPECT_EQ(found.point.position, alone.point.position);
     EXPECT_EQ(found.distance.lower, alone.distance.lower);
     EXPECT_EQ(found.distance.upper, alone.distance.upper);
+  }
+}
+
+TEST(ClosestPoints, AreAskedAlongACurveWhereTheyDoNotFollowOneAnother) {
+  std::vector<Vector3d> queries;
+  for (int i = 0; i < 4096; ++i) queries.emplace_back(i % 64, i / 64, 0);
+  EXPECT_TRUE(order_of_queries(queries).empty());
+  Random random(1);
+  for (std::size_t i = queries.size() - 1; i > 0; --i)
+    std::swap(queries[i], queries[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+
+  std::vector<std::uint32_t> order = order_of_queries(queries);
+  ASSERT_EQ(order.size(), queries.size());
+  double length = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) length += (queries[order[i]] - queries[order[i - 1]]).norm();
+  EXPECT_LT(length, 2.0 * static_cast<double>(order.size()));  // at random 33 times as many
+  std::sort(order.begin(), order.end());
+  for (std::uint32_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
+}
+
+/// The search refuses them; the order comes first.
+TEST(ClosestPoints, RefuseOneThatIsNotFiniteAmongMany) {
+  const Bvh bvh(icosphere(2));
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1.7e308}) {
+    std::vector<Vector3d> queries = queries_around(icosphere(2), 1000, 3);
+    queries[700].y() = bad;
+    EXPECT_THROW((void)closest_points(bvh, queries), InvalidInput);
   }
 }
 

@@ -85,9 +85,9 @@ struct QueryOptions {
 };
 
 /// `closest_point` for each of many queries, with the same answers to the last bit. Each search begins at the triangle
-/// that the query before it found, and up to sixteen queries near one another share a walk over the tree: fast in an
-/// order where neighbours follow one another (along a curve, a grid, a surface). Throws `InvalidInput` as above when
-/// one of the queries is to be refused. Expected O(log n) for each.
+/// that the query before it found, and up to sixteen queries near one another share a walk over the tree. Queries whose
+/// neighbours do not follow one another are answered in the order of a space-filling curve. Throws `InvalidInput` as
+/// above when one of the queries is to be refused. Expected O(log n) for each.
 [[nodiscard]] std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::Vector3d> queries,
                                                        const QueryOptions& options = {});
 

@@ -11,6 +11,7 @@
 #include "bvh/bvh_data.h"
 #include "distance/kernel/point_query.h"
 #include "distance/kernel/search_kernel.h"
+#include "distance/query_order.h"
 #include "distance/shortcuts/point_like.h"
 #include "geometry/eigen_vec3.h"
 #include "geometry/magnitude.h"
@@ -173,6 +174,16 @@ class PointQueries {
   Vec3 last_;  ///< the query that found it
 };
 
+/// Answers the queries with these indices, one after another.
+void answer_in_order(PointQueries& ask, std::span<const Eigen::Vector3d> queries, std::span<const std::uint32_t> order,
+                     std::span<ClosestPoint> answers) {
+  std::vector<Eigen::Vector3d> ordered(order.size());
+  std::transform(order.begin(), order.end(), ordered.begin(), [&](std::uint32_t i) { return queries[i]; });
+  std::vector<ClosestPoint> found(order.size());
+  ask.answer(ordered, found);
+  for (std::size_t i = 0; i < order.size(); ++i) answers[order[i]] = found[i];
+}
+
 /// What a thread found last: where its next query begins if it asks the same tree.
 struct LastFound {
   std::uint64_t serial = 0;  ///< of the tree; 0 is none
@@ -193,12 +204,16 @@ ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query) {
 std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::Vector3d> queries,
                                          const QueryOptions& options) {
   std::vector<ClosestPoint> answers(queries.size());
+  const std::vector<std::uint32_t> order = order_of_queries(queries);
   const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : omp_get_max_threads());
   const std::size_t useful = 1 + queries.size() / queries_per_task;
   with_team(static_cast<int>(std::min(wanted, useful)), [&] {
     for_each_range(queries.size(), queries_per_task, [&](std::size_t begin, std::size_t end) {
       PointQueries ask(bvh.data());
-      ask.answer(queries.subspan(begin, end - begin), std::span(answers).subspan(begin, end - begin));
+      if (order.empty())
+        ask.answer(queries.subspan(begin, end - begin), std::span(answers).subspan(begin, end - begin));
+      else
+        answer_in_order(ask, queries, std::span(order).subspan(begin, end - begin), answers);
     });
   });
   return answers;
