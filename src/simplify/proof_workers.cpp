@@ -27,7 +27,7 @@ FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
     faces_.push_back(f);
     boxes.push_back(box_of(mesh.triangle(f)));
   }
-  tree_.emplace(std::move(boxes));
+  tree_.emplace(boxes);
 }
 
 void FaceBoxes::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {

@@ -72,7 +72,7 @@ Charts::Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) 
   for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units));
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_in_texture(t)), places_.push_back(place_of(t));
-  tree_.emplace(std::move(boxes));
+  tree_.emplace(boxes);
 }
 
 void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {

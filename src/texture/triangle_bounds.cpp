@@ -66,14 +66,14 @@ class Triangles {
 /// The boxes, in the texture, of the triangles that only one of two meshes has.
 BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b) {
   std::vector<Eigen::AlignedBox3d> boxes;
-  if (b == new_b) return BoxTree(std::move(boxes));
+  if (b == new_b) return BoxTree(boxes);
   const auto add = [&](const TexturedMesh& of, const Triangles& others) {
     for (const TexturedTriangle& t : of.triangles)
       if (!others.has(t)) boxes.push_back(box_in_texture(t));
   };
   add(b, Triangles(new_b.triangles));
   add(new_b, Triangles(b.triangles));
-  return BoxTree(std::move(boxes));
+  return BoxTree(boxes);
 }
 
 }  // namespace

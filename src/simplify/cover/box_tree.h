@@ -6,24 +6,35 @@
 
 namespace meshbound {
 
-/// Finds the boxes that meet a box: a binary tree by halves along the longest axis, with a few boxes in each leaf.
+/// Finds the boxes that meet a box: a tree of nodes that hold eight boxes each, halved along the longest axis.
 /// Immutable, safe to share.
 class BoxTree {
  public:
-  /// O(n log n).
-  explicit BoxTree(std::vector<Eigen::AlignedBox3d> boxes);
+  /// O(n log n). Coordinates are finite.
+  explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
 
   /// Appends the indices of the boxes that meet `box`, in an order that depends on the boxes alone.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 
  private:
-  void build(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t node, std::size_t first, std::size_t last);
-  void search(std::size_t node, std::size_t first, std::size_t last, const Eigen::AlignedBox3d& box,
+  static constexpr std::size_t width = 8;
+
+  /// Boxes by axis; those of unused lanes meet nothing.
+  struct Node {
+    Node();
+    void set(std::size_t lane, const Eigen::AlignedBox3d& box);
+    /// A bit for each lane whose box meets this one.
+    [[nodiscard]] unsigned meeting(const Eigen::AlignedBox3d& box) const;
+    double lo[3][width], hi[3][width];
+  };
+
+  void sort(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first, std::size_t last);
+  void search(std::size_t level, std::size_t index, const Eigen::AlignedBox3d& box,
               std::vector<std::uint32_t>& found) const;
 
-  std::vector<std::uint32_t> order_;        ///< indices by leaf
-  std::vector<Eigen::AlignedBox3d> boxes_;  ///< in this order
-  std::vector<Eigen::AlignedBox3d> nodes_;  ///< of [first, last) in order; node i has children 2i+1 and 2i+2
+  std::vector<std::uint32_t> order_;  ///< indices of the boxes
+  /// By level: node i has the boxes 8 i to 8 i + 7 in order, or the boxes around these nodes of the level before.
+  std::vector<std::vector<Node>> levels_;
 };
 
 }  // namespace meshbound

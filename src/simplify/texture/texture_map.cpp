@@ -47,7 +47,7 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(coordinates_.size());
   for (std::uint32_t t = 0; t < coordinates_.size(); ++t) boxes.push_back(box_of(coordinates_[t], material(t)));
-  tree_.emplace(std::move(boxes));
+  tree_.emplace(boxes);
 }
 
 template <class Visit>
