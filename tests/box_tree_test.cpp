@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// BoxTree against testing each box.
+#include "simplify/cover/box_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "reference/point_triangle_cases.h"
+
+namespace meshbound {
+namespace {
+
+/// Corners on a coarse grid: many boxes touch, and many are points.
+Eigen::AlignedBox3d random_box(reference::Random& random) {
+  Eigen::AlignedBox3d box;
+  for (int corner = 0; corner < 2; ++corner)
+    box.extend(Eigen::Vector3d(random.below(12), random.below(12), random.below(3)));
+  return box;
+}
+
+TEST(BoxTree, FindsTheBoxesThatMeetABox) {
+  reference::Random random(1);
+  for (const std::size_t count : {0, 1, 7, 8, 9, 63, 64, 65, 511, 513, 3000}) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (std::size_t i = 0; i < count; ++i) boxes.push_back(random_box(random));
+    const BoxTree tree(boxes);
+    for (int query = 0; query < 100; ++query) {
+      const Eigen::AlignedBox3d box = random_box(random);
+      std::vector<std::uint32_t> found = {7}, expected = {7};
+      tree.find(box, found);
+      for (std::uint32_t i = 0; i < count; ++i)
+        if (boxes[i].intersects(box)) expected.push_back(i);
+      std::sort(found.begin() + 1, found.end());
+      ASSERT_EQ(found, expected) << count;
+    }
+  }
+}
+
+TEST(BoxTree, FindsNothingInEmptyBoxes) {
+  const BoxTree tree(std::vector<Eigen::AlignedBox3d>(20));
+  std::vector<std::uint32_t> found;
+  tree.find(Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-1e300), Eigen::Vector3d::Constant(1e300)), found);
+  EXPECT_TRUE(found.empty());
+}
+
+}  // namespace
+}  // namespace meshbound
