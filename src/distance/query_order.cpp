@@ -18,25 +18,33 @@ constexpr std::size_t min_queries = 256;
 /// Steps between queries, in units of the extent of their box over the root of their number: two to three for points on
 /// a surface in Morton order, and the root of their number for points at random.
 constexpr double max_mean_step = 8;
+/// So many steps tell, evenly spread over the queries.
+constexpr std::size_t max_steps = 1024;
 
-bool follow_one_another(std::span<const Eigen::Vector3d> queries, double extent) {
+bool follow_one_another(std::span<const Eigen::Vector3d> queries) {
+  const std::size_t steps = std::min(queries.size() - 1, max_steps);
+  Eigen::AlignedBox3d box;
   double sum = 0;
-  for (std::size_t i = 1; i < queries.size(); ++i) sum += (queries[i] - queries[i - 1]).lpNorm<1>();
-  return sum <= max_mean_step * extent * std::sqrt(static_cast<double>(queries.size()));
+  for (std::size_t k = 0; k < steps; ++k) {
+    const std::size_t i = k * (queries.size() - 1) / steps;
+    box.extend(queries[i]);
+    sum += (queries[i + 1] - queries[i]).lpNorm<1>();
+  }
+  const double most = max_mean_step * box.sizes().maxCoeff() / std::sqrt(static_cast<double>(queries.size()));
+  return sum <= static_cast<double>(steps) * most;
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> order_of_queries(std::span<const Eigen::Vector3d> queries) {
   if (queries.size() < min_queries || queries.size() > std::numeric_limits<std::uint32_t>::max()) return {};
+  if (follow_one_another(queries)) return {};
+
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& query : queries) box.extend(query);
-  const double extent = box.sizes().maxCoeff();
-  if (follow_one_another(queries, extent)) return {};
-
   const int index_bits = static_cast<int>(std::bit_width(queries.size() - 1)),
             bits = std::min((64 - index_bits) / 3, 21);
-  const double cells = std::ldexp(1.0, bits) - 1, scale = cells / extent;
+  const double cells = std::ldexp(1.0, bits) - 1, scale = cells / box.sizes().maxCoeff();
   // Coordinates that are not finite, which the search refuses, fall into any cell.
   const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::min(cells, std::max(0.0, x * scale))); };
   std::vector<std::uint64_t> keys(queries.size());

@@ -211,11 +211,18 @@ class GroupSearch {
   bool collect_pairs() {
     if (measured_count_ == max_triangles) return false;
     const Floats limit_and_error = limit_ + error_;
+    // A third of the triangles have a pair: listed first without branches, which would be guessed wrong.
+    std::array<std::uint32_t, max_triangles> triangles, near;
+    std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < measured_count_; ++i) {
-      const Measured& measured = measured_[i];
-      for (unsigned near = ~measured.offset.lanes_beyond(limit_and_error) & all_queries_; near != 0; near &= near - 1) {
+      triangles[count] = i;
+      near[count] = ~measured_[i].offset.lanes_beyond(limit_and_error) & all_queries_;
+      count += near[count] != 0 ? 1 : 0;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (unsigned queries = near[i]; queries != 0; queries &= queries - 1) {
         if (pair_count_ == max_pairs) return false;
-        pairs_[pair_count_++] = {measured.slot, static_cast<std::uint32_t>(std::countr_zero(near))};
+        pairs_[pair_count_++] = {measured_[triangles[i]].slot, static_cast<std::uint32_t>(std::countr_zero(queries))};
       }
     }
     return true;
