@@ -18,20 +18,24 @@ namespace {
 /// The triangles of a mesh, found by their content, in whatever order their corners come.
 class Triangles {
  public:
-  /// `triangles` must outlive this. O(n log n).
-  explicit Triangles(const std::vector<TexturedTriangle>& triangles) : triangles_(triangles) {
-    sorted_.reserve(triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) sorted_.emplace_back(key(content(triangles[i])), i);
-    std::sort(sorted_.begin(), sorted_.end());
+  /// `triangles` must outlive this. O(n).
+  explicit Triangles(const std::vector<TexturedTriangle>& triangles)
+      : triangles_(triangles),
+        shift_(63 - static_cast<int>(std::bit_width(triangles.size()))),
+        first_(std::size_t{1} << (64 - shift_), no_index) {
+    keys_.reserve(triangles.size());
+    for (const TexturedTriangle& t : triangles) keys_.push_back(key(content(t)));
+    next_.resize(triangles.size());
+    for (std::uint32_t i = static_cast<std::uint32_t>(triangles.size()); i-- > 0;)
+      next_[i] = std::exchange(first_[keys_[i] >> shift_], i);
   }
 
   /// The smallest index of such a triangle; `no_index` if there is none.
   [[nodiscard]] std::uint32_t find(const TexturedTriangle& t) const {
     const Content wanted = content(t);
     const std::uint64_t wanted_key = key(wanted);
-    auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted_key, std::uint32_t{0}));
-    for (; at != sorted_.end() && at->first == wanted_key; ++at)
-      if (content(triangles_[at->second]) == wanted) return at->second;
+    for (std::uint32_t i = first_[wanted_key >> shift_]; i != no_index; i = next_[i])
+      if (keys_[i] == wanted_key && content(triangles_[i]) == wanted) return i;
     return no_index;
   }
   [[nodiscard]] bool has(const TexturedTriangle& t) const { return find(t) != no_index; }
@@ -60,37 +64,43 @@ class Triangles {
   }
 
   const std::vector<TexturedTriangle>& triangles_;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted_;  ///< by key
+  int shift_;                         ///< the highest bits of a key are the number of its list
+  std::vector<std::uint32_t> first_;  ///< by list
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint32_t> next_;  ///< by triangle: the next one of its list, with a larger index
 };
 
 /// The boxes, in the texture, of the triangles that only one of two meshes has.
-BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b) {
+BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b, const Triangles& of_new_b) {
   std::vector<Eigen::AlignedBox3d> boxes;
   if (b == new_b) return BoxTree(boxes);
   const auto add = [&](const TexturedMesh& of, const Triangles& others) {
     for (const TexturedTriangle& t : of.triangles)
       if (!others.has(t)) boxes.push_back(box_in_texture(t));
   };
-  add(b, Triangles(new_b.triangles));
+  add(b, of_new_b);
   add(new_b, Triangles(b.triangles));
   return BoxTree(boxes);
+}
+
+TriangleBounds bounds_of_equal(const TexturedMesh& a, const Triangles& of_b) {
+  TriangleBounds bounds;
+  bounds.uncovered.resize(a.triangles.size());
+  for (const TexturedTriangle& t : a.triangles) bounds.upper.push_back(of_b.has(t) ? 0 : HUGE_VAL);
+  return bounds;
 }
 
 }  // namespace
 
 TriangleBounds bounds_of_equal(const TexturedMesh& a, const TexturedMesh& b) {
-  TriangleBounds bounds;
-  bounds.uncovered.resize(a.triangles.size());
-  const Triangles others(b.triangles);
-  for (const TexturedTriangle& t : a.triangles) bounds.upper.push_back(others.has(t) ? 0 : HUGE_VAL);
-  return bounds;
+  return bounds_of_equal(a, Triangles(b.triangles));
 }
 
 TriangleBounds bounds_left(const TriangleBounds& known, const TexturedMesh& a, const TexturedMesh& b,
                            const TexturedMesh& new_a, const TexturedMesh& new_b) {
-  TriangleBounds left = bounds_of_equal(new_a, new_b);
-  const Triangles triangles_before(a.triangles);
-  const BoxTree changed = changed_boxes(b, new_b);
+  const Triangles of_new_b(new_b.triangles), triangles_before(a.triangles);
+  TriangleBounds left = bounds_of_equal(new_a, of_new_b);
+  const BoxTree changed = changed_boxes(b, new_b, of_new_b);
   std::vector<std::uint32_t> met;
   for (std::size_t i = 0; i < new_a.triangles.size(); ++i) {
     if (left.upper[i] == 0) continue;
