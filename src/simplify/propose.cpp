@@ -154,7 +154,7 @@ bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) return false;
   if (!gathered_) gather_samples();
   by_bound_ = true;
-  return samples_.hold(beside_, limit_) && is_vertex_near(point) && are_edges_near(point) && keeps_appearance(point);
+  return samples_.hold(beside_, limit_) && is_vertex_near(point) && keeps_appearance(point) && are_edges_near(point);
 }
 
 bool Proposer::keeps_appearance(Vec3 point) {
