@@ -73,15 +73,12 @@ void TextureGuard::begin(const TexturedStar& star) {
   for (const Corner c : star.moved) {
     const std::uint32_t f = c / 3;
     add_samples(f, {static_cast<std::uint32_t>(faces_.size()), true, {}, {}});
-    faces_.push_back({{mesh_.position(mesh_.start(c)), mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))},
-                      {map_.at(c), map_.at(next_corner(c)), map_.at(previous_corner(c))},
-                      map_.chart(f),
-                      f,
-                      Eigen::Matrix2d::Zero(),
-                      Eigen::Matrix<double, 3, 2>::Zero(),
-                      Eigen::Matrix2d::Zero(),
-                      false});
-    area_before_.push_back(doubled_area(faces_.back().coordinates));
+    Face& face = faces_.emplace_back();
+    face.at = {mesh_.position(mesh_.start(c)), mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))};
+    face.coordinates = {map_.at(c), map_.at(next_corner(c)), map_.at(previous_corner(c))};
+    face.chart = map_.chart(f);
+    face.number = f;
+    area_before_.push_back(doubled_area(face.coordinates));
   }
   for (const std::uint32_t f : star.removed) add_samples(f, {});
   put_few_first();
@@ -191,29 +188,33 @@ bool TextureGuard::is_turned_over() const {
   return false;
 }
 
-/// The point of a face with the coordinate of the sample, if it has one.
-std::optional<TextureGuard::Match> TextureGuard::match_inside(const TextureMap::Sample& sample,
-                                                              std::uint32_t number) const {
+/// Sets `match` to the point of a face with the coordinate of the sample. False if it has none.
+bool TextureGuard::match_inside(const TextureMap::Sample& sample, std::uint32_t number, Match& match) const {
   const Face& face = faces_[number];
-  Match match{number, true, {1, 0, 0}, {}};
+  match.face = number;
+  match.is_inside = true;
   if (!face.has_area) {  // one coordinate or a line of them: the nearest point stands for it
     const CornerTriangle<double> t{face.at[0], face.at[1] - face.at[0], face.at[2] - face.at[0]};
+    match.weights = {1, 0, 0};
     match.offset = -1.0 * closest_on_triangle(t, sample.at).offset;
-    return match;
+    return true;
   }
   const Eigen::Vector2d weights = face.to_weights * (sample.coordinate - face.coordinates[0]);
   match.weights = {1 - weights.x() - weights.y(), weights.x(), weights.y()};
-  if (std::min({match.weights[0], match.weights[1], match.weights[2]}) < min_weight) return std::nullopt;
+  if (std::min({match.weights[0], match.weights[1], match.weights[2]}) < min_weight) return false;
   match.offset = point_of(face.at, match.weights) - sample.at;
-  return match;
+  return true;
 }
 
 TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
-  Match best;
+  Match best, here;
+  double least = HUGE_VAL;
   for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-    if (faces_[i].chart != chart) continue;
-    const auto here = match_inside(sample, i);
-    if (here && (!best.is_inside || squared_length(here->offset) < squared_length(best.offset))) best = *here;
+    if (faces_[i].chart != chart || !match_inside(sample, i, here)) continue;
+    const double squared = squared_length(here.offset);
+    if (best.is_inside && !(squared < least)) continue;
+    least = squared;
+    best = here;
   }
   return best.is_inside ? best : match_outside(sample, chart);
 }
@@ -254,8 +255,8 @@ bool TextureGuard::match(std::size_t count, double max_squared) {
   for (std::size_t i = 0; i < count; ++i) {
     const TextureMap::Sample& sample = map_.sample(samples_[i]);
     Match& match = matches_[i];
-    const auto again = match.is_inside ? match_inside(sample, match.face) : std::nullopt;
-    match = again ? *again : this->match(sample, charts_[i]);
+    const bool is_again = match.is_inside && match_inside(sample, match.face, match);
+    if (!is_again) match = this->match(sample, charts_[i]);
     const double squared = match.face == no_index ? HUGE_VAL : squared_length(match.offset);
     if (squared <= max_squared) continue;
     exceeding_squared_ = squared;

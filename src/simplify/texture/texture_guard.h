@@ -85,7 +85,7 @@ class TextureGuard {
   [[nodiscard]] bool are_near(std::size_t count);
   [[nodiscard]] bool may_hold();
   [[nodiscard]] bool match(std::size_t count, double max_squared);
-  [[nodiscard]] std::optional<Match> match_inside(const TextureMap::Sample& sample, std::uint32_t face) const;
+  [[nodiscard]] bool match_inside(const TextureMap::Sample& sample, std::uint32_t number, Match& match) const;
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
   [[nodiscard]] Match match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const;
   void add_slope(const Face& face, const Match& match, Slope& sum) const;
