@@ -74,8 +74,11 @@ void TextureGuard::begin(const TexturedStar& star) {
     const std::uint32_t f = c / 3;
     add_samples(f, {static_cast<std::uint32_t>(faces_.size()), true, {}, {}});
     Face& face = faces_.emplace_back();
-    face.at = {mesh_.position(mesh_.start(c)), mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))};
-    face.coordinates = {map_.at(c), map_.at(next_corner(c)), map_.at(previous_corner(c))};
+    const std::array<Corner, 3> corners = {c, next_corner(c), previous_corner(c)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      face.at[k] = mesh_.position(mesh_.start(corners[k]));
+      face.coordinates[k] = map_.at(corners[k]);
+    }
     face.chart = map_.chart(f);
     face.number = f;
     area_before_.push_back(doubled_area(face.coordinates));
@@ -241,10 +244,12 @@ void TextureGuard::prepare_faces() {
     face.has_area = sides.determinant() != 0;
     if (!face.has_area) continue;
     face.to_weights = sides.inverse();
-    Eigen::Matrix<double, 3, 2> sides_in_space;
-    sides_in_space << to_eigen(face.at[1] - face.at[0]), to_eigen(face.at[2] - face.at[0]);
-    face.derivative = (1 / map_.limit) * sides_in_space * face.to_weights;
-    face.squared_derivative = face.derivative.transpose() * face.derivative;
+    const double by_limit = 1 / map_.limit;
+    const Vec3 u = by_limit * (face.at[1] - face.at[0]), v = by_limit * (face.at[2] - face.at[0]);
+    for (Eigen::Index k = 0; k < 2; ++k)
+      face.derivative[static_cast<std::size_t>(k)] = face.to_weights(0, k) * u + face.to_weights(1, k) * v;
+    const auto& [by_u, by_v] = face.derivative;
+    face.squared_derivative << dot(by_u, by_u), dot(by_u, by_v), dot(by_u, by_v), dot(by_v, by_v);
   }
 }
 
@@ -271,11 +276,11 @@ bool TextureGuard::match(std::size_t count, double max_squared) {
 void TextureGuard::add_slope(const Face& face, const Match& match, Slope& sum) const {
   if (!face.has_area || !match.is_inside) return;
   const double weight = match.weights[0];
-  const Eigen::Vector3d offset = to_eigen((1 / map_.limit) * match.offset);
-  const double squared = offset.squaredNorm();
+  const Vec3 offset = (1 / map_.limit) * match.offset;
+  const double squared = squared_length(offset);
   // The objective is the sum of squared^3: its gradient is 6 squared^2 D^T e; of its Hessian only the positive
   // semidefinite part is kept.
-  const Eigen::Vector2d slope = -weight * (face.derivative.transpose() * offset);
+  const Eigen::Vector2d slope(-weight * dot(face.derivative[0], offset), -weight * dot(face.derivative[1], offset));
   sum.gradient += 6 * squared * squared * slope;
   sum.curvature +=
       6 * squared * squared * weight * weight * face.squared_derivative + 24 * squared * slope * slope.transpose();

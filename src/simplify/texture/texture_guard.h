@@ -57,7 +57,7 @@ class TextureGuard {
     /// has no area in the texture.
     Eigen::Matrix2d to_weights;
     /// Derivative D of a position in the face by the texture coordinate there, in limits, and its square D^T D.
-    Eigen::Matrix<double, 3, 2> derivative;
+    std::array<Vec3, 2> derivative;
     Eigen::Matrix2d squared_derivative;
     bool has_area = false;
   };
