@@ -63,16 +63,19 @@ void TextureGuard::begin(const TexturedStar& star) {
   faces_.clear();
   matches_.clear();
   area_before_.clear();
-  const auto add_samples = [&](std::uint32_t face, const Match& first_guess) {
+  const auto add_samples = [&](std::uint32_t face, std::uint32_t first_guess) {
     map_.lists.for_each(face, [&](std::uint32_t s) {
+      __builtin_prefetch(&map_.sample(s));
       samples_.push_back(s);
       charts_.push_back(map_.chart(face));
-      matches_.push_back(first_guess);
+      Match& match = matches_.emplace_back();
+      match.face = first_guess;
+      match.is_inside = first_guess != no_index;
     });
   };
   for (const Corner c : star.moved) {
     const std::uint32_t f = c / 3;
-    add_samples(f, {static_cast<std::uint32_t>(faces_.size()), true, {}, {}});
+    add_samples(f, static_cast<std::uint32_t>(faces_.size()));
     Face& face = faces_.emplace_back();
     const std::array<Corner, 3> corners = {c, next_corner(c), previous_corner(c)};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -83,7 +86,7 @@ void TextureGuard::begin(const TexturedStar& star) {
     face.number = f;
     area_before_.push_back(doubled_area(face.coordinates));
   }
-  for (const std::uint32_t f : star.removed) add_samples(f, {});
+  for (const std::uint32_t f : star.removed) add_samples(f, no_index);
   put_few_first();
 }
 
@@ -249,7 +252,7 @@ void TextureGuard::prepare_faces() {
     for (Eigen::Index k = 0; k < 2; ++k)
       face.derivative[static_cast<std::size_t>(k)] = face.to_weights(0, k) * u + face.to_weights(1, k) * v;
     const auto& [by_u, by_v] = face.derivative;
-    face.squared_derivative << dot(by_u, by_u), dot(by_u, by_v), dot(by_u, by_v), dot(by_v, by_v);
+    face.squared_derivative = {dot(by_u, by_u), dot(by_u, by_v), dot(by_v, by_v)};
   }
 }
 
@@ -280,18 +283,25 @@ void TextureGuard::add_slope(const Face& face, const Match& match, Slope& sum) c
   const double squared = squared_length(offset);
   // The objective is the sum of squared^3: its gradient is 6 squared^2 D^T e; of its Hessian only the positive
   // semidefinite part is kept.
-  const Eigen::Vector2d slope(-weight * dot(face.derivative[0], offset), -weight * dot(face.derivative[1], offset));
-  sum.gradient += 6 * squared * squared * slope;
-  sum.curvature +=
-      6 * squared * squared * weight * weight * face.squared_derivative + 24 * squared * slope * slope.transpose();
+  const double by_u = -weight * dot(face.derivative[0], offset), by_v = -weight * dot(face.derivative[1], offset);
+  const double first = 6 * squared * squared, second = 24 * squared;
+  sum.gradient[0] += first * by_u;
+  sum.gradient[1] += first * by_v;
+  const double of_face = first * weight * weight;
+  sum.curvature[0] += of_face * face.squared_derivative[0] + second * by_u * by_u;
+  sum.curvature[1] += of_face * face.squared_derivative[1] + second * by_u * by_v;
+  sum.curvature[2] += of_face * face.squared_derivative[2] + second * by_v * by_v;
 }
 
 /// The Newton step of the coordinate of the vertex; nothing where the curvature is singular.
 std::optional<Eigen::Vector2d> TextureGuard::newton_step(std::size_t count) const {
   Slope sum;
   for (const Match& m : std::span(matches_).first(count)) add_slope(faces_[m.face], m, sum);
-  if (!(sum.curvature.determinant() > 0)) return std::nullopt;
-  const Eigen::Vector2d step = -sum.curvature.inverse() * sum.gradient;
+  const auto& [uu, uv, vv] = sum.curvature;
+  const double determinant = uu * vv - uv * uv;
+  if (!(determinant > 0)) return std::nullopt;
+  const Eigen::Vector2d step((uv * sum.gradient[1] - vv * sum.gradient[0]) / determinant,
+                             (uv * sum.gradient[0] - uu * sum.gradient[1]) / determinant);
   return step.allFinite() ? std::optional(step) : std::nullopt;
 }
 

@@ -56,9 +56,10 @@ class TextureGuard {
     /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners; NaN where the face
     /// has no area in the texture.
     Eigen::Matrix2d to_weights;
-    /// Derivative D of a position in the face by the texture coordinate there, in limits, and its square D^T D.
+    /// Derivative D of a position in the face by the texture coordinate there, in limits, and its square D^T D: uu, uv,
+    /// vv.
     std::array<Vec3, 2> derivative;
-    Eigen::Matrix2d squared_derivative;
+    std::array<double, 3> squared_derivative;
     bool has_area = false;
   };
   /// The point of a face that a sample is compared with.
@@ -70,8 +71,8 @@ class TextureGuard {
   };
   /// Derivatives of a sum by the coordinate of the vertex: of the sixth powers of the samples' distances, in limits.
   struct Slope {
-    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
+    std::array<double, 2> gradient{};
+    std::array<double, 3> curvature{};  ///< uu, uv, vv
   };
 
   [[nodiscard]] bool set_faces(Vec3 point);
