@@ -58,7 +58,7 @@ class PointQueries {
 
   ClosestPoint operator()(const Eigen::Vector3d& query) {
     ClosestPoint answer;
-    (*this)(query, answer);
+    answer_one(query, answer);
     return answer;
   }
 
@@ -69,7 +69,7 @@ class PointQueries {
     Group group;
     for (std::size_t begin = 0; begin < queries.size();) {
       if (alone > 0) {
-        (*this)(queries[begin], answers[begin]);
+        answer_one(queries[begin], answers[begin]);
         ++begin;
         --alone;
         continue;
@@ -103,7 +103,7 @@ class PointQueries {
   };
 
   // Queries and answers are written where they are wanted: copying them took a tenth of the time of a batch.
-  void operator()(const Eigen::Vector3d& query, ClosestPoint& answer) {
+  void answer_one(const Eigen::Vector3d& query, ClosestPoint& answer) {
     GroupQuery placed;
     const Placement placement = place(query, placed);
     if (!(placement.magnitude <= max_magnitude))  // the mesh is a point beside its distance
