@@ -162,7 +162,8 @@ class PointSearch {
     return best;
   }
 
-  /// Starts at a triangle. False where a level has too many members.
+  /// Starts at a triangle. False where a level has too many members, or where the triangle comes out farther away than
+  /// its corner.
   bool walk_from(std::uint32_t slot) {
     const Vec3& corner = data_.vertices[data_.corners[slot][0]];
     const float first_limit = limit_of(corner_margin * squared_length(p_ - corner));

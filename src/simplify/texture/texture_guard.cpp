@@ -249,8 +249,8 @@ void TextureGuard::prepare_faces() {
     face.to_weights = sides.inverse();
     const double by_limit = 1 / map_.limit;
     const Vec3 u = by_limit * (face.at[1] - face.at[0]), v = by_limit * (face.at[2] - face.at[0]);
-    for (Eigen::Index k = 0; k < 2; ++k)
-      face.derivative[static_cast<std::size_t>(k)] = face.to_weights(0, k) * u + face.to_weights(1, k) * v;
+    face.derivative[0] = face.to_weights(0, 0) * u + face.to_weights(1, 0) * v;
+    face.derivative[1] = face.to_weights(0, 1) * u + face.to_weights(1, 1) * v;
     const auto& [by_u, by_v] = face.derivative;
     face.squared_derivative = {dot(by_u, by_u), dot(by_u, by_v), dot(by_v, by_v)};
   }
@@ -283,14 +283,14 @@ void TextureGuard::add_slope(const Face& face, const Match& match, Slope& sum) c
   const double squared = squared_length(offset);
   // The objective is the sum of squared^3: its gradient is 6 squared^2 D^T e; of its Hessian only the positive
   // semidefinite part is kept.
-  const double by_u = -weight * dot(face.derivative[0], offset), by_v = -weight * dot(face.derivative[1], offset);
+  const double slope_u = -weight * dot(face.derivative[0], offset), slope_v = -weight * dot(face.derivative[1], offset);
   const double first = 6 * squared * squared, second = 24 * squared;
-  sum.gradient[0] += first * by_u;
-  sum.gradient[1] += first * by_v;
+  sum.gradient[0] += first * slope_u;
+  sum.gradient[1] += first * slope_v;
   const double of_face = first * weight * weight;
-  sum.curvature[0] += of_face * face.squared_derivative[0] + second * by_u * by_u;
-  sum.curvature[1] += of_face * face.squared_derivative[1] + second * by_u * by_v;
-  sum.curvature[2] += of_face * face.squared_derivative[2] + second * by_v * by_v;
+  sum.curvature[0] += of_face * face.squared_derivative[0] + second * slope_u * slope_u;
+  sum.curvature[1] += of_face * face.squared_derivative[1] + second * slope_u * slope_v;
+  sum.curvature[2] += of_face * face.squared_derivative[2] + second * slope_v * slope_v;
 }
 
 /// The Newton step of the coordinate of the vertex; nothing where the curvature is singular.

@@ -23,7 +23,6 @@ struct TexturedStar {
 /// as they would be: the distance between points of equal texture coordinates, after Cohen, Olano, Manocha,
 /// "Appearance-Preserving Simplification", SIGGRAPH 1998. Each thread needs its own.
 ///
-///
 /// A vertex placed at an end of the edge takes the coordinates of that end, on each side of a line its own. At any
 /// other place it starts with the coordinate that the mesh has there; where the samples exceed the limit, Newton's
 /// method on the sum of the sixth powers of their distances moves it.
@@ -53,8 +52,8 @@ class TextureGuard {
     std::array<Vec3, 3> at;
     CornerCoordinates coordinates;
     std::uint32_t chart = no_index, number = 0;
-    /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners; NaN where the face
-    /// has no area in the texture.
+    // These are set where the face has an area in the texture.
+    /// Maps a coordinate, relative to that of the vertex, to the weights of the two other corners.
     Eigen::Matrix2d to_weights;
     /// Derivative D of a position in the face by the texture coordinate there, in limits, and its square D^T D: uu, uv,
     /// vv.
