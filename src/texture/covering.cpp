@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "texture/overlay_numbers.h"
+
 namespace meshbound {
 namespace {
 
@@ -28,12 +30,8 @@ bool is_on_one_side(Overlay& overlay, Overlay::Line line, const Overlay::Polygon
 bool is_beyond(const ChartTriangle& t, std::size_t k, const Eigen::Vector2d& p) {
   const Eigen::Vector2d &from = t.source->coordinates[(k + 1) % 3], &to = t.source->coordinates[(k + 2) % 3];
   if (p == from || p == to) return true;
-  const auto way = [&](const Eigen::Vector2d& q, Eigen::Index axis) {
-    return Approximate{q[axis], 0} - Approximate{from[axis], 0};
-  };
-  const Approximate area = way(to, 0) * way(p, 1) - way(to, 1) * way(p, 0);
   int sign = 0;
-  return sign_is_known(area, sign) && (t.turned ? sign >= 0 : sign <= 0);
+  return sign_is_known(doubled_area(from, to, p), sign) && (t.turned ? sign >= 0 : sign <= 0);
 }
 
 /// Whether a segment is known to have no point inside a triangle, by an edge that it lies beyond.
@@ -43,52 +41,148 @@ bool is_segment_beyond(const ChartTriangle& t, const Eigen::Vector2d& p, const E
   return false;
 }
 
-/// Inner points of A, by their weights, to be tried in turn: a point on an edge of a candidate decides nothing.
-constexpr std::array<std::array<double, 3>, 3> inner_points = {{{1, 1, 1}, {3, 2, 1}, {1, 3, 5}}};
+/// Inner points of a piece, by the weights of its first corners against 1 for the others, to be tried in turn: a point
+/// on an edge of a candidate decides nothing.
+constexpr std::array<std::array<double, 3>, 3> weights_of_corners = {{{1, 1, 1}, {3, 2, 1}, {1, 3, 5}}};
 
-bool has_inner_point(Overlay& overlay, std::uint32_t candidate) {
-  return std::any_of(inner_points.begin(), inner_points.end(), [&](const std::array<double, 3>& weights) {
-    const Overlay::Node node = Overlay::given(weights);
-    const auto lines = overlay.lines_of(candidate);
-    return std::all_of(lines.begin(), lines.end(), [&](Overlay::Line line) { return overlay.side(line, node) > 0; });
+Overlay::Node inner_point(const Overlay::Polygon& piece, const std::array<double, 3>& weights_of_first) {
+  std::array<double, 3> weights{};
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const std::array<double, 3> corner = Overlay::rounded(piece[k].node);
+    for (std::size_t i = 0; i < 3; ++i) weights[i] += (k < 3 ? weights_of_first[k] : 1) * corner[i];
+  }
+  return Overlay::given(weights);
+}
+
+/// The side of a line of a border on which the piece lies: 1 or -1; 0 where it has no area.
+int inner_side(Overlay& overlay, Overlay::Line line, const Overlay::Polygon& piece) {
+  for (const auto& corner : piece)
+    if (const int side = overlay.side(line, corner.node); side != 0) return side;
+  return 0;
+}
+
+bool is_inside(Overlay& overlay, const Overlay::Polygon& piece, const Overlay::Node& point) {
+  return std::all_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
+    const int inner = inner_side(overlay, corner.to_next, piece);
+    return inner != 0 && overlay.side(corner.to_next, point) == inner;
   });
 }
 
+/// Whether some candidate has the point inside. Absent if none has, but the point lies on the border of one.
+std::optional<bool> is_in_some(Overlay& overlay, Covering::Candidates candidates, const Overlay::Node& point) {
+  bool is_on_border = false;
+  for (const std::uint32_t c : candidates) {
+    int lowest = 1;
+    for (const Overlay::Line line : overlay.lines_of(c)) {
+      lowest = std::min(lowest, overlay.side(line, point));
+      if (lowest < 0) break;
+    }
+    if (lowest > 0) return true;
+    is_on_border = is_on_border || lowest == 0;
+  }
+  return is_on_border ? std::nullopt : std::optional(false);
+}
+
+/// Whether the candidates cover the inside of a piece that no open edge runs through; else they cover no area of it.
+/// Absent where no point decides that.
+std::optional<bool> is_covered(Overlay& overlay, Covering::Candidates candidates, const Overlay::Polygon& piece) {
+  for (const std::array<double, 3>& weights : weights_of_corners) {
+    const Overlay::Node point = inner_point(piece, weights);
+    if (!is_inside(overlay, piece, point)) continue;
+    if (const auto is_in = is_in_some(overlay, candidates, point)) return is_in;
+  }
+  return std::nullopt;
+}
+
+/// Whether an edge has no point inside the piece because both its ends lie beyond a line of the border, or on it.
+bool is_beyond(Overlay& overlay, const Overlay::Polygon& piece, const std::array<Overlay::Node, 2>& ends) {
+  return std::any_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
+    const int inner = inner_side(overlay, corner.to_next, piece);
+    return std::all_of(ends.begin(), ends.end(), [&](const Overlay::Node& end) {
+      return overlay.side(corner.to_next, end) * inner <= 0;
+    });
+  });
+}
+
+/// Open edges along which a triangle is cut. A triangle at the border of a coarse chart has some ten.
+constexpr std::size_t max_open_edges = 64;
+
 }  // namespace
+
+bool has_area(Overlay& overlay, const Overlay::Polygon& polygon) {
+  return polygon.size() >= 3 && is_inside(overlay, polygon, inner_point(polygon, weights_of_corners[0]));
+}
 
 /// Adds the edges of a candidate that may run through the inside of A.
 void Covering::add_edges(Overlay& overlay, std::uint32_t candidate) {
   const ChartTriangle& b = overlay.candidate(candidate);
   const auto lines = overlay.lines_of(candidate);
-  const Overlay::Polygon whole = overlay.whole();
-  for (std::size_t k = 0; k < 3; ++k) {  // line k lies opposite to corner k
-    if (is_on_one_side(overlay, lines[k], whole)) continue;
+  for (std::uint32_t k = 0; k < 3; ++k) {  // line k lies opposite to corner k
+    if (is_on_one_side(overlay, lines[k], overlay.whole())) continue;
     const Eigen::Vector2d *from = &b.source->coordinates[(k + 1) % 3], *to = &b.source->coordinates[(k + 2) % 3];
     if (is_segment_beyond(overlay.triangle(), *from, *to)) continue;
     const bool is_forth = is_before(*from, *to);
     if (!is_forth) std::swap(from, to);
-    edges_.push_back({from, to, is_forth != b.turned ? 1 : -1});
+    edges_.push_back({from, to, is_forth != b.turned ? 1 : -1, candidate, k});
   }
 }
 
-bool Covering::do_edges_cancel() {
+/// Of edges along one segment the first stays where they do not cancel.
+void Covering::drop_edges_that_cancel() {
   const auto key = [](const Edge& e) { return std::tie(e.from->x(), e.from->y(), e.to->x(), e.to->y()); };
-  std::sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& f) { return key(e) < key(f); });
-  for (auto first = edges_.begin(); first != edges_.end();) {
+  std::sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& f) {
+    return key(e) != key(f) ? key(e) < key(f) : e.candidate < f.candidate;
+  });
+  std::size_t open = 0;
+  for (std::size_t first = 0; first < edges_.size();) {
     int sum = 0;
-    auto end = first;
-    for (; end != edges_.end() && key(*end) == key(*first); ++end) sum += end->direction;
-    if (sum != 0) return false;
+    std::size_t end = first;
+    for (; end < edges_.size() && key(edges_[end]) == key(edges_[first]); ++end) sum += edges_[end].direction;
+    if (sum != 0) edges_[open++] = edges_[first];
     first = end;
   }
-  return true;
+  edges_.resize(open);
 }
 
-bool Covering::is_complete(Overlay& overlay, std::span<const std::uint32_t> candidates) {
+void Covering::find_open_edges(Overlay& overlay, Candidates candidates) {
   edges_.clear();
   for (const std::uint32_t c : candidates) add_edges(overlay, c);
-  return do_edges_cancel() && std::any_of(candidates.begin(), candidates.end(),
-                                          [&](std::uint32_t c) { return has_inner_point(overlay, c); });
+  drop_edges_that_cancel();
+}
+
+/// Cuts the pieces that an edge may run through along its line.
+void Covering::cut(Overlay& overlay, const Edge& edge) {
+  const std::array<Overlay::Node, 2> ends = {overlay.corner_of(edge.candidate, (edge.number + 1) % 3),
+                                             overlay.corner_of(edge.candidate, (edge.number + 2) % 3)};
+  const Overlay::Line line = overlay.lines_of(edge.candidate)[edge.number];
+  halves_.clear();
+  for (Overlay::Polygon& piece : pieces_) {
+    if (is_on_one_side(overlay, line, piece) || is_beyond(overlay, piece, ends)) {
+      halves_.push_back(std::move(piece));
+      continue;
+    }
+    for (const bool flip : {false, true}) overlay.clip(piece, line, flip, halves_.emplace_back());
+  }
+  std::swap(pieces_, halves_);
+}
+
+bool Covering::is_complete(Overlay& overlay, Candidates candidates) {
+  find_open_edges(overlay, candidates);
+  return edges_.empty() && is_covered(overlay, candidates, overlay.whole()).value_or(false);
+}
+
+std::optional<std::vector<Overlay::Polygon>> Covering::uncovered(Overlay& overlay, Candidates candidates) {
+  find_open_edges(overlay, candidates);
+  if (edges_.size() > max_open_edges) return std::nullopt;
+  pieces_.assign(1, overlay.whole());
+  for (const Edge& edge : edges_) cut(overlay, edge);
+  std::vector<Overlay::Polygon> found;
+  for (Overlay::Polygon& piece : pieces_) {
+    const auto covered = is_covered(overlay, candidates, piece);
+    if (!covered) return std::nullopt;
+    if (!*covered) found.push_back(std::move(piece));
+  }
+  return found;
 }
 
 }  // namespace meshbound

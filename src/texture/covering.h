@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,29 +9,43 @@
 
 namespace meshbound {
 
-/// Whether candidates of an overlay together cover all of its triangle A in the texture, by the edges where one follows
+/// Whether the polygon, which is bounded by lines of the overlay, is known to have an area.
+[[nodiscard]] bool has_area(Overlay& overlay, const Overlay::Polygon& polygon);
+
+/// What candidates of an overlay leave uncovered of its triangle A in the texture, by the edges where one follows
 /// another.
 ///
 /// Each candidate covers what lies to the left of its edges, once its corners go round counter-clockwise. How many
-/// candidates cover a point changes only across their edges. If inside A, for each segment that edges run along, as
-/// many run one way as the other, the number is the same all over A but on the edges; so where one point of A is inside
-/// a candidate, every point is in at least one of them, as they are closed. Edges count as the same where the doubles
-/// of their ends are, so nothing is rounded. Not thread-safe: each thread has its own.
+/// candidates cover a point changes only across their edges, and not across a segment that as many edges run along one
+/// way as the other. A piece of A that none of the other segments, the *open* edges, runs through the inside of is
+/// therefore covered by one number of candidates all over, but on edges; so where one point of it is inside a candidate,
+/// every point is in at least one of them, as they are closed, and where one point is outside all of them, no candidate
+/// covers any area of it. Edges count as the same where the doubles of their ends are, and sides are exact. The triangle
+/// and all candidates must have an area in the texture. Not thread-safe: each thread has its own.
 class Covering {
  public:
-  /// True only if the candidates cover all of A; false also where that cannot be decided. The triangle and all
-  /// candidates must have an area in the texture. Expected O(candidates log candidates).
-  [[nodiscard]] bool is_complete(Overlay& overlay, std::span<const std::uint32_t> candidates);
+  using Candidates = std::span<const std::uint32_t>;
+
+  /// True only if the candidates cover all of A; false also where that cannot be decided. Expected O(candidates log
+  /// candidates).
+  [[nodiscard]] bool is_complete(Overlay& overlay, Candidates candidates);
+  /// Convex pieces of A, without common area: all that the candidates leave uncovered but lines and points. Absent where
+  /// that cannot be decided. Expected O(candidates (open edges + log candidates)).
+  [[nodiscard]] std::optional<std::vector<Overlay::Polygon>> uncovered(Overlay& overlay, Candidates candidates);
 
  private:
   struct Edge {
     const Eigen::Vector2d *from, *to;  ///< `from` comes first by its coordinates
     int direction;                     ///< 1: it is run from `from` to `to`; -1: back
+    std::uint32_t candidate, number;   ///< its candidate, and its number there
   };
+  void find_open_edges(Overlay& overlay, Candidates candidates);
   void add_edges(Overlay& overlay, std::uint32_t candidate);
-  [[nodiscard]] bool do_edges_cancel();
+  void drop_edges_that_cancel();
+  void cut(Overlay& overlay, const Edge& edge);
 
   std::vector<Edge> edges_;
+  std::vector<Overlay::Polygon> pieces_, halves_;
 };
 
 }  // namespace meshbound

@@ -32,6 +32,17 @@ Number line_at(const ChartTriangle& t, const std::array<TexturePoint<Number>, 3>
   return number % 2 == 1 ? Number(-value) : value;
 }
 
+/// As `line_at`, with doubles.
+Approximate near_line_at(const ChartTriangle& t, std::uint32_t number, const Eigen::Vector2d& at,
+                         const ExactUnits& units) {
+  if (t.chart == Chart::Area) {
+    const auto& uv = t.source->coordinates;
+    const Approximate area = doubled_area(uv[(number + 1) % 3], uv[(number + 2) % 3], at);
+    return t.turned ? -area : area;
+  }
+  return line_at(t, texture_points<Approximate>(t, units), number, TexturePoint<Approximate>{{at.x(), 0}, {at.y(), 0}});
+}
+
 template <class Number>
 std::array<Number, 3> cross_of_lines(const std::array<Number, 3>& p, const std::array<Number, 3>& q) {
   return {Number(Number(p[1] * q[2]) - Number(p[2] * q[1])), Number(Number(p[2] * q[0]) - Number(p[0] * q[2])),
@@ -107,12 +118,16 @@ void Overlay::begin(const ChartTriangle& a) {
     if (a.chart == Chart::Area) line.ends = edge_of(a, i);
     lines_.push_back(std::move(line));
   }
+  whole_.resize(3);
+  for (Line i = 0; i < 3; ++i) {
+    Weights weights;
+    weights[i] = {1, 0};
+    whole_[i] = {{i, Node::is_corner, weights, &a.source->coordinates[i]}, (i + 2) % 3};
+  }
 }
 
 void Overlay::add(const ChartTriangle& b) {
   Candidate candidate{&b, {}, static_cast<std::uint8_t>(b.chart == Chart::Area ? 3 : 4), {}};
-  const auto points = texture_points<Approximate>(b, units_);
-  const auto at = texture_points<Approximate>(*a_, units_);
   for (std::uint32_t number = 0; number < candidate.line_count; ++number) {
     candidate.lines[number] = static_cast<Line>(lines_.size());
     LineData line;
@@ -121,7 +136,8 @@ void Overlay::add(const ChartTriangle& b) {
     if (b.chart == Chart::Area) line.ends = edge_of(b, number);
     bool is_beyond = true;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!is_end(line.ends, a_->source->coordinates[i])) line.at[i] = line_at(b, points, number, at[i]);
+      const Eigen::Vector2d& at = a_->source->coordinates[i];
+      if (!is_end(line.ends, at)) line.at[i] = near_line_at(b, number, at, units_);
       is_beyond = is_beyond && line.at[i].value < -line.at[i].error;
     }
     if (is_beyond) {
@@ -146,20 +162,14 @@ Overlay::Line Overlay::add_level(std::size_t corner, std::int64_t numerator) {
   return static_cast<Line>(lines_.size() - 1);
 }
 
-Overlay::Polygon Overlay::whole() const {
-  Polygon polygon(3);
-  for (Line i = 0; i < 3; ++i) {
-    polygon[i].node.first = i;
-    polygon[i].node.weights[i] = {1, 0};
-    polygon[i].node.at = &a_->source->coordinates[i];
-    polygon[i].to_next = (i + 2) % 3;
-  }
-  return polygon;
-}
-
 std::span<const Overlay::Line> Overlay::lines_of(std::uint32_t candidate) const {
   const Candidate& c = candidates_[candidate];
   return std::span(c.lines).first(c.line_count);
+}
+
+Overlay::Node Overlay::corner_of(std::uint32_t candidate, std::size_t corner) {
+  const std::array<Line, 4>& lines = candidates_[candidate].lines;
+  return crossing(lines[(corner + 1) % 3], lines[(corner + 2) % 3]);
 }
 
 Overlay::Node Overlay::given(const std::array<double, 3>& weights) {

@@ -75,8 +75,10 @@ class Overlay {
   [[nodiscard]] const ChartTriangle& candidate(std::uint32_t c) const { return *candidates_[c].triangle; }
 
   /// The whole triangle A.
-  [[nodiscard]] Polygon whole() const;
+  [[nodiscard]] const Polygon& whole() const { return whole_; }
   [[nodiscard]] std::span<const Line> lines_of(std::uint32_t candidate) const;
+  /// Where a corner of a candidate with an area in the texture lies, which may be outside A.
+  [[nodiscard]] Node corner_of(std::uint32_t candidate, std::size_t corner);
   /// The line on which the weight of `corner` is `numerator` / 2^40.
   [[nodiscard]] Line add_level(std::size_t corner, std::int64_t numerator);
   /// The point with weights in the given proportion: none negative, at least one positive.
@@ -94,6 +96,8 @@ class Overlay {
   /// candidate must cover the point. An interval wider than `precision` is computed again exactly, to neighbouring
   /// doubles.
   [[nodiscard]] Bounds distance(std::uint32_t candidate, const Node& node, double precision);
+  /// The same by doubles: the interval may be as wide as anything.
+  [[nodiscard]] Bounds rough_distance(std::uint32_t candidate, const Node& node);
   /// Whether a quick look shows that no point of A is farther than `limit` from the point of the candidate with its
   /// texture coordinate. Both must have an area in the texture. The offset between these points is linear in the
   /// texture coordinate, so its length over what both cover is at most that at the corners of either, wherever these
@@ -133,6 +137,7 @@ class Overlay {
   [[nodiscard]] Node crossing(Line line, Line other);
   [[nodiscard]] Offsets offsets_at_corners(const Candidate& candidate) const;
   [[nodiscard]] Bounds near_distance(Candidate& candidate, const Node& node);
+  [[nodiscard]] Bounds near_distance_to_fibre(const Candidate& candidate, const Node& node) const;
   [[nodiscard]] Bounds exact_distance(const Candidate& candidate, const Node& node);
   struct Fibre;
   [[nodiscard]] Fibre fibre(const Candidate& candidate, const Node& node);
@@ -141,7 +146,7 @@ class Overlay {
   const ChartTriangle* a_ = nullptr;
   std::vector<LineData> lines_;
   std::vector<Candidate> candidates_;
-  Polygon clipped_;
+  Polygon whole_, clipped_;
   std::vector<int> sides_;
 };
 

@@ -47,10 +47,33 @@ Bounds length_bounds(const std::array<Approximate, 3>& v) {
   if (!(largest < 0x1p500)) return {};
   const double error = (v[0].error + v[1].error + v[2].error) * Approximate::grown + Approximate::tiny;
   const double length = std::sqrt(v[0].value * v[0].value + v[1].value * v[1].value + v[2].value * v[2].value);
-  const double rounding = length * (8 * unit_roundoff);  // 3 u by the sum of squares and its root
-  Bounds bounds{std::max(0.0, next_down(length - error - rounding)), next_up(length + error + rounding)};
+  // The sum of squares and its root round by 3 u, the sums below by 4 u more; what they round of the error, `grown` has
+  // room for.
+  const double rounding = length * (16 * unit_roundoff);
+  Bounds bounds{std::max(0.0, length - error - rounding), length + error + rounding};
   if (largest < 0x1p-300) bounds = {0, next_up(2 * largest + error)};  // squares might underflow
   return bounds.upper >= 0 ? bounds : Bounds{};                        // not a number: nothing is known
+}
+
+using NearPoint = std::array<Approximate, 3>;
+
+NearPoint near_point(const Eigen::Vector3d& p) { return {{{p.x(), 0}, {p.y(), 0}, {p.z(), 0}}}; }
+
+NearPoint operator-(const NearPoint& p, const NearPoint& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+
+NearPoint point_between(const NearPoint& from, const NearPoint& to, const Approximate& share) {
+  const NearPoint way = to - from;
+  return {from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2]};
+}
+
+/// No point of the segment is nearer than the one at a share that may be wrong, less the way between these two.
+Bounds distance_to_segment(const NearPoint& p, const NearPoint& from, const NearPoint& to) {
+  const NearPoint way = to - from;
+  const Approximate share = sum_of_products(p - from, way) / sum_of_products(way, way);
+  const double chosen = share.value >= 0 ? std::min(share.value, 1.0) : 0;
+  const Bounds there = length_bounds(p - point_between(from, to, {chosen, 0}));
+  const double lower = there.lower - next_up(share.error * length_bounds(way).upper);
+  return {lower > 0 ? next_down(lower) : 0, there.upper};
 }
 
 /// The point of a triangle that is nearest to p, rounded.
@@ -70,20 +93,21 @@ Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
   return length_bounds(offset);
 }
 
-Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
+Bounds Overlay::rough_distance(std::uint32_t candidate, const Node& node) {
   Candidate& c = candidates_[candidate];
-  if (c.triangle->chart == Chart::Area) {
-    const Bounds bounds = near_distance(c, node);
-    if (bounds.upper - bounds.lower <= precision) return bounds;
-  }
-  return exact_distance(c, node);
+  if (c.triangle->chart == Chart::Area) return near_distance(c, node);
+  return c.triangle->chart == Chart::Segment ? near_distance_to_fibre(c, node) : Bounds{};
+}
+
+Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
+  const Bounds rough = rough_distance(candidate, node);
+  return rough.upper - rough.lower <= precision ? rough : exact_distance(candidates_[candidate], node);
 }
 
 bool Overlay::is_within(std::uint32_t candidate, double limit) {
   Candidate& c = candidates_[candidate];
-  const Polygon corners = whole();
   const auto is_near = [&](const Node& node) { return near_distance(c, node).upper <= limit; };
-  if (std::all_of(corners.begin(), corners.end(), [&](const PolygonCorner& p) { return is_near(p.node); })) return true;
+  if (std::all_of(whole_.begin(), whole_.end(), [&](const PolygonCorner& p) { return is_near(p.node); })) return true;
   return is_near(crossing(c.lines[0], c.lines[1])) && is_near(crossing(c.lines[1], c.lines[2])) &&
          is_near(crossing(c.lines[2], c.lines[0]));
 }
@@ -118,9 +142,40 @@ Bounds Overlay::near_distance(Candidate& candidate, const Node& node) {
   const Offsets& offsets = *candidate.offsets;
   if (node.second == Node::is_corner)
     return length_bounds({offsets[0][node.first], offsets[1][node.first], offsets[2][node.first]});
+  const Bounds scaled = length_bounds(
+      {weighted(offsets[0], node.weights), weighted(offsets[1], node.weights), weighted(offsets[2], node.weights)});
   const Approximate total = sum(node.weights);
-  return length_bounds({weighted(offsets[0], node.weights) / total, weighted(offsets[1], node.weights) / total,
-                        weighted(offsets[2], node.weights) / total});
+  const double most = (std::fabs(total.value) + total.error) * Approximate::grown,
+               least = (std::fabs(total.value) - total.error) * (1 - 0x1p-48);
+  if (!(least > 0)) return {};
+  return {std::max(0.0, scaled.lower / most * (1 - 0x1p-48) - Approximate::tiny),
+          scaled.upper / least * Approximate::grown + Approximate::tiny};
+}
+
+/// As `fibre` for a segment in the texture, with doubles.
+Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& node) const {
+  const ChartTriangle& b = *candidate.triangle;
+  const auto uv = texture_points<Approximate>(b, units_);
+  const auto &low = uv[b.along[0]], &middle = uv[b.along[1]], &high = uv[b.along[2]];
+  const Approximate total = sum(node.weights), length = dot<Approximate>(high - low, high - low),
+                    turn = dot<Approximate>(high - low, middle - low),
+                    at = weighted(lines_[candidate.lines[2]].at, node.weights) / total;
+  int beyond_turn = 0;
+  if (!sign_is_known(at - turn, beyond_turn)) return {};
+  const bool is_before = beyond_turn < 0;
+  const NearPoint first = near_point(b.source->corners[b.along[0]]), second = near_point(b.source->corners[b.along[1]]),
+                  last = near_point(b.source->corners[b.along[2]]);
+  const NearPoint across = point_between(first, last, at / length);
+  const NearPoint round = is_before ? point_between(first, second, at / turn)
+                                    : point_between(second, last, (at - turn) / (length - turn));
+  NearPoint point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto corner = [&](std::size_t k) {
+      return Approximate{a_->source->corners[k][static_cast<Eigen::Index>(i)], 0};
+    };
+    point[i] = weighted<Approximate>({corner(0), corner(1), corner(2)}, node.weights) / total;
+  }
+  return distance_to_segment(point, across, round);
 }
 
 /// A point of A, and all points of a candidate with its texture coordinate: a point, a segment or a triangle. All

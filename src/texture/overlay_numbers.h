@@ -48,6 +48,17 @@ template <class Number>
 Number cross(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
   return Number(p.x * q.y) - Number(p.y * q.x);
 }
+/// Twice the area of the triangle that a point makes with an edge, positive to the left of it. Differences, products and
+/// their difference round by at most 4 u of the products together; 8 u leave room for their sizes as computed.
+[[nodiscard]] inline Approximate doubled_area(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                              const Eigen::Vector2d& p) {
+  const Eigen::Vector2d way = to - from, there = p - from;
+  const bool is_zero = (way.x() == 0 || there.y() == 0) && (way.y() == 0 || there.x() == 0);
+  if (is_zero) return {};
+  const double left = way.x() * there.y(), right = way.y() * there.x();
+  return {left - right, (std::fabs(left) + std::fabs(right)) * (8 * unit_roundoff) + Approximate::tiny};
+}
+
 template <class Number>
 Number dot(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
   return Number(p.x * q.x) + Number(p.y * q.y);

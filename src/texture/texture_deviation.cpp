@@ -33,12 +33,13 @@ class Direction {
             const TextureDeviationOptions& options, TriangleBounds& bounds)
       : a_(a),
         b_(b),
-        units_(units),
         options_(options),
         reach_(reach),
         upper_(bounds.upper),
         shares_(bounds.uncovered),
         is_refined_(a.triangles().size(), 0) {
+    const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+    for (int k = 0; k < threads; ++k) workspaces_.emplace_back(units);
     goal_.error_bound = error_bound;
     goal_.precision = precision_share * error_bound;
     goal_.max_pieces = options.max_pieces;
@@ -95,10 +96,10 @@ class Direction {
 
   template <class Work>
   void for_triangles(std::size_t count, std::size_t at_once, const Work& work) {
-    with_team(options_.threads > 0 ? options_.threads : omp_get_max_threads(), [&] {
+    with_team(static_cast<int>(workspaces_.size()), [&] {
       for_each_range(count, at_once, [&](std::size_t begin, std::size_t end) {
         options_.stop.check();
-        Workspace workspace(units_);
+        Workspace& workspace = workspaces_[static_cast<std::size_t>(omp_get_thread_num())];
         for (std::size_t i = begin; i < end; ++i) work(i, workspace);
       });
     });
@@ -207,7 +208,7 @@ class Direction {
     if (worst == upper_.end() || *worst < 0) return;
     DeviationGoal goal = goal_;
     goal.silent = -1;
-    Workspace work(units_);
+    Workspace& work = workspaces_.front();
     const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
@@ -218,8 +219,8 @@ class Direction {
   static constexpr std::size_t first_batch = 16;
 
   const Charts &a_, &b_;
-  ExactUnits units_;
   const TextureDeviationOptions& options_;
+  std::vector<Workspace> workspaces_;  ///< by thread
   DeviationGoal goal_;
   double reach_ = 0;                  ///< of the first look, model units
   std::vector<double>& upper_;        ///< by triangle of A

@@ -64,6 +64,7 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
   std::uint32_t candidate = 0;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     if (!overlay.covers(c, node)) continue;
+    if (result.far && overlay.rough_distance(c, node).upper <= result.bounds.lower) return;
     const double lower = overlay.distance(c, node, precision).lower;
     if (lower < nearest) nearest = lower, candidate = c;
     if (result.far && nearest <= result.bounds.lower) return;
@@ -73,18 +74,20 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
   result.far = FarPoint{node, candidate};
 }
 
-/// What a candidate covers of A.
-Polygon covered_by(Overlay& overlay, std::uint32_t candidate) {
-  Polygon covered = overlay.whole();
-  overlay.clip(covered, candidate);
-  return covered;
-}
-
 /// The largest distance to the candidate over a polygon that it covers; -1 where that is empty.
 double upper_at_corners(Overlay& overlay, const Polygon& covered, std::uint32_t candidate, double precision) {
   double upper = -1;
-  for (const auto& corner : covered) upper = std::max(upper, overlay.distance(candidate, corner.node, precision).upper);
+  for (const auto& corner : covered) {
+    if (overlay.rough_distance(candidate, corner.node).upper <= upper) continue;
+    upper = std::max(upper, overlay.distance(candidate, corner.node, precision).upper);
+  }
   return upper;
+}
+
+bool covers_all(Overlay& overlay, std::uint32_t candidate) {
+  const Polygon& whole = overlay.whole();
+  return std::all_of(whole.begin(), whole.end(),
+                     [&](const auto& corner) { return overlay.covers(candidate, corner.node); });
 }
 
 class PieceSearch {
@@ -97,7 +100,10 @@ class PieceSearch {
   /// touch that.
   TriangleDeviation run() {
     covers_area_.assign(likely_, 0);
-    search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
+    if (overlay_.triangle().chart == Chart::Area)
+      search_beside_near_ones();
+    else
+      search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
     std::vector<std::uint32_t> touching;
     for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
       if (covers_area_[c] == 0) touching.push_back(c);
@@ -110,6 +116,33 @@ class PieceSearch {
   }
 
  private:
+  /// Accepts what candidates cover that are within the limit everywhere, and searches the rest.
+  void search_beside_near_ones() {
+    std::vector<std::uint32_t> near, rest;
+    double upper = -1;
+    Polygon covered;
+    for (const std::uint32_t c : spanning_candidates(overlay_, 0)) {
+      covered = overlay_.whole();
+      overlay_.clip(covered, c);
+      const bool is_near = overlay_.is_within(c, upper) || is_within_limit(covered, c, upper);
+      (is_near ? near : rest).push_back(c);
+      if (is_near && has_area(overlay_, covered)) covers_area_[c] = 1;
+    }
+    auto uncovered = Covering().uncovered(overlay_, near);
+    if (near.empty() || !uncovered) return search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
+    ++result_.pieces;
+    accept(upper);
+    for (Polygon& polygon : *uncovered) search(Piece{std::move(polygon), {}, rest});
+  }
+
+  /// Whether what the candidate covers is within the limit; then `upper` is raised to its bound.
+  bool is_within_limit(const Polygon& covered, std::uint32_t candidate, double& upper) {
+    const double bound = upper_at_corners(overlay_, covered, candidate, goal_.precision);
+    if (bound > limit()) return false;
+    upper = std::max(upper, bound);
+    return true;
+  }
+
   void search_where_touched(const Polygon& uncovered, std::uint32_t candidate) {
     Piece piece{uncovered, {candidate}, {}, true};
     overlay_.clip(piece.polygon, candidate);
@@ -124,20 +157,37 @@ class PieceSearch {
     while (!stack_.empty()) {
       Piece top = std::move(stack_.back());
       stack_.pop_back();
-      bound(std::move(top));
+      bound(top);
+      spare_.push_back(std::move(top));
     }
+  }
+
+  /// A piece of which nothing is set: one that is done with, for its memory.
+  Piece unused_piece() {
+    if (spare_.empty()) return {};
+    Piece piece = std::move(spare_.back());
+    spare_.pop_back();
+    return piece;
   }
 
   [[nodiscard]] double limit() const { return std::max(goal_.lower, result_.bounds.lower) + goal_.error_bound; }
 
   void accept(double upper) { result_.bounds.upper = std::max(result_.bounds.upper, upper); }
 
+  /// An upper bound of the distance to the candidate, as precise as it takes to compare it with the limit and with what
+  /// is known already.
+  double upper_at(std::uint32_t candidate, const Node& node, double known) {
+    const Bounds rough = overlay_.rough_distance(candidate, node);
+    if (rough.lower >= known || rough.upper <= limit()) return rough.upper;
+    return overlay_.distance(candidate, node, goal_.precision).upper;
+  }
+
   /// Lowers the bound to the candidate's, which must cover the piece: the largest at a corner, as the distance to one
   /// candidate is convex. Returns whether it is within the limit.
   bool lower_bound_to(const Piece& piece, std::uint32_t candidate, PieceBound& bound) {
     PieceBound of_candidate{0, nullptr};
     for (const auto& corner : piece.polygon) {
-      const double at = overlay_.distance(candidate, corner.node, goal_.precision).upper;
+      const double at = upper_at(candidate, corner.node, bound.upper);
       if (at >= bound.upper) return false;
       if (at >= of_candidate.upper) of_candidate = {at, &corner.node};
     }
@@ -148,8 +198,7 @@ class PieceSearch {
   /// Moves the candidates of `part` that cover all of the piece to `full` and drops those that cover nothing, until one
   /// is within the limit. Returns a line of one that covers the piece in part; absent if there is none.
   std::optional<Line> sort_candidates(Piece& piece, PieceBound& bound) {
-    std::vector<std::uint32_t> part;
-    std::vector<Line> cuts;
+    cuts_.clear();
     for (const std::uint32_t c : piece.part) {
       Line cut = 0;
       const Cover cover = cover_of(overlay_, piece.polygon, c, cut);
@@ -159,15 +208,15 @@ class PieceSearch {
         if (lower_bound_to(piece, c, bound)) return std::nullopt;
       }
       if (cover != Cover::Part) continue;
-      part.push_back(c);
-      cuts.push_back(cut);
+      piece.part[cuts_.size()] = c;
+      cuts_.push_back(cut);
     }
-    piece.part = std::move(part);
-    if (cuts.empty()) return std::nullopt;
-    return cuts[cuts.size() / 2];  // a middle one halves pieces: candidates are in spatial order
+    piece.part.resize(cuts_.size());
+    if (cuts_.empty()) return std::nullopt;
+    return cuts_[cuts_.size() / 2];  // a middle one halves pieces: candidates are in spatial order
   }
 
-  void bound(Piece piece) {
+  void bound(Piece& piece) {
     ++result_.pieces;
     PieceBound bound;
     for (const std::uint32_t c : piece.full)
@@ -180,7 +229,7 @@ class PieceSearch {
       return accept(bound.upper);
     }
     if (cut) return split(piece, *cut);
-    if (!piece.has_all) return take_all(std::move(piece));
+    if (!piece.has_all) return take_all(piece);
     if (!is_covered) return uncovered_.push_back(std::move(piece.polygon));
     probe(piece, *bound.where);
     if (bound.upper <= limit() || piece.full.size() == 1) return accept(bound.upper);
@@ -204,24 +253,28 @@ class PieceSearch {
     add_others();
     for (const auto& corner : overlay_.whole()) raise(corner.node);
     for (std::uint32_t c = 0; c < overlay_.candidates() && !result_.far; ++c) {
-      const Polygon covered = covered_by(overlay_, c);
+      Polygon covered = overlay_.whole();
+      overlay_.clip(covered, c);
       if (!covered.empty()) raise(covered.front().node);
     }
   }
 
   /// Goes on with the piece and the candidates that are not likely.
-  void take_all(Piece piece) {
+  void take_all(Piece& piece) {
     add_others();
     piece.part = unlikely_;
     piece.has_all = true;
-    stack_.push_back(std::move(piece));
+    stack_.push_back(std::exchange(piece, unused_piece()));
   }
 
   void split(const Piece& piece, Line line) {
     for (const bool flip : {false, true}) {
-      Piece half{{}, piece.full, piece.part, piece.has_all};
+      Piece half = unused_piece();
       overlay_.clip(piece.polygon, line, flip, half.polygon);
-      if (!half.polygon.empty()) stack_.push_back(std::move(half));
+      half.full = piece.full;
+      half.part = piece.part;
+      half.has_all = piece.has_all;
+      (half.polygon.empty() ? spare_ : stack_).push_back(std::move(half));
     }
   }
 
@@ -266,7 +319,8 @@ class PieceSearch {
   std::vector<std::uint32_t> unlikely_;           ///< the others that may cover some area of A
   const DeviationGoal& goal_;
   TriangleDeviation result_;
-  std::vector<Piece> stack_;
+  std::vector<Piece> stack_, spare_;
+  std::vector<Line> cuts_;
   std::vector<Polygon> uncovered_;
   std::vector<std::uint8_t> covers_area_;  ///< by candidate: it is known to cover more of A than a line or a point
 };
@@ -275,11 +329,17 @@ class PieceSearch {
 
 std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision) {
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
-  if (!Covering().is_complete(overlay, spanning_candidates(overlay, 0))) return std::nullopt;
+  const std::vector<std::uint32_t> candidates = spanning_candidates(overlay, 0);
+  for (const std::uint32_t c : candidates)
+    if (covers_all(overlay, c)) return upper_at_corners(overlay, overlay.whole(), c, precision);
+  if (!Covering().is_complete(overlay, candidates)) return std::nullopt;
   double upper = 0;
+  Polygon covered;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     if (overlay.is_within(c, upper)) continue;
-    upper = std::max(upper, upper_at_corners(overlay, covered_by(overlay, c), c, precision));
+    covered = overlay.whole();
+    overlay.clip(covered, c);
+    upper = std::max(upper, upper_at_corners(overlay, covered, c, precision));
   }
   return upper;
 }
