@@ -249,12 +249,14 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
     const std::uint32_t p = *first_at(vertices_[index[a]]), q = *first_at(vertices_[index[b]]);
     wanted.insert({std::min(p, q), std::max(p, q)});
   }
+  std::vector<std::uint32_t> first(wanted.empty() ? 0 : mesh.vertex_count());  // at the position, by vertex
+  for (std::uint32_t v = 0; v < first.size(); ++v) first[v] = *first_at(mesh.position(v));
   std::vector<std::uint8_t> marked(3 * mesh.face_count(), 0);
   for (Corner c = 0; c < marked.size(); ++c) {
     if (options_.feature_angle && is_feature(mesh, c, *options_.feature_angle)) marked[c] = 1;
     if (is_seam(c)) marked[c] = 1;
     if (wanted.empty()) continue;
-    const std::uint32_t p = *first_at(mesh.position(mesh.start(c))), q = *first_at(mesh.position(mesh.end(c)));
+    const std::uint32_t p = first[mesh.start(c)], q = first[mesh.end(c)];
     if (wanted.contains({std::min(p, q), std::max(p, q)})) marked[c] = 1;
   }
   return marked;

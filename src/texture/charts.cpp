@@ -85,15 +85,15 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.near.clear();
   found.others.clear();
   found.copy.reset();
-  std::vector<std::uint32_t> indices;
-  tree_->find(box_in_texture(*a.source), indices);
-  for (const std::uint32_t b : indices) {
+  found.indices.clear();
+  tree_->find(box_in_texture(*a.source), found.indices);
+  for (const std::uint32_t b : found.indices) {
     if (a.chart != Chart::Area) break;
     const std::optional<double> upper = upper_at_equal_corners(*a.source, *triangles_[b].source);
     if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&triangles_[b], *upper};
   }
   const Eigen::AlignedBox3d place = place_of(*a.source);
-  for (const std::uint32_t b : indices) {
+  for (const std::uint32_t b : found.indices) {
     const bool is_near =
         found.copy ? found.copy->triangle == &triangles_[b]
                    : places_[b].squaredExteriorDistance(place) <= reach * reach && seem_to_share_area(a, triangles_[b]);

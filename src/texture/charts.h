@@ -33,7 +33,8 @@ struct ChartCandidates {
   /// decides about some. If there is a `copy`, only this one.
   std::vector<const ChartTriangle*> near;
   std::vector<const ChartTriangle*> others;
-  std::optional<ChartCopy> copy;  ///< the nearest one, if one is within reach
+  std::optional<ChartCopy> copy;       ///< the nearest one, if one is within reach
+  std::vector<std::uint32_t> indices;  ///< of all of them
 };
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.

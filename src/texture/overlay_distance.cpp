@@ -116,16 +116,17 @@ bool Overlay::is_within(std::uint32_t candidate, double limit) {
 /// the shares of the lines 1 and 2 in twice the area of the candidate times the ways to its other corners.
 Overlay::Offsets Overlay::offsets_at_corners(const Candidate& candidate) const {
   const TexturedTriangle &a = *a_->source, &b = *candidate.triangle->source;
-  const auto uv = texture_points<Approximate>(*candidate.triangle, units_);
-  Approximate area = cross<Approximate>(uv[1] - uv[0], uv[2] - uv[0]);
+  Approximate area = doubled_area(b.coordinates[0], b.coordinates[1], b.coordinates[2]);
   if (candidate.triangle->turned) area = -area;
+  const Approximate by_area = Approximate{1, 0} / area;
   Offsets offsets;
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const auto line = [&](std::size_t k) { return lines_[candidate.lines[k]].at[corner]; };
     const std::array<bool, 3> is_on = {line(0).is_zero(), line(1).is_zero(), line(2).is_zero()};
     const bool is_end = is_on[0] && is_on[1] != is_on[2];  // equal to corner 1 or 2 of the candidate
     const std::size_t from = is_end ? (is_on[1] ? 2 : 1) : 0;
-    const Approximate second = is_end ? Approximate{} : line(1) / area, third = is_end ? Approximate{} : line(2) / area;
+    const Approximate second = is_end ? Approximate{} : line(1) * by_area,
+                      third = is_end ? Approximate{} : line(2) * by_area;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
       const auto way = [&](const Eigen::Vector3d& p) {

@@ -213,16 +213,10 @@ bool TextureGuard::match_inside(const TextureMap::Sample& sample, std::uint32_t 
 }
 
 TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
-  Match best, here;
-  double least = HUGE_VAL;
-  for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-    if (faces_[i].chart != chart || !match_inside(sample, i, here)) continue;
-    const double squared = squared_length(here.offset);
-    if (best.is_inside && !(squared < least)) continue;
-    least = squared;
-    best = here;
-  }
-  return best.is_inside ? best : match_outside(sample, chart);
+  Match match;
+  for (std::uint32_t i = 0; i < faces_.size(); ++i)
+    if (faces_[i].chart == chart && match_inside(sample, i, match)) return match;
+  return match_outside(sample, chart);
 }
 
 /// The point of the faces that is nearest in the texture to a sample whose coordinate no face has.

@@ -96,9 +96,8 @@ bool TextureGuard::are_uncovered_free() {
 bool TextureGuard::is_near_original(const Face& face, const std::array<double, 3>& weights) {
   const CornerCoordinates& t = face.coordinates;
   const Eigen::Vector2d coordinate = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
-  const double squared =
-      map_.atlas().squared_distance(coordinate, map_.material(face.number), point_of(face.at, weights), found_);
-  return squared <= map_.limit * map_.limit || squared == HUGE_VAL;
+  return map_.atlas().is_near_or_absent(coordinate, map_.material(face.number), point_of(face.at, weights), map_.limit,
+                                        found_);
 }
 
 /// Whether points of the faces are near the points of the original with the same coordinates, where such points exist.

@@ -75,14 +75,15 @@ bool Atlas::has_far_point(const Eigen::Vector2d& coordinate, std::uint32_t mater
   return is_far;
 }
 
-double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
-                               std::vector<std::uint32_t>& found) const {
-  double least = HUGE_VAL;
+bool Atlas::is_near_or_absent(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
+                              std::vector<std::uint32_t>& found) const {
+  bool is_there = false, is_near = false;
   for_each_point(coordinate, material, found, [&](Vec3 q) {
-    least = std::min(least, squared_length(q - p));
-    return true;
+    is_there = true;
+    is_near = squared_length(q - p) <= limit * limit;
+    return !is_near;
   });
-  return least;
+  return is_near || !is_there;
 }
 
 TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,
