@@ -79,7 +79,6 @@ class Transfer {
  public:
   Transfer(const TriangleMesh& mesh, const MeshAttributes& attributes, const SimplifiedLevel& level)
       : original_mesh_(mesh),
-        original_(mesh, attributes),
         from_(attributes),
         level_(level),
         keeps_vertices_(stands_on_vertices(mesh, level)),
@@ -112,6 +111,10 @@ class Transfer {
     return {from.names, by_source_triangle(from.index)};
   }
 
+  ChartSurface& original() {
+    if (!original_) original_.emplace(original_mesh_, from_);
+    return *original_;
+  }
   [[nodiscard]] std::uint32_t vertex(std::uint32_t corner) const {
     return level_.mesh.triangles[corner / 3][corner % 3];
   }
@@ -122,8 +125,8 @@ class Transfer {
     const Eigen::Vector3d middle = (v[t[0]] + v[t[1]] + v[t[2]]) / 3;
     return position(corner) + share * (middle - position(corner));
   }
-  [[nodiscard]] std::uint32_t chart(std::uint32_t corner) const {
-    return original_.chart_of(level_.source_triangle[corner / 3]);
+  [[nodiscard]] std::uint32_t chart(std::uint32_t corner) {
+    return original().chart_of(level_.source_triangle[corner / 3]);
   }
   [[nodiscard]] std::vector<Triangle> no_values() const {
     return std::vector<Triangle>(level_.mesh.triangles.size(), {no_value, no_value, no_value});
@@ -135,9 +138,12 @@ class Transfer {
     for (const NamedAttribute& from : from_.named)
       result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, no_values()});
     for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
-      const WeightedPoint at = point_of_sector(corners);
+      const bool has_own_coordinates = !level_.texture_coordinates.empty();
+      const WeightedPoint at = has_own_coordinates && from_.named.empty() ? WeightedPoint() : point_of_sector(corners);
       if (!from_.texture_coordinates.empty()) {
-        if (const auto value = texture_coordinate(corners.front(), at)) {
+        const auto value =
+            has_own_coordinates ? own_coordinate(corners.front()) : value_at(from_.texture_coordinates, at);
+        if (value) {
           set_index(result.texture_coordinates.index, corners, result.texture_coordinates.values.size());
           result.texture_coordinates.values.push_back(*value);
         }
@@ -150,9 +156,8 @@ class Transfer {
     }
   }
 
-  /// The coordinate that the level has at a corner, else that of the original at the corresponding point.
-  [[nodiscard]] std::optional<Eigen::Vector3d> texture_coordinate(std::uint32_t corner, const WeightedPoint& at) const {
-    if (level_.texture_coordinates.empty()) return value_at(from_.texture_coordinates, at);
+  /// The texture coordinate that the level has at a corner, if it has one there.
+  [[nodiscard]] std::optional<Eigen::Vector3d> own_coordinate(std::uint32_t corner) const {
     const Eigen::Vector2d& value = level_.texture_coordinates[corner / 3][corner % 3];
     if (!value.allFinite()) return std::nullopt;
     return Eigen::Vector3d(value.x(), value.y(), 0);
@@ -168,26 +173,26 @@ class Transfer {
       if (const auto of_original = corner_of_original(corners))
         return {*of_original / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(*of_original % 3))};
     }
-    return original_.closest(chart(c), position(c));
+    return original().closest(chart(c), position(c));
   }
 
   /// The corners of the original where a corner stands.
-  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(std::uint32_t corner) const {
-    return original_.corners_at(keeps_vertices_ ? original_mesh_.vertices[level_.source_vertex[vertex(corner)]]
-                                                : position(corner));
+  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(std::uint32_t corner) {
+    return original().corners_at(keeps_vertices_ ? original_mesh_.vertices[level_.source_vertex[vertex(corner)]]
+                                                 : position(corner));
   }
 
   /// Among the corners of the original at the position, in the same chart, the one whose triangle is nearest to the
   /// sector. All of them have equal values unless the chart touches itself along a line.
-  [[nodiscard]] std::optional<std::uint32_t> corner_of_original(const std::vector<std::uint32_t>& corners) const {
+  [[nodiscard]] std::optional<std::uint32_t> corner_of_original(const std::vector<std::uint32_t>& corners) {
     const Eigen::Vector3d p = position(corners.front());
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
     for (const std::uint32_t c : corners) way += (point_inside(c, 1) - p).stableNormalized();
     double best = -HUGE_VAL;
     std::optional<std::uint32_t> found;
     for (const std::uint32_t c : corners_at(corners.front())) {
-      if (original_.chart_of(c / 3) != chart(corners.front())) continue;
-      const auto t = original_.corners(c / 3);
+      if (original().chart_of(c / 3) != chart(corners.front())) continue;
+      const auto t = original().corners(c / 3);
       const double alike = ((t[0] + t[1] + t[2]) / 3 - p).stableNormalized().dot(way);
       if (alike > best) best = alike, found = c;
     }
@@ -200,10 +205,10 @@ class Transfer {
   }
 
   /// Cosine of the angle between a triangle of the level and one of the original.
-  [[nodiscard]] double alignment(std::uint32_t triangle, std::uint32_t of_original) const {
+  [[nodiscard]] double alignment(std::uint32_t triangle, std::uint32_t of_original) {
     const Triangle& v = level_.mesh.triangles[triangle];
     const auto& p = level_.mesh.vertices;
-    return direction({p[v[0]], p[v[1]], p[v[2]]}).dot(direction(original_.corners(of_original)));
+    return direction({p[v[0]], p[v[1]], p[v[2]]}).dot(direction(original().corners(of_original)));
   }
 
   /// The point of the original that a point inside a triangle of the level stands for: the closest one. Where the
@@ -211,7 +216,7 @@ class Transfer {
   /// the smooth surface that the triangle comes from, if that is better aligned.
   WeightedPoint counterpart(std::uint32_t triangle, const Eigen::Vector3d& inside, ChartSurface& smooth) {
     const std::uint32_t source = level_.source_triangle[triangle];
-    const WeightedPoint closest = original_.closest(original_.chart_of(source), inside);
+    const WeightedPoint closest = original().closest(original().chart_of(source), inside);
     const double aligned = alignment(triangle, closest.triangle);
     if (aligned >= min_alignment) return closest;
     const WeightedPoint of_source = smooth.closest(smooth.chart_of(source), inside);
@@ -253,7 +258,7 @@ class Transfer {
 
   /// For each corner, the normal most like the given one among the corners of the original at its vertex that have the
   /// other values of its sector.
-  [[nodiscard]] CornerAttribute normals_of_vertices(const std::vector<Eigen::Vector3d>& by_corner) const {
+  [[nodiscard]] CornerAttribute normals_of_vertices(const std::vector<Eigen::Vector3d>& by_corner) {
     CornerAttribute result;
     result.index = no_values();
     FirstUse number_of(from_.normals.values.size());
@@ -272,7 +277,7 @@ class Transfer {
   /// The index of a normal of `candidates`, corners of the original that have all other values of `corner`; `none`
   /// where these have no normal.
   [[nodiscard]] std::uint32_t normal_most_like(const Eigen::Vector3d& given, std::uint32_t corner,
-                                               const std::vector<std::uint32_t>& candidates) const {
+                                               const std::vector<std::uint32_t>& candidates) {
     double best = -HUGE_VAL;
     std::uint32_t found = no_value;
     for (const std::uint32_t c : candidates) {
@@ -285,13 +290,13 @@ class Transfer {
   }
 
   /// Whether two corners of the original have the same chart, texture coordinates and named attributes.
-  [[nodiscard]] bool has_equal_values(std::uint32_t a, std::uint32_t b) const {
+  [[nodiscard]] bool has_equal_values(std::uint32_t a, std::uint32_t b) {
     const auto is_equal = [&](const std::vector<Triangle>& index, const auto& value) {
       if (index.empty()) return true;
       const std::uint32_t i = index[a / 3][a % 3], j = index[b / 3][b % 3];
       return i == j || (i != no_value && j != no_value && value(i) == value(j));
     };
-    return original_.chart_of(a / 3) == original_.chart_of(b / 3) &&
+    return original().chart_of(a / 3) == original().chart_of(b / 3) &&
            is_equal(from_.texture_coordinates.index,
                     [&](std::size_t i) { return from_.texture_coordinates.values[i]; }) &&
            std::all_of(from_.named.begin(), from_.named.end(), [&](const NamedAttribute& named) {
@@ -303,7 +308,7 @@ class Transfer {
   }
 
   const TriangleMesh& original_mesh_;
-  ChartSurface original_;
+  std::optional<ChartSurface> original_;  ///< once asked for
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
   bool keeps_vertices_;                ///< every vertex of the level is one of the original
