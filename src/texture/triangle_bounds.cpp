@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "numeric/no_index.h"
@@ -98,19 +99,21 @@ TriangleBounds bounds_of_equal(const TexturedMesh& a, const TexturedMesh& b) {
 
 TriangleBounds bounds_left(const TriangleBounds& known, const TexturedMesh& a, const TexturedMesh& b,
                            const TexturedMesh& new_a, const TexturedMesh& new_b) {
-  const Triangles of_new_b(new_b.triangles), triangles_before(a.triangles);
+  const Triangles of_new_b(new_b.triangles);
+  std::optional<Triangles> before;  // those of A, where the new ones are others
+  if (!(a == new_a)) before.emplace(a.triangles);
   TriangleBounds left = bounds_of_equal(new_a, of_new_b);
   const BoxTree changed = changed_boxes(b, new_b, of_new_b);
   std::vector<std::uint32_t> met;
   for (std::size_t i = 0; i < new_a.triangles.size(); ++i) {
     if (left.upper[i] == 0) continue;
-    const std::uint32_t before = triangles_before.find(new_a.triangles[i]);
-    if (before == no_index) continue;
+    const std::size_t same = before ? before->find(new_a.triangles[i]) : i;
+    if (same == no_index) continue;
     met.clear();
     changed.find(box_in_texture(new_a.triangles[i]), met);
     if (!met.empty()) continue;
-    left.upper[i] = known.upper[before];
-    left.uncovered[i] = known.uncovered[before];
+    left.upper[i] = known.upper[same];
+    left.uncovered[i] = known.uncovered[same];
   }
   return left;
 }

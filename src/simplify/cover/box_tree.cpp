@@ -6,11 +6,11 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
+#include <span>
 #include <utility>
-
-#include "numeric/numbers_below.h"
 
 namespace meshbound {
 
@@ -50,9 +50,57 @@ unsigned BoxTree::Node::meeting(const Eigen::AlignedBox3d& box) const {
   return bits;
 }
 
-BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(numbers_below(boxes.size())) {
-  sort(boxes, 0, boxes.size());
+namespace {
+
+/// A box by its place: that it is rounded to floats may only make the tree worse.
+struct Item {
+  std::array<float, 3> middle;
+  std::uint32_t index;
+};
+
+/// Halves a range where the nodes of a level of nodes of `width` boxes end: the subtrees on both sides hold boxes near
+/// one another.
+void sort_in_halves(std::span<Item> items, std::size_t width) {
+  if (items.size() <= width) return;
+  std::size_t step = width;
+  while (step * width < items.size()) step *= width;
+  const std::size_t steps = (items.size() + step - 1) / step, middle = steps / 2 * step;
+  std::array<float, 3> lo = items[0].middle, hi = lo;
+  for (const Item& item : items)
+    for (std::size_t k = 0; k < 3; ++k)
+      lo[k] = std::min(lo[k], item.middle[k]), hi[k] = std::max(hi[k], item.middle[k]);
+  std::size_t axis = 0;
+  for (const std::size_t k : {1, 2})
+    if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+                   [axis](const Item& a, const Item& b) {
+                     const float p = a.middle[axis], q = b.middle[axis];
+                     return p < q || (p == q && a.index < b.index);
+                   });
+  sort_in_halves(items.first(middle), width);
+  sort_in_halves(items.subspan(middle), width);
+}
+
+std::vector<std::uint32_t> order_of(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t width) {
+  std::vector<Item> items;
+  items.reserve(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    const Eigen::Vector3f middle =
+        boxes[i].isEmpty() ? Eigen::Vector3f::Zero() : boxes[i].center().cast<float>().eval();
+    items.push_back({{middle.x(), middle.y(), middle.z()}, i});
+  }
+  sort_in_halves(items, width);
+  std::vector<std::uint32_t> order;
+  order.reserve(items.size());
+  for (const Item& item : items) order.push_back(item.index);
+  return order;
+}
+
+}  // namespace
+
+BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_of(boxes, width)) {
   std::vector<Eigen::AlignedBox3d> below;
+  below.reserve(order_.size());
   for (const std::uint32_t index : order_) below.push_back(boxes[index]);
   while (levels_.empty() || levels_.back().size() > 1) {
     std::vector<Node>& nodes = levels_.emplace_back((below.size() + width - 1) / width);
@@ -63,25 +111,6 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(numbers
     }
     below = std::move(around);
   }
-}
-
-/// Halves a range where the nodes of a level end: the subtrees on both sides hold boxes near one another.
-void BoxTree::sort(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first, std::size_t last) {
-  if (last - first <= width) return;
-  std::size_t step = width;
-  while (step * width < last - first) step *= width;
-  const std::size_t steps = (last - first + step - 1) / step, middle = first + steps / 2 * step;
-  Eigen::AlignedBox3d all;
-  for (std::size_t i = first; i < last; ++i) all.extend(boxes[order_[i]]);
-  Eigen::Index axis = 0;
-  all.sizes().maxCoeff(&axis);
-  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(middle), at(last), [&](std::uint32_t a, std::uint32_t b) {
-    const double p = boxes[a].min()[axis] + boxes[a].max()[axis], q = boxes[b].min()[axis] + boxes[b].max()[axis];
-    return p < q || (p == q && a < b);
-  });
-  sort(boxes, first, middle);
-  sort(boxes, middle, last);
 }
 
 void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {

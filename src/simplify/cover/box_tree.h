@@ -28,7 +28,6 @@ class BoxTree {
     double lo[3][width], hi[3][width];
   };
 
-  void sort(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first, std::size_t last);
   void search(std::size_t level, std::size_t index, const Eigen::AlignedBox3d& box,
               std::vector<std::uint32_t>& found) const;
 
