@@ -55,8 +55,8 @@ inline Approximate operator/(const Approximate& a, const Approximate& b) {
 /// a0 b0 + a1 b1 + a2 b2. Its three products and two sums round by at most 3 u of the sum of the products' sizes, and
 /// products may underflow by 3 2^-1075; where that sum is not tiny, 5 u of it are more than both and what the sum
 /// itself rounds.
-[[nodiscard]] inline Approximate sum_of_products(const std::array<Approximate, 3>& a,
-                                                 const std::array<Approximate, 3>& b) {
+[[nodiscard]] [[gnu::always_inline]] inline Approximate sum_of_products(const std::array<Approximate, 3>& a,
+                                                                        const std::array<Approximate, 3>& b) {
   double value = 0, size = 0, error = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double product = a[i].value * b[i].value;
