@@ -43,7 +43,21 @@ std::optional<double> upper_at_equal_corners(const TexturedTriangle& a, const Te
   return upper;
 }
 
+ExactUnits units_of(const TexturedMesh& mesh) {
+  ExactUnits units{no_bit, no_bit};
+  for (const TexturedTriangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const double x : t.coordinates[k]) units.texture = std::min(units.texture, lowest_bit(x));
+      for (const double x : t.corners[k]) units.position = std::min(units.position, lowest_bit(x));
+    }
+  return units;
+}
+
 }  // namespace
+
+ExactUnits common_units(const Charts& a, const Charts& b) {
+  return {std::min(a.units().texture, b.units().texture), std::min(a.units().position, b.units().position)};
+}
 
 Eigen::AlignedBox3d box_in_texture(const TexturedTriangle& triangle) {
   Eigen::AlignedBox3d box;
@@ -57,19 +71,8 @@ Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
   return box;
 }
 
-ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b) {
-  ExactUnits units{no_bit, no_bit};
-  for (const TexturedMesh* mesh : {&a, &b})
-    for (const TexturedTriangle& t : mesh->triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (const double x : t.coordinates[k]) units.texture = std::min(units.texture, lowest_bit(x));
-        for (const double x : t.corners[k]) units.position = std::min(units.position, lowest_bit(x));
-      }
-  return units;
-}
-
-Charts::Charts(const TexturedMesh& mesh, const ExactUnits& units) : mesh_(mesh) {
-  for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units));
+Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
+  for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units_));
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_in_texture(t)), places_.push_back(place_of(t));
   tree_.emplace(boxes);

@@ -10,9 +10,6 @@
 
 namespace meshbound {
 
-/// The units of all texture coordinates and positions of both meshes.
-[[nodiscard]] ExactUnits units_of(const TexturedMesh& a, const TexturedMesh& b);
-
 /// The box of the texture coordinates of a triangle; the third side keeps materials apart.
 [[nodiscard]] Eigen::AlignedBox3d box_in_texture(const TexturedTriangle& triangle);
 
@@ -41,9 +38,11 @@ struct ChartCandidates {
 class Charts {
  public:
   /// `mesh` must outlive this.
-  Charts(const TexturedMesh& mesh, const ExactUnits& units);
+  explicit Charts(const TexturedMesh& mesh);
 
   [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
+  /// Of all texture coordinates and positions.
+  [[nodiscard]] const ExactUnits& units() const { return units_; }
   [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
 
   /// Adds the triangles that may overlap `a` in the texture as candidates of the overlay. `found` is set to the indices
@@ -55,9 +54,13 @@ class Charts {
 
  private:
   const TexturedMesh& mesh_;
+  ExactUnits units_;
   std::vector<ChartTriangle> triangles_;
   std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
   std::optional<BoxTree> tree_;
 };
+
+/// Units for both meshes.
+[[nodiscard]] ExactUnits common_units(const Charts& a, const Charts& b);
 
 }  // namespace meshbound

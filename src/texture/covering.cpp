@@ -98,9 +98,8 @@ std::optional<bool> is_covered(Overlay& overlay, Covering::Candidates candidates
 bool is_beyond(Overlay& overlay, const Overlay::Polygon& piece, const std::array<Overlay::Node, 2>& ends) {
   return std::any_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
     const int inner = inner_side(overlay, corner.to_next, piece);
-    return std::all_of(ends.begin(), ends.end(), [&](const Overlay::Node& end) {
-      return overlay.side(corner.to_next, end) * inner <= 0;
-    });
+    return std::all_of(ends.begin(), ends.end(),
+                       [&](const Overlay::Node& end) { return overlay.side(corner.to_next, end) * inner <= 0; });
   });
 }
 

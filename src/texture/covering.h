@@ -18,10 +18,10 @@ namespace meshbound {
 /// Each candidate covers what lies to the left of its edges, once its corners go round counter-clockwise. How many
 /// candidates cover a point changes only across their edges, and not across a segment that as many edges run along one
 /// way as the other. A piece of A that none of the other segments, the *open* edges, runs through the inside of is
-/// therefore covered by one number of candidates all over, but on edges; so where one point of it is inside a candidate,
-/// every point is in at least one of them, as they are closed, and where one point is outside all of them, no candidate
-/// covers any area of it. Edges count as the same where the doubles of their ends are, and sides are exact. The triangle
-/// and all candidates must have an area in the texture. Not thread-safe: each thread has its own.
+/// therefore covered by one number of candidates all over, but on edges; so where one point of it is inside a
+/// candidate, every point is in at least one of them, as they are closed, and where one point is outside all of them,
+/// no candidate covers any area of it. Edges count as the same where the doubles of their ends are, and sides are
+/// exact. The triangle and all candidates must have an area in the texture. Not thread-safe: each thread has its own.
 class Covering {
  public:
   using Candidates = std::span<const std::uint32_t>;
@@ -29,8 +29,8 @@ class Covering {
   /// True only if the candidates cover all of A; false also where that cannot be decided. Expected O(candidates log
   /// candidates).
   [[nodiscard]] bool is_complete(Overlay& overlay, Candidates candidates);
-  /// Convex pieces of A, without common area: all that the candidates leave uncovered but lines and points. Absent where
-  /// that cannot be decided. Expected O(candidates (open edges + log candidates)).
+  /// Convex pieces of A, without common area: all that the candidates leave uncovered but lines and points. Absent
+  /// where that cannot be decided. Expected O(candidates (open edges + log candidates)).
   [[nodiscard]] std::optional<std::vector<Overlay::Polygon>> uncovered(Overlay& overlay, Candidates candidates);
 
  private:

@@ -167,8 +167,8 @@ Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& n
   const NearPoint first = near_point(b.source->corners[b.along[0]]), second = near_point(b.source->corners[b.along[1]]),
                   last = near_point(b.source->corners[b.along[2]]);
   const NearPoint across = point_between(first, last, at / length);
-  const NearPoint round = is_before ? point_between(first, second, at / turn)
-                                    : point_between(second, last, (at - turn) / (length - turn));
+  const NearPoint round =
+      is_before ? point_between(first, second, at / turn) : point_between(second, last, (at - turn) / (length - turn));
   NearPoint point;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto corner = [&](std::size_t k) {

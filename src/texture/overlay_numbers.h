@@ -48,8 +48,8 @@ template <class Number>
 Number cross(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
   return Number(p.x * q.y) - Number(p.y * q.x);
 }
-/// Twice the area of the triangle that a point makes with an edge, positive to the left of it. Differences, products and
-/// their difference round by at most 4 u of the products together; 8 u leave room for their sizes as computed.
+/// Twice the area of the triangle that a point makes with an edge, positive to the left of it. Differences, products
+/// and their difference round by at most 4 u of the products together; 8 u leave room for their sizes as computed.
 [[nodiscard]] inline Approximate doubled_area(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                               const Eigen::Vector2d& p) {
   const Eigen::Vector2d way = to - from, there = p - from;

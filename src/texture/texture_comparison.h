@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <memory>
 
 #include "meshbound/texture_deviation.h"
 #include "texture/triangle_bounds.h"
 
 namespace meshbound {
+
+class Charts;
 
 /// Measures the texture deviation between meshes of which each pair differs little from the one before: triangles with
 /// the surroundings in the texture that they had then keep their bounds.
@@ -16,7 +19,9 @@ class TextureComparison {
   [[nodiscard]] TextureDeviation measure(std::array<TexturedMesh, 2> meshes, const TextureDeviationOptions& options);
 
  private:
-  std::array<TexturedMesh, 2> meshes_;    ///< of the last call
+  std::shared_ptr<const TexturedMesh> first_;  ///< of the last call; null before it
+  std::shared_ptr<const Charts> charts_of_first_;
+  TexturedMesh second_;                   ///< of the last call
   std::array<TriangleBounds, 2> bounds_;  ///< of A compared with B, and of B compared with A
   TextureDeviation deviation_;
 };

@@ -255,14 +255,14 @@ double diagonal_of(const TexturedMesh& mesh) {
 }
 
 /// `known` by direction; it is made complete.
-TextureDeviation measured(const TexturedMesh& a, const TexturedMesh& b, const TextureDeviationOptions& options,
+TextureDeviation measured(const Charts& charts_a, const Charts& charts_b, const TextureDeviationOptions& options,
                           std::array<TriangleBounds, 2>& known) {
+  const TexturedMesh& a = charts_a.mesh();
   const double error_bound = options.error_bound.value_or(default_share * diagonal_of(a));
   if (!(error_bound >= 0)) throw InvalidInput("the error bound must be a length in model units, 0 or more");
   if (options.tolerance && !(*options.tolerance >= 0))
     throw InvalidInput("the texture tolerance must be a length in model units, 0 or more");
-  const ExactUnits units = units_of(a, b);
-  const Charts charts_a(a, units), charts_b(b, units);
+  const ExactUnits units = common_units(charts_a, charts_b);
   TextureDeviation result;
   const double reach = options.tolerance.value_or(reach_share * diagonal_of(a));
   result.a_to_b = Direction(charts_a, charts_b, units, error_bound, reach, options, known[0]).run();
@@ -278,20 +278,27 @@ TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
                                    const TextureDeviationOptions& options) {
   check_input(a, b);
   std::array<TriangleBounds, 2> known{bounds_of_equal(a, b), bounds_of_equal(b, a)};
-  return measured(a, b, options, known);
+  return measured(Charts(a), Charts(b), options, known);
 }
 
 TextureDeviation TextureComparison::measure(std::array<TexturedMesh, 2> meshes,
                                             const TextureDeviationOptions& options) {
   check_input(meshes[0], meshes[1]);
-  const bool is_first = bounds_[0].upper.empty() && bounds_[1].upper.empty();
-  if (!is_first && meshes == meshes_) return deviation_;
+  const bool keeps_first = first_ && meshes[0] == *first_;
+  if (keeps_first && meshes[1] == second_) return deviation_;
   std::array<TriangleBounds, 2> known;
-  for (const std::size_t a : {0, 1})
-    known[a] = is_first ? bounds_of_equal(meshes[a], meshes[1 - a])
-                        : bounds_left(bounds_[a], meshes_[a], meshes_[1 - a], meshes[a], meshes[1 - a]);
-  deviation_ = measured(meshes[0], meshes[1], options, known);
-  meshes_ = std::move(meshes);
+  if (first_)
+    known = {bounds_left(bounds_[0], *first_, second_, meshes[0], meshes[1]),
+             bounds_left(bounds_[1], second_, *first_, meshes[1], meshes[0])};
+  else
+    known = {bounds_of_equal(meshes[0], meshes[1]), bounds_of_equal(meshes[1], meshes[0])};
+  const auto first = keeps_first ? first_ : std::make_shared<const TexturedMesh>(std::move(meshes[0]));
+  const auto charts = keeps_first ? charts_of_first_ : std::make_shared<const Charts>(*first);
+  const TextureDeviation deviation = measured(*charts, Charts(meshes[1]), options, known);
+  first_ = first;  // not before: the measurement may have been stopped
+  charts_of_first_ = charts;
+  second_ = std::move(meshes[1]);
+  deviation_ = deviation;
   bounds_ = std::move(known);
   return deviation_;
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "mesh/no_value.h"
 #include "meshbound/error.h"
@@ -22,14 +23,23 @@ void check_attributes(const TriangleMesh& mesh, const MeshAttributes& attributes
 class MaterialNumbers {
  public:
   explicit MaterialNumbers(bool are_told_apart) : are_told_apart_(are_told_apart) {}
-  std::uint32_t of(const TriangleLabels& materials, std::size_t triangle) {
-    if (!are_told_apart_) return 0;
-    const std::uint32_t index = materials.index[triangle];
-    const std::string name = index == no_value ? std::string() : materials.names[index];
-    return numbers_.try_emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
+  /// The number of each triangle's material.
+  std::vector<std::uint32_t> of(const TriangleLabels& materials, std::size_t triangles) {
+    std::vector<std::uint32_t> numbers(triangles, 0);
+    if (!are_told_apart_) return numbers;
+    std::vector<std::uint32_t> of_index;
+    for (const std::string& name : materials.names) of_index.push_back(number_of(name));
+    const std::uint32_t of_none = number_of({});
+    for (std::size_t t = 0; t < triangles; ++t)
+      numbers[t] = materials.index[t] == no_value ? of_none : of_index[materials.index[t]];
+    return numbers;
   }
 
  private:
+  std::uint32_t number_of(const std::string& name) {
+    return numbers_.try_emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
+  }
+
   bool are_told_apart_;
   std::map<std::string, std::uint32_t> numbers_;
 };
@@ -40,6 +50,7 @@ using Precisions = std::array<TexturePrecision, 2>;
 TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attributes, const Precisions& precisions,
                            MaterialNumbers& materials) {
   const CornerAttribute& uv = attributes.texture_coordinates;
+  const std::vector<std::uint32_t> material = materials.of(attributes.materials, mesh.triangles.size());
   TexturedMesh result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     TexturedTriangle triangle;
@@ -53,7 +64,7 @@ TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attri
         triangle.coordinates[k] = rounded_to(precisions[1], rounded_to(precisions[0], uv.values[index].head<2>()));
     }
     triangle.triangle = static_cast<std::uint32_t>(t);
-    triangle.material = materials.of(attributes.materials, t);
+    triangle.material = material[t];
     if (is_textured)
       result.triangles.push_back(triangle);
     else

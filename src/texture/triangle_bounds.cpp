@@ -25,7 +25,7 @@ class Triangles {
         shift_(63 - static_cast<int>(std::bit_width(triangles.size()))),
         first_(std::size_t{1} << (64 - shift_), no_index) {
     keys_.reserve(triangles.size());
-    for (const TexturedTriangle& t : triangles) keys_.push_back(key(content(t)));
+    for (const TexturedTriangle& t : triangles) keys_.push_back(key(t));
     next_.resize(triangles.size());
     for (std::uint32_t i = static_cast<std::uint32_t>(triangles.size()); i-- > 0;)
       next_[i] = std::exchange(first_[keys_[i] >> shift_], i);
@@ -33,10 +33,9 @@ class Triangles {
 
   /// The smallest index of such a triangle; `no_index` if there is none.
   [[nodiscard]] std::uint32_t find(const TexturedTriangle& t) const {
-    const Content wanted = content(t);
-    const std::uint64_t wanted_key = key(wanted);
-    for (std::uint32_t i = first_[wanted_key >> shift_]; i != no_index; i = next_[i])
-      if (keys_[i] == wanted_key && content(triangles_[i]) == wanted) return i;
+    const std::uint64_t wanted = key(t);
+    for (std::uint32_t i = first_[wanted >> shift_]; i != no_index; i = next_[i])
+      if (keys_[i] == wanted && content(triangles_[i]) == content(t)) return i;
     return no_index;
   }
   [[nodiscard]] bool has(const TexturedTriangle& t) const { return find(t) != no_index; }
@@ -45,23 +44,30 @@ class Triangles {
   using Corner = std::array<double, 5>;
   using Content = std::pair<std::uint32_t, std::array<Corner, 3>>;
 
-  static Content content(const TexturedTriangle& t) {
-    Content all{t.material, {}};
+  static std::array<Corner, 3> corners(const TexturedTriangle& t) {
+    std::array<Corner, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d& p = t.corners[k];
-      all.second[k] = {t.coordinates[k].x(), t.coordinates[k].y(), p.x(), p.y(), p.z()};
+      corners[k] = {t.coordinates[k].x(), t.coordinates[k].y(), p.x(), p.y(), p.z()};
     }
+    return corners;
+  }
+  static Content content(const TexturedTriangle& t) {
+    Content all{t.material, corners(t)};
     std::sort(all.second.begin(), all.second.end());
     return all;
   }
 
-  /// Equal for equal contents, rarely for others.
-  static std::uint64_t key(const Content& content) {
+  /// Equal for equal contents, rarely for others: a sum over the corners, in whatever order these come.
+  static std::uint64_t key(const TexturedTriangle& t) {
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
-    std::uint64_t key = content.first;
-    for (const Corner& corner : content.second)
+    std::uint64_t sum = t.material;
+    for (const Corner& corner : corners(t)) {
+      std::uint64_t key = 0;
       for (const double x : corner) key = (std::rotl(key, 5) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * odd;  // no -0
-    return key;
+      sum += key ^ (key >> 32);
+    }
+    return sum * odd;
   }
 
   const std::vector<TexturedTriangle>& triangles_;

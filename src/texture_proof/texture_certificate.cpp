@@ -119,8 +119,8 @@ std::optional<TextureCertificate> with_texture_proof(const Certificate& certific
                                                      const CertificateOptions& options) {
   check(meshes, tolerance);
   const StopToken stop = StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds);
-  const ExactUnits units = units_of(meshes[0], meshes[1]);
-  const Charts original(meshes[0], units), simplified(meshes[1], units);
+  const Charts original(meshes[0]), simplified(meshes[1]);
+  const ExactUnits units = common_units(original, simplified);
   try {
     const std::array proofs = {
         encoded(original, prove(original, simplified, units, tolerance, options.threads, stop, "original")),
