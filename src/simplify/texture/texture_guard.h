@@ -97,6 +97,7 @@ class TextureGuard {
   [[nodiscard]] bool is_border_free(std::size_t sample);
   [[nodiscard]] bool is_strip_free(const TextureMap::Sample& sample, const Eigen::Vector2d& nearest,
                                    std::uint32_t material);
+  [[nodiscard]] bool has_no_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p);
   [[nodiscard]] bool are_uncovered_free();
   [[nodiscard]] bool is_near_original(const Face& face, const std::array<double, 3>& weights);
   [[nodiscard]] bool are_faces_near();

@@ -64,10 +64,14 @@ bool TextureGuard::is_border_free(std::size_t i) {
 
 bool TextureGuard::is_strip_free(const TextureMap::Sample& sample, const Eigen::Vector2d& nearest,
                                  std::uint32_t material) {
-  return std::none_of(shares_of_strip.begin(), shares_of_strip.end(), [&](double share) {
-    const Eigen::Vector2d between = sample.coordinate + share * (nearest - sample.coordinate);
-    return map_.atlas().has_far_point(between, material, sample.at, map_.limit, found_);
+  return std::all_of(shares_of_strip.begin(), shares_of_strip.end(), [&](double share) {
+    return has_no_far_point(sample.coordinate + share * (nearest - sample.coordinate), material, sample.at);
   });
+}
+
+bool TextureGuard::has_no_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p) {
+  exceeding_squared_ = map_.atlas().squared_distance_of_far_point(coordinate, material, p, map_.limit, found_);
+  return exceeding_squared_ == 0;
 }
 
 bool TextureGuard::are_borders_free() {
@@ -87,7 +91,7 @@ bool TextureGuard::are_uncovered_free() {
     const CornerCoordinates& t = faces_[m.face].coordinates;
     const Eigen::Vector2d nearest = m.weights[0] * t[0] + m.weights[1] * t[1] + m.weights[2] * t[2];
     const std::uint32_t material = map_.material(faces_[m.face].number);
-    if (map_.atlas().has_far_point(sample.coordinate, material, sample.at, map_.limit, found_)) return false;
+    if (!has_no_far_point(sample.coordinate, material, sample.at)) return false;
     if (!is_strip_free(sample, nearest, material)) return false;
   }
   return true;

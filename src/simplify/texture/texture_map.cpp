@@ -66,14 +66,15 @@ void Atlas::for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t mate
   }
 }
 
-bool Atlas::has_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
-                          std::vector<std::uint32_t>& found) const {
-  bool is_far = false;
+double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                            double limit, std::vector<std::uint32_t>& found) const {
+  double far = 0;
   for_each_point(coordinate, material, found, [&](Vec3 q) {
-    is_far = squared_length(q - p) > limit * limit;
-    return !is_far;
+    const double squared = squared_length(q - p);
+    if (squared > limit * limit) far = squared;
+    return far == 0;
   });
-  return is_far;
+  return far;
 }
 
 bool Atlas::is_near_or_absent(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,

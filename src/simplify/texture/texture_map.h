@@ -30,10 +30,10 @@ class Atlas {
   [[nodiscard]] std::uint32_t material(std::uint32_t triangle) const {
     return materials_.empty() ? 0 : materials_[triangle];
   }
-  /// Whether a point of the original with this coordinate and material is farther than `limit` from `p`. `found` is
-  /// scratch memory. Expected O(log n) for few such points.
-  [[nodiscard]] bool has_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
-                                   std::vector<std::uint32_t>& found) const;
+  /// The squared distance from `p` of a point of the original with this coordinate and material that is farther away
+  /// than `limit`; 0 if there is none. `found` is scratch memory. Expected O(log n) for few such points.
+  [[nodiscard]] double squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                                     double limit, std::vector<std::uint32_t>& found) const;
   /// Whether some point of the original with this coordinate and material is within `limit` of `p`, or there is none.
   [[nodiscard]] bool is_near_or_absent(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
                                        std::vector<std::uint32_t>& found) const;
