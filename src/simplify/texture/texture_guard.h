@@ -68,6 +68,9 @@ class TextureGuard {
     std::array<double, 3> weights{};
     Vec3 offset;  ///< from the sample to that point
   };
+  struct EdgeOfFace {
+    std::size_t face, number;  ///< index in `faces_`, and of the corner where it starts
+  };
   /// Derivatives of a sum by the coordinate of the vertex: of the sixth powers of the samples' distances, in limits.
   struct Slope {
     std::array<double, 2> gradient{};
@@ -93,6 +96,7 @@ class TextureGuard {
   [[nodiscard]] double worst_squared(std::size_t count) const;
   [[nodiscard]] bool improve(std::size_t count);
   void move_to(const Eigen::Vector2d& coordinate);
+  void find_lines();
   [[nodiscard]] bool are_borders_free();
   [[nodiscard]] bool is_border_free(std::size_t sample);
   [[nodiscard]] bool is_strip_free(const TextureMap::Sample& sample, const Eigen::Vector2d& nearest,
@@ -114,7 +118,8 @@ class TextureGuard {
   std::vector<Match> matches_, matches_before_;  ///< by sample: the last match, and that before the last Newton step
   bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be changed
   bool accepted_ = false;
-  double exceeding_squared_ = 0;  ///< the squared distance of a sample for which a placement was refused
+  double exceeding_squared_ = 0;      ///< the squared distance of a sample for which a placement was refused
+  std::vector<EdgeOfFace> of_lines_;  ///< edges of the faces that are lines, or become lines
   std::vector<std::uint32_t> found_;
 };
 

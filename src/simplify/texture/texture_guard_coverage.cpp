@@ -39,6 +39,15 @@ bool TextureGuard::becomes_line(std::size_t face, std::size_t k) const {
   return is_other_line(next_corner(across)) || is_other_line(previous_corner(across));
 }
 
+void TextureGuard::find_lines() {
+  of_lines_.clear();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].chart == no_index) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (becomes_line(f, k)) of_lines_.push_back({f, k});
+  }
+}
+
 /// Whether no point of the original whose coordinate lies in the strip between its line and that of the faces, in the
 /// texture, is farther away than the limit: the result would show that texture at the line, or lack it there.
 bool TextureGuard::is_border_free(std::size_t i) {
@@ -46,18 +55,15 @@ bool TextureGuard::is_border_free(std::size_t i) {
   double least = HUGE_VAL;
   Eigen::Vector2d nearest = sample.coordinate;
   std::uint32_t material = 0;
-  const auto visit = [&](const CornerCoordinates& t, std::size_t k, std::uint32_t face) {
-    const std::size_t next = (k + 1) % 3;
-    const Eigen::Vector2d p = t[k] + closest_share(t[k], t[next], sample.coordinate) * (t[next] - t[k]);
-    if (!((p - sample.coordinate).squaredNorm() < least)) return;
-    least = (p - sample.coordinate).squaredNorm();
-    nearest = p;
-    material = map_.material(face);
-  };
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (const auto& [f, k] : of_lines_) {
     if (faces_[f].chart != charts_[i]) continue;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (becomes_line(f, k)) visit(faces_[f].coordinates, k, faces_[f].number);
+    const Eigen::Vector2d &from = faces_[f].coordinates[k], &to = faces_[f].coordinates[(k + 1) % 3];
+    const Eigen::Vector2d p = from + closest_share(from, to, sample.coordinate) * (to - from);
+    const double squared = (p - sample.coordinate).squaredNorm();
+    if (!(squared < least)) continue;
+    least = squared;
+    nearest = p;
+    material = map_.material(faces_[f].number);
   }
   return least == 0 || least == HUGE_VAL || is_strip_free(sample, nearest, material);
 }
@@ -76,6 +82,7 @@ bool TextureGuard::has_no_far_point(const Eigen::Vector2d& coordinate, std::uint
 
 bool TextureGuard::are_borders_free() {
   if (!lines_.is_line(mesh_, star_.edge)) return true;
+  find_lines();
   for (std::size_t i = 0; i < samples_.size(); ++i)
     if (map_.sample(samples_[i]).is_on_line && !is_border_free(i)) return false;
   return are_lines_near();
@@ -122,19 +129,16 @@ bool TextureGuard::are_faces_near() {
 /// Compares the edges at the vertex that are lines after the collapse of an edge of a line, as `are_faces_near`
 /// compares faces.
 bool TextureGuard::are_lines_near() {
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].chart == no_index) continue;
-    for (const std::size_t k : {std::size_t{0}, std::size_t{2}}) {
-      if (!becomes_line(f, k)) continue;
-      for (int i = 1; i < parts_of_line; ++i) {
-        std::array<double, 3> weights{};
-        weights[k] = static_cast<double>(i) / parts_of_line;
-        weights[(k + 1) % 3] = 1 - weights[k];
-        if (!is_near_original(faces_[f], weights)) return false;
-      }
+  return std::all_of(of_lines_.begin(), of_lines_.end(), [&](const EdgeOfFace& edge) {
+    if (edge.number == 1) return true;  // opposite to the vertex
+    for (int i = 1; i < parts_of_line; ++i) {
+      std::array<double, 3> weights{};
+      weights[edge.number] = static_cast<double>(i) / parts_of_line;
+      weights[(edge.number + 1) % 3] = 1 - weights[edge.number];
+      if (!is_near_original(faces_[edge.face], weights)) return false;
     }
-  }
-  return true;
+    return true;
+  });
 }
 
 }  // namespace meshbound
