@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
+
+#include "reference/point_triangle_cases.h"
 
 namespace meshbound {
 namespace covering_test {
@@ -17,18 +21,37 @@ TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, 
 /// Texture coordinates here are multiples of 1/64.
 constexpr ExactUnits units{-6, 0};
 
-/// Whether these cover the triangle (0,0), (1,0), (0,1).
-bool is_covered(const std::vector<TexturedTriangle>& by) {
-  const TexturedTriangle whole = in_texture({0, 0}, {1, 0}, {0, 1});
-  const ChartTriangle a = chart_triangle(whole, units);
+/// The triangle (0,0), (1,0), (0,1), and others as its candidates.
+struct Case {
+  explicit Case(std::vector<TexturedTriangle> by) : triangles(std::move(by)) {
+    for (const TexturedTriangle& t : triangles) charts.push_back(chart_triangle(t, units));
+    overlay.begin(a);
+    for (const ChartTriangle& t : charts) overlay.add(t);
+    all.resize(overlay.candidates());
+    std::iota(all.begin(), all.end(), 0u);
+  }
+  TexturedTriangle whole = in_texture({0, 0}, {1, 0}, {0, 1});
+  ChartTriangle a = chart_triangle(whole, units);
+  std::vector<TexturedTriangle> triangles;
   std::vector<ChartTriangle> charts;
-  for (const TexturedTriangle& t : by) charts.push_back(chart_triangle(t, units));
-  Overlay overlay(units);
-  overlay.begin(a);
-  for (const ChartTriangle& t : charts) overlay.add(t);
-  std::vector<std::uint32_t> all(overlay.candidates());
-  std::iota(all.begin(), all.end(), 0u);
-  return Covering().is_complete(overlay, all);
+  Overlay overlay = Overlay(units);
+  std::vector<std::uint32_t> all;
+};
+
+/// Whether these cover the triangle.
+bool is_covered(const std::vector<TexturedTriangle>& by) {
+  Case test(by);
+  return Covering().is_complete(test.overlay, test.all);
+}
+
+/// The share of the triangle that these are found to leave uncovered; -1 where that is not decided.
+double uncovered_share(const std::vector<TexturedTriangle>& by) {
+  Case test(by);
+  const auto pieces = Covering().uncovered(test.overlay, test.all);
+  if (!pieces) return -1;
+  double share = 0;
+  for (const Overlay::Polygon& piece : *pieces) share += test.overlay.share(piece).value;
+  return share;
 }
 
 const Eigen::Vector2d low(0, 0), right(1, 0), up(0, 1), inside(0.25, 0.375), far_right(2, -0.5), far_up(-0.5, 2);
@@ -75,6 +98,67 @@ TEST(Covering, ByTwoSheets) {
   EXPECT_TRUE(is_covered(triangles));
   triangles.erase(triangles.begin());  // a hole in one of them: it is covered still, which is not known
   EXPECT_FALSE(is_covered(triangles));
+}
+
+TEST(Covering, LeavesNothingOfAFan) {
+  EXPECT_EQ(uncovered_share(fan()), 0);
+  EXPECT_EQ(uncovered_share({in_texture({-1, -1}, far_right, far_up)}), 0);
+}
+
+TEST(Covering, LeavesTheRest) {
+  EXPECT_NEAR(uncovered_share({}), 1, 1e-12);
+  EXPECT_NEAR(uncovered_share({in_texture(low, {0.5, 0}, up)}), 0.5, 1e-12);
+  EXPECT_NEAR(uncovered_share({fan()[0], fan()[2]}), 0.375, 1e-12);  // what the second of them covers
+  EXPECT_NEAR(uncovered_share({in_texture({0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5})}), 15.0 / 16, 1e-12);
+}
+
+/// The hole in one of two sheets is no hole.
+TEST(Covering, LeavesNothingWhereAnotherSheetCovers) {
+  std::vector<TexturedTriangle> triangles = fan();
+  triangles[0] = in_texture(low, right, up);
+  EXPECT_NEAR(uncovered_share(triangles), 0, 1e-12);
+}
+
+/// Triangles on a coarse grid, of which many touch, overlap or are there twice, turned either way.
+std::vector<TexturedTriangle> random_triangles(reference::Random& random) {
+  const auto point = [&] { return Eigen::Vector2d((random.below(11) - 1) / 8.0, (random.below(11) - 1) / 8.0); };
+  std::vector<TexturedTriangle> triangles;
+  for (int k = random.below(8); k >= 0; --k) {
+    TexturedTriangle t = in_texture(point(), point(), point());
+    if (chart_triangle(t, units).chart != Chart::Area) continue;
+    triangles.push_back(t);
+    if (random.below(4) == 0) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+/// A point is in a piece that is left just where it is in no candidate, for points on no line of the grid.
+TEST(Covering, LeavesThePointsThatNoCandidateHas) {
+  reference::Random random(7);
+  int decided = 0;
+  for (int run = 0; run < 500; ++run) {
+    Case test(random_triangles(random));
+    const auto pieces = Covering().uncovered(test.overlay, test.all);
+    if (!pieces) continue;
+    ++decided;
+    for (int k = 0; k < 40; ++k) {
+      const std::array<double, 3> weights = {random.uniform(0, 1) + 0x1p-20, random.uniform(0, 1) + 0x1p-20,
+                                             random.uniform(0, 1) + 0x1p-20};
+      const Overlay::Node point = Overlay::given(weights);
+      const bool has_candidate =
+          std::any_of(test.all.begin(), test.all.end(), [&](std::uint32_t c) { return test.overlay.covers(c, point); });
+      const bool is_left = std::any_of(pieces->begin(), pieces->end(), [&](const Overlay::Polygon& piece) {
+        return std::all_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
+          int inner = 0;
+          for (const auto& other : piece)
+            if (inner == 0) inner = test.overlay.side(corner.to_next, other.node);
+          return test.overlay.side(corner.to_next, point) * inner > 0;
+        });
+      });
+      ASSERT_EQ(is_left, !has_candidate) << run;
+    }
+  }
+  EXPECT_GT(decided, 450);
 }
 
 }  // namespace covering_test

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Distances in an overlay: what doubles say of them encloses what integers say.
+#include "texture/overlay.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "reference/point_triangle_cases.h"
+#include "texture/overlay_numbers.h"
+
+namespace meshbound {
+namespace overlay_test {
+
+/// Coordinates here are multiples of 1/64.
+constexpr ExactUnits units{-6, -6};
+
+double random_number(reference::Random& random) { return (random.below(257) - 128) / 64.0; }
+
+TexturedTriangle random_triangle(reference::Random& random) {
+  TexturedTriangle t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    t.corners[k] = {random_number(random), random_number(random), random_number(random)};
+    t.coordinates[k] = {random_number(random), random_number(random)};
+  }
+  return t;
+}
+
+/// All its texture coordinates on one line.
+TexturedTriangle random_segment(reference::Random& random) {
+  TexturedTriangle t = random_triangle(random);
+  for (std::size_t k = 0; k < 3; ++k) t.coordinates[k] = Eigen::Vector2d(random.below(9) - 4, 0) / 4;
+  return t;
+}
+
+/// Compares the distances of points of `a` that the candidate has. Returns their number.
+int compare(const TexturedTriangle& a, const TexturedTriangle& b, reference::Random& random) {
+  const ChartTriangle of_a = chart_triangle(a, units), of_b = chart_triangle(b, units);
+  Overlay overlay(units);
+  overlay.begin(of_a);
+  overlay.add(of_b);
+  if (overlay.candidates() == 0 || of_b.chart == Chart::Point) return 0;
+  std::vector<Overlay::Node> points;
+  Overlay::Polygon covered = overlay.whole();
+  overlay.clip(covered, 0);
+  for (const auto& corner : covered) points.push_back(corner.node);
+  for (int k = 0; k < 4; ++k)
+    points.push_back(Overlay::given({random.below(5) / 4.0 + 0x1p-4, random.below(5) / 4.0, random.below(5) / 4.0}));
+  int compared = 0;
+  for (const Overlay::Node& point : points) {
+    if (!overlay.covers(0, point)) continue;
+    const Bounds rough = overlay.rough_distance(0, point), exact = overlay.distance(0, point, 0);
+    EXPECT_LE(rough.lower, exact.upper);
+    EXPECT_GE(rough.upper, exact.lower);
+    if (rough.upper - rough.lower < 1e-9) ++compared;
+  }
+  return compared;
+}
+
+TEST(OverlayDistance, ByDoublesEnclosesThatToATriangle) {
+  reference::Random random(1);
+  int compared = 0;
+  for (int run = 0; run < 3000; ++run) compared += compare(random_triangle(random), random_triangle(random), random);
+  EXPECT_GT(compared, 3000);
+}
+
+/// Where the texture coordinates of a candidate lie on a line, those of one point belong to a whole segment.
+TEST(OverlayDistance, ByDoublesEnclosesThatToASegment) {
+  reference::Random random(2);
+  int compared = 0;
+  for (int run = 0; run < 3000; ++run) compared += compare(random_segment(random), random_segment(random), random);
+  EXPECT_GT(compared, 3000);
+}
+
+TEST(DoubledArea, EnclosesTheTruth) {
+  reference::Random random(3);
+  const double steps[] = {0, 0x1p-52, 0x1p-30, 1, 3};
+  for (int run = 0; run < 20000; ++run) {
+    const auto number = [&] { return random.below(3) / 2.0 + steps[random.below(5)] * random.below(4); };
+    const Eigen::Vector2d a(number(), number()), b(number(), number()), p(number(), number());
+    const mpq_class truth = (mpq_class(b.x()) - mpq_class(a.x())) * (mpq_class(p.y()) - mpq_class(a.y())) -
+                            (mpq_class(b.y()) - mpq_class(a.y())) * (mpq_class(p.x()) - mpq_class(a.x()));
+    const Approximate area = doubled_area(a, b, p);
+    EXPECT_LE(abs(truth - mpq_class(area.value)), mpq_class(area.error));
+    if (area.is_zero()) {
+      EXPECT_EQ(sgn(truth), 0);
+    }
+  }
+}
+
+}  // namespace overlay_test
+}  // namespace meshbound
