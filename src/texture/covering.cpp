@@ -108,10 +108,6 @@ constexpr std::size_t max_open_edges = 64;
 
 }  // namespace
 
-bool has_area(Overlay& overlay, const Overlay::Polygon& polygon) {
-  return polygon.size() >= 3 && is_inside(overlay, polygon, inner_point(polygon, weights_of_corners[0]));
-}
-
 /// Adds the edges of a candidate that may run through the inside of A.
 void Covering::add_edges(Overlay& overlay, std::uint32_t candidate) {
   const ChartTriangle& b = overlay.candidate(candidate);

@@ -9,9 +9,6 @@
 
 namespace meshbound {
 
-/// Whether the polygon, which is bounded by lines of the overlay, is known to have an area.
-[[nodiscard]] bool has_area(Overlay& overlay, const Overlay::Polygon& polygon);
-
 /// What candidates of an overlay leave uncovered of its triangle A in the texture, by the edges where one follows
 /// another.
 ///
