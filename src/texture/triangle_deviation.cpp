@@ -99,14 +99,14 @@ class PieceSearch {
   /// candidate covers, or on its border. What no candidate covers is left; all other candidates matter only where they
   /// touch that.
   TriangleDeviation run() {
-    covers_area_.assign(likely_, 0);
+    is_bounded_.assign(likely_, 0);
     if (overlay_.triangle().chart == Chart::Area)
       search_beside_near_ones();
     else
       search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
     std::vector<std::uint32_t> touching;
     for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
-      if (covers_area_[c] == 0) touching.push_back(c);
+      if (is_bounded_[c] == 0) touching.push_back(c);
     for (const Polygon& polygon : std::exchange(uncovered_, {})) {
       result_.uncovered = result_.uncovered + overlay_.share(polygon);
       for (const std::uint32_t c : touching) search_where_touched(polygon, c);
@@ -126,12 +126,12 @@ class PieceSearch {
       overlay_.clip(covered, c);
       const bool is_near = overlay_.is_within(c, upper) || is_within_limit(covered, c, upper);
       (is_near ? near : rest).push_back(c);
-      if (is_near && has_area(overlay_, covered)) covers_area_[c] = 1;
     }
     auto uncovered = Covering().uncovered(overlay_, near);
     if (near.empty() || !uncovered) return search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
     ++result_.pieces;
     accept(upper);
+    for (const std::uint32_t c : near) is_bounded_[c] = 1;
     for (Polygon& polygon : *uncovered) search(Piece{std::move(polygon), {}, rest});
   }
 
@@ -203,7 +203,7 @@ class PieceSearch {
       Line cut = 0;
       const Cover cover = cover_of(overlay_, piece.polygon, c, cut);
       if (cover == Cover::All) {
-        covers_area_[c] = 1;
+        is_bounded_[c] = 1;
         piece.full.push_back(c);
         if (lower_bound_to(piece, c, bound)) return std::nullopt;
       }
@@ -240,7 +240,7 @@ class PieceSearch {
   void add_others() {
     if (others_.empty()) return;
     for (const ChartTriangle* other : std::exchange(others_, {})) overlay_.add(*other);
-    covers_area_.resize(overlay_.candidates(), 0);
+    is_bounded_.resize(overlay_.candidates(), 0);
     unlikely_ = spanning_candidates(overlay_, likely_);
     Line cut = 0;
     std::erase_if(unlikely_, [&, whole = overlay_.whole()](std::uint32_t c) {
@@ -322,7 +322,7 @@ class PieceSearch {
   std::vector<Piece> stack_, spare_;
   std::vector<Line> cuts_;
   std::vector<Polygon> uncovered_;
-  std::vector<std::uint8_t> covers_area_;  ///< by candidate: it is known to cover more of A than a line or a point
+  std::vector<std::uint8_t> is_bounded_;  ///< by candidate: what it covers of A is known to lie in pieces with a bound
 };
 
 }  // namespace
