@@ -24,7 +24,7 @@ constexpr int max_minimax_steps = 4, max_minimax_steps_together = 2;
 constexpr int max_proofs = 4;
 
 /// For most edges so many samples show that no placement fits.
-constexpr std::size_t few_samples = 24;
+constexpr std::size_t few_samples = 32;
 
 /// Root mean square of the distances from the planes in the quadrics of an edge, in tolerances, beyond which the edge
 /// is refused at once. Of what samples and proofs would accept one in forty lies beyond, and most of it comes back when
@@ -33,13 +33,13 @@ constexpr double max_deviation_from_planes = 1.3;
 /// Root mean square up to which the placement of least cost is likely to fit.
 constexpr double likely_deviation_from_planes = 0.6;
 /// Where collapses are proven together, edges beyond this are left for later: they are near the limit.
-constexpr double max_deviation_together = 1.2;
+constexpr double max_deviation_together = 1;
 
 /// Beyond this deviation, in limits, a first step is hardly ever followed by one that ends below 1.
 constexpr double hopeful_deviation = 1.05;
 
 /// A placement is good enough where distances are this share of the limit: closest points move with it.
-constexpr double good_share = 0.9;
+constexpr double good_share = 0.95;
 
 /// Root mean square of the distances of an edge's best placement from the planes in the quadrics of its ends.
 double deviation_from_planes(const Placement& best, const Quadric& of_a, const Quadric& of_b) {
