@@ -24,7 +24,7 @@ constexpr int max_minimax_steps = 4, max_minimax_steps_together = 2;
 constexpr int max_proofs = 4;
 
 /// For most edges so many samples show that no placement fits.
-constexpr std::size_t few_samples = 32;
+constexpr std::size_t few_samples = 24;
 
 /// Root mean square of the distances from the planes in the quadrics of an edge, in tolerances, beyond which the edge
 /// is refused at once. Of what samples and proofs would accept one in forty lies beyond, and most of it comes back when
