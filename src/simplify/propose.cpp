@@ -32,13 +32,15 @@ constexpr std::size_t few_samples = 24;
 constexpr double max_deviation_from_planes = 1.3;
 /// Root mean square up to which the placement of least cost is likely to fit.
 constexpr double likely_deviation_from_planes = 0.6;
-/// Where collapses are proven together, edges beyond this are left for later: they are near the limit.
+/// Where collapses are proven together, edges beyond this are left for later: they are near the limit. With 1.2 a run
+/// takes 2% longer and leaves 0.1% fewer faces (37 meshes at 0.1%).
 constexpr double max_deviation_together = 1;
 
 /// Beyond this deviation, in limits, a first step is hardly ever followed by one that ends below 1.
 constexpr double hopeful_deviation = 1.05;
 
-/// A placement is good enough where distances are this share of the limit: closest points move with it.
+/// A placement is good enough where distances are this share of the limit: closest points move with it. With 0.9 a run
+/// takes 1% longer and leaves 0.1% more faces.
 constexpr double good_share = 0.95;
 
 /// Root mean square of the distances of an edge's best placement from the planes in the quadrics of its ends.
