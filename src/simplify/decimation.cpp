@@ -35,8 +35,10 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
   return result;
 }
 
-/// What samples may reach of the texture tolerance: between them the texture moves further.
-constexpr double share_of_texture_tolerance = 0.9;
+/// What samples may reach of the texture tolerance: between them the texture moves further, and what moves too far is
+/// taken back. With 0.9 a run takes 4% longer and leaves 0.2% more faces, with 0.85 it takes 2% less for 1.3% more (six
+/// models at three tolerances).
+constexpr double share_of_texture_tolerance = 0.88;
 
 bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 /// False at a border, and where a face has no area and so no normal.
