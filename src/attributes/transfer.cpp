@@ -137,9 +137,10 @@ class Transfer {
     if (!from_.texture_coordinates.empty()) result.texture_coordinates.index = no_values();
     for (const NamedAttribute& from : from_.named)
       result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, no_values()});
+    const bool has_own_coordinates = !level_.texture_coordinates.empty();
+    const bool needs_points = !has_own_coordinates || !from_.named.empty();
     for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
-      const bool has_own_coordinates = !level_.texture_coordinates.empty();
-      const WeightedPoint at = has_own_coordinates && from_.named.empty() ? WeightedPoint() : point_of_sector(corners);
+      const WeightedPoint at = needs_points ? point_of_sector(corners) : WeightedPoint();
       if (!from_.texture_coordinates.empty()) {
         const auto value =
             has_own_coordinates ? own_coordinate(corners.front()) : value_at(from_.texture_coordinates, at);

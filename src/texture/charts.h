@@ -31,7 +31,7 @@ struct ChartCandidates {
   std::vector<const ChartTriangle*> near;
   std::vector<const ChartTriangle*> others;
   std::optional<ChartCopy> copy;       ///< the nearest one, if one is within reach
-  std::vector<std::uint32_t> indices;  ///< of all of them
+  std::vector<std::uint32_t> indices;  ///< of the triangles above in their mesh
 };
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
@@ -41,7 +41,7 @@ class Charts {
   explicit Charts(const TexturedMesh& mesh);
 
   [[nodiscard]] const TexturedMesh& mesh() const { return mesh_; }
-  /// Of all texture coordinates and positions.
+  /// Units that all texture coordinates and positions of the mesh are multiples of.
   [[nodiscard]] const ExactUnits& units() const { return units_; }
   [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
 
@@ -60,7 +60,7 @@ class Charts {
   std::optional<BoxTree> tree_;
 };
 
-/// Units for both meshes.
+/// Units that the texture coordinates and positions of both meshes are multiples of.
 [[nodiscard]] ExactUnits common_units(const Charts& a, const Charts& b);
 
 }  // namespace meshbound

@@ -122,7 +122,7 @@ void Covering::add_edges(Overlay& overlay, std::uint32_t candidate) {
   }
 }
 
-/// Of edges along one segment the first stays where they do not cancel.
+/// Leaves one edge for each segment that more edges run along one way than the other: the first of them.
 void Covering::drop_edges_that_cancel() {
   const auto key = [](const Edge& e) { return std::tie(e.from->x(), e.from->y(), e.to->x(), e.to->y()); };
   std::sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& f) {

@@ -96,8 +96,10 @@ class Overlay {
   /// candidate must cover the point. An interval wider than `precision` is computed again exactly, to neighbouring
   /// doubles.
   [[nodiscard]] Bounds distance(std::uint32_t candidate, const Node& node, double precision);
-  /// The same by doubles: the interval may be as wide as anything.
+  /// Bounds of that distance by doubles alone: they enclose it, however far apart they are.
   [[nodiscard]] Bounds rough_distance(std::uint32_t candidate, const Node& node);
+  /// `distance`, where `rough` is what `rough_distance` says of the point.
+  [[nodiscard]] Bounds refined(const Bounds& rough, std::uint32_t candidate, const Node& node, double precision);
   /// Whether a quick look shows that no point of A is farther than `limit` from the point of the candidate with its
   /// texture coordinate. Both must have an area in the texture. The offset between these points is linear in the
   /// texture coordinate, so its length over what both cover is at most that at the corners of either, wherever these

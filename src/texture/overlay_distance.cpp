@@ -100,7 +100,10 @@ Bounds Overlay::rough_distance(std::uint32_t candidate, const Node& node) {
 }
 
 Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
-  const Bounds rough = rough_distance(candidate, node);
+  return refined(rough_distance(candidate, node), candidate, node, precision);
+}
+
+Bounds Overlay::refined(const Bounds& rough, std::uint32_t candidate, const Node& node, double precision) {
   return rough.upper - rough.lower <= precision ? rough : exact_distance(candidates_[candidate], node);
 }
 
@@ -108,8 +111,7 @@ bool Overlay::is_within(std::uint32_t candidate, double limit) {
   Candidate& c = candidates_[candidate];
   const auto is_near = [&](const Node& node) { return near_distance(c, node).upper <= limit; };
   if (std::all_of(whole_.begin(), whole_.end(), [&](const PolygonCorner& p) { return is_near(p.node); })) return true;
-  return is_near(crossing(c.lines[0], c.lines[1])) && is_near(crossing(c.lines[1], c.lines[2])) &&
-         is_near(crossing(c.lines[2], c.lines[0]));
+  return is_near(corner_of(candidate, 2)) && is_near(corner_of(candidate, 0)) && is_near(corner_of(candidate, 1));
 }
 
 /// A corner p of A, less the point of the candidate's plane with its texture coordinate: that is corner 0 plus

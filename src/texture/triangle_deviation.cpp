@@ -64,8 +64,9 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
   std::uint32_t candidate = 0;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     if (!overlay.covers(c, node)) continue;
-    if (result.far && overlay.rough_distance(c, node).upper <= result.bounds.lower) return;
-    const double lower = overlay.distance(c, node, precision).lower;
+    const Bounds rough = overlay.rough_distance(c, node);
+    if (result.far && rough.upper <= result.bounds.lower) return;
+    const double lower = overlay.refined(rough, c, node, precision).lower;
     if (lower < nearest) nearest = lower, candidate = c;
     if (result.far && nearest <= result.bounds.lower) return;
   }
@@ -78,12 +79,20 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
 double upper_at_corners(Overlay& overlay, const Polygon& covered, std::uint32_t candidate, double precision) {
   double upper = -1;
   for (const auto& corner : covered) {
-    if (overlay.rough_distance(candidate, corner.node).upper <= upper) continue;
-    upper = std::max(upper, overlay.distance(candidate, corner.node, precision).upper);
+    const Bounds rough = overlay.rough_distance(candidate, corner.node);
+    if (rough.upper <= upper) continue;
+    upper = std::max(upper, overlay.refined(rough, candidate, corner.node, precision).upper);
   }
   return upper;
 }
 
+/// Sets `covered` to what a candidate covers of A.
+void set_covered(Overlay& overlay, std::uint32_t candidate, Polygon& covered) {
+  covered = overlay.whole();
+  overlay.clip(covered, candidate);
+}
+
+/// Whether a candidate covers all of A.
 bool covers_all(Overlay& overlay, std::uint32_t candidate) {
   const Polygon& whole = overlay.whole();
   return std::all_of(whole.begin(), whole.end(),
@@ -118,17 +127,13 @@ class PieceSearch {
  private:
   /// Accepts what candidates cover that are within the limit everywhere, and searches the rest.
   void search_beside_near_ones() {
+    const std::vector<std::uint32_t> candidates = spanning_candidates(overlay_, 0);
     std::vector<std::uint32_t> near, rest;
     double upper = -1;
-    Polygon covered;
-    for (const std::uint32_t c : spanning_candidates(overlay_, 0)) {
-      covered = overlay_.whole();
-      overlay_.clip(covered, c);
-      const bool is_near = overlay_.is_within(c, upper) || is_within_limit(covered, c, upper);
-      (is_near ? near : rest).push_back(c);
-    }
-    auto uncovered = Covering().uncovered(overlay_, near);
-    if (near.empty() || !uncovered) return search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
+    for (const std::uint32_t c : candidates)
+      (overlay_.is_within(c, upper) || is_within_limit(c, upper) ? near : rest).push_back(c);
+    auto uncovered = near.empty() ? std::nullopt : Covering().uncovered(overlay_, near);
+    if (!uncovered) return search(Piece{overlay_.whole(), {}, candidates});
     ++result_.pieces;
     accept(upper);
     for (const std::uint32_t c : near) is_bounded_[c] = 1;
@@ -136,8 +141,9 @@ class PieceSearch {
   }
 
   /// Whether what the candidate covers is within the limit; then `upper` is raised to its bound.
-  bool is_within_limit(const Polygon& covered, std::uint32_t candidate, double& upper) {
-    const double bound = upper_at_corners(overlay_, covered, candidate, goal_.precision);
+  bool is_within_limit(std::uint32_t candidate, double& upper) {
+    set_covered(overlay_, candidate, covered_);
+    const double bound = upper_at_corners(overlay_, covered_, candidate, goal_.precision);
     if (bound > limit()) return false;
     upper = std::max(upper, bound);
     return true;
@@ -162,7 +168,7 @@ class PieceSearch {
     }
   }
 
-  /// A piece of which nothing is set: one that is done with, for its memory.
+  /// A piece to be set anew: one that is done with, for its memory, if there is one.
   Piece unused_piece() {
     if (spare_.empty()) return {};
     Piece piece = std::move(spare_.back());
@@ -179,7 +185,7 @@ class PieceSearch {
   double upper_at(std::uint32_t candidate, const Node& node, double known) {
     const Bounds rough = overlay_.rough_distance(candidate, node);
     if (rough.lower >= known || rough.upper <= limit()) return rough.upper;
-    return overlay_.distance(candidate, node, goal_.precision).upper;
+    return overlay_.refined(rough, candidate, node, goal_.precision).upper;
   }
 
   /// Lowers the bound to the candidate's, which must cover the piece: the largest at a corner, as the distance to one
@@ -253,9 +259,8 @@ class PieceSearch {
     add_others();
     for (const auto& corner : overlay_.whole()) raise(corner.node);
     for (std::uint32_t c = 0; c < overlay_.candidates() && !result_.far; ++c) {
-      Polygon covered = overlay_.whole();
-      overlay_.clip(covered, c);
-      if (!covered.empty()) raise(covered.front().node);
+      set_covered(overlay_, c, covered_);
+      if (!covered_.empty()) raise(covered_.front().node);
     }
   }
 
@@ -264,7 +269,7 @@ class PieceSearch {
     add_others();
     piece.part = unlikely_;
     piece.has_all = true;
-    stack_.push_back(std::exchange(piece, unused_piece()));
+    bound(piece);
   }
 
   void split(const Piece& piece, Line line) {
@@ -321,6 +326,7 @@ class PieceSearch {
   TriangleDeviation result_;
   std::vector<Piece> stack_, spare_;
   std::vector<Line> cuts_;
+  Polygon covered_;
   std::vector<Polygon> uncovered_;
   std::vector<std::uint8_t> is_bounded_;  ///< by candidate: what it covers of A is known to lie in pieces with a bound
 };
@@ -337,8 +343,7 @@ std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision
   Polygon covered;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     if (overlay.is_within(c, upper)) continue;
-    covered = overlay.whole();
-    overlay.clip(covered, c);
+    set_covered(overlay, c, covered);
     upper = std::max(upper, upper_at_corners(overlay, covered, c, precision));
   }
   return upper;
