@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::array layers = std::to_array<std::string_view>(
     {"numeric", "geometry", "mesh", "bvh", "proof", "distance/paper", "distance/kernel", "distance/shortcuts",
      "distance/search", "distance", "distance/levels", "deviation", "penetration", "scene", "attributes", "simplify/kernel", "simplify/mesh",
-     "simplify/cover", "simplify/texture", "simplify", "normals", "texture", "certificate", "texture_proof", "levels", "tiles", "view", "report", "cgal", "mpi"});
+     "simplify/cover", "simplify/normals", "simplify/texture", "simplify", "normals", "texture", "certificate", "texture_proof", "levels", "tiles", "view", "report", "cgal", "mpi"});
 // clang-format on
 constexpr std::size_t longest_file = 600;
 

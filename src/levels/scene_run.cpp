@@ -239,7 +239,7 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
 }
 
 /// A group is told which of its triangles are refuted by their numbers in one copy.
-bool SceneRun::take_back(const RefutedTriangles& refuted, std::size_t depth) {
+bool SceneRun::take_back(std::span<const Refuted> refuted, std::size_t depth) {
   if (groups_.size() == 1 && groups_.front().group.triangles.empty())
     return groups_.front().run->take_back(refuted, depth);
   std::vector<std::pair<Group*, std::uint32_t>> of_level, of_original(original_.triangles.size());
@@ -252,10 +252,13 @@ bool SceneRun::take_back(const RefutedTriangles& refuted, std::size_t depth) {
       for (const SceneCopy& copy : group.group.copies) of_original[copy.first_triangle + i] = {&group, i};
     }
   }
-  std::map<Group*, RefutedTriangles> by_group;
-  for (const std::uint32_t t : refuted.level) by_group[of_level[t].first].level.push_back(of_level[t].second);
-  for (const std::uint32_t t : refuted.original)
-    if (of_original[t].first != nullptr) by_group[of_original[t].first].original.push_back(of_original[t].second);
+  std::map<Group*, std::vector<Refuted>> by_group;
+  for (const auto& [original, face] : refuted) {
+    const auto [group, here] = original == no_index ? std::pair<Group*, std::uint32_t>() : of_original[original];
+    const auto [group_of_face, face_here] = face == no_index ? std::pair<Group*, std::uint32_t>() : of_level[face];
+    if (group != nullptr) by_group[group].push_back({here, group_of_face == group ? face_here : no_index});
+    if (group_of_face != nullptr && group_of_face != group) by_group[group_of_face].push_back({no_index, face_here});
+  }
   bool is_changed = false;
   for (const auto& item : by_group) {
     Group& group = *item.first;

@@ -300,7 +300,7 @@ EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationT
   return Run(state, goal, threads)();
 }
 
-bool take_back(DecimationState& state, const Unproven& refuted, std::size_t depth, DecimationThreads& threads) {
+bool take_back(DecimationState& state, std::span<const Refuted> refuted, std::size_t depth, DecimationThreads& threads) {
   std::fill(state.refused_at.begin(), state.refused_at.end(),
             state.clock + 1);  // only what this changes is tried again
   std::size_t restored = undo_refuted(state, refuted, depth).changes;

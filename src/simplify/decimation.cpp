@@ -141,7 +141,7 @@ void Decimation::make_state(const StopToken& stop) {
   if (keeps_sides()) note_turned_faces();
   if (has_lines()) set_lines();
   if (!options_.texture_coordinates.empty()) set_texture();
-  if (options_.normal_tolerance) state_->turns.emplace(state_->mesh, is_turned_over_, *options_.normal_tolerance);
+  if (options_.normal_tolerance) set_turns();
   if (keeps_sides()) state_->proven_changes.emplace(state_->mesh.face_count());
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
   state_->lock(locked());
@@ -215,14 +215,15 @@ std::vector<std::uint8_t> Decimation::locked() const {
   return locked;
 }
 
-bool Decimation::take_back(const RefutedTriangles& refuted, std::size_t depth) {
+bool Decimation::take_back(std::span<const Refuted> refuted, std::size_t depth) {
   const std::vector<std::uint32_t> faces = faces_in_order();
   const std::vector<std::uint32_t> index = index_of_caller_triangle();
-  Unproven unproven;
-  for (const std::uint32_t t : refuted.level)
-    if (t < faces.size()) unproven.faces.push_back(faces[t]);  // those after them are triangles of the original
-  for (const std::uint32_t t : refuted.original) unproven.originals.push_back(index[t]);
-  return meshbound::take_back(*state_, unproven, depth, *threads_);
+  std::vector<Refuted> here;
+  for (const auto& [original, face] : refuted) {
+    const bool has_face = face < faces.size();  // those after them are triangles of the original
+    here.push_back({original == no_index ? no_index : index[original], has_face ? faces[face] : no_index});
+  }
+  return meshbound::take_back(*state_, here, depth, *threads_);
 }
 
 void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {
@@ -292,6 +293,12 @@ bool Decimation::is_seam(Corner edge) const {
   };
   const double left = doubled_area(edge), right = doubled_area(twin);
   return (left > 0 && right > 0) || (left < 0 && right < 0);
+}
+
+void Decimation::set_turns() {
+  const double reach = frame_.length_to_frame(options_.tolerance);
+  state_->turns.emplace(state_->mesh, is_turned_over_,
+                        FaceTurns::Limits{*options_.normal_tolerance, reach, options_.threads > 0 ? options_.threads : omp_get_max_threads()});
 }
 
 void Decimation::set_texture() {

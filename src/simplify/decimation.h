@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meshbound/simplify.h"
@@ -11,12 +12,6 @@
 #include "simplify/working_frame.h"
 
 namespace meshbound {
-
-/// What a measurement has refuted, by index.
-struct RefutedTriangles {
-  std::vector<std::uint32_t> level;  ///< triangles of the level that was given out last
-  std::vector<std::uint32_t> original;
-};
 
 /// One decimation under growing tolerances: the state in its working frame, and the maps into that frame and back.
 class Decimation {
@@ -33,10 +28,10 @@ class Decimation {
   /// than in the call before.
   EndedBy run(double tolerance, std::size_t target_faces, const StopToken& stop);
 
-  /// Undoes what has led to triangles that a measurement of `current_mesh` refutes, for good:
-  /// the last `depth` changes of each. False if there are none. Needs texture coordinates or a tolerance
-  /// for normals in the options.
-  [[nodiscard]] bool take_back(const RefutedTriangles& refuted, std::size_t depth);
+  /// Undoes what has led to triangles that a measurement of `current_mesh` refutes, for good: the last `depth` changes
+  /// of each. The numbers are those of the original and of `current_mesh`. False if there are none. Needs texture
+  /// coordinates or a tolerance for normals in the options.
+  [[nodiscard]] bool take_back(std::span<const Refuted> refuted, std::size_t depth);
 
   /// The current mesh in model coordinates, with its sources. Vertices and triangles are in the order of the original.
   void current_mesh(SimplifiedLevel& into) const;
@@ -76,6 +71,7 @@ class Decimation {
   [[nodiscard]] bool is_seam(Corner edge) const;
   void note_turned_faces();
   void set_texture();
+  void set_turns();
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
   [[nodiscard]] double room() const;

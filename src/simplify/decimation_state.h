@@ -15,9 +15,9 @@
 #include "simplify/cover/original_clusters.h"
 #include "simplify/cover/slab_tree.h"
 #include "simplify/mesh/array_mesh.h"
-#include "simplify/mesh/face_turns.h"
 #include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/quadric.h"
+#include "simplify/normals/face_turns.h"
 #include "simplify/texture/texture_map.h"
 
 namespace meshbound {

@@ -118,7 +118,7 @@ void Proposer::gather_samples() {
   samples_.add_faces(taken_);
   samples_.compare(faces_);
   if (texture_) texture_->begin({star_.edge, star_.moved, star_.removed});
-  if (turns_) turns_->begin(star_.moved, star_.removed, state_.tolerance);
+  if (turns_) turns_->begin({star_.moved, star_.removed, origin_});
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -160,10 +160,14 @@ bool Proposer::fits(Vec3 point) {
 }
 
 bool Proposer::keeps_appearance(Vec3 point) {
-  if ((!turns_ || turns_->holds(point)) && (!texture_ || texture_->holds(point))) return true;
-  by_bound_ = false;
-  if (texture_) texture_deviation_ = std::min(texture_deviation_.value_or(HUGE_VALF), texture_->deviation());
-  return false;
+  const auto refuse = [&](float deviation) {
+    by_bound_ = false;
+    deviation_of_look_ = std::min(deviation_of_look_.value_or(HUGE_VALF), deviation);
+    return false;
+  };
+  if (turns_ && !turns_->holds(point, faces_)) return refuse(turns_->deviation());
+  if (texture_ && !texture_->holds(point)) return refuse(texture_->deviation());
+  return true;
 }
 
 /// Ends of border edges that the vertex of the collapse will have.
@@ -239,7 +243,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   ++counts.tried;
   by_bound_ = false;
   deviation_ = 0;
-  texture_deviation_.reset();
+  deviation_of_look_.reset();
   if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   const AllowedEnds ends = allowed_ends(edge);
@@ -260,7 +264,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
   if (const auto lower = minimax(tried_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (deviation_ <= 1 && !is_texture_far() && fits(end)) return end;
+    if (deviation_ <= 1 && !is_look_far() && fits(end)) return end;
   }
   return std::nullopt;
 }
@@ -300,7 +304,7 @@ void Proposer::take_few() {
 
 /// The placement, reached from `point`, where the largest distance is smallest or small enough.
 std::optional<Vec3> Proposer::minimax(Vec3 point) {
-  if (is_texture_far()) return std::nullopt;
+  if (is_look_far()) return std::nullopt;
   if (!set_faces(point)) {
     point = 0.5 * (state_.mesh.position(star_.kept) + state_.mesh.position(star_.gone));
     if (!set_faces(point)) return std::nullopt;
@@ -332,7 +336,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point) {
     MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     if (full_limit_ * step.here <= limit_) {
       if (fits(point)) return point;
-      if (is_texture_far()) return std::nullopt;
+      if (is_look_far()) return std::nullopt;
       if (!found_.empty()) {
         for (const Stray& stray : found_) add_stray(stray, point);
         strays_.insert(strays_.end(), found_.begin(), found_.end());
@@ -391,7 +395,7 @@ void Proposer::make_final(Region& region) {
   });
 }
 
-void Proposer::enter(const Split& split, const Region& region) { split_ = &split, region_ = region.id; }
+void Proposer::enter(const Split& split, const Region& region) { split_ = &split, region_ = region.id; if (turns_) turns_->enter(split.region_of_face, region.id); }
 
 bool Proposer::is_inside(Corner edge) const {
   if (split_->region_of.empty()) return true;

@@ -247,19 +247,22 @@ void undo_last(DecimationState& state, Region& region) {
 
 namespace {
 
+/// Blames the last changes around a triangle of the original. Returns whether there are any.
+bool blame_around(Undoing& undoing, NearestFaces& nearest, const DecimationState& state, std::uint32_t original) {
+  bool found = false;
+  for (const std::uint32_t v : state.triangles[original]) found = undoing.blame(nearest.to(v)) || found;
+  if (found) return true;
+  for (const std::uint32_t f : state.cover.faces_of(original)) found = undoing.blame(f) || found;
+  return found;
+}
+
 /// Blames the changes that caused what could not be proven. Returns whether there are any.
 bool blame(Undoing& undoing, const DecimationState& state, const Unproven& unproven) {
   NearestFaces nearest(state);
-  bool found_any = false;
-  for (const std::uint32_t f : unproven.faces) found_any = undoing.blame(f) || found_any;
-  for (const std::uint32_t t : unproven.originals) {
-    bool found = false;
-    for (const std::uint32_t v : state.triangles[t]) found = undoing.blame(nearest.to(v)) || found;
-    if (!found)
-      for (const std::uint32_t f : state.cover.faces_of(t)) found = undoing.blame(f) || found;
-    found_any = found_any || found;
-  }
-  return found_any;
+  bool found = false;
+  for (const std::uint32_t f : unproven.faces) found = undoing.blame(f) || found;
+  for (const std::uint32_t t : unproven.originals) found = blame_around(undoing, nearest, state, t) || found;
+  return found;
 }
 
 /// Undoes what was blamed. What lies around may be tried again.
@@ -300,10 +303,14 @@ Repair repair_proven(DecimationState& state, const Unproven& unproven) {
   return undo_proven(state, undoing);
 }
 
-Repair undo_refuted(DecimationState& state, const Unproven& refuted, std::size_t depth) {
+Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, std::size_t depth) {
   ProvenChanges& changes = *state.proven_changes;
   Undoing undoing(state, changes.last, changes.logs, depth);
-  (void)blame(undoing, state, refuted);
+  NearestFaces nearest(state);
+  for (const auto& [original, face] : refuted) {
+    if (original != no_index && blame_around(undoing, nearest, state, original)) continue;
+    if (face != no_index) (void)undoing.blame(face);
+  }
   const std::vector<Corner> edges = undoing.blamed_edges();
   state.refuted.resize(state.mesh.vertex_count(), 0);
   const Repair repair = undo_proven(state, undoing);

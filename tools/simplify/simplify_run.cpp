@@ -40,20 +40,15 @@ namespace {
 constexpr std::size_t max_rounds = 12;
 
 /// What of a level, or of the original, has moved too far in the texture or turned too much.
-RefutedTriangles refuted_by(const GatedOutput& output) {
-  RefutedTriangles refuted;
+std::vector<Refuted> refuted_by(const GatedOutput& output) {
+  std::vector<Refuted> refuted;
   if (const auto& texture = output.texture_deviation()) {
-    for (const TextureWitness& w : texture->a_to_b.exceeding) {
-      refuted.original.push_back(w.from.triangle);
-      refuted.level.push_back(w.nearest.triangle);
-    }
-    for (const TextureWitness& w : texture->b_to_a.exceeding) refuted.level.push_back(w.from.triangle);
+    for (const TextureWitness& w : texture->a_to_b.exceeding)
+      refuted.push_back({w.from.triangle, w.nearest.triangle});
+    for (const TextureWitness& w : texture->b_to_a.exceeding) refuted.push_back({no_index, w.from.triangle});
   }
   if (const auto& normals = output.normal_deviation())
-    for (const FaceTurn& turn : normals->exceeding) {
-      refuted.original.push_back(turn.from.triangle);
-      refuted.level.push_back(turn.nearest.triangle);
-    }
+    for (const FaceTurn& turn : normals->exceeding) refuted.push_back({turn.from.triangle, turn.nearest.triangle});
   return refuted;
 }
 

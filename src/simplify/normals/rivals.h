@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/vec3.h"
+
+namespace meshbound {
+
+/// A triangle with its unit normal, which is 0 where it has no area.
+struct FacedTriangle {
+  std::array<Vec3, 3> corners;
+  Vec3 normal;
+
+  [[nodiscard]] Vec3 middle() const { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
+};
+
+/// Which triangles could become the nearest one to the middle of another, though they face elsewhere: those of other
+/// sheets beside it, and across creases.
+class Rivals {
+ public:
+  struct Limits {
+    double reach = 0;       ///< largest distance of a rival
+    double min_cosine = 0;  ///< of the angle between triangles that are no rivals
+    int threads = 1;        ///< results are the same for every number
+  };
+
+  /// Finds up to `max_rivals` for each triangle, the nearest ones. O(n log n) where sheets lie further apart than half
+  /// the size of a triangle.
+  Rivals(std::span<const FacedTriangle> triangles, const Limits& limits);
+
+  static constexpr std::size_t max_rivals = 4;
+
+  /// The rivals of a triangle, the nearest one first.
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t triangle) const {
+    return std::span(rivals_[triangle].triangles).first(rivals_[triangle].count);
+  }
+  /// The triangles that have this one as a rival, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> with(std::uint32_t triangle) const {
+    return std::span(with_).subspan(first_with_[triangle], first_with_[triangle + 1] - first_with_[triangle]);
+  }
+
+ private:
+  struct Few {
+    std::array<std::uint32_t, max_rivals> triangles;
+    std::uint32_t count = 0;
+  };
+  void turn_round();
+
+  std::vector<Few> rivals_;                ///< by triangle
+  std::vector<std::uint32_t> first_with_;  ///< by triangle: index in `with_`
+  std::vector<std::uint32_t> with_;
+};
+
+}  // namespace meshbound

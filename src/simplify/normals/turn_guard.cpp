@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/normals/turn_guard.h"
+
+#include <algorithm>
+
+#include "simplify/mesh/face_box.h"
+
+namespace meshbound {
+namespace {
+
+/// Squared distances that differ by less than this share count as equal: the nearest point lies on a common edge.
+constexpr double tie = 1e-9;
+
+/// By how much squared distances in single precision may be off, with room: they only tell where doubles are needed.
+constexpr double single_precision = 1e-3;
+
+/// Faces around a vertex that are looked at: a hub has thousands, around which each collapse would look.
+constexpr std::size_t max_around = 24;
+
+constexpr std::size_t lanes = 8;
+
+void sort_unique(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+}  // namespace
+
+void TurnGuard::Compared::clear() {
+  samples.clear();
+  points.clear();
+}
+
+std::size_t TurnGuard::Compared::nearest(std::size_t i) const {
+  return static_cast<std::size_t>(offsets[i / lanes].face[i % lanes]);
+}
+
+double TurnGuard::Compared::squared(std::size_t i) const { return offsets[i / lanes].squared[i % lanes]; }
+
+void TurnGuard::add(std::uint32_t sample, Compared& to) const {
+  to.samples.push_back(sample);
+  to.points.add(turns_.sample(sample).at - origin_);
+}
+
+void TurnGuard::compare(Compared& compared, std::span<const SampleFace> faces) const {
+  compared.offsets.resize(compared.points.blocks.size());
+  kernel_.offsets(compared.points.blocks, faces, compared.offsets);
+}
+
+void TurnGuard::begin(const TurnedStar& star) {
+  origin_ = star.origin;
+  faces_.clear();
+  moved_.assign(star.moved.begin(), star.moved.end());
+  star_.assign(star.removed.begin(), star.removed.end());
+  for (const Corner c : star.moved) {
+    faces_.push_back({{Vec3{}, mesh_.position(mesh_.end(c)), mesh_.position(mesh_.apex(c))}, {}, c / 3});
+    star_.push_back(c / 3);
+  }
+  own_.clear();
+  for (const std::uint32_t face : star_) turns_.for_each_sample(face, [&](std::uint32_t s) { add(s, own_); });
+  std::sort(star_.begin(), star_.end());
+  has_others_ = false;
+}
+
+bool TurnGuard::is_in_star(std::uint32_t face) const { return std::binary_search(star_.begin(), star_.end(), face); }
+
+/// Finds the samples of faces that share a vertex with a face of the star but are not in it, and those that have a
+/// rival in the star. The vertices of a star all belong to the region of its collapse, so no other thread changes the
+/// faces around it or their samples.
+void TurnGuard::find_others() {
+  around_.clear();
+  for (const Corner c : moved_) {
+    for (const std::uint32_t v : {mesh_.end(c), mesh_.apex(c)}) {
+      std::size_t seen = 0;
+      mesh_.for_each_corner(v, [&](Corner d) {
+        around_.push_back(d / 3);
+        return ++seen < max_around;
+      });
+    }
+  }
+  sort_unique(around_);
+  numbers_.clear();
+  for (const std::uint32_t f : around_)
+    if (!is_in_star(f)) turns_.for_each_sample(f, [&](std::uint32_t s) { numbers_.push_back(s); });
+  for (const std::uint32_t s : own_.samples)
+    for (const std::uint32_t other : turns_.rivals().with(s))
+      if (is_beside(turns_.face_of(other))) numbers_.push_back(other);
+  sort_unique(numbers_);
+  others_.clear();
+  for (const std::uint32_t s : numbers_) add(s, others_);
+  squared_from_own_.assign(numbers_.size(), -1);
+  has_others_ = true;
+}
+
+/// The squared distance from a sample of the star to the nearest face outside that holds one of its rivals and from
+/// which it turns too much. Infinite where there is none that is nearer than `below`.
+double TurnGuard::squared_of_rivals(std::uint32_t sample, double below) const {
+  const FaceTurns::Sample& from = turns_.sample(sample);
+  const Eigen::Vector3d at = to_eigen(from.at);
+  double least = HUGE_VAL;
+  for (const std::uint32_t rival : turns_.rivals().of(sample)) {
+    const std::uint32_t face = turns_.face_of(rival);
+    if (!is_beside(face)) continue;
+    const std::array<Vec3, 3> corners = mesh_.triangle(face);
+    if (box_of(corners).squaredExteriorDistance(at) >= below) continue;
+    const double squared = squared_distance(corners, from.at);
+    if (squared < std::min(below, least) && !turns_.allows(from.normal, turns_.normal(face, corners))) least = squared;
+  }
+  return least;
+}
+
+TurnGuard::Nearest TurnGuard::nearest_face(const FaceTurns::Sample& sample) const {
+  Nearest nearest;
+  for (const Face& face : faces_) {
+    const double squared = squared_distance(face.corners, sample.at);
+    if (squared < nearest.squared) nearest.squared = squared, nearest.face = &face;
+    if (turns_.allows(sample.normal, face.normal))
+      nearest.squared_of_allowed = std::min(nearest.squared_of_allowed, squared);
+  }
+  return nearest;
+}
+
+/// Whether the sample of the star turns little, or the nearest face is a rival's.
+bool TurnGuard::holds_own(std::size_t i) {
+  const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
+  const double rivals = squared_of_rivals(own_.samples[i], (1 + single_precision) * own_.squared(i));
+  if (rivals == HUGE_VAL && turns_.allows(sample.normal, faces_[own_.nearest(i)].normal)) return true;
+  const Nearest nearest = nearest_face(sample);
+  if (nearest.squared_of_allowed <= (1 + tie) * std::min(nearest.squared, rivals)) return true;
+  deviation_ = nearest.squared <= rivals ? turns_.angle(sample.normal, nearest.face->normal) : 0;
+  return false;
+}
+
+/// Whether a sample of another face stays nearer to it, or turns little.
+bool TurnGuard::holds_other(std::size_t i) {
+  const FaceTurns::Sample& sample = turns_.sample(others_.samples[i]);
+  if (turns_.allows(sample.normal, faces_[others_.nearest(i)].normal)) return true;
+  double& from_own = squared_from_own_[i];
+  if (from_own < 0) from_own = squared_distance(mesh_.triangle(turns_.face_of(others_.samples[i])), sample.at);
+  if (from_own < (1 - single_precision) * others_.squared(i)) return true;
+  const Nearest nearest = nearest_face(sample);
+  if (nearest.squared >= (1 - tie) * from_own) return true;
+  if (nearest.squared_of_allowed <= (1 + tie) * nearest.squared) return true;
+  deviation_ = turns_.angle(sample.normal, nearest.face->normal);
+  return false;
+}
+
+bool TurnGuard::holds(Vec3 point, std::span<const SampleFace> faces) {
+  for (Face& face : faces_) {
+    face.corners[0] = point;
+    face.normal = turns_.normal(face.number, face.corners);
+  }
+  compare(own_, faces);
+  for (std::size_t i = 0; i < own_.samples.size(); ++i)
+    if (!holds_own(i)) return false;
+  if (!has_others_) find_others();
+  compare(others_, faces);
+  for (std::size_t i = 0; i < others_.samples.size(); ++i)
+    if (!holds_other(i)) return false;
+  return true;
+}
+
+void TurnGuard::give_samples(FaceTurns& turns) {
+  for (const std::uint32_t face : star_) turns.clear(face);
+  for (std::size_t i = 0; i < own_.samples.size(); ++i) turns.give_to(own_.samples[i], faces_[own_.nearest(i)].number);
+}
+
+}  // namespace meshbound

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+/// Refuses collapses after which faces of the original would turn too much, by the samples around them.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simplify/kernel/kernels.h"
+#include "simplify/normals/face_turns.h"
+
+namespace meshbound {
+
+/// The faces around the edge of a collapse.
+struct TurnedStar {
+  std::span<const Corner> moved;           ///< of faces that stay: the corner that moves
+  std::span<const std::uint32_t> removed;  ///< faces that go
+  Vec3 origin;                             ///< a point nearby
+};
+
+/// Compares the samples around a collapse with the faces as they would be: each must turn little from the nearest face,
+/// or from one of those that are nearest. Each thread needs its own.
+class TurnGuard {
+ public:
+  TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {}
+
+  /// Selects the region of the next stars, and what is known of regions: see `Split`.
+  void enter(std::span<const std::uint32_t> region_of_face, std::uint32_t region) {
+    region_of_face_ = region_of_face;
+    region_ = region;
+  }
+  /// Starts anew with these faces. O(samples).
+  void begin(const TurnedStar& star);
+  /// Whether no sample turns too much with the vertex at `point`. `faces` are those that stay, relative to the origin
+  /// of the star. Other faces count where they are nearer: those that hold rivals of a sample. So do samples of faces
+  /// around, and those that have a rival in the star, which one of its faces may come nearer to than their own. Samples
+  /// and faces of other regions are left out. O(samples * faces).
+  [[nodiscard]] bool holds(Vec3 point, std::span<const SampleFace> faces);
+  /// After a refusal: how much the sample turned that decided it, in tolerances.
+  [[nodiscard]] float deviation() const { return deviation_; }
+  /// Assigns the samples to the faces that stay, as `holds` has placed them last.
+  void give_samples(FaceTurns& turns);
+
+ private:
+  struct Face {
+    std::array<Vec3, 3> corners;  ///< the moving one first
+    Vec3 normal;
+    std::uint32_t number = 0;
+  };
+  /// Samples compared with the faces that stay.
+  struct Compared {
+    std::vector<std::uint32_t> samples;
+    SamplePoints points;
+    std::vector<SampleOffsets> offsets;
+
+    void clear();
+    [[nodiscard]] std::size_t nearest(std::size_t i) const;
+    [[nodiscard]] double squared(std::size_t i) const;
+  };
+  /// Of a sample, among the faces that stay.
+  struct Nearest {
+    const Face* face = nullptr;
+    double squared = HUGE_VAL;             ///< distance from it
+    double squared_of_allowed = HUGE_VAL;  ///< from the nearest of those that it turns little from
+  };
+  void add(std::uint32_t sample, Compared& to) const;
+  void compare(Compared& compared, std::span<const SampleFace> faces) const;
+  [[nodiscard]] bool is_in_star(std::uint32_t face) const;
+  /// Whether a face is outside the star, in the same region.
+  [[nodiscard]] bool is_beside(std::uint32_t face) const {
+    return (region_of_face_.empty() || region_of_face_[face] == region_) && !is_in_star(face);
+  }
+  [[nodiscard]] double squared_of_rivals(std::uint32_t sample, double below) const;
+  [[nodiscard]] Nearest nearest_face(const FaceTurns::Sample& sample) const;
+  [[nodiscard]] bool holds_own(std::size_t i);
+  [[nodiscard]] bool holds_other(std::size_t i);
+  void find_others();
+
+  const FaceTurns& turns_;
+  const ArrayMesh& mesh_;
+  SampleKernel kernel_ = simplify_kernels().samples;
+  std::span<const std::uint32_t> region_of_face_;
+  std::uint32_t region_ = 0;
+  Vec3 origin_;
+  std::vector<Corner> moved_;
+  std::vector<Face> faces_;               ///< that stay
+  std::vector<std::uint32_t> star_;       ///< all faces, ascending
+  Compared own_;                          ///< samples of the star
+  Compared others_;                       ///< samples of faces around it, or with rivals in it
+  std::vector<double> squared_from_own_;  ///< by sample of `others_`: from its face; negative: not known yet
+  bool has_others_ = false;               ///< they are known
+  std::vector<std::uint32_t> around_, numbers_;
+  float deviation_ = 0;
+};
+
+}  // namespace meshbound
