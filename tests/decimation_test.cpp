@@ -120,7 +120,7 @@ TEST_P(Decimation, TakesBackProvenChangesWhereTheyAreRefuted) {
   const SimplifiedLevel before = run.next(options.tolerance, 0);
   SimplifyResult counts_before, counts_after;
   run.describe(counts_before);
-  ASSERT_TRUE(run.take_back({{0}, {}}, 1));
+  ASSERT_TRUE(run.take_back(std::vector<Refuted>{{.face = 0}}, 1));
   SimplifiedLevel after = run.next(options.tolerance, 0);
   run.describe(counts_after);
   EXPECT_EQ(check_tolerance(Bvh(torus), Bvh(after.mesh), options.tolerance).verdict, Verdict::Within);
@@ -135,6 +135,33 @@ TEST_P(Decimation, TakesBackProvenChangesWhereTheyAreRefuted) {
   EXPECT_EQ(2 * after.collapses_performed + after.faces(), torus.triangles.size());
 }
 
+/// Where both an original and the face that stands for it are refuted, what has changed around the original is undone,
+/// and the face's own changes only where that is as it was.
+TEST_P(Decimation, TakesBackChangesOfTheFaceWhereTheOriginalHasNone) {
+  TriangleMesh pair = datasets::torus(1, 0.3, 60, 24);
+  const auto first = static_cast<std::uint32_t>(pair.vertices.size());
+  const auto of_torus = static_cast<std::uint32_t>(pair.triangles.size());
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(4, 0, 0), Eigen::Vector3d(3, 1, 0)})
+    pair.vertices.push_back(p);
+  pair.triangles.push_back({first, first + 1, first + 2});  // which no collapse changes
+  const SimplifyOptions options = with_changes_kept(this->options(0.01));
+  const auto restored_by = [&](const Refuted& refuted) {
+    LevelRun run(pair, options);
+    (void)run.next(options.tolerance, 0);
+    SimplifyResult result;
+    const bool is_changed = run.take_back(std::vector{refuted}, 1);
+    run.describe(result);
+    EXPECT_EQ(is_changed, result.counts.restored > 0);
+    return result.counts.restored;
+  };
+  EXPECT_EQ(restored_by({.original = of_torus}), 0U);
+  const std::size_t by_face = restored_by({.face = 0}), by_original = restored_by({.original = of_torus / 2});
+  EXPECT_GT(by_face, 0U);
+  EXPECT_GT(by_original, 0U);
+  EXPECT_EQ(restored_by({of_torus, 0}), by_face);
+  EXPECT_EQ(restored_by({of_torus / 2, 0}), by_original);
+}
+
 /// Each round takes something back for good, so that the original is left in the end.
 TEST_P(Decimation, TakesEverythingBackWhereEveryFaceIsRefutedAgainAndAgain) {
   const TriangleMesh sphere = datasets::icosphere(1, 3);
@@ -142,8 +169,13 @@ TEST_P(Decimation, TakesEverythingBackWhereEveryFaceIsRefutedAgainAndAgain) {
   LevelRun run(sphere, options);
   SimplifiedLevel level = run.next(options.tolerance, 0);
   EXPECT_LT(level.faces(), sphere.triangles.size() / 2);
-  const auto all_of = [](const TriangleMesh& mesh) { return numbers_below(mesh.triangles.size()); };
-  for (int round = 0; run.take_back({all_of(level.mesh), all_of(sphere)}, sphere.triangles.size()); ++round) {
+  const auto all_of = [&] {
+    std::vector<Refuted> all;
+    for (const std::uint32_t f : numbers_below(level.faces())) all.push_back({.face = f});
+    for (const std::uint32_t t : numbers_below(sphere.triangles.size())) all.push_back({.original = t});
+    return all;
+  };
+  for (int round = 0; run.take_back(all_of(), sphere.triangles.size()); ++round) {
     ASSERT_LT(round, 5);
     level = run.next(options.tolerance, 0);
   }

@@ -206,7 +206,7 @@ TEST(TurnGuard, LooksAtSamplesOfOtherSheets) {
     ArrayMesh mesh = sheets(apart);
     const FaceTurns turns = turns_of(mesh, 80);
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-      if (mesh.position(v).z > 0) mesh.move(v, mesh.position(v) + Vec3{0, 0, 0.25});
+      if (mesh.position(v).z > 0) mesh.move(v, mesh.position(v) + Vec3{0, 0, 0.15});
     const EdgeStar star = star_of(mesh);
     TurnGuard guard(turns, mesh);
     begin(guard, mesh, star);
