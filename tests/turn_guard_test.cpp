@@ -215,13 +215,13 @@ TEST(TurnGuard, LooksAtSamplesOfOtherSheets) {
   }
 }
 
-/// Faces of another region may change at any time.
+/// Faces of another region may change at any time; those between regions stay as they are.
 TEST(TurnGuard, LeavesOtherRegionsAlone) {
   const ArrayMesh mesh = sheets(0.2);
   const EdgeStar star = star_of(mesh);
   const FaceTurns turns = turns_of(mesh, 80);
   TurnGuard guard(turns, mesh);
-  for (const std::uint32_t of_upper : {0U, 1U}) {
+  for (const std::uint32_t of_upper : {0U, 1U, no_index}) {
     std::vector<std::uint32_t> region_of_face;
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f)
       region_of_face.push_back(mesh.triangle(f)[0].z > 0 ? of_upper : 0);
@@ -235,20 +235,28 @@ FacedTriangle triangle_at(Vec3 at, double looks) {
   return {{at, at + Vec3{1, 0, 0}, at + Vec3{0, 1, 0}}, {0, 0, looks}};
 }
 
-/// Rivals look elsewhere and are near: within half the square root of twice the area, here 0.5.
+std::vector<std::uint32_t> rivals_of(const meshbound::Rivals& rivals, std::uint32_t triangle) {
+  const auto of = rivals.of(triangle);
+  return {of.begin(), of.end()};
+}
+
+/// Rivals look elsewhere and are near: within twice the square root of twice the area, here 2.
 TEST(Rivals, AreTheNearestThatLookElsewhere) {
   std::vector<FacedTriangle> triangles{triangle_at({0, 0, 0}, 1), triangle_at({0, 0, 0.1}, 1)};
-  for (const double height : {0.45, 0.6, 0.2, 0.3, 0.35, 0.4}) triangles.push_back(triangle_at({0, 0, height}, -1));
+  for (const double height : {0.45, 0.6, 0.2, 0.3, 0.35, 0.4, 2.05})
+    triangles.push_back(triangle_at({0, 0, height}, -1));
   const meshbound::Rivals rivals(triangles, {10, 0.5, 1});
-  EXPECT_EQ(std::vector(rivals.of(0).begin(), rivals.of(0).end()), (std::vector<std::uint32_t>{4, 5, 6, 7}));
-  EXPECT_EQ(std::vector(rivals.of(3).begin(), rivals.of(3).end()), (std::vector<std::uint32_t>{1}));
+  using Numbers = std::vector<std::uint32_t>;
+  EXPECT_EQ(rivals_of(rivals, 0), (Numbers{4, 5, 6, 7}));
+  EXPECT_EQ(rivals_of(rivals, 3), (Numbers{1, 0}));
+  EXPECT_EQ(rivals_of(rivals, 8), (Numbers{1}));
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (std::uint32_t other = 0; other < triangles.size(); ++other) {
       const auto of = rivals.of(t), with = rivals.with(other);
       EXPECT_EQ(std::count(of.begin(), of.end(), other), std::count(with.begin(), with.end(), t));
     }
   const meshbound::Rivals near(triangles, {0.3, 0.5, 1});
-  EXPECT_EQ(std::vector(near.of(0).begin(), near.of(0).end()), (std::vector<std::uint32_t>{4, 5}));
+  EXPECT_EQ(rivals_of(near, 0), (Numbers{4, 5}));
 }
 
 TEST(Rivals, AreTheSameForEveryNumberOfThreads) {

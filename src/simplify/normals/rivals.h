@@ -27,8 +27,8 @@ class Rivals {
     int threads = 1;        ///< results are the same for every number
   };
 
-  /// Finds up to `max_rivals` for each triangle, the nearest ones. O(n log n) where sheets lie further apart than half
-  /// the size of a triangle.
+  /// Finds up to `max_rivals` for each triangle, the nearest ones. O(n log n) where triangles beside each other have
+  /// about the same size.
   Rivals(std::span<const FacedTriangle> triangles, const Limits& limits);
 
   static constexpr std::size_t max_rivals = 4;

@@ -79,16 +79,20 @@ void TurnGuard::find_others() {
     }
   }
   sort_unique(around_);
-  numbers_.clear();
-  for (const std::uint32_t f : around_)
-    if (!is_in_star(f)) turns_.for_each_sample(f, [&](std::uint32_t s) { numbers_.push_back(s); });
-  for (const std::uint32_t s : own_.samples)
-    for (const std::uint32_t other : turns_.rivals().with(s))
-      if (is_beside(turns_.face_of(other))) numbers_.push_back(other);
-  sort_unique(numbers_);
   others_.clear();
+  for (const std::uint32_t f : around_)
+    if (!is_in_star(f)) turns_.for_each_sample(f, [&](std::uint32_t s) { add(s, others_); });
+  numbers_.clear();
+  for (const std::uint32_t s : own_.samples) {
+    for (const std::uint32_t other : turns_.rivals().with(s)) {
+      const std::uint32_t face = turns_.face_of(other);
+      const bool is_known = is_in_star(face) || std::binary_search(around_.begin(), around_.end(), face);
+      if (!is_known && is_readable(face)) numbers_.push_back(other);
+    }
+  }
+  sort_unique(numbers_);
   for (const std::uint32_t s : numbers_) add(s, others_);
-  squared_from_own_.assign(numbers_.size(), -1);
+  squared_from_own_.assign(others_.samples.size(), -1);
   has_others_ = true;
 }
 
@@ -98,9 +102,11 @@ double TurnGuard::squared_of_rivals(std::uint32_t sample, double below) const {
   const FaceTurns::Sample& from = turns_.sample(sample);
   const Eigen::Vector3d at = to_eigen(from.at);
   double least = HUGE_VAL;
+  std::uint32_t last = no_index;  // rivals of a sample are often of one face
   for (const std::uint32_t rival : turns_.rivals().of(sample)) {
     const std::uint32_t face = turns_.face_of(rival);
-    if (!is_beside(face)) continue;
+    if (face == last || !is_readable(face) || is_in_star(face)) continue;
+    last = face;
     const std::array<Vec3, 3> corners = mesh_.triangle(face);
     if (box_of(corners).squaredExteriorDistance(at) >= below) continue;
     const double squared = squared_distance(corners, from.at);

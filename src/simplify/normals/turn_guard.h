@@ -33,8 +33,8 @@ class TurnGuard {
   void begin(const TurnedStar& star);
   /// Whether no sample turns too much with the vertex at `point`. `faces` are those that stay, relative to the origin
   /// of the star. Other faces count where they are nearer: those that hold rivals of a sample. So do samples of faces
-  /// around, and those that have a rival in the star, which one of its faces may come nearer to than their own. Samples
-  /// and faces of other regions are left out. O(samples * faces).
+  /// around, and those that have a rival in the star, which one of its faces may come nearer to than their own. What
+  /// other regions may change is left out. O(samples * faces).
   [[nodiscard]] bool holds(Vec3 point, std::span<const SampleFace> faces);
   /// After a refusal: how much the sample turned that decided it, in tolerances.
   [[nodiscard]] float deviation() const { return deviation_; }
@@ -66,9 +66,9 @@ class TurnGuard {
   void add(std::uint32_t sample, Compared& to) const;
   void compare(Compared& compared, std::span<const SampleFace> faces) const;
   [[nodiscard]] bool is_in_star(std::uint32_t face) const;
-  /// Whether a face is outside the star, in the same region.
-  [[nodiscard]] bool is_beside(std::uint32_t face) const {
-    return (region_of_face_.empty() || region_of_face_[face] == region_) && !is_in_star(face);
+  /// Whether no other thread changes the face: it is of the same region, or between regions and stays as it is.
+  [[nodiscard]] bool is_readable(std::uint32_t face) const {
+    return region_of_face_.empty() || region_of_face_[face] == region_ || region_of_face_[face] == no_index;
   }
   [[nodiscard]] double squared_of_rivals(std::uint32_t sample, double below) const;
   [[nodiscard]] Nearest nearest_face(const FaceTurns::Sample& sample) const;
