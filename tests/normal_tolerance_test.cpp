@@ -43,7 +43,7 @@ class NormalTolerance : public testing::TestWithParam<test::NamedDriver> {
   }
 };
 
-/// Without rivals 1,300 of 12,800 faces turn too much.
+/// Without rivals 530 of 25,600 faces turn too much.
 TEST_P(NormalTolerance, HoldsNearlyEverywhereWithoutAMeasurement) {
   const TriangleMesh sheets = two_sheets(80);
   const SimplifiedLevel level = decimate_levels(sheets, options()).last();
