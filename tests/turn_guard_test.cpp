@@ -197,6 +197,7 @@ TEST(TurnGuard, LooksForOtherSheetsAtItsSamples) {
     begin(guard, mesh, star);
     EXPECT_TRUE(holds(guard, mesh, star, {1.5, 2, 0.1}));
     EXPECT_EQ(holds(guard, mesh, star, {1.5, 2, 1}), apart > 0.5);
+    if (apart < 0.5) EXPECT_FLOAT_EQ(guard.deviation(), 180.0F / 80);  // the other sheet looks down
   }
 }
 

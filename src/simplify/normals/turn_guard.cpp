@@ -96,12 +96,12 @@ void TurnGuard::find_others() {
   has_others_ = true;
 }
 
-/// The squared distance from a sample of the star to the nearest face outside that holds one of its rivals and from
-/// which it turns too much. Infinite where there is none that is nearer than `below`.
-double TurnGuard::squared_of_rivals(std::uint32_t sample, double below) const {
+/// The face outside the star that holds one of the sample's rivals and from which it turns too much, if it is nearer
+/// than `below`: the nearest one.
+TurnGuard::RivalFace TurnGuard::nearest_rival(std::uint32_t sample, double below) const {
   const FaceTurns::Sample& from = turns_.sample(sample);
   const Eigen::Vector3d at = to_eigen(from.at);
-  double least = HUGE_VAL;
+  RivalFace nearest;
   std::uint32_t last = no_index;  // rivals of a sample are often of one face
   for (const std::uint32_t rival : turns_.rivals().of(sample)) {
     const std::uint32_t face = turns_.face_of(rival);
@@ -110,9 +110,10 @@ double TurnGuard::squared_of_rivals(std::uint32_t sample, double below) const {
     const std::array<Vec3, 3> corners = mesh_.triangle(face);
     if (box_of(corners).squaredExteriorDistance(at) >= below) continue;
     const double squared = squared_distance(corners, from.at);
-    if (squared < std::min(below, least) && !turns_.allows(from.normal, turns_.normal(face, corners))) least = squared;
+    const Vec3 normal = turns_.normal(face, corners);
+    if (squared < std::min(below, nearest.squared) && !turns_.allows(from.normal, normal)) nearest = {squared, normal};
   }
-  return least;
+  return nearest;
 }
 
 TurnGuard::Nearest TurnGuard::nearest_face(const FaceTurns::Sample& sample) const {
@@ -129,11 +130,11 @@ TurnGuard::Nearest TurnGuard::nearest_face(const FaceTurns::Sample& sample) cons
 /// Whether the sample of the star turns little, or the nearest face is a rival's.
 bool TurnGuard::holds_own(std::size_t i) {
   const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
-  const double rivals = squared_of_rivals(own_.samples[i], (1 + single_precision) * own_.squared(i));
-  if (rivals == HUGE_VAL && turns_.allows(sample.normal, faces_[own_.nearest(i)].normal)) return true;
+  const RivalFace rival = nearest_rival(own_.samples[i], (1 + single_precision) * own_.squared(i));
+  if (rival.squared == HUGE_VAL && turns_.allows(sample.normal, faces_[own_.nearest(i)].normal)) return true;
   const Nearest nearest = nearest_face(sample);
-  if (nearest.squared_of_allowed <= (1 + tie) * std::min(nearest.squared, rivals)) return true;
-  deviation_ = nearest.squared <= rivals ? turns_.angle(sample.normal, nearest.face->normal) : 0;
+  if (nearest.squared_of_allowed <= (1 + tie) * std::min(nearest.squared, rival.squared)) return true;
+  deviation_ = turns_.angle(sample.normal, nearest.squared <= rival.squared ? nearest.face->normal : rival.normal);
   return false;
 }
 

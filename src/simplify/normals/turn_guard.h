@@ -63,6 +63,10 @@ class TurnGuard {
     double squared = HUGE_VAL;             ///< distance from it
     double squared_of_allowed = HUGE_VAL;  ///< from the nearest of those that it turns little from
   };
+  struct RivalFace {
+    double squared = HUGE_VAL;  ///< distance from it
+    Vec3 normal;
+  };
   void add(std::uint32_t sample, Compared& to) const;
   void compare(Compared& compared, std::span<const SampleFace> faces) const;
   [[nodiscard]] bool is_in_star(std::uint32_t face) const;
@@ -70,7 +74,7 @@ class TurnGuard {
   [[nodiscard]] bool is_readable(std::uint32_t face) const {
     return region_of_face_.empty() || region_of_face_[face] == region_ || region_of_face_[face] == no_index;
   }
-  [[nodiscard]] double squared_of_rivals(std::uint32_t sample, double below) const;
+  [[nodiscard]] RivalFace nearest_rival(std::uint32_t sample, double below) const;
   [[nodiscard]] Nearest nearest_face(const FaceTurns::Sample& sample) const;
   [[nodiscard]] bool holds_own(std::size_t i);
   [[nodiscard]] bool holds_other(std::size_t i);
