@@ -296,6 +296,25 @@ TEST(TransferredAttributes, KeepNormalsOfATriangleThatOneOfAnotherDirectionIsNea
     for (const std::uint32_t i : result.index[t]) EXPECT_EQ(result.values[i], room.attributes.normals.values[t / 2]);
 }
 
+/// A triangle whose corners all look elsewhere, as it was: nothing is looked up or averaged over it.
+TEST(TransferredAttributes, KeepNormalsOfATriangleThatStays) {
+  Textured cap;
+  cap.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  cap.mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+  for (const Eigen::Vector3d& p : cap.mesh.vertices)
+    cap.attributes.normals.values.push_back(Eigen::Vector3d(p.x() - 0.4, p.y() - 0.3, 0.5).normalized());
+  cap.attributes.normals.index = cap.mesh.triangles;
+  SimplifiedLevel level;
+  level.mesh = cap.mesh;
+  level.mesh.vertices[3] = {1.2, 1.3, 0};  // of the second triangle alone
+  level.mesh.triangles[0] = {2, 0, 1};
+  level.source_triangle = {0, 1};
+  const CornerAttribute result = transferred_attributes(cap.mesh, cap.attributes, level).normals;
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_LT((result.values[result.index[0][k]] - cap.attributes.normals.values[level.mesh.triangles[0][k]]).norm(),
+              1e-15);
+}
+
 /// A level with six vertices of a tube, at uneven distances.
 TEST(TransferredAttributes, KeepNormalsOfVerticesOfASmoothSurface) {
   Textured round = tube(48, 1);

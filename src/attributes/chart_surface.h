@@ -18,6 +18,10 @@ struct WeightedPoint {
   std::uint32_t triangle = 0;
   Eigen::Vector3d weights = {1, 0, 0};
 
+  /// A corner 3 t + k.
+  [[nodiscard]] static WeightedPoint at_corner(std::uint32_t corner) {
+    return {corner / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(corner % 3))};
+  }
   /// The corner with the largest weight; the first one among equals.
   [[nodiscard]] std::size_t nearest_corner() const;
 };

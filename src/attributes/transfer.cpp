@@ -65,12 +65,16 @@ Eigen::Vector3d direction(const std::array<Eigen::Vector3d, 3>& corners) {
   return u.cross((corners[2] - corners[0]).stableNormalized()).stableNormalized();
 }
 
+/// Whether the second point is the first one, or its rounding to floats.
+bool is_rounded(const Eigen::Vector3d& p, const Eigen::Vector3d& rounded) {
+  return rounded == p || rounded == p.cast<float>().cast<double>();
+}
+
 /// Whether every vertex of a level is known to stand where its source does, but for the rounding to floats.
 bool stands_on_vertices(const TriangleMesh& original, const SimplifiedLevel& level) {
   if (level.source_vertex.size() != level.mesh.vertices.size()) return false;
   for (std::size_t v = 0; v < level.mesh.vertices.size(); ++v) {
-    const Eigen::Vector3d &p = level.mesh.vertices[v], &source = original.vertices[level.source_vertex[v]];
-    if (p != source && p != source.cast<float>().cast<double>()) return false;
+    if (!is_rounded(original.vertices[level.source_vertex[v]], level.mesh.vertices[v])) return false;
   }
   return true;
 }
@@ -171,8 +175,7 @@ class Transfer {
   WeightedPoint point_of_sector(const std::vector<std::uint32_t>& corners) {
     const std::uint32_t c = corners.front();
     if (keeps_vertices_ || on_line_[vertex(c)] != 0) {
-      if (const auto of_original = corner_of_original(corners))
-        return {*of_original / 3, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(*of_original % 3))};
+      if (const auto of_original = corner_of_original(corners)) return WeightedPoint::at_corner(*of_original);
     }
     return original().closest(chart(c), position(c));
   }
@@ -234,10 +237,26 @@ class Transfer {
     return normal.dot(normal_inside) >= smooth_cosine ? normal : normal_inside;
   }
 
+  /// The corner of the original that the corner of a triangle is where the triangle is one of the original as it was.
+  [[nodiscard]] std::optional<std::uint32_t> unchanged(std::uint32_t corner) const {
+    const std::uint32_t triangle = corner / 3, source = level_.source_triangle[triangle];
+    const Triangle &now = level_.mesh.triangles[triangle], &before = original_mesh_.triangles[source];
+    const auto is_same = [&](std::size_t k, std::size_t j) {
+      return is_rounded(original_mesh_.vertices[before[j]], level_.mesh.vertices[now[k]]);
+    };
+    for (std::uint32_t turn = 0; turn < 3; ++turn)
+      if (is_same(0, turn) && is_same(1, (turn + 1) % 3) && is_same(2, (turn + 2) % 3))
+        return 3 * source + (corner % 3 + turn) % 3;
+    return std::nullopt;
+  }
+
   CornerAttribute normals() {
     ChartSurface smooth(original_mesh_, from_, NormalSeams::Counted);
     std::vector<Eigen::Vector3d> by_corner;
-    for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) by_corner.push_back(normal_of(c, smooth));
+    for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) {
+      const auto source = unchanged(c);
+      by_corner.push_back(source ? normal_at(WeightedPoint::at_corner(*source)) : normal_of(c, smooth));
+    }
     return keeps_vertices_ ? normals_of_vertices(by_corner) : shared_means(by_corner);
   }
 
