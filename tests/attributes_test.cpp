@@ -296,7 +296,7 @@ TEST(TransferredAttributes, KeepNormalsOfATriangleThatOneOfAnotherDirectionIsNea
     for (const std::uint32_t i : result.index[t]) EXPECT_EQ(result.values[i], room.attributes.normals.values[t / 2]);
 }
 
-/// A triangle whose corners all look elsewhere, as it was: nothing is looked up or averaged over it.
+/// A triangle whose corners all look elsewhere, as it was but for the corner that it starts with.
 TEST(TransferredAttributes, KeepNormalsOfATriangleThatStays) {
   Textured cap;
   cap.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
