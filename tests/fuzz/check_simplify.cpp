@@ -106,6 +106,8 @@ SimplifyOptions options_for(Source& source, const TriangleMesh& mesh, const Mesh
   if (rest / 64 == 3) options.target_faces = source.below(8);
   if (rest / 64 == 1) add_texture(options, attributes);
   if (rest / 64 == 1) options.texture_tolerance = length();
+  const unsigned normals = source.take<std::uint8_t>();
+  if (normals % 4 == 3) options.normal_tolerance = 180.0 * (normals / 4) / 63;
   return options;
 }
 
