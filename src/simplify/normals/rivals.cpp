@@ -42,6 +42,7 @@ Rivals::Rivals(std::span<const FacedTriangle> triangles, const Limits& limits) :
       tree.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found);
       for (const std::uint32_t other : found) {
         if (dot(triangles[t].normal, triangles[other].normal) >= limits.min_cosine) continue;
+        if (boxes[other].squaredExteriorDistance(to_eigen(middle)) > reach * reach) continue;
         const double squared = squared_distance(triangles[other].corners, middle);
         if (squared <= reach * reach) near.emplace_back(squared, other);
       }
