@@ -17,6 +17,9 @@ constexpr double single_precision = 1e-3;
 /// Faces around a vertex that are looked at: a hub has thousands, around which each collapse would look.
 constexpr std::size_t max_around = 24;
 
+/// Samples with one rival that are looked at: a floor is the rival of thousands.
+constexpr std::size_t max_with_rival = 64;
+
 constexpr std::size_t lanes = 8;
 
 void sort_unique(std::vector<std::uint32_t>& numbers) {
@@ -84,7 +87,8 @@ void TurnGuard::find_others() {
     if (!is_in_star(f)) turns_.for_each_sample(f, [&](std::uint32_t s) { add(s, others_); });
   numbers_.clear();
   for (const std::uint32_t s : own_.samples) {
-    for (const std::uint32_t other : turns_.rivals().with(s)) {
+    const auto with = turns_.rivals().with(s);
+    for (const std::uint32_t other : with.first(std::min(with.size(), max_with_rival))) {
       const std::uint32_t face = turns_.face_of(other);
       const bool is_known = is_in_star(face) || std::binary_search(around_.begin(), around_.end(), face);
       if (!is_known && is_readable(face)) numbers_.push_back(other);

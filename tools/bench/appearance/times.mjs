@@ -1,17 +1,19 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: MIT
 // What a texture tolerance costs: seconds of simplify_with_bound with --texture-tolerance and without, one
-// thread, the best of five runs of each in turn. Prints a table in Markdown. Needs the tools in build/tools and Node.js.
-// Usage: tools/bench/appearance/times.mjs MODEL.obj...
+// thread, the best of five runs of each in turn; with --all also a line tolerance and 30 degrees for normals. Prints a
+// table in Markdown. Needs the tools in build/tools and Node.js.
+// Usage: tools/bench/appearance/times.mjs [--all] MODEL.obj...
 import { spawnSync } from 'node:child_process';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
-const models = process.argv.slice(2);
+const models = process.argv.slice(2).filter((argument) => argument !== '--all');
+const all = models.length < process.argv.length - 2;
 if (models.length === 0) {
-  console.error('usage: tools/bench/appearance/times.mjs MODEL.obj...');
+  console.error('usage: tools/bench/appearance/times.mjs [--all] MODEL.obj...');
   process.exit(2);
 }
 const percents = ['1%', '0.3%', '0.1%'];
@@ -40,7 +42,8 @@ for (const model of models) {
     let bare, textured;
     for (let i = 0; i < runs; ++i) {
       bare = better(bare, run(model, percent, []));
-      textured = better(textured, run(model, percent, ['--texture-tolerance', percent]));
+      const more = all ? ['--line-tolerance', percent, '--normal-tolerance', '30'] : [];
+      textured = better(textured, run(model, percent, ['--texture-tolerance', percent, ...more]));
     }
     const ratio = textured.seconds / bare.seconds;
     ratios.push(ratio);
