@@ -160,13 +160,13 @@ bool Proposer::fits(Vec3 point) {
 }
 
 bool Proposer::keeps_appearance(Vec3 point) {
-  const auto refuse = [&](float deviation) {
+  const auto refuse = [&](std::optional<float>& least, float deviation) {
     by_bound_ = false;
-    deviation_of_look_ = std::min(deviation_of_look_.value_or(HUGE_VALF), deviation);
+    least = std::min(least.value_or(HUGE_VALF), deviation);
     return false;
   };
-  if (turns_ && !turns_->holds(point, faces_)) return refuse(turns_->deviation());
-  if (texture_ && !texture_->holds(point)) return refuse(texture_->deviation());
+  if (turns_ && !turns_->holds(point, faces_)) return refuse(turn_deviation_, turns_->deviation());
+  if (texture_ && !texture_->holds(point)) return refuse(texture_deviation_, texture_->deviation());
   return true;
 }
 
@@ -243,7 +243,8 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   ++counts.tried;
   by_bound_ = false;
   deviation_ = 0;
-  deviation_of_look_.reset();
+  texture_deviation_.reset();
+  turn_deviation_.reset();
   if (!star_.gather(state_.mesh, edge)) return std::nullopt;
   const std::uint32_t kept = star_.kept, gone = star_.gone;
   const AllowedEnds ends = allowed_ends(edge);
@@ -264,7 +265,7 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
   if (const auto lower = minimax(tried_)) return lower;
   for (const Vec3 end : {p, q}) {
-    if (deviation_ <= 1 && !is_look_far() && fits(end)) return end;
+    if (deviation_ <= 1 && !is_texture_far() && fits(end)) return end;
   }
   return std::nullopt;
 }
@@ -304,7 +305,7 @@ void Proposer::take_few() {
 
 /// The placement, reached from `point`, where the largest distance is smallest or small enough.
 std::optional<Vec3> Proposer::minimax(Vec3 point) {
-  if (is_look_far()) return std::nullopt;
+  if (is_texture_far()) return std::nullopt;
   if (!set_faces(point)) {
     point = 0.5 * (state_.mesh.position(star_.kept) + state_.mesh.position(star_.gone));
     if (!set_faces(point)) return std::nullopt;
@@ -336,7 +337,7 @@ std::optional<Vec3> Proposer::minimax(Vec3 point) {
     MinimaxStep step = minimax_step(deviations_, deviation_kernel_, low_deviation);
     if (full_limit_ * step.here <= limit_) {
       if (fits(point)) return point;
-      if (is_look_far()) return std::nullopt;
+      if (is_texture_far()) return std::nullopt;
       if (!found_.empty()) {
         for (const Stray& stray : found_) add_stray(stray, point);
         strays_.insert(strays_.end(), found_.begin(), found_.end());
@@ -395,7 +396,10 @@ void Proposer::make_final(Region& region) {
   });
 }
 
-void Proposer::enter(const Split& split, const Region& region) { split_ = &split, region_ = region.id; if (turns_) turns_->enter(split.region_of_face, region.id); }
+void Proposer::enter(const Split& split, const Region& region) {
+  split_ = &split, region_ = region.id;
+  if (turns_) turns_->enter(split.region_of_face, region.id);
+}
 
 bool Proposer::is_inside(Corner edge) const {
   if (split_->region_of.empty()) return true;

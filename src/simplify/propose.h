@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Proposals: collapses, moves and flips that samples of the original find near enough. They prove nothing.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -63,7 +64,9 @@ class Proposer {
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
   /// How far samples, in space or of the texture, were from the best placement of the edge refused last, or how much
   /// they turned there, in tolerances; 0 where that is not known.
-  [[nodiscard]] float deviation() const { return std::max(deviation_, deviation_of_look_.value_or(0)); }
+  [[nodiscard]] float deviation() const {
+    return std::max({deviation_, texture_deviation_.value_or(0), turn_deviation_.value_or(0)});
+  }
   /// Another placement for the edge asked for last, as the proof of the collapse to `refuted` has found that it leaves
   /// this point of the original too far from the faces. Absent where there is no such point or no such placement, or
   /// where enough have been refuted.
@@ -100,9 +103,9 @@ class Proposer {
   void add_stray(const Stray& stray, Vec3 point);
   [[nodiscard]] bool fits(Vec3 point);
   [[nodiscard]] bool keeps_appearance(Vec3 point);
-  /// Whether the texture has moved so far at a placement, or faces have turned so much, that no other one of the edge is
-  /// worth a look: two in a thousand of those looked at would hold.
-  [[nodiscard]] bool is_look_far() const { return deviation_of_look_ && is_far_beyond(*deviation_of_look_); }
+  /// Whether the texture has moved so far at a placement that no other one of the edge is worth a look: two in a
+  /// thousand of those looked at would hold.
+  [[nodiscard]] bool is_texture_far() const { return texture_deviation_ && is_far_beyond(*texture_deviation_); }
   void find_borders();
   [[nodiscard]] bool is_vertex_near(Vec3 point);
   void look_along(Vec3 point, Vec3 end, const PointsOnEdge& points);
@@ -128,10 +131,10 @@ class Proposer {
   std::vector<Stray> found_;           ///< points too far from the original that `fits` found last
   std::vector<Stray> strays_;          ///< those that the placement must bring near it
   float deviation_ = 0;
-  /// Of texture or normals: the least of refused placements of the edge, in their tolerances.
-  std::optional<float> deviation_of_look_;
-  bool by_bound_ = false;                   ///< samples decided the refusal
-  Vec3 tried_;                              ///< the first placement
+  /// The least of refused placements of the edge, in tolerances of texture and normals.
+  std::optional<float> texture_deviation_, turn_deviation_;
+  bool by_bound_ = false;  ///< samples decided the refusal
+  Vec3 tried_;             ///< the first placement
   Vec3 origin_;
   std::vector<Vec3> borders_;  ///< other ends of border edges
   SamplePoints few_;
