@@ -28,9 +28,9 @@ struct DecimationGoal {
 /// goal, whatever ended it; that tolerance must not be smaller than that of the call before.
 [[nodiscard]] EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads);
 
-/// Undoes what has led to what is refuted by a measurement of the mesh, and proves the state again: the last `depth`
-/// changes of each face. False if there are none. `DecimationState::proven_changes` must be set.
-[[nodiscard]] bool take_back(DecimationState& state, std::span<const Refuted> refuted, std::size_t depth,
+/// Undoes what has led to what is refuted by a measurement of the mesh, and proves the state again. False if there is
+/// nothing to undo. `DecimationState::proven_changes` must be set.
+[[nodiscard]] bool take_back(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how,
                              DecimationThreads& threads);
 
 }  // namespace meshbound

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 #include "numeric/no_index.h"
@@ -10,6 +11,12 @@ namespace meshbound {
 /// both.
 struct Refuted {
   std::uint32_t original = no_index, face = no_index;
+};
+
+/// How far to go back where a measurement has refuted something.
+struct TakeBack {
+  std::size_t depth = 1;        ///< so many of the last changes of each face that is blamed are undone
+  bool stays_as_it_is = false;  ///< nothing that comes back is changed again; else only what led to it is not made again
 };
 
 }  // namespace meshbound

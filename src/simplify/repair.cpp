@@ -303,9 +303,9 @@ Repair repair_proven(DecimationState& state, const Unproven& unproven) {
   return undo_proven(state, undoing);
 }
 
-Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, std::size_t depth) {
+Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how) {
   ProvenChanges& changes = *state.proven_changes;
-  Undoing undoing(state, changes.last, changes.logs, depth);
+  Undoing undoing(state, changes.last, changes.logs, how.depth);
   NearestFaces nearest(state);
   for (const auto& [original, face] : refuted) {
     if (original != no_index && blame_around(undoing, nearest, state, original)) continue;
@@ -316,6 +316,10 @@ Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, st
   const Repair repair = undo_proven(state, undoing);
   for (const Corner edge : edges)
     for (const std::uint32_t v : {state.mesh.start(edge), state.mesh.end(edge)}) state.refuted[v] = 1;
+  if (!how.stays_as_it_is) return repair;
+  for (const std::uint32_t face : repair.faces)
+    if (!state.mesh.is_removed(face))
+      for (const std::uint32_t v : state.mesh.corners(face)) state.refuted[v] = 1;
   return repair;
 }
 

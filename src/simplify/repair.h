@@ -18,10 +18,10 @@ struct Repair {
 /// As `repair`, but undoes proven changes: `DecimationState::proven_changes` must be set, and nothing else be unproven.
 /// The faces that this changes are unproven then.
 [[nodiscard]] Repair repair_proven(DecimationState& state, const Unproven& unproven);
-/// Undoes proven changes that led to what is refuted: so many of the last changes of each face that is blamed, and those
-/// made on top of them. A face is blamed only where none of those around the original has changed. The vertices of the
-/// changes are `DecimationState::refuted`. The faces that this changes are unproven then.
-[[nodiscard]] Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, std::size_t depth);
+/// Undoes proven changes that led to what is refuted, and those made on top of them. A face is blamed only where none of
+/// those around the original has changed. The vertices of the changes are `DecimationState::refuted`. The faces that
+/// this changes are unproven then.
+[[nodiscard]] Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how);
 
 /// Notes a change of a region that is about to be made to these faces. `edge` is that of the `Edit`.
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
