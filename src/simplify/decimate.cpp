@@ -300,7 +300,8 @@ EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationT
   return Run(state, goal, threads)();
 }
 
-bool take_back(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how, DecimationThreads& threads) {
+bool take_back(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how,
+               DecimationThreads& threads) {
   std::fill(state.refused_at.begin(), state.refused_at.end(),
             state.clock + 1);  // only what this changes is tried again
   std::size_t restored = undo_refuted(state, refuted, how).changes;
