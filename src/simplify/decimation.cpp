@@ -298,7 +298,8 @@ bool Decimation::is_seam(Corner edge) const {
 void Decimation::set_turns() {
   const double reach = frame_.length_to_frame(options_.tolerance);
   state_->turns.emplace(state_->mesh, is_turned_over_,
-                        FaceTurns::Limits{*options_.normal_tolerance, reach, options_.threads > 0 ? options_.threads : omp_get_max_threads()});
+                        FaceTurns::Limits{*options_.normal_tolerance, reach,
+                                          options_.threads > 0 ? options_.threads : omp_get_max_threads()});
 }
 
 void Decimation::set_texture() {

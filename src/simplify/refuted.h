@@ -15,8 +15,9 @@ struct Refuted {
 
 /// How far to go back where a measurement has refuted something.
 struct TakeBack {
-  std::size_t depth = 1;        ///< so many of the last changes of each face that is blamed are undone
-  bool stays_as_it_is = false;  ///< nothing that comes back is changed again; else only what led to it is not made again
+  std::size_t depth = 1;  ///< so many of the last changes of each face that is blamed are undone
+  bool stays_as_it_is =
+      false;  ///< nothing that comes back is changed again; else only what led to it is not made again
 };
 
 }  // namespace meshbound

@@ -18,8 +18,8 @@ struct Repair {
 /// As `repair`, but undoes proven changes: `DecimationState::proven_changes` must be set, and nothing else be unproven.
 /// The faces that this changes are unproven then.
 [[nodiscard]] Repair repair_proven(DecimationState& state, const Unproven& unproven);
-/// Undoes proven changes that led to what is refuted, and those made on top of them. A face is blamed only where none of
-/// those around the original has changed. The vertices of the changes are `DecimationState::refuted`. The faces that
+/// Undoes proven changes that led to what is refuted, and those made on top of them. A face is blamed only where none
+/// of those around the original has changed. The vertices of the changes are `DecimationState::refuted`. The faces that
 /// this changes are unproven then.
 [[nodiscard]] Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how);
 
