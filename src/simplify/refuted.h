@@ -15,9 +15,10 @@ struct Refuted {
 
 /// How far to go back where a measurement has refuted something.
 struct TakeBack {
-  std::size_t depth = 1;  ///< so many of the last changes of each face that is blamed are undone
-  bool stays_as_it_is =
-      false;  ///< nothing that comes back is changed again; else only what led to it is not made again
+  /// So many of the last changes of each face that is blamed are undone.
+  std::size_t depth = 1;
+  /// Nothing that comes back is changed again. Otherwise only what led to it is not made again.
+  bool stays_as_it_is = false;
 };
 
 }  // namespace meshbound

@@ -25,34 +25,53 @@ double size_of(const FacedTriangle& triangle) {
   return std::sqrt(length(cross(b - a, c - a)));
 }
 
+/// Looks for the rivals of one triangle after the other. One for each thread.
+class RivalSearch {
+ public:
+  RivalSearch(std::span<const FacedTriangle> triangles, std::span<const Eigen::AlignedBox3d> boxes, const BoxTree& tree,
+              const Rivals::Limits& limits)
+      : triangles_(triangles), boxes_(boxes), tree_(tree), limits_(limits) {}
+
+  /// The rivals, by squared distance, with their numbers.
+  std::span<const std::pair<double, std::uint32_t>> run(const FacedTriangle& triangle) {
+    const Vec3 middle = triangle.middle();
+    const double reach = std::min(limits_.reach, sizes_within_reach * size_of(triangle));
+    found_.clear();
+    near_.clear();
+    tree_.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found_);
+    for (const std::uint32_t other : found_) {
+      if (dot(triangle.normal, triangles_[other].normal) >= limits_.min_cosine) continue;
+      if (boxes_[other].squaredExteriorDistance(to_eigen(middle)) > reach * reach) continue;
+      const double squared = squared_distance(triangles_[other].corners, middle);
+      if (squared <= reach * reach) near_.emplace_back(squared, other);
+    }
+    const std::size_t count = std::min(near_.size(), Rivals::max_rivals);
+    std::partial_sort(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(count), near_.end());
+    return std::span(near_).first(count);
+  }
+
+ private:
+  std::span<const FacedTriangle> triangles_;
+  std::span<const Eigen::AlignedBox3d> boxes_;
+  const BoxTree& tree_;
+  const Rivals::Limits& limits_;
+  std::vector<std::uint32_t> found_;
+  std::vector<std::pair<double, std::uint32_t>> near_;
+};
+
 }  // namespace
 
 Rivals::Rivals(std::span<const FacedTriangle> triangles, const Limits& limits) : rivals_(triangles.size()) {
   std::vector<Eigen::AlignedBox3d> boxes(triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(triangles[t].corners);
   const BoxTree tree(boxes);
-  const auto find = [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> found;
-    std::vector<std::pair<double, std::uint32_t>> near;  // squared distance and number
-    for (std::size_t t = begin; t < end; ++t) {
-      const Vec3 middle = triangles[t].middle();
-      const double reach = std::min(limits.reach, sizes_within_reach * size_of(triangles[t]));
-      found.clear();
-      near.clear();
-      tree.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found);
-      for (const std::uint32_t other : found) {
-        if (dot(triangles[t].normal, triangles[other].normal) >= limits.min_cosine) continue;
-        if (boxes[other].squaredExteriorDistance(to_eigen(middle)) > reach * reach) continue;
-        const double squared = squared_distance(triangles[other].corners, middle);
-        if (squared <= reach * reach) near.emplace_back(squared, other);
-      }
-      Few& few = rivals_[t];
-      few.count = static_cast<std::uint32_t>(std::min(near.size(), max_rivals));
-      std::partial_sort(near.begin(), near.begin() + few.count, near.end());
-      for (std::size_t k = 0; k < few.count; ++k) few.triangles[k] = near[k].second;
-    }
-  };
-  with_team(limits.threads, [&] { for_each_range(triangles.size(), grain, find); });
+  with_team(limits.threads, [&] {
+    for_each_range(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+      RivalSearch search(triangles, boxes, tree, limits);
+      for (std::size_t t = begin; t < end; ++t)
+        for (const auto& [squared, rival] : search.run(triangles[t])) rivals_[t].triangles[rivals_[t].count++] = rival;
+    });
+  });
   turn_round();
 }
 

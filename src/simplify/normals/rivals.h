@@ -44,7 +44,7 @@ class Rivals {
 
  private:
   struct Few {
-    std::array<std::uint32_t, max_rivals> triangles;
+    std::array<std::uint32_t, max_rivals> triangles{};
     std::uint32_t count = 0;
   };
   void turn_round();
