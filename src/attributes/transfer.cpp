@@ -237,25 +237,29 @@ class Transfer {
     return normal.dot(normal_inside) >= smooth_cosine ? normal : normal_inside;
   }
 
-  /// The corner of the original that the corner of a triangle is where the triangle is one of the original as it was.
-  [[nodiscard]] std::optional<std::uint32_t> unchanged(std::uint32_t corner) const {
-    const std::uint32_t triangle = corner / 3, source = level_.source_triangle[triangle];
-    const Triangle &now = level_.mesh.triangles[triangle], &before = original_mesh_.triangles[source];
+  /// Where a triangle is one of the original as it was: which corner of that one its first corner is.
+  [[nodiscard]] std::optional<std::uint32_t> turn_of_unchanged(std::uint32_t triangle) const {
+    const Triangle& now = level_.mesh.triangles[triangle];
+    const Triangle& before = original_mesh_.triangles[level_.source_triangle[triangle]];
     const auto is_same = [&](std::size_t k, std::size_t j) {
       return is_rounded(original_mesh_.vertices[before[j]], level_.mesh.vertices[now[k]]);
     };
     for (std::uint32_t turn = 0; turn < 3; ++turn)
-      if (is_same(0, turn) && is_same(1, (turn + 1) % 3) && is_same(2, (turn + 2) % 3))
-        return 3 * source + (corner % 3 + turn) % 3;
+      if (is_same(0, turn) && is_same(1, (turn + 1) % 3) && is_same(2, (turn + 2) % 3)) return turn;
     return std::nullopt;
   }
 
   CornerAttribute normals() {
     ChartSurface smooth(original_mesh_, from_, NormalSeams::Counted);
     std::vector<Eigen::Vector3d> by_corner;
-    for (std::uint32_t c = 0; c < 3 * level_.mesh.triangles.size(); ++c) {
-      const auto source = unchanged(c);
-      by_corner.push_back(source ? normal_at(WeightedPoint::at_corner(*source)) : normal_of(c, smooth));
+    for (std::uint32_t t = 0; t < level_.mesh.triangles.size(); ++t) {
+      const auto turn = turn_of_unchanged(t);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (turn)
+          by_corner.push_back(normal_at(WeightedPoint::at_corner(3 * level_.source_triangle[t] + (k + *turn) % 3)));
+        else
+          by_corner.push_back(normal_of(3 * t + k, smooth));
+      }
     }
     return keeps_vertices_ ? normals_of_vertices(by_corner) : shared_means(by_corner);
   }

@@ -152,7 +152,7 @@ void Decimation::make_state(const StopToken& stop) {
       for (const std::uint32_t v : original_.triangles[t]) boxes[t].extend(frame_.to_frame(original_.vertices[v]));
     state_->local.emplace(std::move(boxes), limits_in_frame());
   }
-  threads_.emplace(*state_, options_.threads > 0 ? options_.threads : omp_get_max_threads());
+  threads_.emplace(*state_, threads());
 }
 
 /// Indices of the original's triangles here, by the caller's.
@@ -295,11 +295,11 @@ bool Decimation::is_seam(Corner edge) const {
   return (left > 0 && right > 0) || (left < 0 && right < 0);
 }
 
+int Decimation::threads() const { return options_.threads > 0 ? options_.threads : omp_get_max_threads(); }
+
 void Decimation::set_turns() {
   const double reach = frame_.length_to_frame(options_.tolerance);
-  state_->turns.emplace(state_->mesh, is_turned_over_,
-                        FaceTurns::Limits{*options_.normal_tolerance, reach,
-                                          options_.threads > 0 ? options_.threads : omp_get_max_threads()});
+  state_->turns.emplace(state_->mesh, is_turned_over_, FaceTurns::Limits{*options_.normal_tolerance, reach, threads()});
 }
 
 void Decimation::set_texture() {

@@ -72,6 +72,7 @@ class Decimation {
   void note_turned_faces();
   void set_texture();
   void set_turns();
+  [[nodiscard]] int threads() const;
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
   [[nodiscard]] double room() const;

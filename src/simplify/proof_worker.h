@@ -8,6 +8,7 @@
 
 #include "meshbound/proximity.h"
 #include "numeric/no_index.h"
+#include "numeric/sort_unique.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
@@ -440,10 +441,6 @@ class ProofWorkers::Worker {
       take(*used, faces);
     }
     sort_unique(faces);
-  }
-  static void sort_unique(std::vector<std::uint32_t>& faces) {
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   }
 
   void halve(const SubTriangle& sub_triangle) {

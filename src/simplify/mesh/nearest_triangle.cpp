@@ -28,34 +28,20 @@ bool NearestTriangle::Extent::may_be_within(Vec3 p, double squared) const {
 
 void NearestTriangle::clear() {
   triangles_.clear();
-  box_ = {};
   nearest_ = 0;
 }
 
 void NearestTriangle::add(const std::array<Vec3, 3>& corners) {
   Boxed& triangle = triangles_.emplace_back(Boxed{corners, {}});
-  for (const Vec3 p : corners) {
-    triangle.box.extend(p);
-    box_.extend(p);
-  }
+  for (const Vec3 p : corners) triangle.box.extend(p);
 }
-
-double NearestTriangle::squared_distance(std::size_t i, Vec3 p) const {
-  return meshbound::squared_distance(triangles_[i].corners, p);
-}
-
-bool NearestTriangle::may_be_within(std::size_t i, Vec3 p, double squared) const {
-  return triangles_[i].box.may_be_within(p, squared);
-}
-
-bool NearestTriangle::may_any_be_within(Vec3 p, double squared) const { return box_.may_be_within(p, squared); }
 
 std::size_t NearestTriangle::operator()(Vec3 p) {
-  double least = squared_distance(nearest_, p);
+  double least = squared_distance(triangles_[nearest_].corners, p);
   const std::size_t first = nearest_;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    if (i == first || !may_be_within(i, p, least)) continue;
-    const double squared = squared_distance(i, p);
+    if (i == first || !triangles_[i].box.may_be_within(p, least)) continue;
+    const double squared = squared_distance(triangles_[i].corners, p);
     if (squared < least || (squared == least && i < nearest_)) least = squared, nearest_ = i;
   }
   return nearest_;

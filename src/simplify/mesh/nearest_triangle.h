@@ -15,12 +15,6 @@ class NearestTriangle {
   void clear();
   void add(const std::array<Vec3, 3>& corners);
 
-  /// As computed.
-  [[nodiscard]] double squared_distance(std::size_t i, Vec3 p) const;
-  /// Whether triangle i is not proven to be further from p than that.
-  [[nodiscard]] bool may_be_within(std::size_t i, Vec3 p, double squared) const;
-  /// Whether the box around all of them is not proven to be further from p than that.
-  [[nodiscard]] bool may_any_be_within(Vec3 p, double squared) const;
   /// The nearest triangle to p, the first of several. There must be one. Begins at the one that it found last, so
   /// points near one another should follow each other.
   [[nodiscard]] std::size_t operator()(Vec3 p);
@@ -29,6 +23,7 @@ class NearestTriangle {
   struct Extent {
     Vec3 lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     void extend(Vec3 p);
+    /// Whether what it encloses is not proven to be further from p than that.
     [[nodiscard]] bool may_be_within(Vec3 p, double squared) const;
   };
   struct Boxed {
@@ -36,7 +31,6 @@ class NearestTriangle {
     Extent box;
   };
   std::vector<Boxed> triangles_;
-  Extent box_;
   std::size_t nearest_ = 0;
 };
 

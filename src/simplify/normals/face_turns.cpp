@@ -15,11 +15,9 @@ FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned
   std::vector<FacedTriangle> triangles;
   for (std::uint32_t f = 0; f < start.face_count(); ++f) {
     const std::array<Vec3, 3> corners = start.triangle(f);
-    const FacedTriangle& triangle = triangles.emplace_back(FacedTriangle{corners, normal(f, corners)});
-    if (squared_length(triangle.normal) == 0) {
-      triangles.pop_back();
-      continue;
-    }
+    const FacedTriangle triangle{corners, normal(f, corners)};
+    if (squared_length(triangle.normal) == 0) continue;
+    triangles.push_back(triangle);
     samples_.push_back({triangle.middle(), triangle.normal});
     lists_.add(f);
     face_of_.push_back(f);

@@ -9,7 +9,7 @@
 
 namespace meshbound {
 
-/// A triangle with its unit normal, which is 0 where it has no area.
+/// A triangle that has an area, with its unit normal.
 struct FacedTriangle {
   std::array<Vec3, 3> corners;
   Vec3 normal;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "numeric/sort_unique.h"
 #include "simplify/mesh/face_box.h"
 
 namespace meshbound {
@@ -21,11 +22,6 @@ constexpr std::size_t max_around = 24;
 constexpr std::size_t max_with_rival = 64;
 
 constexpr std::size_t lanes = 8;
-
-void sort_unique(std::vector<std::uint32_t>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 }  // namespace
 
@@ -71,15 +67,16 @@ bool TurnGuard::is_in_star(std::uint32_t face) const { return std::binary_search
 /// rival in the star. The vertices of a star all belong to the region of its collapse, so no other thread changes the
 /// faces around it or their samples.
 void TurnGuard::find_others() {
+  ring_.clear();
+  for (const Corner c : moved_) ring_.insert(ring_.end(), {mesh_.end(c), mesh_.apex(c)});
+  sort_unique(ring_);
   around_.clear();
-  for (const Corner c : moved_) {
-    for (const std::uint32_t v : {mesh_.end(c), mesh_.apex(c)}) {
-      std::size_t seen = 0;
-      mesh_.for_each_corner(v, [&](Corner d) {
-        around_.push_back(d / 3);
-        return ++seen < max_around;
-      });
-    }
+  for (const std::uint32_t v : ring_) {
+    std::size_t seen = 0;
+    mesh_.for_each_corner(v, [&](Corner c) {
+      around_.push_back(c / 3);
+      return ++seen < max_around;
+    });
   }
   sort_unique(around_);
   others_.clear();

@@ -57,15 +57,17 @@ class TurnGuard {
     [[nodiscard]] std::size_t nearest(std::size_t i) const;
     [[nodiscard]] double squared(std::size_t i) const;
   };
-  /// Of a sample, among the faces that stay.
+  /// What a sample is nearest to among the faces of the star that stay.
   struct Nearest {
     const Face* face = nullptr;
-    double squared = HUGE_VAL;             ///< distance from it
-    double squared_of_allowed = HUGE_VAL;  ///< from the nearest of those that it turns little from
+    double squared = HUGE_VAL;  ///< distance between the sample and that face
+    double squared_of_allowed =
+        HUGE_VAL;  ///< distance from the nearest of those faces that the sample turns little from
   };
+  /// A face outside the star that a sample turns too much from.
   struct RivalFace {
-    double squared = HUGE_VAL;  ///< distance from it
-    Vec3 normal;
+    double squared = HUGE_VAL;  ///< distance between the sample and that face
+    Vec3 normal;                ///< of that face
   };
   void add(std::uint32_t sample, Compared& to) const;
   void compare(Compared& compared, std::span<const SampleFace> faces) const;
@@ -93,7 +95,7 @@ class TurnGuard {
   Compared others_;                       ///< samples of faces around it, or with rivals in it
   std::vector<double> squared_from_own_;  ///< by sample of `others_`: from its face; negative: not known yet
   bool has_others_ = false;               ///< they are known
-  std::vector<std::uint32_t> around_, numbers_;
+  std::vector<std::uint32_t> ring_, around_, numbers_;
   float deviation_ = 0;
 };
 
