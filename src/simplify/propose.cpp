@@ -156,6 +156,11 @@ bool Proposer::fits(Vec3 point) {
   if (!set_faces(point)) return false;
   if (!gathered_) gather_samples();
   by_bound_ = true;
+  if (turns_ && !turns_->holds_inside(point, faces_)) {
+    by_bound_ = false;
+    turn_deviation_ = std::min(turn_deviation_.value_or(HUGE_VALF), turns_->deviation());
+    return false;
+  }
   return samples_.hold(beside_, limit_) && is_vertex_near(point) && keeps_appearance(point) && are_edges_near(point);
 }
 
@@ -165,8 +170,8 @@ bool Proposer::keeps_appearance(Vec3 point) {
     least = std::min(least.value_or(HUGE_VALF), deviation);
     return false;
   };
-  if (turns_ && !turns_->holds(point, faces_)) return refuse(turn_deviation_, turns_->deviation());
   if (texture_ && !texture_->holds(point)) return refuse(texture_deviation_, texture_->deviation());
+  if (turns_ && !turns_->holds_around(faces_)) return refuse(turn_deviation_, turns_->deviation());
   return true;
 }
 

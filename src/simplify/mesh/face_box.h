@@ -36,4 +36,11 @@ inline double squared_distance(const std::array<Vec3, 3>& corners, Vec3 p) {
   return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, p).squared_distance;
 }
 
+/// Without branches: Eigen's function takes three times as long where boxes lie around the point.
+inline double squared_distance(const Eigen::AlignedBox3d& box, Vec3 p) {
+  const auto beyond = [](double min, double max, double at) { return std::max(std::max(min - at, at - max), 0.0); };
+  return squared_length(Vec3{beyond(box.min().x(), box.max().x(), p.x), beyond(box.min().y(), box.max().y(), p.y),
+                             beyond(box.min().z(), box.max().z(), p.z)});
+}
+
 }  // namespace meshbound

@@ -18,12 +18,18 @@ namespace {
 /// faces and runs take as long, with twice as much they take 2% longer (28 runs at 1% and 0.2%, 30 degrees).
 constexpr double sizes_within_reach = 2;
 
+/// Share of the reach that is searched first: most triangles that have many rivals have enough of them within it.
+constexpr double first_share = 0.5;
+
 constexpr std::size_t grain = 1024;  ///< triangles that a thread takes at once
 
 double size_of(const FacedTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   return std::sqrt(length(cross(b - a, c - a)));
 }
+
+/// A squared distance, and the triangle that has it.
+using Near = std::pair<double, std::uint32_t>;
 
 /// Looks for the rivals of one triangle after the other. One for each thread.
 class RivalSearch {
@@ -33,30 +39,49 @@ class RivalSearch {
       : triangles_(triangles), boxes_(boxes), tree_(tree), limits_(limits) {}
 
   /// The rivals, by squared distance, with their numbers.
-  std::span<const std::pair<double, std::uint32_t>> run(const FacedTriangle& triangle) {
-    const Vec3 middle = triangle.middle();
+  std::span<const Near> run(const FacedTriangle& triangle) {
     const double reach = std::min(limits_.reach, sizes_within_reach * size_of(triangle));
-    found_.clear();
-    near_.clear();
-    tree_.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found_);
-    for (const std::uint32_t other : found_) {
-      if (dot(triangle.normal, triangles_[other].normal) >= limits_.min_cosine) continue;
-      if (boxes_[other].squaredExteriorDistance(to_eigen(middle)) > reach * reach) continue;
-      const double squared = squared_distance(triangles_[other].corners, middle);
-      if (squared <= reach * reach) near_.emplace_back(squared, other);
-    }
-    const std::size_t count = std::min(near_.size(), Rivals::max_rivals);
-    std::partial_sort(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(count), near_.end());
-    return std::span(near_).first(count);
+    if (!find_enough(triangle, first_share * reach)) (void)find_enough(triangle, reach);
+    return near_;
   }
 
  private:
+  /// Whether as many as are wanted are within reach.
+  bool find_enough(const FacedTriangle& triangle, double reach) {
+    const Vec3 middle = triangle.middle();
+    find_boxes(triangle, middle, reach);
+    near_.clear();
+    double squared_reach = reach * reach;
+    for (const auto& [squared_from_box, other] : boxes_within_) {
+      if (squared_from_box > squared_reach) break;
+      const Near near{squared_distance(triangles_[other].corners, middle), other};
+      if (near.first > squared_reach) continue;
+      near_.insert(std::upper_bound(near_.begin(), near_.end(), near), near);
+      if (near_.size() > Rivals::max_rivals) near_.pop_back();
+      if (near_.size() == Rivals::max_rivals) squared_reach = near_.back().first;
+    }
+    return near_.size() == Rivals::max_rivals;
+  }
+
+  /// Triangles that face elsewhere, with the squared distances of their boxes: the nearest ones first.
+  void find_boxes(const FacedTriangle& triangle, Vec3 middle, double reach) {
+    found_.clear();
+    boxes_within_.clear();
+    tree_.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found_);
+    for (const std::uint32_t other : found_) {
+      if (dot(triangle.normal, triangles_[other].normal) >= limits_.min_cosine) continue;
+      const double squared = squared_distance(boxes_[other], middle);
+      if (squared <= reach * reach) boxes_within_.emplace_back(squared, other);
+    }
+    std::sort(boxes_within_.begin(), boxes_within_.end());
+  }
+
   std::span<const FacedTriangle> triangles_;
   std::span<const Eigen::AlignedBox3d> boxes_;
   const BoxTree& tree_;
   const Rivals::Limits& limits_;
   std::vector<std::uint32_t> found_;
-  std::vector<std::pair<double, std::uint32_t>> near_;
+  std::vector<Near> boxes_within_, near_;
 };
 
 }  // namespace

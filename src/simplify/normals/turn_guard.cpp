@@ -30,6 +30,11 @@ void TurnGuard::Compared::clear() {
   points.clear();
 }
 
+void TurnGuard::Compared::put_first(std::size_t i) {
+  std::swap(samples[0], samples[i]);
+  points.swap(0, i);
+}
+
 std::size_t TurnGuard::Compared::nearest(std::size_t i) const {
   return static_cast<std::size_t>(offsets[i / lanes].face[i % lanes]);
 }
@@ -39,11 +44,6 @@ double TurnGuard::Compared::squared(std::size_t i) const { return offsets[i / la
 void TurnGuard::add(std::uint32_t sample, Compared& to) const {
   to.samples.push_back(sample);
   to.points.add(turns_.sample(sample).at - origin_);
-}
-
-void TurnGuard::compare(Compared& compared, std::span<const SampleFace> faces) const {
-  compared.offsets.resize(compared.points.blocks.size());
-  kernel_.offsets(compared.points.blocks, faces, compared.offsets);
 }
 
 void TurnGuard::begin(const TurnedStar& star) {
@@ -153,19 +153,33 @@ bool TurnGuard::holds_other(std::size_t i) {
   return false;
 }
 
-bool TurnGuard::holds(Vec3 point, std::span<const SampleFace> faces) {
+template <class Holds>
+std::optional<std::size_t> TurnGuard::first_refused(Compared& compared, std::span<const SampleFace> faces,
+                                                    const Holds& holds) {
+  const std::span<const SamplePoints::Block> blocks = compared.points.blocks;
+  compared.offsets.resize(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    kernel_.offsets(blocks.subspan(b, 1), faces, std::span(compared.offsets).subspan(b, 1));
+    for (std::size_t i = lanes * b; i < std::min(lanes * (b + 1), compared.samples.size()); ++i)
+      if (!holds(i)) return i;
+  }
+  return std::nullopt;
+}
+
+bool TurnGuard::holds_inside(Vec3 point, std::span<const SampleFace> faces) {
   for (Face& face : faces_) {
     face.corners[0] = point;
     face.normal = turns_.normal(face.number, face.corners);
   }
-  compare(own_, faces);
-  for (std::size_t i = 0; i < own_.samples.size(); ++i)
-    if (!holds_own(i)) return false;
+  const std::optional<std::size_t> refused =
+      first_refused(own_, faces, [this](std::size_t i) { return holds_own(i); });
+  if (refused) own_.put_first(*refused);
+  return !refused;
+}
+
+bool TurnGuard::holds_around(std::span<const SampleFace> faces) {
   if (!has_others_) find_others();
-  compare(others_, faces);
-  for (std::size_t i = 0; i < others_.samples.size(); ++i)
-    if (!holds_other(i)) return false;
-  return true;
+  return !first_refused(others_, faces, [this](std::size_t i) { return holds_other(i); });
 }
 
 void TurnGuard::give_samples(FaceTurns& turns) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,14 +32,17 @@ class TurnGuard {
   }
   /// Starts anew with these faces. O(samples).
   void begin(const TurnedStar& star);
-  /// Whether no sample turns too much with the vertex at `point`. `faces` are those that stay, relative to the origin
-  /// of the star. Other faces count where they are nearer: those that hold rivals of a sample. So do samples of faces
-  /// around, and those that have a rival in the star, which one of its faces may come nearer to than their own. What
-  /// other regions may change is left out. O(samples * faces).
-  [[nodiscard]] bool holds(Vec3 point, std::span<const SampleFace> faces);
+  /// Whether no sample of the star turns too much with the vertex at `point`. `faces` are those that stay, relative to
+  /// the origin of the star. Other faces count where they are nearer: those that hold rivals of a sample, unless other
+  /// regions may change them. O(samples * faces); what refused the last placement is looked at first.
+  [[nodiscard]] bool holds_inside(Vec3 point, std::span<const SampleFace> faces);
+  /// After that: whether no sample outside the star turns too much. One of the faces may come nearer to those of faces
+  /// around, and to those that have a rival in the star, than their own; those of other regions are left out.
+  /// O(samples * faces).
+  [[nodiscard]] bool holds_around(std::span<const SampleFace> faces);
   /// After a refusal: how much the sample turned that decided it, in tolerances.
   [[nodiscard]] float deviation() const { return deviation_; }
-  /// Assigns the samples to the faces that stay, as `holds` has placed them last.
+  /// Assigns the samples to the faces that stay, as `holds_inside` has placed them last.
   void give_samples(FaceTurns& turns);
 
  private:
@@ -54,6 +58,7 @@ class TurnGuard {
     std::vector<SampleOffsets> offsets;
 
     void clear();
+    void put_first(std::size_t i);
     [[nodiscard]] std::size_t nearest(std::size_t i) const;
     [[nodiscard]] double squared(std::size_t i) const;
   };
@@ -70,7 +75,9 @@ class TurnGuard {
     Vec3 normal;                ///< of that face
   };
   void add(std::uint32_t sample, Compared& to) const;
-  void compare(Compared& compared, std::span<const SampleFace> faces) const;
+  /// Compares the samples block by block, and asks holds(i) for each: the first one that does not hold.
+  template <class Holds>
+  std::optional<std::size_t> first_refused(Compared& compared, std::span<const SampleFace> faces, const Holds& holds);
   [[nodiscard]] bool is_in_star(std::uint32_t face) const;
   /// Whether no other thread changes the face: it is of the same region, or between regions and stays as it is.
   [[nodiscard]] bool is_readable(std::uint32_t face) const {

@@ -103,7 +103,8 @@ class TextureGuard {
                                    std::uint32_t material);
   [[nodiscard]] bool has_no_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p);
   [[nodiscard]] bool are_uncovered_free();
-  [[nodiscard]] bool is_near_original(const Face& face, const std::array<double, 3>& weights);
+  [[nodiscard]] double squared_deviation(const Face& face, const std::array<double, 3>& weights);
+  [[nodiscard]] bool is_edge_near(const EdgeOfFace& edge);
   [[nodiscard]] bool are_faces_near();
   [[nodiscard]] bool are_lines_near();
   [[nodiscard]] bool becomes_line(std::size_t face, std::size_t k) const;
@@ -120,6 +121,7 @@ class TextureGuard {
   bool accepted_ = false;
   double exceeding_squared_ = 0;      ///< the squared distance of a sample for which a placement was refused
   std::vector<EdgeOfFace> of_lines_;  ///< edges of the faces that are lines, or become lines
+  std::vector<EdgeOfFace> doubtful_;  ///< edges of the faces that must be looked at closely
   std::vector<std::uint32_t> found_;
 };
 

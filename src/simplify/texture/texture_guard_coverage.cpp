@@ -15,13 +15,11 @@ namespace {
 /// these shares of the way across.
 constexpr std::array<double, 3> shares_of_strip = {0.02, 0.5, 0.98};
 
-/// Points of a face that are compared with the original, by their weights; the first weight is that of the moving
-/// vertex. The third edge of a face is the first one of the next face, or a line.
-constexpr std::array<std::array<double, 3>, 5> tested_points = {
-    {{1, 0, 0}, {0.75, 0.25, 0}, {0.5, 0.5, 0}, {0.25, 0.75, 0}, {1.0 / 3, 1.0 / 3, 1.0 / 3}}};
+/// Edges are compared with the original at the ends of this many parts.
+constexpr int parts_of_edge = 8;
 
-/// An edge that becomes a line is compared at the ends of this many parts.
-constexpr int parts_of_line = 8;
+/// Share of the limit: an edge whose middle is nearer than this is not looked at closely.
+constexpr double doubtful_share = 0.5;
 
 }  // namespace
 
@@ -104,40 +102,46 @@ bool TextureGuard::are_uncovered_free() {
   return true;
 }
 
-bool TextureGuard::is_near_original(const Face& face, const std::array<double, 3>& weights) {
+double TextureGuard::squared_deviation(const Face& face, const std::array<double, 3>& weights) {
   const CornerCoordinates& t = face.coordinates;
   const Eigen::Vector2d coordinate = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
-  return map_.atlas().is_near_or_absent(coordinate, map_.material(face.number), point_of(face.at, weights), map_.limit,
-                                        found_);
+  return map_.atlas().squared_distance(coordinate, map_.material(face.number), point_of(face.at, weights), found_);
 }
 
-/// Whether points of the faces are near the points of the original with the same coordinates, where such points exist.
-bool TextureGuard::are_faces_near() {
-  const Face* before = nullptr;
-  for (const Face& face : faces_) {
-    if (face.chart == no_index) continue;
-    const bool is_vertex_known =
-        before != nullptr && before->chart == face.chart && before->coordinates[0] == face.coordinates[0];
-    before = &face;
-    const auto first = tested_points.begin() + (is_vertex_known ? 1 : 0);
-    if (!std::all_of(first, tested_points.end(), [&](const auto& weights) { return is_near_original(face, weights); }))
-      return false;
+bool TextureGuard::is_edge_near(const EdgeOfFace& edge) {
+  for (int i = 1; i < parts_of_edge; ++i) {
+    std::array<double, 3> weights{};
+    weights[edge.number] = static_cast<double>(i) / parts_of_edge;
+    weights[(edge.number + 1) % 3] = 1 - weights[edge.number];
+    if (squared_deviation(faces_[edge.face], weights) > map_.limit * map_.limit) return false;
   }
   return true;
 }
 
-/// Compares the edges at the vertex that are lines after the collapse of an edge of a line, as `are_faces_near`
-/// compares faces.
+/// Whether the vertex and the edges at it are near the points of the original with the same coordinates, where such
+/// points exist. The third edge of a face is the first one of the next face, or a line.
+bool TextureGuard::are_faces_near() {
+  const double limit = map_.limit * map_.limit;
+  const Face* before = nullptr;
+  doubtful_.clear();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    if (face.chart == no_index) continue;
+    const bool is_vertex_known =
+        before != nullptr && before->chart == face.chart && before->coordinates[0] == face.coordinates[0];
+    before = &face;
+    if (!is_vertex_known && squared_deviation(face, {1, 0, 0}) > limit) return false;
+    const double in_the_middle = squared_deviation(face, {0.5, 0.5, 0});
+    if (in_the_middle > limit) return false;
+    if (in_the_middle > doubtful_share * doubtful_share * limit) doubtful_.push_back({f, 0});
+  }
+  return std::all_of(doubtful_.begin(), doubtful_.end(), [this](const EdgeOfFace& edge) { return is_edge_near(edge); });
+}
+
+/// Compares the edges at the vertex that are lines after the collapse of an edge of a line.
 bool TextureGuard::are_lines_near() {
-  return std::all_of(of_lines_.begin(), of_lines_.end(), [&](const EdgeOfFace& edge) {
-    if (edge.number == 1) return true;  // opposite to the vertex
-    for (int i = 1; i < parts_of_line; ++i) {
-      std::array<double, 3> weights{};
-      weights[edge.number] = static_cast<double>(i) / parts_of_line;
-      weights[(edge.number + 1) % 3] = 1 - weights[edge.number];
-      if (!is_near_original(faces_[edge.face], weights)) return false;
-    }
-    return true;
+  return std::all_of(of_lines_.begin(), of_lines_.end(), [this](const EdgeOfFace& edge) {
+    return edge.number == 1 || is_edge_near(edge);  // edge 1 is opposite to the vertex
   });
 }
 

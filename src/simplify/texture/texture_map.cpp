@@ -77,15 +77,14 @@ double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, s
   return far;
 }
 
-bool Atlas::is_near_or_absent(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
-                              std::vector<std::uint32_t>& found) const {
-  bool is_there = false, is_near = false;
+double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                               std::vector<std::uint32_t>& found) const {
+  double nearest = HUGE_VAL;
   for_each_point(coordinate, material, found, [&](Vec3 q) {
-    is_there = true;
-    is_near = squared_length(q - p) <= limit * limit;
-    return !is_near;
+    nearest = std::min(nearest, squared_length(q - p));
+    return true;
   });
-  return is_near || !is_there;
+  return nearest < HUGE_VAL ? nearest : 0;
 }
 
 TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,

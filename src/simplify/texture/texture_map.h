@@ -34,9 +34,10 @@ class Atlas {
   /// than `limit`; 0 if there is none. `found` is scratch memory. Expected O(log n) for few such points.
   [[nodiscard]] double squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
                                                      double limit, std::vector<std::uint32_t>& found) const;
-  /// Whether some point of the original with this coordinate and material is within `limit` of `p`, or there is none.
-  [[nodiscard]] bool is_near_or_absent(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
-                                       std::vector<std::uint32_t>& found) const;
+  /// The squared distance from `p` to the nearest point of the original with this coordinate and material; 0 if there
+  /// is none.
+  [[nodiscard]] double squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                        std::vector<std::uint32_t>& found) const;
 
  private:
   template <class Visit>
