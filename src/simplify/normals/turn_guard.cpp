@@ -39,6 +39,10 @@ std::size_t TurnGuard::Compared::nearest(std::size_t i) const {
   return static_cast<std::size_t>(offsets[i / lanes].face[i % lanes]);
 }
 
+void TurnGuard::Compared::set_nearest(std::size_t i, std::size_t face) {
+  offsets[i / lanes].face[i % lanes] = static_cast<float>(face);
+}
+
 double TurnGuard::Compared::squared(std::size_t i) const { return offsets[i / lanes].squared[i % lanes]; }
 
 void TurnGuard::add(std::uint32_t sample, Compared& to) const {
@@ -122,19 +126,23 @@ TurnGuard::Nearest TurnGuard::nearest_face(const FaceTurns::Sample& sample) cons
   for (const Face& face : faces_) {
     const double squared = squared_distance(face.corners, sample.at);
     if (squared < nearest.squared) nearest.squared = squared, nearest.face = &face;
-    if (turns_.allows(sample.normal, face.normal))
-      nearest.squared_of_allowed = std::min(nearest.squared_of_allowed, squared);
+    if (squared < nearest.squared_of_allowed && turns_.allows(sample.normal, face.normal))
+      nearest.squared_of_allowed = squared, nearest.allowed = &face;
   }
   return nearest;
 }
 
-/// Whether the sample of the star turns little, or the nearest face is a rival's.
+/// Whether the sample of the star turns little. Of faces that are equally near it belongs to the one that allows it: the
+/// others may stay where they are when that one moves.
 bool TurnGuard::holds_own(std::size_t i) {
   const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
   const RivalFace rival = nearest_rival(own_.samples[i], (1 + single_precision) * own_.squared(i));
   if (rival.squared == HUGE_VAL && turns_.allows(sample.normal, faces_[own_.nearest(i)].normal)) return true;
   const Nearest nearest = nearest_face(sample);
-  if (nearest.squared_of_allowed <= (1 + tie) * std::min(nearest.squared, rival.squared)) return true;
+  if (nearest.squared_of_allowed <= (1 + tie) * std::min(nearest.squared, rival.squared)) {
+    own_.set_nearest(i, static_cast<std::size_t>(nearest.allowed - faces_.data()));
+    return true;
+  }
   deviation_ = turns_.angle(sample.normal, nearest.squared <= rival.squared ? nearest.face->normal : rival.normal);
   return false;
 }

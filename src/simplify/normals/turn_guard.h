@@ -60,14 +60,15 @@ class TurnGuard {
     void clear();
     void put_first(std::size_t i);
     [[nodiscard]] std::size_t nearest(std::size_t i) const;
+    void set_nearest(std::size_t i, std::size_t face);
     [[nodiscard]] double squared(std::size_t i) const;
   };
   /// What a sample is nearest to among the faces of the star that stay.
   struct Nearest {
     const Face* face = nullptr;
-    double squared = HUGE_VAL;  ///< distance between the sample and that face
-    double squared_of_allowed =
-        HUGE_VAL;  ///< distance from the nearest of those faces that the sample turns little from
+    double squared = HUGE_VAL;      ///< distance between the sample and that face
+    const Face* allowed = nullptr;  ///< the nearest of those faces that the sample turns little from
+    double squared_of_allowed = HUGE_VAL;
   };
   /// A face outside the star that a sample turns too much from.
   struct RivalFace {
