@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/position_table.h"
 #include "numeric/no_index.h"
@@ -117,7 +118,7 @@ void Proposer::gather_samples() {
   taken_.insert(taken_.end(), star_.removed.begin(), star_.removed.end());
   samples_.add_faces(taken_);
   samples_.compare(faces_);
-  if (texture_) texture_->begin({star_.edge, star_.moved, star_.removed});
+  texture_gathered_ = false;
   if (turns_) turns_->begin({star_.moved, star_.removed, origin_});
 }
 
@@ -170,6 +171,8 @@ bool Proposer::keeps_appearance(Vec3 point) {
     least = std::min(least.value_or(HUGE_VALF), deviation);
     return false;
   };
+  if (texture_ && !std::exchange(texture_gathered_, true))
+    texture_->begin({star_.edge, star_.moved, star_.removed});
   if (texture_ && !texture_->holds(point)) return refuse(texture_deviation_, texture_->deviation());
   if (turns_ && !turns_->holds_around(faces_)) return refuse(turn_deviation_, turns_->deviation());
   return true;

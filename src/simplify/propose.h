@@ -127,6 +127,7 @@ class Proposer {
   bool moves_ = false;                 ///< the vertex may stand anywhere
   int proofs_failed_ = 0;              ///< of collapses of this edge
   bool gathered_ = false;              ///< samples of the star are in `samples_`
+  bool texture_gathered_ = false;      ///< its samples of the texture are in `texture_`
   std::optional<Vec3> placed_;         ///< where the vertex is in `faces_`
   std::vector<Stray> found_;           ///< points too far from the original that `fits` found last
   std::vector<Stray> strays_;          ///< those that the placement must bring near it

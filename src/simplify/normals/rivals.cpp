@@ -94,7 +94,8 @@ Rivals::Rivals(std::span<const FacedTriangle> triangles, const Limits& limits) :
     for_each_range(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
       RivalSearch search(triangles, boxes, tree, limits);
       for (std::size_t t = begin; t < end; ++t)
-        for (const auto& [squared, rival] : search.run(triangles[t])) rivals_[t].triangles[rivals_[t].count++] = rival;
+        for (const auto& [squared, other] : search.run(triangles[t]))
+          rivals_[t].rivals[rivals_[t].count++] = {other, static_cast<float>(squared)};
     });
   });
   turn_round();
@@ -103,12 +104,12 @@ Rivals::Rivals(std::span<const FacedTriangle> triangles, const Limits& limits) :
 void Rivals::turn_round() {
   first_with_.assign(rivals_.size() + 1, 0);
   for (std::uint32_t t = 0; t < rivals_.size(); ++t)
-    for (const std::uint32_t other : of(t)) ++first_with_[other + 1];
+    for (const Rival& rival : of(t)) ++first_with_[rival.triangle + 1];
   std::partial_sum(first_with_.begin(), first_with_.end(), first_with_.begin());
   with_.resize(first_with_.back());
   std::vector<std::uint32_t> next = first_with_;
   for (std::uint32_t t = 0; t < rivals_.size(); ++t)
-    for (const std::uint32_t other : of(t)) with_[next[other]++] = t;
+    for (const Rival& rival : of(t)) with_[next[rival.triangle]++] = t;
 }
 
 }  // namespace meshbound

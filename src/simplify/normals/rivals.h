@@ -21,6 +21,10 @@ struct FacedTriangle {
 /// sheets beside it, and across creases.
 class Rivals {
  public:
+  struct Rival {
+    std::uint32_t triangle = 0;
+    float squared = 0;  ///< distance from the middle
+  };
   struct Limits {
     double reach = 0;       ///< largest distance of a rival
     double min_cosine = 0;  ///< of the angle between triangles that are no rivals
@@ -34,8 +38,8 @@ class Rivals {
   static constexpr std::size_t max_rivals = 4;
 
   /// The rivals of a triangle, the nearest one first.
-  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t triangle) const {
-    return std::span(rivals_[triangle].triangles).first(rivals_[triangle].count);
+  [[nodiscard]] std::span<const Rival> of(std::uint32_t triangle) const {
+    return std::span(rivals_[triangle].rivals).first(rivals_[triangle].count);
   }
   /// The triangles that have this one as a rival, ascending.
   [[nodiscard]] std::span<const std::uint32_t> with(std::uint32_t triangle) const {
@@ -44,7 +48,7 @@ class Rivals {
 
  private:
   struct Few {
-    std::array<std::uint32_t, max_rivals> triangles{};
+    std::array<Rival, max_rivals> rivals{};
     std::uint32_t count = 0;
   };
   void turn_round();

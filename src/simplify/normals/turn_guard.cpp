@@ -21,6 +21,10 @@ constexpr std::size_t max_around = 24;
 /// Samples with one rival that are looked at: a floor is the rival of thousands.
 constexpr std::size_t max_with_rival = 64;
 
+/// In squared distances of the sample from the star: faces beside those that hold nearer rivals are looked at. Runs
+/// take as long with 1.5, 3 and 5; all would cost a tenth where surfaces bend much (four models at three tolerances).
+constexpr double near_rival = 2;
+
 constexpr std::size_t lanes = 8;
 
 }  // namespace
@@ -101,22 +105,44 @@ void TurnGuard::find_others() {
   has_others_ = true;
 }
 
-/// The face outside the star that holds one of the sample's rivals and from which it turns too much, if it is nearer
-/// than `below`: the nearest one.
-TurnGuard::RivalFace TurnGuard::nearest_rival(std::uint32_t sample, double below) const {
-  const FaceTurns::Sample& from = turns_.sample(sample);
-  const Eigen::Vector3d at = to_eigen(from.at);
-  RivalFace nearest;
+/// Takes the face as the nearest one if it is outside the star, nearer than `below` and than that one, and the sample
+/// turns too much from it.
+void TurnGuard::look_at(std::uint32_t face, const FaceTurns::Sample& sample, double below,
+                        std::optional<RivalFace>& nearest) const {
+  if (!is_readable(face) || is_in_star(face)) return;
+  const double limit = nearest ? nearest->squared : below;
+  const std::array<Vec3, 3> corners = mesh_.triangle(face);
+  if (squared_distance(box_of(corners), sample.at) >= limit) return;
+  const double squared = squared_distance(corners, sample.at);
+  if (squared >= limit) return;
+  const Vec3 normal = turns_.normal(face, corners);
+  if (!turns_.allows(sample.normal, normal)) nearest = {squared, normal};
+}
+
+/// Of the faces that hold rivals of a sample of the star, the nearest one, if it is nearer than the star.
+std::optional<TurnGuard::RivalFace> TurnGuard::nearest_rival(std::size_t i) const {
+  const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
+  std::optional<RivalFace> nearest;
   std::uint32_t last = no_index;  // rivals of a sample are often of one face
-  for (const std::uint32_t rival : turns_.rivals().of(sample)) {
-    const std::uint32_t face = turns_.face_of(rival);
-    if (face == last || !is_readable(face) || is_in_star(face)) continue;
+  for (const Rivals::Rival& rival : turns_.rivals().of(own_.samples[i])) {
+    const std::uint32_t face = turns_.face_of(rival.triangle);
+    if (face != last) look_at(face, sample, (1 + single_precision) * own_.squared(i), nearest);
     last = face;
-    const std::array<Vec3, 3> corners = mesh_.triangle(face);
-    if (box_of(corners).squaredExteriorDistance(at) >= below) continue;
-    const double squared = squared_distance(corners, from.at);
-    const Vec3 normal = turns_.normal(face, corners);
-    if (squared < std::min(below, nearest.squared) && !turns_.allows(from.normal, normal)) nearest = {squared, normal};
+  }
+  return nearest;
+}
+
+/// The same, of the faces beside those: a face that holds a rival need not be what has become of its nearest point.
+std::optional<TurnGuard::RivalFace> TurnGuard::nearest_beside_rivals(std::size_t i) const {
+  const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
+  const double below = (1 + single_precision) * own_.squared(i);
+  std::optional<RivalFace> nearest;
+  for (const Rivals::Rival& rival : turns_.rivals().of(own_.samples[i])) {
+    if (rival.squared > near_rival * below) break;
+    const std::uint32_t face = turns_.face_of(rival.triangle);
+    if (!is_readable(face)) continue;
+    for (Corner c = 3 * face; c < 3 * face + 3; ++c)
+      if (mesh_.twin(c) != no_index) look_at(mesh_.twin(c) / 3, sample, below, nearest);
   }
   return nearest;
 }
@@ -132,18 +158,24 @@ TurnGuard::Nearest TurnGuard::nearest_face(const FaceTurns::Sample& sample) cons
   return nearest;
 }
 
-/// Whether the sample of the star turns little. Of faces that are equally near it belongs to the one that allows it: the
-/// others may stay where they are when that one moves.
+/// Whether the sample turns little from the nearest face, of the star or of those that hold its rivals.
 bool TurnGuard::holds_own(std::size_t i) {
+  const std::optional<RivalFace> rival = nearest_rival(i);
+  const Vec3 normal = turns_.sample(own_.samples[i]).normal;
+  return (!rival && turns_.allows(normal, faces_[own_.nearest(i)].normal)) || holds_against(i, rival);
+}
+
+/// Compares in doubles. Of faces that are equally near the sample belongs to the one that it turns little from: the
+/// others may stay where they are when that one moves.
+bool TurnGuard::holds_against(std::size_t i, const std::optional<RivalFace>& rival) {
   const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
-  const RivalFace rival = nearest_rival(own_.samples[i], (1 + single_precision) * own_.squared(i));
-  if (rival.squared == HUGE_VAL && turns_.allows(sample.normal, faces_[own_.nearest(i)].normal)) return true;
   const Nearest nearest = nearest_face(sample);
-  if (nearest.squared_of_allowed <= (1 + tie) * std::min(nearest.squared, rival.squared)) {
+  const bool is_rival_nearer = rival && rival->squared < nearest.squared;
+  if (nearest.squared_of_allowed <= (1 + tie) * (is_rival_nearer ? rival->squared : nearest.squared)) {
     own_.set_nearest(i, static_cast<std::size_t>(nearest.allowed - faces_.data()));
     return true;
   }
-  deviation_ = turns_.angle(sample.normal, nearest.squared <= rival.squared ? nearest.face->normal : rival.normal);
+  deviation_ = turns_.angle(sample.normal, is_rival_nearer ? rival->normal : nearest.face->normal);
   return false;
 }
 
@@ -186,6 +218,10 @@ bool TurnGuard::holds_inside(Vec3 point, std::span<const SampleFace> faces) {
 }
 
 bool TurnGuard::holds_around(std::span<const SampleFace> faces) {
+  for (std::size_t i = 0; i < own_.samples.size(); ++i) {
+    const std::optional<RivalFace> rival = nearest_beside_rivals(i);
+    if (rival && !holds_against(i, rival)) return false;
+  }
   if (!has_others_) find_others();
   return !first_refused(others_, faces, [this](std::size_t i) { return holds_other(i); });
 }

@@ -36,9 +36,9 @@ class TurnGuard {
   /// the origin of the star. Other faces count where they are nearer: those that hold rivals of a sample, unless other
   /// regions may change them. O(samples * faces); what refused the last placement is looked at first.
   [[nodiscard]] bool holds_inside(Vec3 point, std::span<const SampleFace> faces);
-  /// After that: whether no sample outside the star turns too much. One of the faces may come nearer to those of faces
-  /// around, and to those that have a rival in the star, than their own; those of other regions are left out.
-  /// O(samples * faces).
+  /// After that, what takes longer: faces beside those that hold near rivals count as well, and samples outside the
+  /// star must not turn too much. One of the faces may come nearer to those of faces around, and to those that have a
+  /// rival in the star, than their own; those of other regions are left out. O(samples * faces).
   [[nodiscard]] bool holds_around(std::span<const SampleFace> faces);
   /// After a refusal: how much the sample turned that decided it, in tolerances.
   [[nodiscard]] float deviation() const { return deviation_; }
@@ -84,9 +84,13 @@ class TurnGuard {
   [[nodiscard]] bool is_readable(std::uint32_t face) const {
     return region_of_face_.empty() || region_of_face_[face] == region_ || region_of_face_[face] == no_index;
   }
-  [[nodiscard]] RivalFace nearest_rival(std::uint32_t sample, double below) const;
+  void look_at(std::uint32_t face, const FaceTurns::Sample& sample, double below,
+               std::optional<RivalFace>& nearest) const;
+  [[nodiscard]] std::optional<RivalFace> nearest_rival(std::size_t i) const;
+  [[nodiscard]] std::optional<RivalFace> nearest_beside_rivals(std::size_t i) const;
   [[nodiscard]] Nearest nearest_face(const FaceTurns::Sample& sample) const;
   [[nodiscard]] bool holds_own(std::size_t i);
+  [[nodiscard]] bool holds_against(std::size_t i, const std::optional<RivalFace>& rival);
   [[nodiscard]] bool holds_other(std::size_t i);
   void find_others();
 
