@@ -118,8 +118,6 @@ void Proposer::gather_samples() {
   taken_.insert(taken_.end(), star_.removed.begin(), star_.removed.end());
   samples_.add_faces(taken_);
   samples_.compare(faces_);
-  texture_gathered_ = false;
-  if (turns_) turns_->begin({star_.moved, star_.removed, origin_});
 }
 
 /// The faces that stay, with the point as their first corner. False where one is folded.
@@ -152,30 +150,37 @@ double Proposer::limit_around() const {
 
 bool Proposer::owns(std::uint32_t face) const { return split_->owns_face(region_, face); }
 
+/// Normals come first: they refuse more placements than all else, most of them at the sample that refused the last one.
 bool Proposer::fits(Vec3 point) {
   found_.clear();
-  if (!set_faces(point)) return false;
+  if (!set_faces(point) || !keeps_normals(point)) return false;
   if (!gathered_) gather_samples();
   by_bound_ = true;
-  if (turns_ && !turns_->holds_inside(point, faces_)) {
-    by_bound_ = false;
-    turn_deviation_ = std::min(turn_deviation_.value_or(HUGE_VALF), turns_->deviation());
-    return false;
-  }
-  return samples_.hold(beside_, limit_) && is_vertex_near(point) && keeps_appearance(point) && are_edges_near(point);
+  return samples_.hold(beside_, limit_) && is_vertex_near(point) && keeps_texture(point) && keeps_normals_around() &&
+         are_edges_near(point);
 }
 
-bool Proposer::keeps_appearance(Vec3 point) {
-  const auto refuse = [&](std::optional<float>& least, float deviation) {
-    by_bound_ = false;
-    least = std::min(least.value_or(HUGE_VALF), deviation);
-    return false;
-  };
-  if (texture_ && !std::exchange(texture_gathered_, true))
-    texture_->begin({star_.edge, star_.moved, star_.removed});
-  if (texture_ && !texture_->holds(point)) return refuse(texture_deviation_, texture_->deviation());
-  if (turns_ && !turns_->holds_around(faces_)) return refuse(turn_deviation_, turns_->deviation());
-  return true;
+bool Proposer::keeps_normals(Vec3 point) {
+  if (!turns_) return true;
+  if (!std::exchange(turns_gathered_, true)) turns_->begin({star_.moved, star_.removed, origin_});
+  return turns_->holds_inside(point, faces_) || refuse(turn_deviation_, turns_->deviation());
+}
+
+bool Proposer::keeps_normals_around() {
+  return !turns_ || turns_->holds_around(faces_) || refuse(turn_deviation_, turns_->deviation());
+}
+
+bool Proposer::keeps_texture(Vec3 point) {
+  if (!texture_) return true;
+  if (!std::exchange(texture_gathered_, true)) texture_->begin({star_.edge, star_.moved, star_.removed});
+  return texture_->holds(point) || refuse(texture_deviation_, texture_->deviation());
+}
+
+/// Notes that a placement is refused for something else than the distance. Always false.
+bool Proposer::refuse(std::optional<float>& least, float deviation) {
+  by_bound_ = false;
+  least = std::min(least.value_or(HUGE_VALF), deviation);
+  return false;
 }
 
 /// Ends of border edges that the vertex of the collapse will have.
@@ -289,7 +294,7 @@ void Proposer::begin_star(double share) {
   full_limit_ = limit_around() * internal::sample_fault;
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
   proofs_failed_ = 0;
-  gathered_ = false;
+  gathered_ = texture_gathered_ = turns_gathered_ = false;
   strays_.clear();
   placed_.reset();
   find_borders();

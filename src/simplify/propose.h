@@ -102,7 +102,10 @@ class Proposer {
   void take_few();
   void add_stray(const Stray& stray, Vec3 point);
   [[nodiscard]] bool fits(Vec3 point);
-  [[nodiscard]] bool keeps_appearance(Vec3 point);
+  [[nodiscard]] bool keeps_normals(Vec3 point);
+  [[nodiscard]] bool keeps_normals_around();
+  [[nodiscard]] bool keeps_texture(Vec3 point);
+  bool refuse(std::optional<float>& least, float deviation);
   /// Whether the texture has moved so far at a placement that no other one of the edge is worth a look: two in a
   /// thousand of those looked at would hold.
   [[nodiscard]] bool is_texture_far() const { return texture_deviation_ && is_far_beyond(*texture_deviation_); }
@@ -127,7 +130,8 @@ class Proposer {
   bool moves_ = false;                 ///< the vertex may stand anywhere
   int proofs_failed_ = 0;              ///< of collapses of this edge
   bool gathered_ = false;              ///< samples of the star are in `samples_`
-  bool texture_gathered_ = false;      ///< its samples of the texture are in `texture_`
+  bool texture_gathered_ = false;      ///< those of the texture are in `texture_`
+  bool turns_gathered_ = false;        ///< those of normals are in `turns_`
   std::optional<Vec3> placed_;         ///< where the vertex is in `faces_`
   std::vector<Stray> found_;           ///< points too far from the original that `fits` found last
   std::vector<Stray> strays_;          ///< those that the placement must bring near it
