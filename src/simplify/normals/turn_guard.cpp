@@ -15,9 +15,6 @@ constexpr double tie = 1e-9;
 /// By how much squared distances in single precision may be off, with room: they only tell where doubles are needed.
 constexpr double single_precision = 1e-3;
 
-/// Faces around a vertex that are looked at: a hub has thousands, around which each collapse would look.
-constexpr std::size_t max_around = 24;
-
 /// Samples with one rival that are looked at: a floor is the rival of thousands.
 constexpr std::size_t max_with_rival = 64;
 
@@ -71,21 +68,12 @@ void TurnGuard::begin(const TurnedStar& star) {
 
 bool TurnGuard::is_in_star(std::uint32_t face) const { return std::binary_search(star_.begin(), star_.end(), face); }
 
-/// Finds the samples of faces that share a vertex with a face of the star but are not in it, and those that have a
-/// rival in the star. The vertices of a star all belong to the region of its collapse, so no other thread changes the
-/// faces around it or their samples.
+/// Finds the samples of faces beside the star, and those that have a rival in it. The vertices of a star all belong to
+/// the region of its collapse, so no other thread changes the faces beside it or their samples.
 void TurnGuard::find_others() {
-  ring_.clear();
-  for (const Corner c : moved_) ring_.insert(ring_.end(), {mesh_.end(c), mesh_.apex(c)});
-  sort_unique(ring_);
   around_.clear();
-  for (const std::uint32_t v : ring_) {
-    std::size_t seen = 0;
-    mesh_.for_each_corner(v, [&](Corner c) {
-      around_.push_back(c / 3);
-      return ++seen < max_around;
-    });
-  }
+  for (const Corner c : moved_)
+    if (const Corner across = mesh_.twin(next_corner(c)); across != no_index) around_.push_back(across / 3);
   sort_unique(around_);
   others_.clear();
   for (const std::uint32_t f : around_)

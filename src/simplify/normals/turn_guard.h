@@ -107,7 +107,7 @@ class TurnGuard {
   Compared others_;                       ///< samples of faces around it, or with rivals in it
   std::vector<double> squared_from_own_;  ///< by sample of `others_`: from its face; negative: not known yet
   bool has_others_ = false;               ///< they are known
-  std::vector<std::uint32_t> ring_, around_, numbers_;
+  std::vector<std::uint32_t> around_, numbers_;
   float deviation_ = 0;
 };
 
