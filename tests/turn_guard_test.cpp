@@ -20,6 +20,7 @@ using meshbound::FacedTriangle;
 using meshbound::FaceTurns;
 using meshbound::NearestTriangle;
 using meshbound::no_index;
+using Rival = meshbound::Rivals::Rival;
 using meshbound::SampleFace;
 using meshbound::squared_distance;
 using meshbound::Triangle;
@@ -103,7 +104,8 @@ std::vector<SampleFace> faces_of(const ArrayMesh& mesh, const EdgeStar& star, Ve
 }
 
 bool holds(TurnGuard& guard, const ArrayMesh& mesh, const EdgeStar& star, Vec3 point) {
-  return guard.holds(point, faces_of(mesh, star, mesh.position(star.kept), point));
+  const std::vector<SampleFace> faces = faces_of(mesh, star, mesh.position(star.kept), point);
+  return guard.holds_inside(point, faces) && guard.holds_around(faces);
 }
 
 void begin(TurnGuard& guard, const ArrayMesh& mesh, const EdgeStar& star) {
@@ -232,13 +234,64 @@ TEST(TurnGuard, LeavesOtherRegionsAlone) {
   }
 }
 
+/// The sample on the edge from (1, 1) to the vertex, which two faces share: only one of them is flat.
+TEST(TurnGuard, GivesASampleOnAnEdgeToTheFaceThatItTurnsLittleFrom) {
+  const ArrayMesh flat = flat_square();
+  for (const double x : {0.0, 2.0}) {
+    ArrayMesh mesh = flat;
+    mesh.move(vertex_at(mesh, x, 1), {x, 1, 2});
+    FaceTurns turns = turns_of(flat, 30);
+    const EdgeStar star = star_of(mesh);
+    clear(turns, star);
+    std::uint32_t sample = 0;
+    while (squared_length(turns.sample(sample).at - Vec3{5.0 / 3, 4.0 / 3, 0}) > 1e-20) ++sample;
+    turns.give_to(sample, star.moved[0] / 3);
+    TurnGuard guard(turns, mesh);
+    begin(guard, mesh, star);
+    ASSERT_TRUE(holds(guard, mesh, star, {2.2, 1.6, 0}));
+    guard.give_samples(turns);
+    for (const Corner c : star.moved)
+      if (c / 3 == turns.face_of(sample)) EXPECT_EQ(mesh.position(mesh.end(c)).z + mesh.position(mesh.apex(c)).z, 0);
+  }
+}
+
+/// Of two triangles over the square that look down, the near one has given its sample to the far one beside it.
+TEST(TurnGuard, LooksBesideFacesThatHoldRivals) {
+  meshbound::TriangleMesh both;
+  const ArrayMesh flat = flat_square();
+  for (std::uint32_t v = 0; v < flat.vertex_count(); ++v) {
+    const Vec3 p = flat.position(v);
+    both.vertices.emplace_back(p.x, p.y, p.z);
+  }
+  for (std::uint32_t f = 0; f < flat.face_count(); ++f)
+    both.triangles.push_back({flat.start(3 * f), flat.start(3 * f + 1), flat.start(3 * f + 2)});
+  for (const auto& [x, y] : {std::pair(-2, -1), {4, -1}, {2, 20}, {10, 10}}) both.vertices.emplace_back(x, y, 0.2);
+  both.triangles.insert(both.triangles.end(), {{25, 27, 26}, {26, 27, 28}});
+  const ArrayMesh mesh = array_mesh_of(both);
+  const std::uint32_t near = flat.face_count(), far = near + 1;
+  for (const bool is_given : {false, true}) {
+    FaceTurns turns = turns_of(mesh, 80);
+    if (is_given) {
+      turns.clear(near);
+      turns.give_to(near, far);
+    }
+    const EdgeStar star = star_of(mesh);
+    TurnGuard guard(turns, mesh);
+    begin(guard, mesh, star);
+    EXPECT_TRUE(holds(guard, mesh, star, {1.5, 2, 0.05}));
+    EXPECT_EQ(guard.holds_inside({1.5, 2, 1}, faces_of(mesh, star, mesh.position(star.kept), {1.5, 2, 1})), is_given);
+    EXPECT_FALSE(holds(guard, mesh, star, {1.5, 2, 1}));
+  }
+}
+
 FacedTriangle triangle_at(Vec3 at, double looks) {
   return {{at, at + Vec3{1, 0, 0}, at + Vec3{0, 1, 0}}, {0, 0, looks}};
 }
 
 std::vector<std::uint32_t> rivals_of(const meshbound::Rivals& rivals, std::uint32_t triangle) {
-  const auto of = rivals.of(triangle);
-  return {of.begin(), of.end()};
+  std::vector<std::uint32_t> numbers;
+  for (const Rival& rival : rivals.of(triangle)) numbers.push_back(rival.triangle);
+  return numbers;
 }
 
 /// Rivals look elsewhere and are near: within twice the square root of twice the area, here 2.
@@ -253,25 +306,58 @@ TEST(Rivals, AreTheNearestThatLookElsewhere) {
   EXPECT_EQ(rivals_of(rivals, 8), (Numbers{1}));
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (std::uint32_t other = 0; other < triangles.size(); ++other) {
-      const auto of = rivals.of(t), with = rivals.with(other);
+      const std::vector<std::uint32_t> of = rivals_of(rivals, t);
+      const auto with = rivals.with(other);
       EXPECT_EQ(std::count(of.begin(), of.end(), other), std::count(with.begin(), with.end(), t));
     }
   const meshbound::Rivals near(triangles, {0.3, 0.5, 1});
   EXPECT_EQ(rivals_of(near, 0), (Numbers{4, 5}));
 }
 
-TEST(Rivals, AreTheSameForEveryNumberOfThreads) {
+/// Triangles of a tenth in a cube of 0.4.
+std::vector<FacedTriangle> random_triangles(std::size_t count) {
   std::mt19937 random(3);
   std::vector<FacedTriangle> triangles;
-  for (int i = 0; i < 3000; ++i) {
+  while (triangles.size() < count) {
     const Vec3 at = 0.2 * random_point(random), normal = random_point(random);
     triangles.push_back(
         {{at, at + 0.1 * random_point(random), at + 0.1 * random_point(random)}, (1 / length(normal)) * normal});
   }
+  return triangles;
+}
+
+/// By looking at all, with few and with many within half the reach.
+TEST(Rivals, AreThoseThatALookAtAllFinds) {
+  for (const std::size_t size : {50, 1000}) {
+    const std::vector<FacedTriangle> triangles = random_triangles(size);
+    const meshbound::Rivals rivals(triangles, {1, 0.5, 1});
+    for (std::uint32_t t = 0; t < size; ++t) {
+      const auto& [a, b, c] = triangles[t].corners;
+      const double reach = 2 * std::sqrt(length(cross(b - a, c - a)));
+      std::vector<std::pair<double, std::uint32_t>> all;
+      for (std::uint32_t other = 0; other < size; ++other) {
+        const double squared = squared_distance(triangles[other].corners, triangles[t].middle());
+        if (dot(triangles[t].normal, triangles[other].normal) < 0.5 && squared <= reach * reach)
+          all.emplace_back(squared, other);
+      }
+      std::sort(all.begin(), all.end());
+      all.resize(std::min(all.size(), meshbound::Rivals::max_rivals));
+      const auto found = rivals.of(t);
+      ASSERT_EQ(found.size(), all.size());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        EXPECT_EQ(found[k].triangle, all[k].second);
+        EXPECT_FLOAT_EQ(found[k].squared, static_cast<float>(all[k].first));
+      }
+    }
+  }
+}
+
+TEST(Rivals, AreTheSameForEveryNumberOfThreads) {
+  const std::vector<FacedTriangle> triangles = random_triangles(3000);
   const meshbound::Rivals one(triangles, {1, 0.5, 1}), four(triangles, {1, 0.5, 4});
   std::size_t count = 0;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    EXPECT_TRUE(std::ranges::equal(one.of(t), four.of(t)));
+    EXPECT_EQ(rivals_of(one, t), rivals_of(four, t));
     EXPECT_TRUE(std::ranges::equal(one.with(t), four.with(t)));
     count += one.of(t).size();
   }

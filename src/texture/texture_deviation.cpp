@@ -23,6 +23,11 @@ namespace {
 constexpr double default_share = 1e-6;    ///< of the diagonal: the error bound where none is given
 constexpr double reach_share = 1.0 / 64;  ///< of the diagonal: the reach of the first look where no tolerance is given
 constexpr double precision_share = 1.0 / 16;  ///< of the error bound: the precision of a single distance
+
+/// Share of a lower bound: where meshes change little, bounds below it serve the next measurement as well, whose lower
+/// bound may be less.
+constexpr double far_below = 0.9;
+
 constexpr std::size_t grain = 32;             ///< triangles that a thread takes at once
 
 /// Computes the one-sided texture deviation from A to B.
@@ -46,9 +51,13 @@ class Direction {
   }
 
   OneSidedTextureDeviation run() {
+    options_.stop.check();
     pairs_.assign(upper_.size(), 0);
-    look_at_near();
-    find_lower_bound();
+    const std::vector<std::size_t> unknown_before = unknown();
+    for (const bool is_first : {true, false}) {
+      look_at_near(part_of(unknown_before, is_first));
+      find_lower_bound();
+    }
     refine(unknown(), rough_error_bound());
     refine(open(), goal_.error_bound);
     if (!witness_) find_witness();
@@ -105,10 +114,13 @@ class Direction {
     });
   }
 
-  /// Many triangles are covered by few near ones: an upper bound, and no uncovered area.
-  void look_at_near() {
-    for_triangles(upper_.size(), grain, [&](std::size_t i, Workspace& work) {
-      if (a_.triangles()[i].chart != Chart::Area || !is_unknown(i)) return;
+  /// Many triangles are covered by few near ones: an upper bound, and no uncovered area. What is far below the lower
+  /// bound of all is not told apart.
+  void look_at_near(const std::vector<std::size_t>& triangles) {
+    const double least = far_below * std::min(goal_.lower, options_.tolerance.value_or(HUGE_VAL));
+    for_triangles(triangles.size(), grain, [&](std::size_t k, Workspace& work) {
+      const std::size_t i = triangles[k];
+      if (a_.triangles()[i].chart != Chart::Area) return;
       find_candidates(i, work);
       if (const auto& copy = work.candidates.copy) {
         upper_[i] = copy->upper;
@@ -116,9 +128,20 @@ class Direction {
         return;
       }
       overlay_near(i, work);
-      pairs_[i] = work.overlay.candidates();
-      if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision)) upper_[i] = *upper;
+      pairs_[i] += work.overlay.candidates();
+      const auto upper = upper_of_complete_cover(work.overlay, goal_.precision, least);
+      if (upper) upper_[i] = std::min(upper_[i], *upper);
     });
+  }
+
+  /// The first part has triangles from all over the mesh: enough for a lower bound that spares the others most of their
+  /// work.
+  [[nodiscard]] static std::vector<std::size_t> part_of(const std::vector<std::size_t>& triangles, bool is_first) {
+    constexpr std::size_t stride = 8;
+    std::vector<std::size_t> part;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      if ((k % stride == 0) == is_first) part.push_back(triangles[k]);
+    return part;
   }
 
   [[nodiscard]] bool is_unknown(std::size_t triangle) const { return !(upper_[triangle] < HUGE_VAL); }

@@ -333,13 +333,13 @@ class PieceSearch {
 
 }  // namespace
 
-std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision) {
+std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision, double least) {
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
   const std::vector<std::uint32_t> candidates = spanning_candidates(overlay, 0);
   for (const std::uint32_t c : candidates)
-    if (covers_all(overlay, c)) return upper_at_corners(overlay, overlay.whole(), c, precision);
+    if (covers_all(overlay, c)) return std::max(least, upper_at_corners(overlay, overlay.whole(), c, precision));
   if (!Covering().is_complete(overlay, candidates)) return std::nullopt;
-  double upper = 0;
+  double upper = least;
   Polygon covered;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     if (overlay.is_within(c, upper)) continue;
