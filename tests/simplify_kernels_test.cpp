@@ -20,6 +20,17 @@ namespace simplify_kernels_test {
 
 using Eigen::Vector3d;
 
+TEST(SamplePoints, ChangePlaces) {
+  SamplePoints points;
+  for (int i = 0; i < 20; ++i) points.add({1.0 * i, 2.0 * i, 3.0 * i});
+  points.swap(3, 17);
+  for (const auto& [at, number] : {std::pair<std::size_t, double>(3, 17), {17, 3}, {4, 4}, {19, 19}}) {
+    EXPECT_EQ(points.at(at).x, number);
+    EXPECT_EQ(points.at(at).y, 2 * number);
+    EXPECT_EQ(points.at(at).z, 3 * number);
+  }
+}
+
 TEST(SampleKernel, IsTheSameOnEveryProcessor) {
   SamplePoints points;
   std::mt19937 random(3);

@@ -27,12 +27,12 @@ struct SamplePoints {
     block.z[lane_] = static_cast<float>(p.z);
     block.weight[lane_++] = 1;
   }
+  /// Two points change places.
   void swap(std::size_t i, std::size_t j) {
     Block &of_i = blocks[i / 8], &of_j = blocks[j / 8];
     std::swap(of_i.x[i % 8], of_j.x[j % 8]);
     std::swap(of_i.y[i % 8], of_j.y[j % 8]);
     std::swap(of_i.z[i % 8], of_j.z[j % 8]);
-    std::swap(of_i.weight[i % 8], of_j.weight[j % 8]);
   }
   [[nodiscard]] std::size_t size() const { return 8 * blocks.size() - (8 - lane_); }
   [[nodiscard]] Vec3 at(std::size_t i) const {
