@@ -23,12 +23,11 @@ namespace {
 constexpr double default_share = 1e-6;    ///< of the diagonal: the error bound where none is given
 constexpr double reach_share = 1.0 / 64;  ///< of the diagonal: the reach of the first look where no tolerance is given
 constexpr double precision_share = 1.0 / 16;  ///< of the error bound: the precision of a single distance
-
-/// Share of a lower bound: where meshes change little, bounds below it serve the next measurement as well, whose lower
-/// bound may be less.
-constexpr double far_below = 0.9;
-
 constexpr std::size_t grain = 32;             ///< triangles that a thread takes at once
+
+/// Share of a lower bound: upper bounds below it are not told apart. Where a mesh changes little these serve its next
+/// measurement as well, whose lower bound may be less.
+constexpr double far_below = 0.9;
 
 /// Computes the one-sided texture deviation from A to B.
 class Direction {
@@ -128,9 +127,8 @@ class Direction {
         return;
       }
       overlay_near(i, work);
-      pairs_[i] += work.overlay.candidates();
-      const auto upper = upper_of_complete_cover(work.overlay, goal_.precision, least);
-      if (upper) upper_[i] = std::min(upper_[i], *upper);
+      pairs_[i] = work.overlay.candidates();
+      if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision, least)) upper_[i] = *upper;
     });
   }
 

@@ -35,8 +35,8 @@ struct DeviationGoal {
   std::uint64_t max_pieces = 0;
 };
 
-/// An upper bound over all of A, that of the farthest candidate, but not below `least`. Absent unless the candidates are
-/// known to cover all of A. O(candidates log candidates).
+/// An upper bound over all of A, that of the farthest candidate, but not below `least`. Absent unless the candidates
+/// are known to cover all of A. O(candidates log candidates).
 [[nodiscard]] std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision, double least);
 
 /// Bounds the deviation to the goal by branch and bound over pieces of A. The overlay holds the likely candidates;

@@ -199,8 +199,7 @@ bool TurnGuard::holds_inside(Vec3 point, std::span<const SampleFace> faces) {
     face.corners[0] = point;
     face.normal = turns_.normal(face.number, face.corners);
   }
-  const std::optional<std::size_t> refused =
-      first_refused(own_, faces, [this](std::size_t i) { return holds_own(i); });
+  const std::optional<std::size_t> refused = first_refused(own_, faces, [this](std::size_t i) { return holds_own(i); });
   if (refused) own_.put_first(*refused);
   return !refused;
 }

@@ -37,8 +37,8 @@ class TurnGuard {
   /// regions may change them. O(samples * faces); what refused the last placement is looked at first.
   [[nodiscard]] bool holds_inside(Vec3 point, std::span<const SampleFace> faces);
   /// After that, what takes longer: faces beside those that hold near rivals count as well, and samples outside the
-  /// star must not turn too much. One of the faces may come nearer to those of faces around, and to those that have a
-  /// rival in the star, than their own; those of other regions are left out. O(samples * faces).
+  /// star must not turn too much. One of the faces may come nearer to those of faces beside it, and to those that have
+  /// a rival in the star, than their own; those of other regions are left out. O(samples * faces).
   [[nodiscard]] bool holds_around(std::span<const SampleFace> faces);
   /// After a refusal: how much the sample turned that decided it, in tolerances.
   [[nodiscard]] float deviation() const { return deviation_; }
@@ -72,8 +72,8 @@ class TurnGuard {
   };
   /// A face outside the star that a sample turns too much from.
   struct RivalFace {
-    double squared = HUGE_VAL;  ///< distance between the sample and that face
-    Vec3 normal;                ///< of that face
+    double squared = 0;  ///< distance between the sample and that face
+    Vec3 normal;         ///< of that face
   };
   void add(std::uint32_t sample, Compared& to) const;
   /// Compares the samples block by block, and asks holds(i) for each: the first one that does not hold.
