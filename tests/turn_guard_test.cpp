@@ -255,7 +255,8 @@ TEST(TurnGuard, GivesASampleOnAnEdgeToTheFaceThatItTurnsLittleFrom) {
   }
 }
 
-/// Of two triangles over the square that look down, the near one has given its sample to the far one beside it.
+/// Two triangles that share an edge face down from above the square: one lies over the star, the other beyond reach.
+/// Once the other one holds the sample of the first, only a look at faces beside it finds the first.
 TEST(TurnGuard, LooksBesideFacesThatHoldRivals) {
   meshbound::TriangleMesh both;
   const ArrayMesh flat = flat_square();

@@ -36,7 +36,7 @@ inline double squared_distance(const std::array<Vec3, 3>& corners, Vec3 p) {
   return closest_on_triangle(CornerTriangle<double>{a, b - a, c - a}, p).squared_distance;
 }
 
-/// Without branches: Eigen's function takes three times as long where boxes lie around the point.
+/// As Eigen's `squaredExteriorDistance`, without its branches: which way they go cannot be foretold in a search.
 inline double squared_distance(const Eigen::AlignedBox3d& box, Vec3 p) {
   const auto beyond = [](double min, double max, double at) { return std::max(std::max(min - at, at - max), 0.0); };
   return squared_length(Vec3{beyond(box.min().x(), box.max().x(), p.x), beyond(box.min().y(), box.max().y(), p.y),

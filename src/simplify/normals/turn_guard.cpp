@@ -93,8 +93,8 @@ void TurnGuard::find_others() {
   has_others_ = true;
 }
 
-/// Takes the face as the nearest one if it is outside the star, nearer than `below` and than that one, and the sample
-/// turns too much from it.
+/// Sets `nearest` to a face outside the star that the sample turns too much from, if its squared distance is less than
+/// `below` and than that of the present `nearest`.
 void TurnGuard::look_at(std::uint32_t face, const FaceTurns::Sample& sample, double below,
                         std::optional<RivalFace>& nearest) const {
   if (!is_readable(face) || is_in_star(face)) return;
@@ -107,7 +107,8 @@ void TurnGuard::look_at(std::uint32_t face, const FaceTurns::Sample& sample, dou
   if (!turns_.allows(sample.normal, normal)) nearest = {squared, normal};
 }
 
-/// Of the faces that hold rivals of a sample of the star, the nearest one, if it is nearer than the star.
+/// The nearest of the faces outside the star that hold rivals of sample i and that it turns too much from; absent where
+/// none is nearer to the sample than the star is.
 std::optional<TurnGuard::RivalFace> TurnGuard::nearest_rival(std::size_t i) const {
   const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
   std::optional<RivalFace> nearest;
@@ -120,7 +121,8 @@ std::optional<TurnGuard::RivalFace> TurnGuard::nearest_rival(std::size_t i) cons
   return nearest;
 }
 
-/// The same, of the faces beside those: a face that holds a rival need not be what has become of its nearest point.
+/// As `nearest_rival`, for the faces that share an edge with one that holds a near rival: a rival belongs to the face
+/// nearest to its middle, and the part of it that is nearest to the sample may have become another face.
 std::optional<TurnGuard::RivalFace> TurnGuard::nearest_beside_rivals(std::size_t i) const {
   const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
   const double below = (1 + single_precision) * own_.squared(i);
