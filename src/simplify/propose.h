@@ -63,10 +63,9 @@ class Proposer {
   [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
   /// How far samples, in space or of the texture, were from the best placement of the edge refused last, or how much
-  /// they turned there, in tolerances; 0 where that is not known.
-  [[nodiscard]] float deviation() const {
-    return std::max({deviation_, texture_deviation_.value_or(0), turn_deviation_.value_or(0)});
-  }
+  /// they turned there, in tolerances; 0 where that is not known. An edge that was not refused for a distance waits for
+  /// a change around it.
+  [[nodiscard]] float deviation() const;
   /// Another placement for the edge asked for last, as the proof of the collapse to `refuted` has found that it leaves
   /// this point of the original too far from the faces. Absent where there is no such point or no such placement, or
   /// where enough have been refuted.
@@ -106,6 +105,7 @@ class Proposer {
   [[nodiscard]] bool keeps_normals_around();
   [[nodiscard]] bool keeps_texture(Vec3 point);
   bool refuse(std::optional<float>& least, float deviation);
+  bool is_too_far();
   /// Whether the texture has moved so far at a placement that no other one of the edge is worth a look: two in a
   /// thousand of those looked at would hold.
   [[nodiscard]] bool is_texture_far() const { return texture_deviation_ && is_far_beyond(*texture_deviation_); }
@@ -138,7 +138,8 @@ class Proposer {
   float deviation_ = 0;
   /// The least of refused placements of the edge, in tolerances of texture and normals.
   std::optional<float> texture_deviation_, turn_deviation_;
-  bool by_bound_ = false;  ///< samples decided the refusal
+  bool by_bound_ = false;              ///< samples decided the refusal
+  bool refused_for_distance_ = false;  ///< some placement, or the edge, was: more of the tolerance may help
   Vec3 tried_;             ///< the first placement
   Vec3 origin_;
   std::vector<Vec3> borders_;  ///< other ends of border edges
