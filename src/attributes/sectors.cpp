@@ -2,7 +2,7 @@
 #include "attributes/sectors.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "numeric/disjoint_sets.h"
 #include "numeric/no_index.h"
@@ -12,26 +12,44 @@ namespace {
 
 std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-}  // namespace
+std::uint32_t vertex(const SimplifiedLevel& level, std::uint32_t corner) {
+  return level.mesh.triangles[corner / 3][corner % 3];
+}
 
-std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level, const MayJoin& may_join) {
-  const std::vector<Triangle>& triangles = level.mesh.triangles;
-  const auto vertex = [&](std::uint32_t corner) { return triangles[corner / 3][corner % 3]; };
-  const auto count = static_cast<std::uint32_t>(3 * triangles.size());
+/// An edge, and a corner where it starts.
+using EdgeOfCorner = std::pair<Edge, std::uint32_t>;
+
+/// The edges of all triangles that are no lines; those of one edge follow one another, by corner.
+std::vector<EdgeOfCorner> edges_between_lines(const SimplifiedLevel& level) {
   std::vector<Edge> lines;
   for (const Edge& edge : level.lines) lines.push_back(sorted(edge));
   std::sort(lines.begin(), lines.end());
+  std::vector<EdgeOfCorner> edges;
+  edges.reserve(3 * level.mesh.triangles.size());
+  for (std::uint32_t c = 0; c < 3 * level.mesh.triangles.size(); ++c) {
+    const Edge edge = sorted({vertex(level, c), vertex(level, next(c))});
+    if (!std::binary_search(lines.begin(), lines.end(), edge)) edges.emplace_back(edge, c);
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
 
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level, const MayJoin& may_join) {
+  const auto count = static_cast<std::uint32_t>(3 * level.mesh.triangles.size());
   DisjointSets sets(count);
-  std::map<Edge, std::uint32_t> open;  // edges seen once, with the corner where they start
-  for (std::uint32_t c = 0; c < count; ++c) {
-    const Edge edge = sorted({vertex(c), vertex(next(c))});
-    if (std::binary_search(lines.begin(), lines.end(), edge)) continue;
-    const auto [at, is_new] = open.emplace(edge, c);
-    if (is_new) continue;
-    for (const std::uint32_t i : {c, next(c)})
-      for (const std::uint32_t j : {at->second, next(at->second)})
-        if (vertex(i) == vertex(j) && (!may_join || may_join(i, j))) sets.unite(i, j);
+  const std::vector<EdgeOfCorner> edges = edges_between_lines(level);
+  std::size_t first = 0;  // the first one of the same edge
+  for (std::size_t e = 1; e < edges.size(); ++e) {
+    if (edges[e].first != edges[first].first) {
+      first = e;
+      continue;
+    }
+    const std::uint32_t one = edges[first].second, other = edges[e].second;
+    for (const std::uint32_t i : {other, next(other)})
+      for (const std::uint32_t j : {one, next(one)})
+        if (vertex(level, i) == vertex(level, j) && (!may_join || may_join(i, j))) sets.unite(i, j);
   }
 
   std::vector<std::vector<std::uint32_t>> result;

@@ -9,6 +9,7 @@
 #include "mesh/first_use.h"
 #include "mesh/no_value.h"
 #include "meshbound/simplify.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
@@ -233,8 +234,16 @@ class Transfer {
   Eigen::Vector3d normal_of(std::uint32_t corner, ChartSurface& smooth) {
     const WeightedPoint at = counterpart(corner / 3, point_inside(corner, share_inside), smooth);
     const Eigen::Vector3d normal_inside = normal_at(at);
-    const Eigen::Vector3d normal = normal_at(smooth.closest(smooth.chart_of(at.triangle), position(corner)));
+    const Eigen::Vector3d normal = normal_of_vertex(vertex(corner), smooth.chart_of(at.triangle), smooth);
     return normal.dot(normal_inside) >= smooth_cosine ? normal : normal_inside;
+  }
+
+  /// The normal of the original where the smooth surface is nearest to a vertex. Most corners of a vertex ask for the
+  /// same surface.
+  const Eigen::Vector3d& normal_of_vertex(std::uint32_t v, std::uint32_t chart, ChartSurface& smooth) {
+    NormalOnChart& known = normal_of_vertex_[v];
+    if (known.chart != chart) known = {chart, normal_at(smooth.closest(chart, level_.mesh.vertices[v]))};
+    return known.normal;
   }
 
   /// Where a triangle is one of the original as it was: which corner of that one its first corner is.
@@ -251,6 +260,7 @@ class Transfer {
 
   CornerAttribute normals() {
     ChartSurface smooth(original_mesh_, from_, NormalSeams::Counted);
+    normal_of_vertex_.resize(level_.mesh.vertices.size());
     std::vector<Eigen::Vector3d> by_corner;
     for (std::uint32_t t = 0; t < level_.mesh.triangles.size(); ++t) {
       const auto turn = turn_of_unchanged(t);
@@ -335,6 +345,12 @@ class Transfer {
   std::optional<ChartSurface> original_;  ///< once asked for
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
+  struct NormalOnChart {
+    std::uint32_t chart = no_index;
+    Eigen::Vector3d normal;
+  };
+  std::vector<NormalOnChart> normal_of_vertex_;  ///< by vertex: the one found last
+
   bool keeps_vertices_;                ///< every vertex of the level is one of the original
   std::vector<std::uint8_t> on_line_;  ///< by vertex
 };
