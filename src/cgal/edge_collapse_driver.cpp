@@ -6,6 +6,7 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "cgal/region_mesh.h"
@@ -89,12 +90,13 @@ struct Stop {
 
 /// CGAL's last question before it collapses an edge: here the array mesh makes and proves the collapse. CGAL asks again
 /// for all edges around the vertices of a collapse; an edge that was refused is tried again only if a face at one of
-/// its ends has changed.
+/// its ends has changed, and one that leads beyond what CGAL has of the region waits.
 struct Filter {
   Run* run;
 
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
-    const auto& vertex = run->region.vertex;
+    const auto& [vertex, is_inner] = std::tie(run->region.vertex, run->region.is_inner);
+    if (is_inner[profile.v0()] == 0 || is_inner[profile.v1()] == 0) return {};
     const Corner corner = corner_between(run->collapses.mesh(), vertex[profile.v0()], vertex[profile.v1()]);
     if (corner == no_index || run->collapses.is_refused(corner)) return {};
     // Without a wish the core takes the placement of the quadrics, which is what they gave here.

@@ -22,7 +22,8 @@ class Builder {
         source_(collapses.mesh()),
         into_(into),
         mesh_(into.mesh),
-        faces_(faces_of(collapses)),
+        inner_(inner_vertices(collapses)),
+        faces_(faces_of_inner()),
         vertices_(corners_of_faces()) {}
 
   void run() {
@@ -33,12 +34,45 @@ class Builder {
   }
 
  private:
-  static RankedNumbers faces_of(const RegionCollapses& collapses) {
+  /// Vertices of the region: all, or those near open edges where few are open.
+  static RankedNumbers inner_vertices(const RegionCollapses& collapses) {
+    const bool are_few_open = RegionMesh::edges_of_open * collapses.open_edges().size() < collapses.edge_count();
+    std::vector<std::uint32_t> ends;
+    const auto add_ends = [&](Corner edge) {
+      for (const std::uint32_t v : {collapses.mesh().start(edge), collapses.mesh().end(edge)})
+        if (collapses.owns_vertex(v)) ends.push_back(v);
+    };
+    if (are_few_open)
+      std::for_each(collapses.open_edges().begin(), collapses.open_edges().end(), add_ends);
+    else
+      collapses.for_each_edge(add_ends);
+    RankedNumbers inner(std::array{std::move(ends)});
+    if (!are_few_open) return inner;
+    for (int ring = 0; ring < RegionMesh::rings_around_open; ++ring) inner = with_neighbours(collapses, inner);
+    return inner;
+  }
+
+  static RankedNumbers with_neighbours(const RegionCollapses& collapses, const RankedNumbers& vertices) {
+    const ArrayMesh& mesh = collapses.mesh();
+    std::vector<std::uint32_t> found = vertices.ascending();
+    for (const std::uint32_t v : vertices.ascending()) {
+      mesh.for_each_corner(v, [&](Corner c) {
+        for (const std::uint32_t other : {mesh.end(c), mesh.apex(c)})
+          if (collapses.owns_vertex(other)) found.push_back(other);
+        return true;
+      });
+    }
+    return RankedNumbers(std::array{std::move(found)});
+  }
+
+  [[nodiscard]] RankedNumbers faces_of_inner() const {
     std::vector<std::uint32_t> faces;
-    collapses.for_each_edge([&](Corner c) {
-      for (const Corner side : {c, collapses.mesh().twin(c)})
-        if (side != no_index && collapses.owns_face(side / 3)) faces.push_back(side / 3);
-    });
+    for (const std::uint32_t v : inner_.ascending()) {
+      source_.for_each_corner(v, [&](Corner c) {
+        if (collapses_.owns_face(c / 3)) faces.push_back(c / 3);
+        return true;
+      });
+    }
     return RankedNumbers(std::array{std::move(faces)});
   }
 
@@ -56,6 +90,7 @@ class Builder {
     for (const std::uint32_t v : into_.vertex) {
       const Vec3 p = source_.position(v);
       mesh_.add_vertex({p.x, p.y, p.z});
+      into_.is_inner.push_back(inner_.contains(v) ? 1 : 0);
     }
   }
   [[nodiscard]] Vertex vertex_of(std::uint32_t v) const {
@@ -121,7 +156,7 @@ class Builder {
   const ArrayMesh& source_;
   RegionMesh& into_;
   SurfaceMesh& mesh_;
-  RankedNumbers faces_, vertices_;
+  RankedNumbers inner_, faces_, vertices_;
   std::vector<std::array<Halfedge, 3>> halfedges_;  ///< by face there and corner
   std::vector<Corner> rim_;                         ///< corners whose edge has no other face in the region
 };

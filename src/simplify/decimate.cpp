@@ -240,7 +240,7 @@ void Run::prove_one_by_one() {
                      };
                    }
                    RegionCollapses collapses(state_, split, region, proposer, &prover, std::move(limits));
-                   if (!collapses.has_open_edge()) return;
+                   if (collapses.open_edges().empty()) return;
                    if (goal_.driver != nullptr)
                      goal_.driver->collapse(collapses);
                    else

@@ -18,10 +18,16 @@ RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Reg
       limits_(std::move(limits)),
       clock_at_start_(region.clock) {
   proposer_.enter(split, region);
+  for_each_edge([&](Corner e) {
+    ++edge_count_;
+    if (is_open(e)) open_edges_.push_back(e);
+  });
 }
 
+bool RegionCollapses::owns_vertex(std::uint32_t vertex) const { return split_.owns(region_.id, vertex); }
+
 bool RegionCollapses::is_owned(Corner edge) const {
-  return split_.owns(region_.id, mesh().start(edge)) && split_.owns(region_.id, mesh().end(edge));
+  return owns_vertex(mesh().start(edge)) && owns_vertex(mesh().end(edge));
 }
 
 bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns_face(region_.id, face); }
@@ -30,12 +36,6 @@ bool RegionCollapses::is_open(Corner edge) const {
   const std::uint32_t refused_at = state_.refused_at[mesh().edge(edge)];
   if (refused_at > 0 && is_far_beyond(state_.deviation[mesh().edge(edge)])) return false;
   return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >= refused_at;
-}
-
-bool RegionCollapses::has_open_edge() const {
-  bool has_open = false;
-  for_each_edge([&](Corner e) { has_open = has_open || is_open(e); });
-  return has_open;
 }
 
 bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[mesh().edge(edge)] > clock_at_start_; }
@@ -74,9 +74,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
 
 void RegionCollapses::collapse_all() {
   EdgeQueue queue(state_.index_in_queue);
-  for_each_edge([&](Corner e) {
-    if (is_open(e)) queue.put(e, edge_cost(state_, e));
-  });
+  for (const Corner e : open_edges_) queue.put(e, edge_cost(state_, e));
   while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_before_) queue.erase(e);

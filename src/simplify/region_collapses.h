@@ -28,6 +28,7 @@ class RegionCollapses {
 
   [[nodiscard]] const ArrayMesh& mesh() const { return state_.mesh; }
   [[nodiscard]] const DecimationState& state() const { return state_; }
+  [[nodiscard]] bool owns_vertex(std::uint32_t vertex) const;
   /// Whether all corners of the face belong to the region.
   [[nodiscard]] bool owns_face(std::uint32_t face) const;
   /// Whether both ends of the edge belong to the region, and something near has changed since it was refused.
@@ -49,7 +50,9 @@ class RegionCollapses {
       });
     }
   }
-  [[nodiscard]] bool has_open_edge() const;
+  /// The edges that begin in the region, and those of them that were open at the start.
+  [[nodiscard]] std::size_t edge_count() const { return edge_count_; }
+  [[nodiscard]] const std::vector<Corner>& open_edges() const { return open_edges_; }
   [[nodiscard]] bool must_stop() const { return ended_ || limits_.must_stop(region_.removed_faces); }
 
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the
@@ -76,7 +79,8 @@ class RegionCollapses {
   Limits limits_;
   std::uint32_t clock_at_start_;
   bool ended_ = false;
-  std::vector<Corner> edges_before_;
+  std::size_t edge_count_ = 0;
+  std::vector<Corner> open_edges_, edges_before_;
 };
 
 }  // namespace meshbound
