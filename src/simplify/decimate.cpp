@@ -25,6 +25,9 @@ constexpr double share_together = 0.7;
 /// than a proposal, so it pays to prove in regions when a mesh has become small.
 constexpr std::size_t min_vertices_together = 2000, min_vertices_one_by_one = 1000;
 
+/// Where not even one of so many edges is open, all get their turn in one region: the splits would take longer.
+constexpr std::size_t edges_of_open = 32;
+
 /// Passes over the edges that something has changed around end where one removes a smaller share of the faces.
 constexpr double min_gain_of_pass = 0.01;
 
@@ -79,6 +82,7 @@ class Run {
   [[nodiscard]] std::size_t proposed() const;
   std::size_t prove_and_repair();
   void prove_one_by_one();
+  [[nodiscard]] bool are_few_open() const;
   [[nodiscard]] bool renew_quadrics();
   void refine();
   void in_regions(Split split, const Work& work);
@@ -221,11 +225,22 @@ void Run::try_the_others_again() {
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
+bool Run::are_few_open() const {
+  const ArrayMesh& mesh = state_.mesh;
+  std::size_t edges = 0, open = 0;
+  for (Corner e = 0; e < 3 * mesh.face_count(); ++e) {
+    if (mesh.is_removed(e / 3) || mesh.edge(e) != e) continue;
+    ++edges;
+    open += state_.is_open(e) ? 1 : 0;
+  }
+  return edges_of_open * open < edges;
+}
+
 /// Collapses near the tolerance, each proven before the next.
 void Run::prove_one_by_one() {
   while (!has_ended()) {
     const std::size_t before = state_.faces;
-    for (int shift = is_global() ? shifts_of_split : 0; shift <= shifts_of_split && !has_ended(); ++shift) {
+    for (int shift = is_global() || are_few_open() ? shifts_of_split : 0; shift <= shifts_of_split && !has_ended(); ++shift) {
       const bool is_last = shift == shifts_of_split;
       in_regions(is_last ? whole(state_) : split(state_, shift, min_vertices_one_by_one),
                  [&](const Split& split, Region& region, Proposer& proposer, ChangeProver& prover) {

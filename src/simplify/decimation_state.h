@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -216,6 +217,12 @@ struct DecimationState {
   std::vector<float> deviation;                    ///< by edge: in tolerances, as found when it was refused; else 0
   std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
+  /// Whether the edge was not refused, or something near has changed since that may help.
+  [[nodiscard]] bool is_open(Corner corner) const {
+    const Corner edge = mesh.edge(corner);
+    if (refused_at[edge] > 0 && is_far_beyond(deviation[edge])) return false;
+    return std::max(touched[mesh.start(edge)], touched[mesh.end(edge)]) >= refused_at[edge];
+  }
   /// Locks vertices, before any change.
   void lock(std::vector<std::uint8_t> vertices_locked);
   /// Whether a change that is not proven may have altered the face.

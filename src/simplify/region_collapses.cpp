@@ -32,11 +32,7 @@ bool RegionCollapses::is_owned(Corner edge) const {
 
 bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns_face(region_.id, face); }
 
-bool RegionCollapses::is_open(Corner edge) const {
-  const std::uint32_t refused_at = state_.refused_at[mesh().edge(edge)];
-  if (refused_at > 0 && is_far_beyond(state_.deviation[mesh().edge(edge)])) return false;
-  return is_owned(edge) && std::max(state_.touched[mesh().start(edge)], state_.touched[mesh().end(edge)]) >= refused_at;
-}
+bool RegionCollapses::is_open(Corner edge) const { return is_owned(edge) && state_.is_open(edge); }
 
 bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[mesh().edge(edge)] > clock_at_start_; }
 

@@ -31,7 +31,7 @@ class RegionCollapses {
   [[nodiscard]] bool owns_vertex(std::uint32_t vertex) const;
   /// Whether all corners of the face belong to the region.
   [[nodiscard]] bool owns_face(std::uint32_t face) const;
-  /// Whether both ends of the edge belong to the region, and something near has changed since it was refused.
+  /// Whether both ends of the edge belong to the region, and it was not refused as it is now.
   [[nodiscard]] bool is_open(Corner edge) const;
   /// Whether the edge was refused in this run, and its star is still the same.
   [[nodiscard]] bool is_refused(Corner edge) const;
