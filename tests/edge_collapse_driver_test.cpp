@@ -7,10 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "cgal/region_mesh.h"
@@ -158,38 +161,71 @@ TEST(EdgeCollapseDriver, CollapsesForBothCosts) {
   EXPECT_NE(volume.mesh.triangles, quadrics.mesh.triangles);
 }
 
-/// Looks at the region instead of collapsing it; for one thread.
-class LookingDriver : public CollapseDriver {
- public:
-  void collapse(RegionCollapses& collapses) const override {
-    const RegionMesh region(collapses);
-    const ArrayMesh& mesh = collapses.mesh();
-    std::size_t faces = 0;
-    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) faces += !mesh.is_removed(f) && collapses.owns_face(f);
-    valid = valid && CGAL::is_valid_polygon_mesh(region.mesh) && region.mesh.number_of_faces() == faces;
-    for (const auto h : region.mesh.halfedges())
-      valid = valid && (!region.mesh.is_border(h) || region.mesh.is_border(region.mesh.target(h), false));
-    for (const auto v : region.mesh.vertices()) {
-      const Vec3 p = mesh.position(region.vertex[v]);
-      valid = valid && region.mesh.point(v) == Kernel::Point_3(p.x, p.y, p.z);
-    }
-    for (const auto e : region.mesh.edges())
-      valid = valid && corner_between(mesh, region.vertex[region.mesh.vertex(e, 0)],
-                                      region.vertex[region.mesh.vertex(e, 1)]) != no_index;
-    sizes.insert(faces);
+/// Compares what CGAL gets of a region, all of whose edges are open, with the array mesh.
+void look_at(const RegionCollapses& collapses) {
+  const RegionMesh region(collapses);
+  const ArrayMesh& mesh = collapses.mesh();
+  std::size_t faces = 0;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) faces += !mesh.is_removed(f) && collapses.owns_face(f);
+  EXPECT_TRUE(CGAL::is_valid_polygon_mesh(region.mesh));
+  EXPECT_EQ(region.mesh.number_of_faces(), faces);
+  for (const auto h : region.mesh.halfedges())
+    EXPECT_TRUE(!region.mesh.is_border(h) || region.mesh.is_border(region.mesh.target(h), false));
+  for (const auto v : region.mesh.vertices()) {
+    const Vec3 p = mesh.position(region.vertex[v]);
+    EXPECT_EQ(region.mesh.point(v), Kernel::Point_3(p.x, p.y, p.z));
   }
-  mutable bool valid = true;
-  mutable std::set<std::size_t> sizes;
-};
+  for (const auto e : region.mesh.edges())
+    EXPECT_NE(corner_between(mesh, region.vertex[region.mesh.vertex(e, 0)], region.vertex[region.mesh.vertex(e, 1)]),
+              no_index);
+}
 
 TEST(RegionMesh, IsThatOfTheArrayMeshWholeAndInRegions) {
   for (const TriangleMesh& mesh : {datasets::torus(1, 0.3, 300, 100), datasets::terrain(1, 150, 3)}) {
-    const auto looking = std::make_shared<LookingDriver>();
-    // Nothing is proposed at so small a tolerance, but the regions are passed.
-    (void)meshbound::simplify_with_bound(mesh, within(1e-12, looking));
-    EXPECT_TRUE(looking->valid);
-    EXPECT_GT(looking->sizes.size(), 2u) << "there are several regions";
+    test::StateOf state(mesh);
+    Proposer proposer(*state);
+    for (int shift = 0; shift <= shifts_of_split; ++shift) {
+      Split cut = shift == shifts_of_split ? whole(*state) : split(*state, shift, 1000);
+      EXPECT_EQ(cut.regions.size() > 2, shift < shifts_of_split);
+      for (Region& region : cut.regions) look_at(RegionCollapses(*state, cut, region, proposer, nullptr, {}));
+    }
   }
+}
+
+/// Closes all edges of a mesh but the given ones.
+void leave_open(DecimationState& state, std::span<const Corner> edges) {
+  std::fill(state.refused_at.begin(), state.refused_at.end(), state.clock + 1);
+  for (const Corner e : edges) state.refused_at[state.mesh.edge(e)] = 0;
+}
+
+/// Vertices within so many edges of the ends of an edge.
+std::set<std::uint32_t> around(const ArrayMesh& mesh, Corner edge, int rings) {
+  std::set<std::uint32_t> found = {mesh.start(edge), mesh.end(edge)};
+  for (int ring = 0; ring < rings; ++ring)
+    for (const std::uint32_t v : std::set(found))
+      mesh.for_each_corner(v, [&](Corner c) {
+        found.insert({mesh.end(c), mesh.apex(c)});
+        return true;
+      });
+  return found;
+}
+
+TEST(RegionMesh, HasTheFacesAroundOpenEdgesWhereTheseAreFew) {
+  test::StateOf state(datasets::torus(1, 0.3, 60, 24));
+  const Corner edge = 1000;
+  leave_open(*state, std::array{edge});
+  Split split = whole(*state);
+  Proposer proposer(*state);
+  const RegionMesh region(RegionCollapses(*state, split, split.regions.front(), proposer, nullptr, {}));
+  EXPECT_TRUE(CGAL::is_valid_polygon_mesh(region.mesh));
+  std::set<std::uint32_t> inner, all;
+  for (const auto v : region.mesh.vertices()) {
+    all.insert(region.vertex[v]);
+    if (region.is_inner[v] != 0) inner.insert(region.vertex[v]);
+  }
+  EXPECT_EQ(inner, around(state->mesh, edge, RegionMesh::rings_around_open));
+  EXPECT_EQ(all, around(state->mesh, edge, RegionMesh::rings_around_open + 1));
+  EXPECT_EQ(std::accumulate(region.is_open.begin(), region.is_open.end(), 0), 1);
 }
 
 /// What CGAL's loop must not be given: edges of no length, which it collapses without asking, and hubs.
@@ -211,9 +247,11 @@ TEST(RegionMesh, TellsOfEdgesOfNoLengthAndOfHubs) {
 }
 
 /// The triangles that a driver leaves of a mesh without proofs; null: the queue of the core.
-std::vector<std::array<std::uint32_t, 3>> left_by(const CollapseDriver* driver, DecimationState& state) {
+std::vector<std::array<std::uint32_t, 3>> left_by(const CollapseDriver* driver, DecimationState& state,
+                                                  std::span<const Corner> open = {}) {
   state.grow_tolerance(0.1);
   state.set_samples(0.1);
+  if (!open.empty()) leave_open(state, open);
   Split split = whole(state);
   Proposer proposer(state);
   RegionCollapses collapses(state, split, split.regions.front(), proposer, nullptr,
@@ -223,6 +261,20 @@ std::vector<std::array<std::uint32_t, 3>> left_by(const CollapseDriver* driver, 
   for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f)
     if (!state.mesh.is_removed(f)) left.push_back(state.mesh.corners(f));
   return left;
+}
+
+/// Collapses beside one another reach the rim of the faces that CGAL gets; what lies beyond waits.
+TEST(EdgeCollapseDriver, CollapsesWhereFewEdgesAreOpen) {
+  const TriangleMesh terrain = datasets::terrain(1, 60, 3);
+  const auto driver = edge_collapse_driver();
+  const auto faces_left = [&](const CollapseDriver* by, std::span<const Corner> open) {
+    test::StateOf state(terrain);
+    return left_by(by, *state, open).size();
+  };
+  const std::array<Corner, 2> open = {3000, 9000};
+  const std::size_t left = faces_left(driver.get(), open);
+  EXPECT_LT(left, terrain.triangles.size() - 4);
+  EXPECT_LT(faces_left(nullptr, open), left) << "the queue of the core goes on beyond";
 }
 
 TEST(EdgeCollapseDriver, LeavesSuchRegionsToTheQueueOfTheCore) {

@@ -199,7 +199,9 @@ TEST(TurnGuard, LooksForOtherSheetsAtItsSamples) {
     begin(guard, mesh, star);
     EXPECT_TRUE(holds(guard, mesh, star, {1.5, 2, 0.1}));
     EXPECT_EQ(holds(guard, mesh, star, {1.5, 2, 1}), apart > 0.5);
-    if (apart < 0.5) EXPECT_FLOAT_EQ(guard.deviation(), 180.0F / 80);  // the other sheet looks down
+    if (apart < 0.5) {
+      EXPECT_FLOAT_EQ(guard.deviation(), 180.0F / 80);  // the other sheet looks down
+    }
   }
 }
 
@@ -251,7 +253,9 @@ TEST(TurnGuard, GivesASampleOnAnEdgeToTheFaceThatItTurnsLittleFrom) {
     ASSERT_TRUE(holds(guard, mesh, star, {2.2, 1.6, 0}));
     guard.give_samples(turns);
     for (const Corner c : star.moved)
-      if (c / 3 == turns.face_of(sample)) EXPECT_EQ(mesh.position(mesh.end(c)).z + mesh.position(mesh.apex(c)).z, 0);
+      if (c / 3 == turns.face_of(sample)) {
+        EXPECT_EQ(mesh.position(mesh.end(c)).z + mesh.position(mesh.apex(c)).z, 0);
+      }
   }
 }
 
@@ -269,7 +273,7 @@ TEST(TurnGuard, LooksBesideFacesThatHoldRivals) {
   for (const auto& [x, y] : {std::pair(-2, -1), {4, -1}, {2, 20}, {10, 10}}) both.vertices.emplace_back(x, y, 0.2);
   both.triangles.insert(both.triangles.end(), {{25, 27, 26}, {26, 27, 28}});
   const ArrayMesh mesh = array_mesh_of(both);
-  const std::uint32_t near = flat.face_count(), far = near + 1;
+  const auto near = static_cast<std::uint32_t>(flat.face_count()), far = near + 1;
   for (const bool is_given : {false, true}) {
     FaceTurns turns = turns_of(mesh, 80);
     if (is_given) {

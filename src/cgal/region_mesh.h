@@ -12,8 +12,8 @@ namespace meshbound::cgal {
 /// The faces of one region of an array mesh as a `Surface_mesh`, which CGAL collapses and the array mesh follows.
 struct RegionMesh {
   /// Takes faces whose corners all belong to the region: all of them, or where few edges are open those around these. A
-  /// vertex at the rim may have several fans of them, of which CGAL finds only one; no collapse ever involves an edge at
-  /// such a vertex. O(n), and a word for 4096 faces of the whole mesh.
+  /// vertex at the rim may have several fans of them, of which CGAL finds only one; no collapse ever involves an edge
+  /// at such a vertex. O(n), and a word for 4096 faces of the whole mesh.
   explicit RegionMesh(const RegionCollapses& collapses);
 
   /// Edges from an open edge to vertices whose faces are all taken: a collapse opens the edges around its vertex. What
@@ -25,7 +25,7 @@ struct RegionMesh {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertex;   ///< by vertex of `mesh`: vertex of the array mesh
   std::vector<std::uint8_t> is_inner;  ///< by vertex of `mesh`: all of its faces that belong to the region are taken
-  std::vector<std::uint8_t> is_open;  ///< by edge of `mesh`, at the start: see `RegionCollapses::is_open`
+  std::vector<std::uint8_t> is_open;   ///< by edge of `mesh`, at the start: see `RegionCollapses::is_open`
   std::size_t max_edges_of_vertex = 0;
   bool has_edge_of_no_length = false;  ///< among the open edges
 };

@@ -240,7 +240,8 @@ bool Run::are_few_open() const {
 void Run::prove_one_by_one() {
   while (!has_ended()) {
     const std::size_t before = state_.faces;
-    for (int shift = is_global() || are_few_open() ? shifts_of_split : 0; shift <= shifts_of_split && !has_ended(); ++shift) {
+    for (int shift = is_global() || are_few_open() ? shifts_of_split : 0; shift <= shifts_of_split && !has_ended();
+         ++shift) {
       const bool is_last = shift == shifts_of_split;
       in_regions(is_last ? whole(state_) : split(state_, shift, min_vertices_one_by_one),
                  [&](const Split& split, Region& region, Proposer& proposer, ChangeProver& prover) {

@@ -52,6 +52,17 @@ double deviation_from_planes(const Placement& best, const Quadric& of_a, const Q
   return std::sqrt(std::max(0.0, best.cost) / (of_a.planes() + of_b.planes()));
 }
 
+/// Where the planes of an edge refuse it without a look at samples: its deviation, in tolerances. `limit` is what
+/// samples may reach, `full_limit` all of the tolerance.
+std::optional<float> refusal_by_planes(double deviation, double limit, double full_limit, bool is_together) {
+  const double in_limits = deviation / (max_deviation_from_planes * full_limit);
+  if (in_limits > 1) return static_cast<float>(in_limits) * far_beyond;
+  if (is_together && deviation > max_deviation_together * limit) return 0.0F;
+  return std::nullopt;
+}
+
+bool is_locked(const DecimationState& state, std::uint32_t v) { return state.locked[v] != 0 || state.is_refuted(v); }
+
 /// Whether the two faces that stay are those of a tetrahedron: they have three vertices in common.
 bool is_tetrahedron(const ArrayMesh& mesh, const std::vector<Corner>& moved) {
   return moved.size() == 2 && mesh.twin(next_corner(moved[0])) == next_corner(moved[1]);
@@ -239,8 +250,8 @@ Proposer::AllowedEnds Proposer::allowed_ends(Corner edge) const {
   const OnLines on_lines = state_.lines.allowed(state_.mesh, edge);
   const bool is_free = on_lines == OnLines::Free, is_either = on_lines == OnLines::AtEitherEnd;
   AllowedEnds ends;
-  ends.start = !is_locked(end) && (is_free || is_either || on_lines == OnLines::AtStart);
-  ends.end = !is_locked(start) && (is_free || is_either || on_lines == OnLines::AtEnd);
+  ends.start = !is_locked(state_, end) && (is_free || is_either || on_lines == OnLines::AtStart);
+  ends.end = !is_locked(state_, start) && (is_free || is_either || on_lines == OnLines::AtEnd);
   ends.elsewhere = is_free && ends.start && ends.end && !state_.keeps_positions;
   if (state_.lines.is_line(state_.mesh, edge)) {
     const auto is_near = [&](bool to_start) {
@@ -285,12 +296,9 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   tried_ = wanted ? *wanted : best.point;
   by_bound_ = true;
   const double deviation = deviation_from_planes(best, state_.quadrics[kept], state_.quadrics[gone]);
-  if (!wanted && deviation > max_deviation_from_planes * full_limit_) {
-    deviation_ = static_cast<float>(deviation / (max_deviation_from_planes * full_limit_)) * far_beyond;
-    return std::nullopt;
-  }
-  if (share < 1 && deviation > max_deviation_together * limit_) {
+  if (const auto refusal = refusal_by_planes(deviation, limit_, full_limit_, is_together_); refusal && !wanted) {
     refused_for_distance_ = true;
+    deviation_ = *refusal;
     return std::nullopt;
   }
   if (deviation < likely_deviation_from_planes * limit_ && fits(tried_)) return tried_;
@@ -457,20 +465,26 @@ bool is_refused_by_planes(const DecimationState& state, Corner edge) {
   return deviation_from_planes(best, of_a, of_b) > max_deviation_from_planes * state.limit;
 }
 
-float edge_cost(const DecimationState& state, Corner edge) {
+EdgeCost edge_cost(const DecimationState& state, Corner edge, double share) {
   const std::uint32_t a = state.mesh.start(edge), b = state.mesh.end(edge);
+  const Vec3 p = state.mesh.position(a), q = state.mesh.position(b);
+  const Quadric &of_a = state.quadrics[a], &of_b = state.quadrics[b];
   const OnLines on_lines = state.lines.allowed(state.mesh, edge);
-  if (on_lines == OnLines::Refused) return HUGE_VALF;
+  if (on_lines == OnLines::Refused) return {HUGE_VALF, {}};
   if (on_lines != OnLines::Free || state.keeps_positions) {
-    const auto cost = [&](std::uint32_t v) {
-      return state.quadrics[a].at(state.mesh.position(v)) + state.quadrics[b].at(state.mesh.position(v));
-    };
-    if (on_lines == OnLines::AtStart) return static_cast<float>(cost(a));
-    if (on_lines == OnLines::AtEnd) return static_cast<float>(cost(b));
-    return static_cast<float>(std::min(cost(a), cost(b)));
+    const auto cost = [&](Vec3 at) { return static_cast<float>(of_a.at(at) + of_b.at(at)); };
+    if (on_lines == OnLines::AtStart) return {cost(p), {}};
+    if (on_lines == OnLines::AtEnd) return {cost(q), {}};
+    return {std::min(cost(p), cost(q)), {}};
   }
-  return static_cast<float>(
-      best_placement(state.quadrics[a], state.quadrics[b], state.mesh.position(a), state.mesh.position(b)).cost);
+  const Placement best = best_placement(of_a, of_b, p, q);
+  EdgeCost result{static_cast<float>(best.cost), {}};
+  if (is_locked(state, a) || is_locked(state, b)) return result;
+  // Where faces have tolerances of their own, none is larger.
+  const double full_limit = state.limit * internal::sample_fault,
+               limit = full_limit * std::min({share, double{state.share[a]}, double{state.share[b]}});
+  result.refused_with = refusal_by_planes(deviation_from_planes(best, of_a, of_b), limit, full_limit, share < 1);
+  return result;
 }
 
 }  // namespace meshbound

@@ -40,8 +40,14 @@ struct PointsOnEdge {
 /// Makes a collapse that has been noted.
 void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star, Vec3 point);
 
-/// The cost of a collapse by the quadrics of its ends.
-[[nodiscard]] float edge_cost(const DecimationState& state, Corner edge);
+/// What the quadrics of its ends say of a collapse.
+struct EdgeCost {
+  float cost = 0;
+  /// Where they refuse it without a look at samples: the deviation to be noted, see `Proposer::deviation`.
+  std::optional<float> refused_with;
+};
+/// `share` as for `Proposer::placement`.
+[[nodiscard]] EdgeCost edge_cost(const DecimationState& state, Corner edge, double share);
 
 /// Whether the planes in the quadrics of an edge refuse it without a look at samples.
 [[nodiscard]] bool is_refused_by_planes(const DecimationState& state, Corner edge);
@@ -82,7 +88,6 @@ class Proposer {
 
  private:
   void gather_samples();
-  [[nodiscard]] bool is_locked(std::uint32_t v) const { return state_.locked[v] != 0 || state_.is_refuted(v); }
   /// A point of an edge of the new vertex, (1 - share) vertex + share end: the vertex itself where the share is 0.
   struct Stray {
     Vec3 end;
@@ -140,7 +145,7 @@ class Proposer {
   std::optional<float> texture_deviation_, turn_deviation_;
   bool by_bound_ = false;              ///< samples decided the refusal
   bool refused_for_distance_ = false;  ///< some placement, or the edge, was: more of the tolerance may help
-  Vec3 tried_;             ///< the first placement
+  Vec3 tried_;                         ///< the first placement
   Vec3 origin_;
   std::vector<Vec3> borders_;  ///< other ends of border edges
   SamplePoints few_;

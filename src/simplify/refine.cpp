@@ -175,7 +175,7 @@ void Refiner::collapse_relaxed() {
   const ArrayMesh& mesh = state_.mesh;
   EdgeQueue queue(state_.index_in_queue);
   for_each_edge([&](Corner edge) {
-    if (split_->owns(region_->id, mesh.end(edge))) queue.put(edge, edge_cost(state_, edge));
+    if (split_->owns(region_->id, mesh.end(edge))) queue.put(edge, edge_cost(state_, edge, 1).cost);
   });
   while (!queue.empty() && !is_done()) {
     const Corner edge = queue.pop();
@@ -186,7 +186,7 @@ void Refiner::collapse_relaxed() {
     if (!relaxed_.run(*split_, *region_, edge)) continue;
     for (const Corner e : around_) queue.erase(e);
     mesh.for_each_corner(kept, [&](Corner c) {
-      for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) queue.put(e, edge_cost(state_, e));
+      for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) queue.put(e, edge_cost(state_, e, 1).cost);
       return true;
     });
   }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "simplify/mesh/edge_queue.h"
-
 namespace meshbound {
 
 RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Region& region, Proposer& proposer,
@@ -68,15 +66,24 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   return false;
 }
 
+/// Puts an edge into the queue unless its planes refuse it: most edges of a mesh that shrinks little. Where a refusal
+/// ends the collapses, it must come at its turn.
+void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
+  const EdgeCost cost = edge_cost(state_, edge, limits_.share);
+  if (!cost.refused_with || limits_.ends_at_refusal) return queue.put(edge, cost.cost);
+  ++proposer_.counts.refused;
+  mark_refused(edge, *cost.refused_with);
+}
+
 void RegionCollapses::collapse_all() {
   EdgeQueue queue(state_.index_in_queue);
-  for (const Corner e : open_edges_) queue.put(e, edge_cost(state_, e));
+  for (const Corner e : open_edges_) put(queue, e);
   while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_before_) queue.erase(e);
     mesh().for_each_corner(kept(), [&](Corner c) {
       for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))})
-        if (is_owned(e)) queue.put(e, edge_cost(state_, e));
+        if (is_owned(e)) put(queue, e);
       return true;
     });
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simplify/change_prover.h"
+#include "simplify/mesh/edge_queue.h"
 #include "simplify/propose.h"
 #include "simplify/prove.h"
 
@@ -70,6 +71,7 @@ class RegionCollapses {
   [[nodiscard]] bool make(Vec3 point);
   void mark_refused(Corner edge, float deviation);
   void list_edges();
+  void put(EdgeQueue& queue, Corner edge);
 
   DecimationState& state_;
   const Split& split_;
