@@ -18,8 +18,9 @@ double internal::proof_fault = 1;
 
 namespace {
 
-/// Points between the ends of one edge: more cost more time than they save.
-constexpr double max_between = 7;
+/// Points between the ends of one edge. With 7 a run takes 11% longer at 0.02% and 5% longer at 0.1%, for as many faces
+/// (37 meshes).
+constexpr double max_between = 3;
 
 /// What is left of the tolerance is room in which the measurement of the finished mesh can decide without refining to
 /// the last digit: it accepts an upper bound of the whole tolerance.
@@ -41,6 +42,11 @@ using Corners = std::array<Vec3, 3>;
 bool is_crease(const Corners& s, const Corners& t) {
   const Vec3 m = cross(s[1] - s[0], s[2] - s[0]), n = cross(t[1] - t[0], t[2] - t[0]);
   return dot(m, n) < max_cosine_of_crease * std::sqrt(squared_length(m) * squared_length(n));
+}
+
+/// How many points between two ends leave no more than `spacing` between them, up to a limit.
+double points_between(Vec3 p, Vec3 q, double spacing) {
+  return std::min(std::floor(length(q - p) / spacing), max_between);
 }
 
 bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
@@ -71,18 +77,27 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       give_to(v, f);
     }
   }
-  for (Corner c = 0; c < 3 * mesh.face_count(); ++c) {
-    if (mesh.edge(c) != c) continue;
+  const auto for_each_edge = [&](const auto& visit) {
+    for (Corner c = 0; c < 3 * mesh.face_count(); ++c)
+      if (mesh.edge(c) == c) visit(c);
+  };
+  double between = 0;
+  for_each_edge([&](Corner c) {
+    between += points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing);
+  });
+  samples_.reserve(samples_.size() + static_cast<std::size_t>(between));
+  triangle_near_.reserve(samples_.capacity());
+  for_each_edge([&](Corner c) {
     const std::uint32_t mark = is_border_or_crease(mesh, c) ? at_edge : 0;
     for (const std::uint32_t v : {mesh.start(c), mesh.end(c)}) triangle_near_[vertex_of_vertex[v]] |= mark;
     add_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing, triangle_of_face[c / 3] | mark,
                 [&](Vec3) { return c / 3; });
-  }
+  });
 }
 
 template <class FaceAt>
 void Samples::add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle_and_mark, const FaceAt& face_at) {
-  const double count = std::min(std::floor(length(q - p) / spacing), max_between);
+  const double count = points_between(p, q, spacing);
   for (int k = 1; k <= count; ++k) {
     const Vec3 at = p + (k / (count + 1)) * (q - p);
     samples_.push_back({at, no_index, no_index});
