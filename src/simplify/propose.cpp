@@ -470,7 +470,7 @@ EdgeCost edge_cost(const DecimationState& state, Corner edge, double share) {
   const Vec3 p = state.mesh.position(a), q = state.mesh.position(b);
   const Quadric &of_a = state.quadrics[a], &of_b = state.quadrics[b];
   const OnLines on_lines = state.lines.allowed(state.mesh, edge);
-  if (on_lines == OnLines::Refused) return {HUGE_VALF, {}};
+  if (on_lines == OnLines::Refused) return {HUGE_VALF, waits_for_change};
   if (on_lines != OnLines::Free || state.keeps_positions) {
     const auto cost = [&](Vec3 at) { return static_cast<float>(of_a.at(at) + of_b.at(at)); };
     if (on_lines == OnLines::AtStart) return {cost(p), {}};

@@ -43,7 +43,7 @@ void apply_collapse(DecimationState& state, Region& region, const EdgeStar& star
 /// What the quadrics of its ends say of a collapse.
 struct EdgeCost {
   float cost = 0;
-  /// Where they refuse it without a look at samples: the deviation to be noted, see `Proposer::deviation`.
+  /// Where they, or lines, refuse it without a look at samples: the deviation to be noted, see `Proposer::deviation`.
   std::optional<float> refused_with;
 };
 /// `share` as for `Proposer::placement`.

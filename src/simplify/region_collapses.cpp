@@ -66,8 +66,8 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   return false;
 }
 
-/// Puts an edge into the queue unless its planes refuse it: most edges of a mesh that shrinks little. Where a refusal
-/// ends the collapses, it must come at its turn.
+/// Puts an edge into the queue unless its planes or lines refuse it: most edges of a mesh that shrinks little. Where a
+/// refusal ends the collapses, it must come at its turn.
 void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
   const EdgeCost cost = edge_cost(state_, edge, limits_.share);
   if (!cost.refused_with || limits_.ends_at_refusal) return queue.put(edge, cost.cost);

@@ -25,6 +25,11 @@ bool seem_to_share_area(const ChartTriangle& a, const ChartTriangle& b) {
   return b.chart == Chart::Area && seems_to_overlap(a, b) && seems_to_overlap(b, a);
 }
 
+/// Between two boxes, as computed. Without branches: which way they go cannot be foretold.
+double squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  return (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0).squaredNorm();
+}
+
 /// The corner of `b` with a texture coordinate; 3 if there is none.
 std::size_t corner_at(const TexturedTriangle& b, const Eigen::Vector2d& coordinate) {
   return static_cast<std::size_t>(std::find(b.coordinates.begin(), b.coordinates.end(), coordinate) -
@@ -90,17 +95,19 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.copy.reset();
   found.indices.clear();
   tree_->find(box_in_texture(*a.source), found.indices);
+  const Eigen::AlignedBox3d place = place_of(*a.source);
+  found.is_near.clear();
   for (const std::uint32_t b : found.indices) {
-    if (a.chart != Chart::Area) break;
+    const bool is_near = squared_distance(places_[b], place) <= reach * reach;
+    found.is_near.push_back(is_near ? 1 : 0);
+    if (!is_near || a.chart != Chart::Area) continue;
     const std::optional<double> upper = upper_at_equal_corners(*a.source, *triangles_[b].source);
     if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&triangles_[b], *upper};
   }
-  const Eigen::AlignedBox3d place = place_of(*a.source);
-  for (const std::uint32_t b : found.indices) {
-    const bool is_near =
-        found.copy ? found.copy->triangle == &triangles_[b]
-                   : places_[b].squaredExteriorDistance(place) <= reach * reach && seem_to_share_area(a, triangles_[b]);
-    (is_near ? found.near : found.others).push_back(&triangles_[b]);
+  for (std::size_t k = 0; k < found.indices.size(); ++k) {
+    const ChartTriangle& b = triangles_[found.indices[k]];
+    const bool is_near = found.copy ? found.copy->triangle == &b : found.is_near[k] != 0 && seem_to_share_area(a, b);
+    (is_near ? found.near : found.others).push_back(&b);
   }
 }
 
