@@ -6,7 +6,6 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "cgal/region_mesh.h"
@@ -48,11 +47,21 @@ struct Run {
     return meshbound::best_placement(quadrics[region.vertex[profile.v0()]], quadrics[region.vertex[profile.v1()]],
                                      to_vec3(profile.p0()), to_vec3(profile.p1()));
   }
-  [[nodiscard]] double quadric_cost(const Profile& profile, const Point& placement) const {
-    const std::vector<Quadric>& quadrics = collapses.state().quadrics;
-    Quadric sum = quadrics[region.vertex[profile.v0()]];
-    sum += quadrics[region.vertex[profile.v1()]];
-    return sum.at(to_vec3(placement));
+  [[nodiscard]] Corner corner_of(const Profile& profile) const {
+    return corner_between(collapses.mesh(), region.vertex[profile.v0()], region.vertex[profile.v1()]);
+  }
+  /// Absent if the planes refuse the edge: CGAL passes over edges without a cost before it looks at what is around
+  /// them.
+  [[nodiscard]] OptionalCost quadric_cost(const Profile& profile, const Point& placement) const {
+    const DecimationState& state = collapses.state();
+    Quadric sum = state.quadrics[region.vertex[profile.v0()]];
+    sum += state.quadrics[region.vertex[profile.v1()]];
+    const double squared_distances = sum.at(to_vec3(placement));
+    if (squared_distances > sum.planes() * state.limit * state.limit) {  // else it is near its planes
+      const Corner corner = corner_of(profile);
+      if (corner != no_index && collapses.refuses_unseen(corner)) return {};
+    }
+    return squared_distances;
   }
   void look() {
     if (++asked % costs_between_looks == 0 && collapses.must_stop()) throw Ended();
@@ -95,9 +104,9 @@ struct Filter {
   Run* run;
 
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
-    const auto& [vertex, is_inner] = std::tie(run->region.vertex, run->region.is_inner);
+    const std::vector<std::uint8_t>& is_inner = run->region.is_inner;
     if (is_inner[profile.v0()] == 0 || is_inner[profile.v1()] == 0) return {};
-    const Corner corner = corner_between(run->collapses.mesh(), vertex[profile.v0()], vertex[profile.v1()]);
+    const Corner corner = run->corner_of(profile);
     if (corner == no_index || run->collapses.is_refused(corner)) return {};
     // Without a wish the core takes the placement of the quadrics, which is what they gave here.
     std::optional<Vec3> wanted;

@@ -82,9 +82,8 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       if (mesh.edge(c) == c) visit(c);
   };
   double between = 0;
-  for_each_edge([&](Corner c) {
-    between += points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing);
-  });
+  for_each_edge(
+      [&](Corner c) { between += points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing); });
   samples_.reserve(samples_.size() + static_cast<std::size_t>(between));
   triangle_near_.reserve(samples_.capacity());
   for_each_edge([&](Corner c) {

@@ -66,13 +66,20 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   return false;
 }
 
-/// Puts an edge into the queue unless its planes or lines refuse it: most edges of a mesh that shrinks little. Where a
-/// refusal ends the collapses, it must come at its turn.
-void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
-  const EdgeCost cost = edge_cost(state_, edge, limits_.share);
-  if (!cost.refused_with || limits_.ends_at_refusal) return queue.put(edge, cost.cost);
+/// Where a refusal ends the collapses, it must come at its turn.
+bool RegionCollapses::refuses(Corner edge, const EdgeCost& cost) {
+  if (!cost.refused_with || limits_.ends_at_refusal) return false;
   ++proposer_.counts.refused;
   mark_refused(edge, *cost.refused_with);
+  return true;
+}
+
+bool RegionCollapses::refuses_unseen(Corner edge) { return refuses(edge, edge_cost(state_, edge, limits_.share)); }
+
+/// Most edges of a mesh that shrinks little never enter the queue.
+void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
+  const EdgeCost cost = edge_cost(state_, edge, limits_.share);
+  if (!refuses(edge, cost)) queue.put(edge, cost.cost);
 }
 
 void RegionCollapses::collapse_all() {

@@ -56,6 +56,9 @@ class RegionCollapses {
   [[nodiscard]] const std::vector<Corner>& open_edges() const { return open_edges_; }
   [[nodiscard]] bool must_stop() const { return ended_ || limits_.must_stop(region_.removed_faces); }
 
+  /// Whether planes or lines refuse the edge whatever samples say; it is refused then. Never where a refusal ends the
+  /// collapses.
+  bool refuses_unseen(Corner edge);
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the
   /// largest distance is least. False: it is refused, and the mesh is as it was.
   bool collapse(Corner edge, std::optional<Vec3> wanted = std::nullopt);
@@ -71,6 +74,7 @@ class RegionCollapses {
   [[nodiscard]] bool make(Vec3 point);
   void mark_refused(Corner edge, float deviation);
   void list_edges();
+  bool refuses(Corner edge, const EdgeCost& cost);
   void put(EdgeQueue& queue, Corner edge);
 
   DecimationState& state_;
