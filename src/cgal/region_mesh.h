@@ -17,7 +17,7 @@ struct RegionMesh {
   explicit RegionMesh(const RegionCollapses& collapses);
 
   /// Edges from an open edge to vertices whose faces are all taken: a collapse opens the edges around its vertex. What
-  /// becomes open beyond waits for the next region. With 2 and with 4 results have as many faces.
+  /// becomes open beyond waits for the next region.
   static constexpr int rings_around_open = 2;
   /// A region with fewer edges for each open one is taken whole.
   static constexpr std::size_t edges_of_open = 8;

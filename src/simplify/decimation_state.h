@@ -214,7 +214,7 @@ struct DecimationState {
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the start
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  std::vector<float> deviation;                    ///< by edge: in tolerances, as found when it was refused; else 0
+  std::vector<float> deviation;                    ///< by edge that was refused: see `Proposer::deviation`; else 0
   std::vector<std::uint32_t> index_in_queue;       ///< by edge
 
   /// Whether the edge was not refused, or something near has changed since that may help.
