@@ -44,9 +44,11 @@ bool is_crease(const Corners& s, const Corners& t) {
   return dot(m, n) < max_cosine_of_crease * std::sqrt(squared_length(m) * squared_length(n));
 }
 
-/// How many points between two ends leave no more than `spacing` between them, up to a limit.
+/// How many points between two ends leave no more than `spacing` between them, up to a limit; none where a coordinate
+/// is no number.
 double points_between(Vec3 p, Vec3 q, double spacing) {
-  return std::min(std::floor(length(q - p) / spacing), max_between);
+  const double count = std::floor(length(q - p) / spacing);
+  return count > 0 ? std::min(count, max_between) : 0;
 }
 
 bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
