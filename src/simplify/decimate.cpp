@@ -25,8 +25,8 @@ constexpr double share_together = 0.7;
 /// than a proposal, so it pays to prove in regions when a mesh has become small.
 constexpr std::size_t min_vertices_together = 2000, min_vertices_one_by_one = 1000;
 
-/// Where not even one of so many edges is open, all get their turn in one region: the splits would take longer. With 8 or
-/// 16 less time is saved (37 meshes at 0.02%).
+/// Where not even one of so many edges is open, all get their turn in one region: the splits would take longer. With 8
+/// or 16 less time is saved (37 meshes at 0.02%).
 constexpr std::size_t edges_of_open = 32;
 
 /// Passes over the edges that something has changed around end where one removes a smaller share of the faces.
