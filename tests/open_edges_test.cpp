@@ -64,14 +64,13 @@ TEST(EdgeCost, IsRefusedForAShareOfTheTolerance) {
 /// What a driver makes of a state without proofs.
 struct Outcome {
   std::uint64_t tried = 0, refused = 0;
-  std::size_t removed = 0;
 };
 Outcome collapsed(DecimationState& state, const CollapseDriver* driver, RegionCollapses::Limits limits) {
   Split split = whole(state);
   Proposer proposer(state);
   RegionCollapses collapses(state, split, split.regions.front(), proposer, nullptr, std::move(limits));
   driver != nullptr ? driver->collapse(collapses) : collapses.collapse_all();
-  return {proposer.counts.tried, proposer.counts.refused, split.regions.front().removed_faces};
+  return {proposer.counts.tried, proposer.counts.refused};
 }
 RegionCollapses::Limits no_limits() {
   return {1, [](std::size_t) { return false; }, nullptr};
@@ -95,7 +94,6 @@ TEST(Queue, HasAllEdgesWhereARefusalEndsTheCollapses) {
   set_tolerance(*sphere, tolerance_of_sphere);
   RegionCollapses::Limits limits = no_limits();
   limits.ends_at_refusal = [] { return true; };
-  limits.must_stop = [](std::size_t) { return false; };
   const Outcome outcome = collapsed(*sphere, nullptr, std::move(limits));
   EXPECT_EQ(outcome.tried, 1u);
   EXPECT_EQ(outcome.refused, 1u);

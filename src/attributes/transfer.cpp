@@ -341,18 +341,18 @@ class Transfer {
            });
   }
 
-  const TriangleMesh& original_mesh_;
-  std::optional<ChartSurface> original_;  ///< once asked for
-  const MeshAttributes& from_;
-  const SimplifiedLevel& level_;
   struct NormalOnChart {
     std::uint32_t chart = no_index;
     Eigen::Vector3d normal;
   };
-  std::vector<NormalOnChart> normal_of_vertex_;  ///< by vertex: the one found last
 
-  bool keeps_vertices_;                ///< every vertex of the level is one of the original
-  std::vector<std::uint8_t> on_line_;  ///< by vertex
+  const TriangleMesh& original_mesh_;
+  std::optional<ChartSurface> original_;  ///< once asked for
+  const MeshAttributes& from_;
+  const SimplifiedLevel& level_;
+  bool keeps_vertices_;                          ///< every vertex of the level is one of the original
+  std::vector<std::uint8_t> on_line_;            ///< by vertex
+  std::vector<NormalOnChart> normal_of_vertex_;  ///< by vertex: the one found last
 };
 
 }  // namespace
