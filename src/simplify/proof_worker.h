@@ -9,6 +9,7 @@
 #include "meshbound/proximity.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
+#include "simplify/cover/face_walk.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
@@ -33,7 +34,9 @@ class ProofWorkers::Worker {
         patches_(state.mesh.face_count()),
         original_patches_(state.triangles.size()),
         slab_proof_(original_, state.clusters, state.slabs),
-        proximity_(state.tree) {
+        proximity_(state.tree),
+        prepared_(state.mesh),
+        walk_(state.mesh, prepared_) {
     found_marks_.reserve(state.mesh.face_count());
     vertex_marks_.reserve(state.mesh.vertex_count());
   }
@@ -65,6 +68,8 @@ class ProofWorkers::Worker {
         only = under;
         return;
       }
+      if (walk_.covers(corners, under, limit, state_.magnitude, [](std::uint32_t) { return true; }, faces)) return;
+      faces.clear();
     }
     find_around(at, grown(box_of(corners), state_.tolerance));
     cover_by_found(
@@ -167,7 +172,12 @@ class ProofWorkers::Worker {
         set_cover(i, drafted_);
         continue;
       }
-      const FaceMask used = cover_.cover(t, all, added);
+      const FaceMask one = cover_.cover_whole(t, all, added);
+      if (one == 0 && walk_.covers(original_.corners(t), cover_.face_at(t, all), limit, state_.magnitude, owned, drafted_)) {
+        set_cover(i, drafted_);
+        continue;
+      }
+      const FaceMask used = one != 0 ? one : cover_.cover(t, all, added);
       if (used == 0) return lost_point_ = cover_.lost_point(), false;
       set_cover(i, used);
     }
@@ -355,15 +365,8 @@ class ProofWorkers::Worker {
 
   /// Like `CandidateFaces::holds`, for faces that are asked for once.
   bool holds(std::uint32_t face, const Corners& points, double limit) {
-    Prepared& prepared = prepared_[face % prepared_.size()];
-    const Corners c = state_.mesh.triangle(face);
-    const auto same = [](Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
-    if (prepared.face != face || !std::equal(c.begin(), c.end(), prepared.corners.begin(), same)) {
-      prepared.face = face, prepared.corners = c;
-      prepared.triangle = PreparedTriangle({c[0], c[1] - c[0], c[2] - c[0]});
-    }
-    return std::all_of(points.begin(), points.end(),
-                       [&](Vec3 p) { return prepared.triangle.is_within(p, limit * limit); });
+    const PreparedTriangle& triangle = prepared_.triangle(face);
+    return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
   }
 
   /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
@@ -498,11 +501,6 @@ class ProofWorkers::Worker {
     return 2 * incircle * incircle >= min_incircle * min_incircle * twice_area(original_.corners(near));
   }
 
-  struct Prepared {
-    std::uint32_t face = no_index;
-    Corners corners;
-    PreparedTriangle triangle;
-  };
   const DecimationState& state_;
   ForwardCover cover_;
   OriginalSoup original_;
@@ -511,7 +509,8 @@ class ProofWorkers::Worker {
   SlabProof slab_proof_;
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
-  std::array<Prepared, 64> prepared_;
+  PreparedFaces prepared_;
+  FaceWalk walk_;
   MarkedIds found_marks_, vertex_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, affected_clusters_, ids_, drafted_;
   struct Run {

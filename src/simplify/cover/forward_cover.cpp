@@ -81,6 +81,13 @@ FaceMask ForwardCover::hold_all(std::span<const std::uint32_t> vertices, FaceMas
   return 0;
 }
 
+std::uint32_t ForwardCover::face_at(std::uint32_t triangle, FaceMask allowed) {
+  const auto& t = triangles_[triangle];
+  const FaceMask a = mask_of(t[0], allowed), b = mask_of(t[1], allowed), c = mask_of(t[2], allowed);
+  const FaceMask two = (a & b) | (b & c) | (c & a);
+  return face(std::countr_zero(two != 0 ? two : a));
+}
+
 FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
   const FaceMask one = cover_whole(triangle, allowed, preferred);
   return one != 0 ? one : cover_in_pieces(triangle, allowed, max_cuts);

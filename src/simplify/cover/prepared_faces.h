@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/prepared_triangle.h"
+#include "numeric/no_index.h"
+#include "simplify/kernel/kernels.h"
+#include "simplify/mesh/array_mesh.h"
+
+namespace meshbound {
+
+/// The planes of a face: [0] through the face, [1] to [3] through its sides, outward.
+struct FacePlanes {
+  using Values = std::array<double, PlaneBlock::planes>;
+  Values x{}, y{}, z{}, offset{};
+  /// Whether they are displaced by less than `CandidateFaces::plane_slack` tolerances near the face; else they are 0.
+  bool are_accurate = false;
+
+  /// How far a point is above the face, and beyond each side of it.
+  [[nodiscard]] Values at(Vec3 p) const {
+    Values values;
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = x[k] * p.x + y[k] * p.y + z[k] * p.z + offset[k];
+    return values;
+  }
+};
+
+/// The faces of a mesh that were asked for last, with what tests of points need of them. Not thread-safe.
+class PreparedFaces {
+ public:
+  using Corners = std::array<Vec3, 3>;
+
+  /// The mesh may change, and must outlive this.
+  explicit PreparedFaces(const ArrayMesh& mesh) : mesh_(mesh), entries_(entry_count) {}
+
+  [[nodiscard]] const PreparedTriangle& triangle(std::uint32_t face);
+  [[nodiscard]] const FacePlanes& planes(std::uint32_t face, double tolerance);
+
+ private:
+  /// More than the faces around a star, so that few take the place of others.
+  static constexpr std::size_t entry_count = 128;
+  struct Entry {
+    std::uint32_t face = no_index;
+    Corners corners{};
+    bool has_triangle = false;
+    double tolerance_of_planes = -1;  ///< negative: there are none
+    PreparedTriangle triangle;
+    FacePlanes planes;
+  };
+  Entry& entry(std::uint32_t face);
+
+  const ArrayMesh& mesh_;
+  PlaneKernel kernel_ = simplify_kernels().planes;
+  std::vector<Entry> entries_;  ///< by number of the face, modulo their count
+};
+
+}  // namespace meshbound
