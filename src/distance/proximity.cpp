@@ -85,6 +85,11 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
   }
   SearchKernel& kernel = impl_->kernel_for(tolerance, magnitude, error);
   std::uint32_t slot = impl_->slot_of_triangle[hint];
+  if (const Swept swept = kernel.sweep({p[0], p[1], p[2]}, slot, max_subdivisions);
+      swept == Swept::ByOneTriangle || swept == Swept::ByWalk) {
+    hint = impl_->data.triangle_of_slot[slot];
+    return Verdict::Within;
+  }
   for (const Vec3& corner : p) {
     const Nearest nearest = kernel.nearest(corner, slot, kernel.accepted_squared());
     slot = nearest.slot;
