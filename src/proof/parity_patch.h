@@ -106,19 +106,25 @@ struct Window {
   };
   /// Clips a triangle to the prism over the window and `margin` around it.
   [[nodiscard]] Clipped clipped(const ProjectedTriangle& t, double margin) const {
-    Clipped polygon{{t[0], t[1], t[2]}, 3}, kept;
+    Clipped polygon{{t[0], t[1], t[2]}, 3};
+    std::array<double, capacity + 4> beyond;
     for (std::size_t side = 0; side < count; ++side) {
-      kept.count = 0;
+      bool is_cut = false;
       for (std::size_t i = 0; i < polygon.count; ++i) {
-        const Projected &p = polygon.corner[i], &q = polygon.corner[i + 1 == polygon.count ? 0 : i + 1];
-        const double at_p = outside(side, p) - margin, at_q = outside(side, q) - margin;
-        if (at_p <= 0) kept.corner[kept.count++] = p;
-        if ((at_p <= 0) == (at_q <= 0)) continue;
-        const double s = at_p / (at_p - at_q);
-        kept.corner[kept.count++] = {p.x + s * (q.x - p.x), p.y + s * (q.y - p.y), p.h + s * (q.h - p.h)};
+        beyond[i] = outside(side, polygon.corner[i]) - margin;
+        is_cut = is_cut || !(beyond[i] <= 0);
       }
-      std::copy_n(kept.corner.begin(), kept.count, polygon.corner.begin());
-      polygon.count = kept.count;
+      if (!is_cut) continue;
+      const Clipped whole = polygon;
+      polygon.count = 0;
+      for (std::size_t i = 0; i < whole.count; ++i) {
+        const std::size_t j = i + 1 == whole.count ? 0 : i + 1;
+        const Projected &p = whole.corner[i], &q = whole.corner[j];
+        if (beyond[i] <= 0) polygon.corner[polygon.count++] = p;
+        if ((beyond[i] <= 0) == (beyond[j] <= 0)) continue;
+        const double s = beyond[i] / (beyond[i] - beyond[j]);
+        polygon.corner[polygon.count++] = {p.x + s * (q.x - p.x), p.y + s * (q.y - p.y), p.h + s * (q.h - p.h)};
+      }
     }
     return polygon;
   }
