@@ -28,16 +28,21 @@ bool FaceWalk::step(std::vector<std::uint32_t>& faces) {
   pieces_.pop_back();
   const FacePlanes planes = prepared_.planes(piece.face, tolerance_);  // the entry may get another face
   if (!planes.are_accurate) return false;
-  for (std::size_t i = 0; i < piece.count; ++i) at_[piece.corners[i]] = planes.at(points_[piece.corners[i]]);
+  FacePlanes::Values largest;
+  largest.fill(-HUGE_VAL);
+  for (std::size_t i = 0; i < piece.count; ++i) {
+    const FacePlanes::Values at = at_[piece.corners[i]] = planes.at(points_[piece.corners[i]]);
+    for (std::size_t k = 0; k < at.size(); ++k) largest[k] = at[k] > largest[k] ? at[k] : largest[k];
+  }
   for (std::size_t side = 0; side < 3; ++side)
-    if (side != piece.entered && !cut(piece, planes, side)) return false;
+    if (side != piece.entered && largest[PlaneBlock::sides + side] > rim_ && !cut(piece, planes, side)) return false;
   if (piece.count == 0) return true;
   if (!holds(piece)) return false;
   if (std::find(faces.begin(), faces.end(), piece.face) == faces.end()) faces.push_back(piece.face);
   return true;
 }
 
-/// Leaves what lies beyond a side to the face across it, if there is one. Pieces are cut halfway between the planes
+/// Leaves what lies beyond a side to the face across it, if there is one and that is worth it. Pieces are cut halfway between the planes
 /// that the two faces have through their edge: where they meet in a valley, both are nearest there.
 bool FaceWalk::cut(Piece& piece, const FacePlanes& planes, std::size_t side) {
   double largest = -HUGE_VAL, least = HUGE_VAL;
@@ -59,7 +64,7 @@ bool FaceWalk::cut(Piece& piece, const FacePlanes& planes, std::size_t side) {
   const FacePlanes& across = prepared_.planes(beyond.face, tolerance_);
   for (std::size_t i = 0; i < piece.count; ++i) {
     const std::size_t corner = piece.corners[i];
-    level_[i] = at_[corner][PlaneBlock::sides + side] - across.at(points_[corner])[PlaneBlock::sides + beyond.entered];
+    level_[i] = at_[corner][PlaneBlock::sides + side] - across.at(PlaneBlock::sides + beyond.entered, points_[corner]);
   }
   if (!split(piece, beyond, planes)) return false;
   if (beyond.count > 0) pieces_.push_back(beyond);

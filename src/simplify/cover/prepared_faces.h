@@ -25,6 +25,9 @@ struct FacePlanes {
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = x[k] * p.x + y[k] * p.y + z[k] * p.z + offset[k];
     return values;
   }
+  [[nodiscard]] double at(std::size_t plane, Vec3 p) const {
+    return x[plane] * p.x + y[plane] * p.y + z[plane] * p.z + offset[plane];
+  }
 };
 
 /// The faces of a mesh that were asked for last, with what tests of points need of them. Not thread-safe.
