@@ -68,8 +68,9 @@ class ProofWorkers::Worker {
         only = under;
         return;
       }
-      if (walk_.covers(corners, under, limit, state_.magnitude, [](std::uint32_t) { return true; }, faces)) return;
-      faces.clear();
+      if (walk_.covers(
+              corners, under, limit, state_.magnitude, [](std::uint32_t) { return true; }, faces))
+        return;
     }
     find_around(at, grown(box_of(corners), state_.tolerance));
     cover_by_found(
@@ -166,20 +167,8 @@ class ProofWorkers::Worker {
     for (const std::size_t i : in_pieces_)
       if (!cover_.are_corners_near(affected_[i], all)) return lost_point_ = cover_.lost_point(), false;
     for (const std::size_t i : in_pieces_) {
-      const std::uint32_t t = affected_[i];
-      if (state_.cover.faces_of(t).size() >= many_faces &&
-          cover_by_patches(original_.corners(t), limit, owned, drafted_)) {
-        set_cover(i, drafted_);
-        continue;
-      }
-      const FaceMask one = cover_.cover_whole(t, all, added);
-      if (one == 0 && walk_.covers(original_.corners(t), cover_.face_at(t, all), limit, state_.magnitude, owned, drafted_)) {
-        set_cover(i, drafted_);
-        continue;
-      }
-      const FaceMask used = one != 0 ? one : cover_.cover(t, all, added);
-      if (used == 0) return lost_point_ = cover_.lost_point(), false;
-      set_cover(i, used);
+      if (!cover_by_candidates(affected_[i], limit, all, added, owned)) return lost_point_ = cover_.lost_point(), false;
+      set_cover(i, drafted_);
     }
     meets_seam_ = false;
     return true;
@@ -294,6 +283,21 @@ class ProofWorkers::Worker {
     }
     sort_unique(faces);
     return true;
+  }
+  /// Covers an original whose corners are near candidates by one of these, or by faces around them. `drafted_` are then
+  /// those that do so.
+  template <class Usable>
+  bool cover_by_candidates(std::uint32_t t, double limit, FaceMask all, FaceMask preferred, const Usable& is_usable) {
+    const Corners corners = original_.corners(t);
+    if (state_.cover.faces_of(t).size() >= many_faces && cover_by_patches(corners, limit, is_usable, drafted_))
+      return true;
+    FaceMask used = cover_.cover_whole(t, all, preferred);
+    if (used == 0 && walk_.covers(corners, cover_.face_at(t, all), limit, state_.magnitude, is_usable, drafted_))
+      return true;
+    if (used == 0) used = cover_.cover(t, all, preferred);
+    drafted_.clear();
+    take(used, drafted_);
+    return used != 0;
   }
   /// Covers an original by faces near those found. Leaves `faces` empty if it does not succeed.
   template <class Usable>

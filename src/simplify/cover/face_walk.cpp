@@ -42,8 +42,8 @@ bool FaceWalk::step(std::vector<std::uint32_t>& faces) {
   return true;
 }
 
-/// Leaves what lies beyond a side to the face across it, if there is one and that is worth it. Pieces are cut halfway between the planes
-/// that the two faces have through their edge: where they meet in a valley, both are nearest there.
+/// Leaves what lies beyond a side to the face across it, if there is one and that is worth it. Pieces are cut halfway
+/// between the planes that the two faces have through their edge: where they meet in a valley, both are nearest there.
 bool FaceWalk::cut(Piece& piece, const FacePlanes& planes, std::size_t side) {
   double largest = -HUGE_VAL, least = HUGE_VAL;
   for (std::size_t i = 0; i < piece.count; ++i) {

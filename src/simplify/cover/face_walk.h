@@ -25,15 +25,15 @@ class FaceWalk {
   FaceWalk(const ArrayMesh& mesh, PreparedFaces& prepared) : mesh_(mesh), prepared_(prepared) {}
 
   /// True: `faces` are some that `triangle` is near, as `CandidateFaces` tells for a tolerance and coordinates of at
-  /// most this magnitude. The walk begins at `start` and takes faces for which `is_usable` is true. False says nothing.
+  /// most this magnitude. The walk begins at `start` and takes faces for which `is_usable` is true. False says nothing,
+  /// and `faces` are none.
   template <class Usable>
   [[nodiscard]] bool covers(const Corners& triangle, std::uint32_t start, double tolerance, double magnitude,
                             const Usable& is_usable, std::vector<std::uint32_t>& faces) {
-    if (!begin(triangle, start, tolerance, magnitude)) return false;
     faces.clear();
-    for (int steps = 0; !pieces_.empty(); ++steps) {
-      if (steps == max_steps || !is_usable(pieces_.back().face) || !step(faces)) return false;
-    }
+    if (!begin(triangle, start, tolerance, magnitude)) return false;
+    for (int steps = 0; !pieces_.empty(); ++steps)
+      if (steps == max_steps || !is_usable(pieces_.back().face) || !step(faces)) return faces.clear(), false;
     return true;
   }
 
@@ -63,7 +63,7 @@ class FaceWalk {
   std::size_t point_count_ = 0;
   std::array<Vec3, 3 + 2 * max_cuts> points_;
   std::array<FacePlanes::Values, 3 + 2 * max_cuts> at_;  ///< by point: where it is, seen from the face being tried
-  std::array<double, max_corners> level_{};              ///< of the corners of a piece being split: beyond where positive
+  std::array<double, max_corners> level_{};  ///< of the corners of a piece being split: beyond where positive
 };
 
 }  // namespace meshbound

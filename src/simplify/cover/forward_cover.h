@@ -59,7 +59,8 @@ class ForwardCover {
   [[nodiscard]] std::optional<FaceMask> cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth);
   /// Whether some candidate of `allowed` is within the tolerance of each corner.
   [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
-  /// A face of `allowed` that holds two corners of the triangle, or else the first one. One that holds it must be known.
+  /// A face of `allowed` that holds two corners of the triangle, or else the first one. One that holds it must be
+  /// known.
   [[nodiscard]] std::uint32_t face_at(std::uint32_t triangle, FaceMask allowed);
   /// The point that no candidate held where the last cover failed; absent where it failed for another reason.
   [[nodiscard]] const std::optional<Vec3>& lost_point() const { return lost_point_; }
