@@ -44,6 +44,7 @@ bool FaceWalk::step(std::vector<std::uint32_t>& faces) {
 
 /// Leaves what lies beyond a side to the face across it, if there is one and that is worth it. Pieces are cut halfway
 /// between the planes that the two faces have through their edge: where they meet in a valley, both are nearest there.
+/// The face across need not be usable; as it shares two vertices with one that is, no other thread changes it.
 bool FaceWalk::cut(Piece& piece, const FacePlanes& planes, std::size_t side) {
   double largest = -HUGE_VAL, least = HUGE_VAL;
   for (std::size_t i = 0; i < piece.count; ++i) {
