@@ -97,8 +97,8 @@ bool FaceWalk::split(Piece& piece, Piece& beyond, const FacePlanes& planes) {
 /// within the other two than it is beyond that one, is nearest to that side: its distance follows from the planes.
 ///
 /// Rounding. Each plane is off by `plane_slack` tolerances and a fifth of `rounding_slack` at most, a distance from two
-/// of them by 1.42 times that. With what is taken off the square it is within what `CandidateFaces` promises. The rim is
-/// wider than all of this.
+/// of them by 1.42 times that. With what is taken off the square it is within what `CandidateFaces` promises. The rim
+/// is wider than all of this.
 bool FaceWalk::holds(const Piece& piece) {
   const double squared = tolerance_ * tolerance_, squared_by_planes = squared * (1 - 2 * CandidateFaces::plane_slack);
   return std::all_of(piece.corners.begin(), piece.corners.begin() + piece.count, [&](std::size_t corner) {

@@ -11,8 +11,8 @@
 namespace meshbound {
 
 /// Covers an original triangle by walking over the mesh below it: a piece is cut where it passes from a face to the
-/// next one, and what lies beyond is left to that one. Three cuts or so do for a triangle over four faces, where a
-/// search that knows nothing of neighbours (`ForwardCover`) takes nine.
+/// next one, and what lies beyond is left to that one. Two or three cuts do where a search that knows nothing of
+/// neighbours (`ForwardCover`) takes five to ten (ten meshes at 0.1%). Not thread-safe.
 ///
 /// Where cuts are made is a guess. A face covers a piece when it is within the tolerance of all of its corners, as the
 /// distance to a triangle is convex, and the pieces are the triangle: they share the points at which they were cut. The
