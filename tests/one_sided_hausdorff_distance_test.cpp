@@ -497,6 +497,19 @@ TEST(Proximity, AgreesWithTheDistanceOfTheTriangle) {
   }
 }
 
+/// A triangle that lies above a square by as much as one likes: both have z = 0 but for that.
+TEST(Proximity, IsNeverWithinAToleranceThatRoundingHides) {
+  const Bvh tree(unit_square(3));
+  Proximity proximity(tree);
+  for (double height = 1e-20; height < 1e-6; height *= 1.7) {
+    const Corners triangle{Vector3d{0.1, 0.1, height}, Vector3d{0.9, 0.2, height}, Vector3d{0.3, 0.8, height}};
+    for (const double tolerance : {0.0, 0.5 * height, 0.99 * height}) {
+      std::uint32_t hint = 0;
+      EXPECT_NE(proximity.triangle_within(triangle, tolerance, hint), Verdict::Within) << height << " " << tolerance;
+    }
+  }
+}
+
 TEST(OneSidedDistance, ToAPointFarAwayIsConvergedOnlyWhereItIsNarrowEnough) {
   const TriangleMesh tiny = scaled(unit_square(1), 1e-300), far = moved(unit_square(2), {1e9, 0, 0});
   const Bvh from(far), to(tiny);

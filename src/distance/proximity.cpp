@@ -85,20 +85,20 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
   }
   SearchKernel& kernel = impl_->kernel_for(tolerance, magnitude, error);
   std::uint32_t slot = impl_->slot_of_triangle[hint];
-  if (const Swept swept = kernel.sweep({p[0], p[1], p[2]}, slot, max_subdivisions);
-      swept == Swept::ByOneTriangle || swept == Swept::ByWalk) {
-    hint = impl_->data.triangle_of_slot[slot];
-    return Verdict::Within;
+  const Swept swept = kernel.sweep({p[0], p[1], p[2]}, slot, max_subdivisions);
+  hint = impl_->data.triangle_of_slot[slot];
+  if (swept == Swept::NotAtAll || swept == Swept::NotNear) {
+    for (const Vec3& corner : p) {
+      const Nearest nearest = kernel.nearest(corner, slot, kernel.accepted_squared());
+      slot = nearest.slot;
+      hint = impl_->data.triangle_of_slot[slot];
+      if (nearest.squared <= kernel.accepted_squared()) continue;
+      kernel.offer(corner, nearest, 0);
+      return kernel.lower().lower > impl_->current.tolerance ? Verdict::Exceeds : Verdict::Undecided;
+    }
+    kernel.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
   }
-  for (const Vec3& corner : p) {
-    const Nearest nearest = kernel.nearest(corner, slot, kernel.accepted_squared());
-    slot = nearest.slot;
-    hint = impl_->data.triangle_of_slot[slot];
-    if (nearest.squared <= kernel.accepted_squared()) continue;
-    kernel.offer(corner, nearest, 0);
-    return kernel.lower().lower > impl_->current.tolerance ? Verdict::Exceeds : Verdict::Undecided;
-  }
-  kernel.cover(p[0], p[1], p[2], 0, slot, max_subdivisions);
+  // What a search accepts may be more than a tolerance near the size of rounding.
   return verdict_of({kernel.lower().lower, impl_->current.proven_upper(kernel.upper_squared(), deepest_cut)},
                     impl_->current.tolerance);
 }
