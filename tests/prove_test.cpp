@@ -244,7 +244,7 @@ TEST(ForwardCover, FindsCoversThatNeedManyCuts) {
       faces.push_back({at(0), at(1), at(2)});
       cover.add(faces.back(), f);
     }
-    const FaceMask used = cover.cover(0, ForwardCover::first(cover.size()), 0);
+    const FaceMask used = cover.cover(0, ForwardCover::first(cover.size()));
     ASSERT_NE(used, 0U) << "round " << round;
     for (int i = 0; i <= 40; ++i)
       for (int j = 0; i + j <= 40; ++j) {
@@ -269,7 +269,7 @@ TEST(ForwardCover, NamesThePointThatNoFaceHolds) {
   cover.begin(tolerance);
   for (std::uint32_t f = 0; f < faces.size(); ++f) cover.add(faces[f], f);
   ASSERT_TRUE(cover.are_corners_near(0, ForwardCover::first(3)));
-  ASSERT_EQ(cover.cover(0, ForwardCover::first(3), 0), 0U);
+  ASSERT_EQ(cover.cover(0, ForwardCover::first(3)), 0U);
   ASSERT_TRUE(cover.lost_point());
   const Vec3 lost = *cover.lost_point();
   EXPECT_GT(lost.x, 1.2 + tolerance);

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "meshbound/proximity.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
-#include "simplify/cover/face_walk.h"
 #include "simplify/cover/forward_cover.h"
+#include "simplify/cover/loop_cover.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
 #include "simplify/cover/slab_proof.h"
@@ -36,11 +37,13 @@ class ProofWorkers::Worker {
         slab_proof_(original_, state.clusters, state.slabs),
         proximity_(state.tree),
         prepared_(state.mesh),
-        walk_(state.mesh, prepared_) {
+        loops_(state.vertices, state.triangles, state.mesh, prepared_) {
     found_marks_.reserve(state.mesh.face_count());
     vertex_marks_.reserve(state.mesh.vertex_count());
   }
 
+  /// Must be called when the mesh has changed, before `cover`.
+  void forget_faces() { loops_.forget(); }
   /// Covers an original triangle: sets `only` to a face that covers it alone, or else `faces` to faces that do so
   /// together. Neither is set if no cover was found.
   void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
@@ -51,10 +54,7 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return;
     std::array<std::uint32_t, 3> at{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      at[k] = state_.samples.face_of(v[k]);
-      if (at[k] != no_index && state_.mesh.is_removed(at[k])) at[k] = no_index;
-    }
+    for (std::size_t k = 0; k < 3; ++k) at[k] = sample_face(v[k]);
     for (std::size_t k = 0; k < 3; ++k) {
       if (at[k] == no_index || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
       if (!holds(at[k], corners, limit)) continue;
@@ -68,8 +68,12 @@ class ProofWorkers::Worker {
         only = under;
         return;
       }
-      if (walk_.covers(
-              corners, under, limit, state_.magnitude, [](std::uint32_t) { return true; }, faces))
+      loops_.set_tolerance(limit, state_.magnitude);
+      const auto start_at = [&](std::uint32_t from, std::uint32_t) {
+        return LoopCover::Start{sample_face(from), false};
+      };
+      if (loops_.covers(
+              t, start_at, [](std::uint32_t) { return true; }, faces))
         return;
     }
     find_around(at, grown(box_of(corners), state_.tolerance));
@@ -122,6 +126,7 @@ class ProofWorkers::Worker {
   /// Covers of the originals that relied on these faces, which have just been changed, by index below `affected()`.
   /// False where one was not found.
   bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
+    forget_faces();
     meets_seam_ = false;
     lost_point_.reset();
     find_affected(changed, [](const EditLog::Stamp& stamp) { return stamp.face; });
@@ -159,15 +164,18 @@ class ProofWorkers::Worker {
       if (!has_large_faces || !cover_cluster(first, end, added)) cover_one_by_one(first, end, added);
       first = end;
     }
-    if (in_pieces_.empty()) return true;
-    enter_ring(added_count, owned);
-    enter_covers();
-    // What is cheap and likely to fail comes first.
-    const FaceMask all = ForwardCover::first(cover_.size());
-    for (const std::size_t i : in_pieces_)
-      if (!cover_.are_corners_near(affected_[i], all)) return lost_point_ = cover_.lost_point(), false;
+    loops_.set_tolerance(limit, state_.magnitude);
+    bool has_ring = false;
     for (const std::size_t i : in_pieces_) {
-      if (!cover_by_candidates(affected_[i], limit, all, added, owned)) return lost_point_ = cover_.lost_point(), false;
+      const std::uint32_t t = affected_[i];
+      const auto start_at = [&](std::uint32_t from, std::uint32_t to) { return start_of_walk(t, from, to, added); };
+      if (!loops_.covers(t, start_at, owned, drafted_)) {
+        if (!std::exchange(has_ring, true)) {
+          enter_ring(added_count, owned);
+          enter_covers();
+        }
+        if (!cover_by_candidates(t, limit, owned)) return lost_point_ = cover_.lost_point(), false;
+      }
       set_cover(i, drafted_);
     }
     meets_seam_ = false;
@@ -186,6 +194,7 @@ class ProofWorkers::Worker {
 
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
   bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
+    forget_faces();
     find_affected(changed, [](std::uint32_t face) { return face; });
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     begin_covers();
@@ -219,6 +228,11 @@ class ProofWorkers::Worker {
       affected_members_[c] = 0;
     }
   }
+  /// The face of the mesh that the sample at an original vertex is assigned to, if any.
+  [[nodiscard]] std::uint32_t sample_face(std::uint32_t vertex) const {
+    const std::uint32_t face = state_.samples.face_of(vertex);
+    return face == no_index || state_.mesh.is_removed(face) ? no_index : face;
+  }
   [[nodiscard]] std::size_t end_of_cluster(std::size_t first) const {
     const std::uint32_t cluster = OriginalClusters::cluster_of(affected_[first]);
     std::size_t end = first + 1;
@@ -239,7 +253,7 @@ class ProofWorkers::Worker {
   /// Covers affected originals by a candidate each; what has none is to be covered in pieces.
   void cover_one_by_one(std::size_t first, std::size_t end, FaceMask allowed) {
     for (std::size_t i = first; i < end; ++i) {
-      const FaceMask used = cover_.cover_whole(affected_[i], allowed, 0);
+      const FaceMask used = cover_.cover_whole(affected_[i], allowed);
       set_cover(i, used);
       if (used == 0) in_pieces_.push_back(i);
     }
@@ -284,20 +298,29 @@ class ProofWorkers::Worker {
     sort_unique(faces);
     return true;
   }
-  /// Covers an original whose corners are near candidates by one of these, or by faces around them. `drafted_` are then
-  /// those that do so.
+  /// A candidate of `added` that holds a vertex of an original, or else one of the faces that have covered the
+  /// original. Samples may belong to faces of other regions, which other threads change.
+  [[nodiscard]] LoopCover::Start start_of_walk(std::uint32_t t, std::uint32_t from, std::uint32_t to, FaceMask added) {
+    if (const FaceMask of_start = cover_.holding(from, added); of_start != 0) {
+      const FaceMask of_both = of_start & cover_.holding(to, added);
+      return {cover_.face(std::countr_zero(of_both != 0 ? of_both : of_start)), of_both != 0};
+    }
+    for (const std::uint32_t f : state_.cover.faces_of(t))
+      if (!state_.mesh.is_removed(f) && loops_.is_near(f, state_.vertices[from])) return {f, false};
+    return {};
+  }
+  /// Covers an original by candidates, or by faces around them where many covered it before. `drafted_` are then those
+  /// that do so.
   template <class Usable>
-  bool cover_by_candidates(std::uint32_t t, double limit, FaceMask all, FaceMask preferred, const Usable& is_usable) {
-    const Corners corners = original_.corners(t);
-    if (state_.cover.faces_of(t).size() >= many_faces && cover_by_patches(corners, limit, is_usable, drafted_))
+  bool cover_by_candidates(std::uint32_t t, double limit, const Usable& is_usable) {
+    const FaceMask all = ForwardCover::first(cover_.size());
+    if (!cover_.are_corners_near(t, all)) return false;
+    if (state_.cover.faces_of(t).size() >= many_faces &&
+        cover_by_patches(original_.corners(t), limit, is_usable, drafted_))
       return true;
-    FaceMask used = cover_.cover_whole(t, all, preferred);
-    if (used == 0 && walk_.covers(corners, cover_.face_at(t, all), limit, state_.magnitude, is_usable, drafted_))
-      return true;
-    if (used == 0) used = cover_.cover(t, all, preferred);
     drafted_.clear();
-    take(used, drafted_);
-    return used != 0;
+    take(cover_.cover(t, all), drafted_);
+    return !drafted_.empty();
   }
   /// Covers an original by faces near those found. Leaves `faces` empty if it does not succeed.
   template <class Usable>
@@ -514,7 +537,7 @@ class ProofWorkers::Worker {
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
   PreparedFaces prepared_;
-  FaceWalk walk_;
+  LoopCover loops_;
   MarkedIds found_marks_, vertex_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, affected_clusters_, ids_, drafted_;
   struct Run {

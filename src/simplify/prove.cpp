@@ -46,6 +46,7 @@ void Proof::run(const StopToken& stop) {
   const auto threads = static_cast<int>(workers_.count());
   const std::size_t count = open_originals_.size() + open_faces_.size();
   std::vector<std::uint8_t> is_near(open_faces_.size(), 0);
+  for (std::size_t k = 0; k < workers_.count(); ++k) workers_.of_thread(k).forget_faces();
 #pragma omp parallel for schedule(dynamic, items_of_run) num_threads(threads)
   for (std::size_t i = 0; i < count; ++i) {
     error.guard([&] {

@@ -41,7 +41,7 @@ void ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
   candidates_.add(corners);
 }
 
-FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
+FaceMask ForwardCover::holding(std::uint32_t vertex, FaceMask allowed) {
   CachedMask& cached = cache_[vertex];
   if (cached.round != round_) cached = {round_, 0, 0};
   if (const FaceMask missing = allowed & ~cached.known; missing != 0) {
@@ -53,49 +53,42 @@ FaceMask ForwardCover::mask_of(std::uint32_t vertex, FaceMask allowed) {
 
 bool ForwardCover::are_corners_near(std::uint32_t triangle, FaceMask allowed) {
   for (const std::uint32_t v : triangles_[triangle]) {
-    if (mask_of(v, allowed) != 0) continue;
+    if (holding(v, allowed) != 0) continue;
     lost_point_ = vertices_[v];
     return false;
   }
   return true;
 }
 
-FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
+FaceMask ForwardCover::cover_whole(std::uint32_t triangle, FaceMask allowed) {
   const auto& t = triangles_[triangle];
   const auto holding_all = [&](FaceMask among) {
-    return mask_of(t[0], among) & mask_of(t[1], among) & mask_of(t[2], among);
+    return holding(t[0], among) & holding(t[1], among) & holding(t[2], among);
   };
   if (size() > few_candidates)
     if (const FaceMask common = holding_all(last_ & allowed); common != 0) return common;
   const FaceMask common = holding_all(allowed);
-  return last_ = lowest((common & preferred) != 0 ? common & preferred : common);
+  return last_ = lowest(common);
 }
 
 FaceMask ForwardCover::hold_all(std::span<const std::uint32_t> vertices, FaceMask allowed) {
   const auto at = [&](std::size_t i) { return vertices_[vertices[i]]; };
   const auto holds = [&](FaceMask one) { return candidates_.holds_all(std::countr_zero(one), vertices.size(), at); };
   if (const FaceMask one = last_ & allowed; one != 0 && holds(one)) return one;
-  FaceMask likely = mask_of(vertices.front(), allowed) & mask_of(vertices.back(), allowed) & ~last_;
+  FaceMask likely = holding(vertices.front(), allowed) & holding(vertices.back(), allowed) & ~last_;
   for (; likely != 0; likely &= likely - 1)
     if (holds(lowest(likely))) return last_ = lowest(likely);
   return 0;
 }
 
-std::uint32_t ForwardCover::face_at(std::uint32_t triangle, FaceMask allowed) {
-  const auto& t = triangles_[triangle];
-  const FaceMask a = mask_of(t[0], allowed), b = mask_of(t[1], allowed), c = mask_of(t[2], allowed);
-  const FaceMask two = (a & b) | (b & c) | (c & a);
-  return face(std::countr_zero(two != 0 ? two : a));
-}
-
-FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred) {
-  const FaceMask one = cover_whole(triangle, allowed, preferred);
+FaceMask ForwardCover::cover(std::uint32_t triangle, FaceMask allowed) {
+  const FaceMask one = cover_whole(triangle, allowed);
   return one != 0 ? one : cover_in_pieces(triangle, allowed, max_cuts);
 }
 
 FaceMask ForwardCover::cover_thoroughly(std::uint32_t triangle, FaceMask allowed) {
   const auto& t = triangles_[triangle];
-  const FaceMask common = mask_of(t[0], allowed) & mask_of(t[1], allowed) & mask_of(t[2], allowed);
+  const FaceMask common = holding(t[0], allowed) & holding(t[1], allowed) & holding(t[2], allowed);
   if (common == 0) return cover_in_pieces(triangle, allowed, few_cuts);
   if (common == lowest(common)) return common;
   return candidates_.nearest((1.0 / 3) * (vertices_[t[0]] + vertices_[t[1]] + vertices_[t[2]]), common);
@@ -106,7 +99,7 @@ FaceMask ForwardCover::cover_in_pieces(std::uint32_t triangle, FaceMask allowed,
   Piece whole;
   for (std::size_t i = 0; i < 3; ++i) {
     whole.corners[i] = vertices_[t[i]];
-    whole.masks[i] = mask_of(t[i], allowed);
+    whole.masks[i] = holding(t[i], allowed);
     if (whole.masks[i] == 0) return 0;
   }
   const FaceMask pieces = cover_in_pieces(whole, allowed, Asked::LikelyOnes, cuts);

@@ -42,12 +42,11 @@ class ForwardCover {
     return size == CandidateFaces::capacity ? ~FaceMask{0} : (FaceMask{1} << size) - 1;
   }
 
-  /// Mask of the candidates used when the triangle is covered by those of `allowed`, 0 when it is not. `preferred` are
-  /// tried first.
-  [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  /// Mask of the candidates used when the triangle is covered by those of `allowed`, 0 when it is not.
+  [[nodiscard]] FaceMask cover(std::uint32_t triangle, FaceMask allowed);
   /// As `cover`, by a single candidate, without cutting the triangle. The one that has covered the last triangle is
   /// tried before all others: triangles that follow one another lie near each other.
-  [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed, FaceMask preferred);
+  [[nodiscard]] FaceMask cover_whole(std::uint32_t triangle, FaceMask allowed);
   /// A single candidate that holds all these vertices, and so whatever triangles they are the corners of; 0 if there is
   /// none. The one that has covered the last triangle is tried before all others.
   [[nodiscard]] FaceMask hold_all(std::span<const std::uint32_t> vertices, FaceMask allowed);
@@ -59,9 +58,8 @@ class ForwardCover {
   [[nodiscard]] std::optional<FaceMask> cover_sub_triangle(const std::array<Vec3, 3>& corners, int depth);
   /// Whether some candidate of `allowed` is within the tolerance of each corner.
   [[nodiscard]] bool are_corners_near(std::uint32_t triangle, FaceMask allowed);
-  /// A face of `allowed` that holds two corners of the triangle, or else the first one. One that holds it must be
-  /// known.
-  [[nodiscard]] std::uint32_t face_at(std::uint32_t triangle, FaceMask allowed);
+  /// The candidates of `allowed` that are within the tolerance of a vertex.
+  [[nodiscard]] FaceMask holding(std::uint32_t vertex, FaceMask allowed);
   /// The point that no candidate held where the last cover failed; absent where it failed for another reason.
   [[nodiscard]] const std::optional<Vec3>& lost_point() const { return lost_point_; }
 
@@ -71,7 +69,6 @@ class ForwardCover {
     std::array<FaceMask, 3> masks;
     int depth = 0;  ///< cuts that made it
   };
-  [[nodiscard]] FaceMask mask_of(std::uint32_t vertex, FaceMask allowed);
   enum class Asked { LikelyOnes, All };  ///< whether a point of a cut is near candidates that hold no corner, too
   [[nodiscard]] FaceMask cover_in_pieces(std::uint32_t triangle, FaceMask allowed, int cuts);
   [[nodiscard]] FaceMask cover_in_pieces(const Piece& whole, FaceMask allowed, Asked asked, int cuts);

@@ -35,27 +35,46 @@ class PreparedFaces {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  /// The mesh may change, and must outlive this.
+  /// The mesh must outlive this.
   explicit PreparedFaces(const ArrayMesh& mesh) : mesh_(mesh), entries_(entry_count) {}
 
-  [[nodiscard]] const PreparedTriangle& triangle(std::uint32_t face);
-  [[nodiscard]] const FacePlanes& planes(std::uint32_t face, double tolerance);
+  /// Must be called when the mesh has changed.
+  void forget() { ++round_; }
+  [[nodiscard]] const PreparedTriangle& triangle(std::uint32_t face) {
+    Entry& at = entry(face);
+    if (!at.has_triangle) set_triangle(at);
+    return at.triangle;
+  }
+  [[nodiscard]] const FacePlanes& planes(std::uint32_t face, double tolerance) {
+    Entry& at = entry(face);
+    if (at.tolerance_of_planes != tolerance) set_planes(at, tolerance);
+    return at.planes;
+  }
 
  private:
   /// More than the faces around a star, so that few take the place of others.
   static constexpr std::size_t entry_count = 128;
   struct Entry {
     std::uint32_t face = no_index;
+    std::uint32_t round = 0;  ///< of `forget` when the corners were those of the face
     Corners corners{};
     bool has_triangle = false;
     double tolerance_of_planes = -1;  ///< negative: there are none
     PreparedTriangle triangle;
     FacePlanes planes;
   };
-  Entry& entry(std::uint32_t face);
+  Entry& entry(std::uint32_t face) {
+    Entry& entry = entries_[face % entry_count];
+    if (entry.face != face || entry.round != round_) renew(entry, face);
+    return entry;
+  }
+  void renew(Entry& entry, std::uint32_t face) const;
+  static void set_triangle(Entry& entry);
+  void set_planes(Entry& entry, double tolerance) const;
 
   const ArrayMesh& mesh_;
   PlaneKernel kernel_ = simplify_kernels().planes;
+  std::uint32_t round_ = 1;
   std::vector<Entry> entries_;  ///< by number of the face, modulo their count
 };
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "meshbound/triangle_mesh.h"
+#include "simplify/cover/forward_cover.h"
+#include "simplify/cover/prepared_faces.h"
+
+namespace meshbound {
+
+/// Covers an original triangle by the faces that are met along its edges. Each edge is walked along once, whichever of
+/// its triangles asks first, and most triangles need nothing else: no triangle is cut. Not thread-safe.
+///
+/// The proof. N(f), all points within the tolerance of face f, is convex. Where a walk passes from f to g it finds a
+/// point of the edge in N(f) and in N(g), so the edges are a loop of parts, each in the N of one face and each end of a
+/// part in the N of two. The loop is contracted in the plane of the triangle:
+/// - A part between two parts of one face may take the straight way between its ends, which is in both N: the three are
+///   then parts of that face.
+/// - Where the faces of three parts in a row have a vertex of the mesh in common, and that is within the tolerance of a
+///   point m of the triangle, m is in all three N. The middle part may go to m and from there to its other end: its two
+///   halves are then parts of the faces before and after.
+/// Both sweep over points of one N only. Where one face is left, the rest of the loop is in its N, and so is what it
+/// surrounds. A loop around a point cannot be contracted without sweeping over it, so each point of the triangle is
+/// in the N of one of these faces.
+///
+/// Where walks begin and pass is a guess. The displacement of rounded points, `cut_error` for each passage, is part of
+/// the slack of the proof, as for `ForwardCover`.
+class LoopCover {
+ public:
+  /// Where the walk along an edge begins.
+  struct Start {
+    std::uint32_t face = no_index;
+    bool holds_both = false;  ///< it is known to be within the tolerance of both ends, as `CandidateFaces` tells
+  };
+
+  /// Of an original and a mesh; all must outlive this.
+  LoopCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
+            PreparedFaces& prepared)
+      : vertices_(vertices), triangles_(triangles), mesh_(mesh), prepared_(prepared), walks_(walk_count) {}
+
+  /// Must be called when the mesh, or what `start_at` and `is_usable` tell, has changed: it forgets all walks.
+  void forget();
+  /// Of a state whose coordinates are at most `magnitude`.
+  void set_tolerance(double tolerance, double magnitude);
+
+  /// Whether a face is within the tolerance of a point; false says nothing.
+  [[nodiscard]] bool is_near(std::uint32_t face, Vec3 point);
+  /// True: `faces` are some that original triangle `t` is near, as `CandidateFaces` tells. `start_at(from, to)` is
+  /// where the walk along an edge between two vertices begins, and walks take faces for which `is_usable` is true.
+  /// False says nothing, and `faces` are none.
+  template <class StartAt, class Usable>
+  [[nodiscard]] bool covers(std::uint32_t t, const StartAt& start_at, const Usable& is_usable,
+                            std::vector<std::uint32_t>& faces) {
+    faces.clear();
+    loop_size_ = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = triangles_[t][k], to = triangles_[t][(k + 1) % 3];
+      const Walk& walk = walk_between(std::min(from, to), std::max(from, to), start_at, is_usable);
+      if (walk.count == 0) return false;
+      append(walk, walk.from == from);
+    }
+    list_faces(faces);
+    if (contracts(t)) return true;
+    faces.clear();
+    return false;
+  }
+
+ private:
+  /// Most faces along an edge: an original that is so much larger is better tried in another way.
+  static constexpr std::size_t max_faces = 6;
+  static_assert(max_faces <= ForwardCover::deepest_cut);
+  /// Edges around a star, so that few walks take the place of others.
+  static constexpr std::size_t walk_count = 512;
+
+  /// The faces along an edge.
+  struct Walk {
+    std::uint32_t low = 0, high = 0;  ///< its vertices by number
+    std::uint32_t round = 0;          ///< of `forget`
+    std::uint32_t from = 0;           ///< where it begins
+    double tolerance = 0;
+    std::size_t count = 0;  ///< 0: it does not reach the end
+    std::array<std::uint32_t, max_faces> faces{};
+  };
+  /// Where a walk is.
+  struct Position {
+    std::uint32_t face = 0;
+    std::size_t entered = 3;  ///< the side of it that was passed last; 3: none
+    Vec3 point;
+    FacePlanes::Values at{};  ///< the point as the face sees it
+  };
+
+  template <class StartAt, class Usable>
+  [[nodiscard]] const Walk& walk_between(std::uint32_t low, std::uint32_t high, const StartAt& start_at,
+                                         const Usable& is_usable) {
+    Walk& walk = walks_[(7 * low + 3 * high) % walk_count];
+    if (walk.round == round_ && walk.low == low && walk.high == high && walk.tolerance == tolerance_) return walk;
+    walk = {low, high, round_, low, tolerance_, 0, {}};
+    const Start start = start_at(low, high);
+    if (start.holds_both) {
+      walk.count = 1;
+      walk.faces[0] = start.face;
+      return walk;
+    }
+    if (!goes(walk, start, is_usable)) {
+      walk.from = high;
+      (void)goes(walk, start_at(high, low), is_usable);
+    }
+    return walk;
+  }
+  /// Whether the walk reaches the other end.
+  template <class Usable>
+  [[nodiscard]] bool goes(Walk& walk, const Start& start, const Usable& is_usable) {
+    const Vec3 end = vertices_[walk.from == walk.low ? walk.high : walk.low];
+    Position position;
+    if (!begin(start, vertices_[walk.from], position)) return false;
+    for (std::size_t count = 0; count < max_faces && is_usable(position.face);) {
+      walk.faces[count++] = position.face;
+      const FacePlanes::Values at_end = prepared_.planes(position.face, tolerance_).at(end);
+      if (holds(position.face, at_end, end)) return walk.count = count, true;
+      if (!pass(position, end, at_end)) return false;
+    }
+    return false;
+  }
+  [[nodiscard]] bool begin(const Start& start, Vec3 point, Position& position);
+  [[nodiscard]] bool pass(Position& position, Vec3 end, const FacePlanes::Values& at_end);
+  [[nodiscard]] bool holds(std::uint32_t face, const FacePlanes::Values& at, Vec3 p);
+
+  void append(const Walk& walk, bool forward);
+  void append(std::uint32_t face) {
+    if (loop_size_ == 0 || loop_[loop_size_ - 1] != face) loop_[loop_size_++] = face;
+  }
+  void list_faces(std::vector<std::uint32_t>& faces) const;
+  [[nodiscard]] bool contracts(std::uint32_t t);
+  [[nodiscard]] bool have_near_vertex(const std::array<std::uint32_t, 3>& faces, std::uint32_t t) const;
+
+  const std::vector<Vec3>& vertices_;
+  const std::vector<Triangle>& triangles_;
+  const ArrayMesh& mesh_;
+  PreparedFaces& prepared_;
+  double tolerance_ = 0, rim_ = 0;
+  bool is_accurate_ = false;
+  std::uint32_t round_ = 1;
+  std::vector<Walk> walks_;  ///< by a hash of their vertices
+  std::size_t loop_size_ = 0;
+  std::array<std::uint32_t, 3 * max_faces> loop_{};  ///< the faces of its parts
+};
+
+}  // namespace meshbound
