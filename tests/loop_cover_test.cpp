@@ -40,6 +40,10 @@ struct Covered {
   [[nodiscard]] LoopCover::Start nearest_at(std::uint32_t vertex) const {
     return {face_at(mesh, vertices[vertex]), false};
   }
+  void forget() {
+    prepared.forget();
+    loops.forget();
+  }
   [[nodiscard]] bool covers(double tolerance, std::uint32_t t = 0) {
     loops.set_tolerance(tolerance, 1);
     return loops.covers(
@@ -62,8 +66,8 @@ struct Covered {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
   ArrayMesh mesh;
-  PreparedFaces prepared{mesh};
-  LoopCover loops{vertices, triangles, mesh, prepared};
+  PreparedFaces<MeshSoup> prepared{MeshSoup{mesh}, 128};
+  LoopCover loops{vertices, triangles, prepared};
   std::vector<std::uint32_t> faces;
 };
 
@@ -169,7 +173,7 @@ TEST(LoopCover, ForgetsWhatChanges) {
     p.z = -1.1 * tolerance;
     it.mesh.move(v, p);
   }
-  it.loops.forget();
+  it.forget();
   EXPECT_FALSE(it.covers(tolerance));
   EXPECT_TRUE(it.covers(1.2 * tolerance));
 }
@@ -196,7 +200,7 @@ TEST(LoopCover, BeginsAtEitherEnd) {
   Covered it(reference::unit_square(3), {{{0.1, 0.5, 0}, {0.9, 0.45, 0}, {0.6, 0.9, 0}}});
   it.loops.set_tolerance(tolerance, 1);
   for (std::uint32_t known = 0; known < 8; ++known) {
-    it.loops.forget();
+    it.forget();
     const auto some = [&](std::uint32_t from, std::uint32_t) {
       return (known >> from & 1U) != 0 ? it.nearest_at(from) : LoopCover::Start{};
     };
@@ -227,7 +231,7 @@ TEST(LoopCover, TakesUsableFacesOnly) {
   ASSERT_TRUE(it.covers(tolerance));
   ASSERT_GT(it.faces.size(), 1U);
   for (const std::uint32_t barred : std::vector(it.faces)) {
-    it.loops.forget();
+    it.forget();
     const auto start_at = [&](std::uint32_t from, std::uint32_t) { return it.nearest_at(from); };
     const auto is_usable = [&](std::uint32_t f) { return f != barred; };
     EXPECT_FALSE(it.loops.covers(0, start_at, is_usable, it.faces)) << barred;
@@ -281,7 +285,7 @@ TEST(LoopCover, CoversNothingThatIsNoNumber) {
 
 TEST(PreparedFaces, FollowTheMesh) {
   ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
-  PreparedFaces prepared(mesh);
+  PreparedFaces prepared(MeshSoup{mesh}, 128);
   const Vec3 above{0.9, 0.5, 2};
   for (std::uint32_t f = 0; f < 2; ++f) {
     EXPECT_DOUBLE_EQ(std::abs(prepared.planes(f, 0.1).at(0, above)), 2);
@@ -302,7 +306,7 @@ TEST(PreparedFaces, FollowTheMesh) {
 /// Faces whose numbers are the same modulo 128 take each other's place.
 TEST(PreparedFaces, AreThoseAskedFor) {
   const ArrayMesh mesh = indexed_manifold(reference::unit_square(12));
-  PreparedFaces prepared(mesh);
+  PreparedFaces prepared(MeshSoup{mesh}, 128);
   for (std::uint32_t f = 0; f < 128; ++f) {
     for (const std::uint32_t face : {f, f + 128, f}) {
       const auto [a, b, c] = mesh.triangle(face);
@@ -324,7 +328,7 @@ TEST(PreparedFaces, AreThoseAskedFor) {
 TEST(PreparedFaces, KnowTheToleranceOfTheirPlanes) {
   const TriangleMesh thin{{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-8, 0}}, {{0, 1, 2}}};
   const ArrayMesh mesh = indexed_manifold(thin);
-  PreparedFaces prepared(mesh);
+  PreparedFaces prepared(MeshSoup{mesh}, 128);
   EXPECT_TRUE(prepared.planes(0, 10).are_accurate);
   EXPECT_FALSE(prepared.planes(0, 1e-4).are_accurate);
   EXPECT_TRUE(prepared.planes(0, 10).are_accurate);

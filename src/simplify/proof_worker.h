@@ -36,14 +36,17 @@ class ProofWorkers::Worker {
         original_patches_(state.triangles.size()),
         slab_proof_(original_, state.clusters, state.slabs),
         proximity_(state.tree),
-        prepared_(state.mesh),
-        loops_(state.vertices, state.triangles, state.mesh, prepared_) {
+        prepared_(MeshSoup{state.mesh}, prepared_faces),
+        loops_(state.vertices, state.triangles, prepared_) {
     found_marks_.reserve(state.mesh.face_count());
     vertex_marks_.reserve(state.mesh.vertex_count());
   }
 
   /// Must be called when the mesh has changed, before `cover`.
-  void forget_faces() { loops_.forget(); }
+  void forget_faces() {
+    prepared_.forget();
+    loops_.forget();
+  }
   /// Covers an original triangle: sets `only` to a face that covers it alone, or else `faces` to faces that do so
   /// together. Neither is set if no cover was found.
   void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
@@ -536,7 +539,7 @@ class ProofWorkers::Worker {
   SlabProof slab_proof_;
   std::vector<PatchCover::Part> open_parts_;
   Proximity proximity_;
-  PreparedFaces prepared_;
+  PreparedFaces<MeshSoup> prepared_;
   LoopCover loops_;
   MarkedIds found_marks_, vertex_marks_;
   std::vector<std::uint32_t> found_, chosen_, affected_, affected_clusters_, ids_, drafted_;
@@ -564,6 +567,9 @@ class ProofWorkers::Worker {
 
   /// An original that so many faces covered before needs more cuts than a proof by patches costs.
   static constexpr std::size_t many_faces = 8;
+
+  /// More than the faces around a star, so that few take the place of others.
+  static constexpr std::size_t prepared_faces = 128;
 
   /// A walk to the face under a point takes one or two steps where the faces are large.
   static constexpr int max_steps = 8;

@@ -23,6 +23,16 @@ constexpr int curve_bits = 12;
 
 constexpr std::size_t lanes = 8;
 
+/// Where only one point is looked at a walk costs more: with 1 a run executes 6% more instructions (seven meshes at
+/// 0.1%).
+constexpr int min_points_of_walk = 2;
+/// It goes on where an edge is up to so many limits away, to find where it is farthest: a placement that is better only
+/// at the first point that is too far away has to be tried again. With 1 a run executes 11% more instructions (five
+/// meshes at 0.1%).
+constexpr double reach_of_walk = 2;
+/// Originals that it passes: where more lie below an edge, the rest is looked at point by point.
+constexpr int max_passes = 16;
+
 /// Blocks of samples that are compared before it is looked whether they hold.
 constexpr std::size_t blocks_at_a_time = 4;
 
@@ -108,19 +118,49 @@ std::uint32_t StarSamples::face_beside(std::size_t i, std::span<const std::uint3
   return no_index;
 }
 
+/// `near` is an original triangle to start with, and the one found.
+bool StarSamples::is_near(Vec3 point, std::uint32_t& near, double limit) {
+  return proximity_.upper_distance({point.x, point.y, point.z}, near, limit) <= limit;
+}
+
 bool StarSamples::is_near_original(Vec3 point, double limit) {
   if (ids_.empty()) return true;
   near_ = triangle_near(point);
-  return proximity_.upper_distance({point.x, point.y, point.z}, near_, limit) <= limit;
+  return is_near(point, near_, limit);
+}
+
+/// Where the edge passes from one original to the next it is farthest from both.
+StarSamples::Walked StarSamples::walk_below(Vec3 vertex, Vec3 end, double limit) {
+  const auto share_to = [&](Vec3 p) { return length(p - vertex) / length(end - vertex); };
+  Walked walked{0, near_, std::nullopt};
+  walk_.set_tolerance(reach_of_walk * limit, state_.magnitude);
+  if (!walk_.begin(near_, vertex)) return walked;
+  double farthest = limit * limit;
+  Vec3 point;
+  std::uint32_t near = no_index;
+  for (int k = 0; k < max_passes && walked.share < 1; ++k) {
+    if (walk_.reaches(end)) {
+      walked.share = 1;
+    } else if (walk_.pass(end)) {
+      walked.share = share_to(walk_.point()), walked.near = walk_.face();
+      if (walk_.squared_distance() > farthest)
+        farthest = walk_.squared_distance(), point = walk_.point(), near = walk_.face();
+    } else {
+      break;
+    }
+  }
+  if (near != no_index && !is_near(point, near, limit)) walked.stray = share_to(point);
+  return walked;
 }
 
 std::optional<double> StarSamples::stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit) {
   if (ids_.empty()) return std::nullopt;
-  std::uint32_t near = near_;
+  Walked walked{0, near_, std::nullopt};
+  if (points >= min_points_of_walk) walked = walk_below(vertex, end, limit);
+  if (walked.stray) return walked.stray;
   for (int k = 1; k <= points; ++k) {
     const double share = static_cast<double>(k) / (points + 1);
-    const Vec3 p = vertex + share * (end - vertex);
-    if (!(proximity_.upper_distance({p.x, p.y, p.z}, near, limit) <= limit)) return share;
+    if (share > walked.share && !is_near(vertex + share * (end - vertex), walked.near, limit)) return share;
   }
   return std::nullopt;
 }

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "meshbound/proximity.h"
+#include "simplify/cover/parity_view.h"
+#include "simplify/cover/surface_walk.h"
 #include "simplify/decimation_state.h"
 #include "simplify/kernel/kernels.h"
 
@@ -14,7 +16,11 @@ namespace meshbound {
 /// The samples of a few faces, compared with the faces that a change would replace them by. One for each thread.
 class StarSamples {
  public:
-  explicit StarSamples(DecimationState& state) : state_(state), proximity_(state.tree) {}
+  explicit StarSamples(DecimationState& state)
+      : state_(state),
+        proximity_(state.tree),
+        originals_(OriginalSoup{state.vertices, state.triangles, state.neighbours}, originals_kept),
+        walk_(originals_) {}
 
   /// Starts anew, without samples. `points` are relative to `origin`, a point nearby.
   void begin(Vec3 origin);
@@ -33,8 +39,8 @@ class StarSamples {
   [[nodiscard]] bool hold(std::span<const std::uint32_t> beside, double limit);
   /// Whether a vertex of the changed faces is within `limit` of the original.
   [[nodiscard]] bool is_near_original(Vec3 point, double limit);
-  /// Looks at `points` points between that vertex and `end`, in equal steps. Returns the share of the way to the first
-  /// one that is not within `limit` of the original; absent if all are.
+  /// Looks along the edge from that vertex to `end`, by a walk over the original or at `points` points in equal steps.
+  /// Returns the share of the way to a point that is not within `limit` of the original; absent if none was seen.
   [[nodiscard]] std::optional<double> stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit);
   /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
@@ -43,6 +49,17 @@ class StarSamples {
   void give(std::span<const std::uint32_t> numbers);
 
  private:
+  /// Originals that are kept for walks: those around a star.
+  static constexpr std::size_t originals_kept = 256;
+
+  /// What a walk along an edge has seen.
+  struct Walked {
+    double share = 0;             ///< of the way that it has gone
+    std::uint32_t near = 0;       ///< the original triangle that it has reached
+    std::optional<double> stray;  ///< share of the way to the farthest point, if that is too far away
+  };
+  [[nodiscard]] Walked walk_below(Vec3 vertex, Vec3 end, double limit);
+  [[nodiscard]] bool is_near(Vec3 point, std::uint32_t& near, double limit);
   void compare_blocks(std::size_t end);
   [[nodiscard]] std::uint32_t triangle_near(Vec3 point) const;
   [[nodiscard]] std::uint32_t face_beside(std::size_t i, std::span<const std::uint32_t> beside,
@@ -53,6 +70,8 @@ class StarSamples {
 
   DecimationState& state_;
   Proximity proximity_;
+  PreparedFaces<OriginalSoup> originals_;
+  SurfaceWalk<OriginalSoup> walk_;
   SampleKernel kernel_ = simplify_kernels().samples;
   std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;

@@ -8,7 +8,8 @@
 
 #include "meshbound/triangle_mesh.h"
 #include "simplify/cover/forward_cover.h"
-#include "simplify/cover/prepared_faces.h"
+#include "simplify/cover/mesh_soup.h"
+#include "simplify/cover/surface_walk.h"
 
 namespace meshbound {
 
@@ -37,18 +38,16 @@ class LoopCover {
     bool holds_both = false;  ///< it is known to be within the tolerance of both ends, as `CandidateFaces` tells
   };
 
-  /// Of an original and a mesh; all must outlive this.
-  LoopCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
-            PreparedFaces& prepared)
-      : vertices_(vertices), triangles_(triangles), mesh_(mesh), prepared_(prepared), walks_(walk_count) {}
+  /// Of an original; all must outlive this.
+  LoopCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, PreparedFaces<MeshSoup>& faces)
+      : vertices_(vertices), triangles_(triangles), mesh_(faces.soup().mesh), walk_(faces), walks_(walk_count) {}
 
-  /// Must be called when the mesh, or what `start_at` and `is_usable` tell, has changed: it forgets all walks.
-  void forget();
+  /// Must be called when the mesh, or what `start_at` and `is_usable` tell, has changed.
+  void forget() { ++round_; }
   /// Of a state whose coordinates are at most `magnitude`.
   void set_tolerance(double tolerance, double magnitude);
-
   /// Whether a face is within the tolerance of a point; false says nothing.
-  [[nodiscard]] bool is_near(std::uint32_t face, Vec3 point);
+  [[nodiscard]] bool is_near(std::uint32_t face, Vec3 point) { return walk_.begin(face, point); }
   /// True: `faces` are some that original triangle `t` is near, as `CandidateFaces` tells. `start_at(from, to)` is
   /// where the walk along an edge between two vertices begins, and walks take faces for which `is_usable` is true.
   /// False says nothing, and `faces` are none.
@@ -85,14 +84,6 @@ class LoopCover {
     std::size_t count = 0;  ///< 0: it does not reach the end
     std::array<std::uint32_t, max_faces> faces{};
   };
-  /// Where a walk is.
-  struct Position {
-    std::uint32_t face = 0;
-    std::size_t entered = 3;  ///< the side of it that was passed last; 3: none
-    Vec3 point;
-    FacePlanes::Values at{};  ///< the point as the face sees it
-  };
-
   template <class StartAt, class Usable>
   [[nodiscard]] const Walk& walk_between(std::uint32_t low, std::uint32_t high, const StartAt& start_at,
                                          const Usable& is_usable) {
@@ -115,19 +106,14 @@ class LoopCover {
   template <class Usable>
   [[nodiscard]] bool goes(Walk& walk, const Start& start, const Usable& is_usable) {
     const Vec3 end = vertices_[walk.from == walk.low ? walk.high : walk.low];
-    Position position;
-    if (!begin(start, vertices_[walk.from], position)) return false;
-    for (std::size_t count = 0; count < max_faces && is_usable(position.face);) {
-      walk.faces[count++] = position.face;
-      const FacePlanes::Values at_end = prepared_.planes(position.face, tolerance_).at(end);
-      if (holds(position.face, at_end, end)) return walk.count = count, true;
-      if (!pass(position, end, at_end)) return false;
+    if (!walk_.begin(start.face, vertices_[walk.from])) return false;
+    for (std::size_t count = 0; count < max_faces && is_usable(walk_.face());) {
+      walk.faces[count++] = walk_.face();
+      if (walk_.reaches(end)) return walk.count = count, true;
+      if (!walk_.pass(end)) return false;
     }
     return false;
   }
-  [[nodiscard]] bool begin(const Start& start, Vec3 point, Position& position);
-  [[nodiscard]] bool pass(Position& position, Vec3 end, const FacePlanes::Values& at_end);
-  [[nodiscard]] bool holds(std::uint32_t face, const FacePlanes::Values& at, Vec3 p);
 
   void append(const Walk& walk, bool forward);
   void append(std::uint32_t face) {
@@ -140,9 +126,8 @@ class LoopCover {
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& triangles_;
   const ArrayMesh& mesh_;
-  PreparedFaces& prepared_;
-  double tolerance_ = 0, rim_ = 0;
-  bool is_accurate_ = false;
+  SurfaceWalk<MeshSoup> walk_;
+  double tolerance_ = 0;
   std::uint32_t round_ = 1;
   std::vector<Walk> walks_;  ///< by a hash of their vertices
   std::size_t loop_size_ = 0;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "geometry/position_table.h"
 #include "geometry/prepared_triangle.h"
 #include "numeric/no_index.h"
 #include "simplify/kernel/kernels.h"
-#include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
 
@@ -19,6 +20,7 @@ struct FacePlanes {
   /// Whether they are displaced by less than `CandidateFaces::plane_slack` tolerances near the face; else they are 0.
   bool are_accurate = false;
 
+  [[nodiscard]] static FacePlanes of(const std::array<Vec3, 3>& corners, double tolerance);
   /// How far a point is above the face, and beyond each side of it.
   [[nodiscard]] Values at(Vec3 p) const {
     Values values;
@@ -30,30 +32,37 @@ struct FacePlanes {
   }
 };
 
-/// The faces of a mesh that were asked for last, with what tests of points need of them. Not thread-safe.
+/// The faces of a soup that were asked for last, with what tests of points need of them. Not thread-safe.
+template <class Soup>
 class PreparedFaces {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  /// The mesh must outlive this.
-  explicit PreparedFaces(const ArrayMesh& mesh) : mesh_(mesh), entries_(entry_count) {}
+  /// Keeps at most `count` faces.
+  PreparedFaces(const Soup& soup, std::size_t count) : soup_(soup), entries_(count) {}
 
-  /// Must be called when the mesh has changed.
+  /// Must be called when the soup has changed.
   void forget() { ++round_; }
   [[nodiscard]] const PreparedTriangle& triangle(std::uint32_t face) {
     Entry& at = entry(face);
-    if (!at.has_triangle) set_triangle(at);
+    if (!at.has_triangle) {
+      const auto& [a, b, c] = at.corners;
+      at.triangle = PreparedTriangle({a, b - a, c - a});
+      at.has_triangle = true;
+    }
     return at.triangle;
   }
   [[nodiscard]] const FacePlanes& planes(std::uint32_t face, double tolerance) {
     Entry& at = entry(face);
-    if (at.tolerance_of_planes != tolerance) set_planes(at, tolerance);
+    if (at.tolerance_of_planes != tolerance) {
+      at.tolerance_of_planes = tolerance;
+      at.planes = FacePlanes::of(at.corners, tolerance);
+    }
     return at.planes;
   }
+  [[nodiscard]] const Soup& soup() const { return soup_; }
 
  private:
-  /// More than the faces around a star, so that few take the place of others.
-  static constexpr std::size_t entry_count = 128;
   struct Entry {
     std::uint32_t face = no_index;
     std::uint32_t round = 0;  ///< of `forget` when the corners were those of the face
@@ -64,16 +73,22 @@ class PreparedFaces {
     FacePlanes planes;
   };
   Entry& entry(std::uint32_t face) {
-    Entry& entry = entries_[face % entry_count];
+    Entry& entry = entries_[face % entries_.size()];
     if (entry.face != face || entry.round != round_) renew(entry, face);
     return entry;
   }
-  void renew(Entry& entry, std::uint32_t face) const;
-  static void set_triangle(Entry& entry);
-  void set_planes(Entry& entry, double tolerance) const;
+  /// What was made stays where the face is as it was.
+  void renew(Entry& entry, std::uint32_t face) const {
+    const Corners corners = soup_.corners(face);
+    if (entry.face != face || !std::equal(corners.begin(), corners.end(), entry.corners.begin(), same_position)) {
+      entry.face = face, entry.corners = corners;
+      entry.has_triangle = false;
+      entry.tolerance_of_planes = -1;
+    }
+    entry.round = round_;
+  }
 
-  const ArrayMesh& mesh_;
-  PlaneKernel kernel_ = simplify_kernels().planes;
+  const Soup soup_;
   std::uint32_t round_ = 1;
   std::vector<Entry> entries_;  ///< by number of the face, modulo their count
 };
