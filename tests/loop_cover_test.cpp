@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Covers by the faces along the edges of a triangle, and the faces that are prepared for it.
+// Covers by the faces along the edges of a triangle.
 #include "simplify/cover/loop_cover.h"
 
 #include <gtest/gtest.h>
@@ -281,57 +281,6 @@ TEST(LoopCover, CoversNothingThatIsNoNumber) {
     Covered it(reference::unit_square(2), triangle);
     EXPECT_FALSE(it.covers(tolerance)) << k;
   }
-}
-
-TEST(PreparedFaces, FollowTheMesh) {
-  ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
-  PreparedFaces prepared(MeshSoup{mesh}, 128);
-  const Vec3 above{0.9, 0.5, 2};
-  for (std::uint32_t f = 0; f < 2; ++f) {
-    EXPECT_DOUBLE_EQ(std::abs(prepared.planes(f, 0.1).at(0, above)), 2);
-    EXPECT_TRUE(prepared.triangle(f).is_within({0.5, 0.5, 0.1}, 0.02));
-  }
-  for (std::uint32_t v = 0; v < 4; ++v) {
-    Vec3 p = mesh.position(v);
-    p.z = 1;
-    mesh.move(v, p);
-  }
-  prepared.forget();
-  for (std::uint32_t f = 0; f < 2; ++f) {
-    EXPECT_DOUBLE_EQ(std::abs(prepared.planes(f, 0.1).at(0, above)), 1);
-    EXPECT_FALSE(prepared.triangle(f).is_within({0.5, 0.5, 0.1}, 0.02));
-  }
-}
-
-/// Faces whose numbers are the same modulo 128 take each other's place.
-TEST(PreparedFaces, AreThoseAskedFor) {
-  const ArrayMesh mesh = indexed_manifold(reference::unit_square(12));
-  PreparedFaces prepared(MeshSoup{mesh}, 128);
-  for (std::uint32_t f = 0; f < 128; ++f) {
-    for (const std::uint32_t face : {f, f + 128, f}) {
-      const auto [a, b, c] = mesh.triangle(face);
-      const Vec3 middle = (1.0 / 3) * (a + b + c);
-      const FacePlanes& planes = prepared.planes(face, 0.1);
-      EXPECT_TRUE(planes.are_accurate);
-      const FacePlanes::Values at = planes.at(middle);
-      for (std::size_t k = 0; k < at.size(); ++k) EXPECT_EQ(at[k], planes.at(k, middle));
-      EXPECT_LT(std::max({at[1], at[2], at[3]}), 0) << face;
-      EXPECT_NEAR(planes.at(1, a), 0, 1e-12);
-      EXPECT_NEAR(planes.at(2, b), 0, 1e-12);
-      EXPECT_NEAR(planes.at(3, c), 0, 1e-12);
-      EXPECT_TRUE(prepared.triangle(face).is_within(middle, 1e-20)) << face;
-    }
-  }
-}
-
-/// Whether planes are accurate enough depends on the tolerance.
-TEST(PreparedFaces, KnowTheToleranceOfTheirPlanes) {
-  const TriangleMesh thin{{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-8, 0}}, {{0, 1, 2}}};
-  const ArrayMesh mesh = indexed_manifold(thin);
-  PreparedFaces prepared(MeshSoup{mesh}, 128);
-  EXPECT_TRUE(prepared.planes(0, 10).are_accurate);
-  EXPECT_FALSE(prepared.planes(0, 1e-4).are_accurate);
-  EXPECT_TRUE(prepared.planes(0, 10).are_accurate);
 }
 
 }  // namespace loop_cover_test
