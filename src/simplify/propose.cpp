@@ -19,7 +19,7 @@ namespace {
 
 /// A placement takes at most so many steps towards where the largest sampled distance is smallest; fewer where a proof
 /// of many collapses is still to come.
-constexpr int max_minimax_steps = 5, max_minimax_steps_together = 2;
+constexpr int max_minimax_steps = 4, max_minimax_steps_together = 2;
 
 /// Placements of one edge that are worth a proof. With 8 there are 0.04% fewer faces, with 2 there are 0.5% more.
 constexpr int max_proofs = 4;

@@ -50,7 +50,7 @@ class StarSamples {
 
  private:
   /// Originals that are kept for walks: those around a star.
-  static constexpr std::size_t originals_kept = 256;
+  static constexpr std::size_t originals_kept = 128;
 
   /// What a walk along an edge has seen.
   struct Walked {
