@@ -66,7 +66,7 @@ struct Covered {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
   ArrayMesh mesh;
-  PreparedFaces<MeshSoup> prepared{MeshSoup{mesh}, 128};
+  PreparedFaces<MeshSoup> prepared{MeshSoup{mesh}};
   LoopCover loops{vertices, triangles, prepared};
   std::vector<std::uint32_t> faces;
 };

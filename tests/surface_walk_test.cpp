@@ -47,7 +47,7 @@ TEST(SurfaceWalk, IsNearAFaceAllTheWay) {
   for (int round = 0; round < 3000; ++round) {
     const ArrayMesh mesh = indexed_manifold(bumpy_sheet(2 + round % 7, 1.2 * tolerance, random));
     const MeshSoup soup{mesh};
-    PreparedFaces faces(soup, 16);
+    PreparedFaces faces(soup);
     SurfaceWalk walk(faces);
     walk.set_tolerance(tolerance, 1);
     const Vec3 start{unit(random), unit(random), height(random)}, end{unit(random), unit(random), height(random)};
@@ -76,7 +76,7 @@ TEST(SurfaceWalk, IsNearAFaceAllTheWay) {
 
 TEST(SurfaceWalk, EndsAtABorder) {
   const ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
-  PreparedFaces faces(MeshSoup{mesh}, 16);
+  PreparedFaces faces(MeshSoup{mesh});
   SurfaceWalk walk(faces);
   walk.set_tolerance(tolerance, 1);
   const Vec3 start{0.1, 0.4, 0}, beyond{1.5, 0.5, 0};
@@ -89,7 +89,7 @@ TEST(SurfaceWalk, EndsAtABorder) {
 
 TEST(SurfaceWalk, TellsHowFarItsPointIs) {
   const ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
-  PreparedFaces faces(MeshSoup{mesh}, 16);
+  PreparedFaces faces(MeshSoup{mesh});
   SurfaceWalk walk(faces);
   walk.set_tolerance(tolerance, 1);
   const Vec3 above{0.1, 0.4, 0.02}, beside{-0.015, 0.5, 0.01};
@@ -162,7 +162,7 @@ TEST(StarSamples, LookBeyondTheLastPassageOfAWalk) {
 
 TEST(PreparedFaces, FollowTheMesh) {
   ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
-  PreparedFaces prepared(MeshSoup{mesh}, 128);
+  PreparedFaces prepared(MeshSoup{mesh});
   const Vec3 above{0.9, 0.5, 2};
   for (std::uint32_t f = 0; f < 2; ++f) {
     EXPECT_DOUBLE_EQ(std::abs(prepared.planes(f, 0.1).at(0, above)), 2);
@@ -183,7 +183,7 @@ TEST(PreparedFaces, FollowTheMesh) {
 /// Faces whose numbers are the same modulo 128 take each other's place.
 TEST(PreparedFaces, AreThoseAskedFor) {
   const ArrayMesh mesh = indexed_manifold(reference::unit_square(12));
-  PreparedFaces prepared(MeshSoup{mesh}, 128);
+  PreparedFaces prepared(MeshSoup{mesh});
   for (std::uint32_t f = 0; f < 128; ++f) {
     for (const std::uint32_t face : {f, f + 128, f}) {
       const auto [a, b, c] = mesh.triangle(face);
@@ -205,7 +205,7 @@ TEST(PreparedFaces, AreThoseAskedFor) {
 TEST(PreparedFaces, KnowTheToleranceOfTheirPlanes) {
   const TriangleMesh thin{{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-8, 0}}, {{0, 1, 2}}};
   const ArrayMesh mesh = indexed_manifold(thin);
-  PreparedFaces prepared(MeshSoup{mesh}, 128);
+  PreparedFaces prepared(MeshSoup{mesh});
   EXPECT_TRUE(prepared.planes(0, 10).are_accurate);
   EXPECT_FALSE(prepared.planes(0, 1e-4).are_accurate);
   EXPECT_TRUE(prepared.planes(0, 10).are_accurate);

@@ -36,7 +36,7 @@ class ProofWorkers::Worker {
         original_patches_(state.triangles.size()),
         slab_proof_(original_, state.clusters, state.slabs),
         proximity_(state.tree),
-        prepared_(MeshSoup{state.mesh}, prepared_faces),
+        prepared_(MeshSoup{state.mesh}),
         loops_(state.vertices, state.triangles, prepared_) {
     found_marks_.reserve(state.mesh.face_count());
     vertex_marks_.reserve(state.mesh.vertex_count());
@@ -567,9 +567,6 @@ class ProofWorkers::Worker {
 
   /// An original that so many faces covered before needs more cuts than a proof by patches costs.
   static constexpr std::size_t many_faces = 8;
-
-  /// More than the faces around a star, so that few take the place of others.
-  static constexpr std::size_t prepared_faces = 128;
 
   /// A walk to the face under a point takes one or two steps where the faces are large.
   static constexpr int max_steps = 8;

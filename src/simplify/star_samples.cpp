@@ -26,7 +26,7 @@ constexpr std::size_t lanes = 8;
 /// Where only one point is looked at a walk costs more: with 1 a run executes 6% more instructions (seven meshes at
 /// 0.1%).
 constexpr int min_points_of_walk = 2;
-/// It goes on where an edge is up to so many limits away, to find where it is farthest: a placement that is better only
+/// It goes on where an edge is up to so many tolerances away, to find where it is farthest: a placement that is better only
 /// at the first point that is too far away has to be tried again. With 1 a run executes 11% more instructions (five
 /// meshes at 0.1%).
 constexpr double reach_of_walk = 2;
@@ -133,7 +133,7 @@ bool StarSamples::is_near_original(Vec3 point, double limit) {
 StarSamples::Walked StarSamples::walk_below(Vec3 vertex, Vec3 end, double limit) {
   const auto share_to = [&](Vec3 p) { return length(p - vertex) / length(end - vertex); };
   Walked walked{0, near_, std::nullopt};
-  walk_.set_tolerance(reach_of_walk * limit, state_.magnitude);
+  walk_.set_tolerance(reach_of_walk * state_.limit, state_.magnitude);
   if (!walk_.begin(near_, vertex)) return walked;
   double farthest = limit * limit;
   Vec3 point;

@@ -19,7 +19,7 @@ class StarSamples {
   explicit StarSamples(DecimationState& state)
       : state_(state),
         proximity_(state.tree),
-        originals_(OriginalSoup{state.vertices, state.triangles, state.neighbours}, originals_kept),
+        originals_(OriginalSoup{state.vertices, state.triangles, state.neighbours}),
         walk_(originals_) {}
 
   /// Starts anew, without samples. `points` are relative to `origin`, a point nearby.
@@ -49,9 +49,6 @@ class StarSamples {
   void give(std::span<const std::uint32_t> numbers);
 
  private:
-  /// Originals that are kept for walks: those around a star.
-  static constexpr std::size_t originals_kept = 128;
-
   /// What a walk along an edge has seen.
   struct Walked {
     double share = 0;             ///< of the way that it has gone

@@ -5,12 +5,11 @@
 
 namespace meshbound {
 
-FacePlanes FacePlanes::of(const std::array<Vec3, 3>& corners, double tolerance) {
+FacePlanes FacePlanes::of(const std::array<Vec3, 3>& corners, double tolerance, const PlaneKernel& kernel) {
   // The kernel makes those of four triangles.
   const std::array four{corners, corners, corners, corners};
   PlaneBlock block;
-  const unsigned accurate =
-      simplify_kernels().planes.set(block, four.data(), tolerance, CandidateFaces::plane_slack * tolerance);
+  const unsigned accurate = kernel.set(block, four.data(), tolerance, CandidateFaces::plane_slack * tolerance);
   FacePlanes planes;
   planes.are_accurate = (accurate & 1U) != 0;
   for (std::size_t k = 0; k < PlaneBlock::planes; ++k) {

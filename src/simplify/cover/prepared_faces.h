@@ -20,7 +20,7 @@ struct FacePlanes {
   /// Whether they are displaced by less than `CandidateFaces::plane_slack` tolerances near the face; else they are 0.
   bool are_accurate = false;
 
-  [[nodiscard]] static FacePlanes of(const std::array<Vec3, 3>& corners, double tolerance);
+  [[nodiscard]] static FacePlanes of(const std::array<Vec3, 3>& corners, double tolerance, const PlaneKernel& kernel);
   /// How far a point is above the face, and beyond each side of it.
   [[nodiscard]] Values at(Vec3 p) const {
     Values values;
@@ -38,8 +38,7 @@ class PreparedFaces {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  /// Keeps at most `count` faces.
-  PreparedFaces(const Soup& soup, std::size_t count) : soup_(soup), entries_(count) {}
+  explicit PreparedFaces(const Soup& soup) : soup_(soup), entries_(entry_count) {}
 
   /// Must be called when the soup has changed.
   void forget() { ++round_; }
@@ -56,13 +55,15 @@ class PreparedFaces {
     Entry& at = entry(face);
     if (at.tolerance_of_planes != tolerance) {
       at.tolerance_of_planes = tolerance;
-      at.planes = FacePlanes::of(at.corners, tolerance);
+      at.planes = FacePlanes::of(at.corners, tolerance, kernel_);
     }
     return at.planes;
   }
   [[nodiscard]] const Soup& soup() const { return soup_; }
 
  private:
+  /// More than the faces around a star, so that few take the place of others.
+  static constexpr std::size_t entry_count = 128;
   struct Entry {
     std::uint32_t face = no_index;
     std::uint32_t round = 0;  ///< of `forget` when the corners were those of the face
@@ -73,7 +74,7 @@ class PreparedFaces {
     FacePlanes planes;
   };
   Entry& entry(std::uint32_t face) {
-    Entry& entry = entries_[face % entries_.size()];
+    Entry& entry = entries_[face % entry_count];
     if (entry.face != face || entry.round != round_) renew(entry, face);
     return entry;
   }
@@ -89,6 +90,7 @@ class PreparedFaces {
   }
 
   const Soup soup_;
+  PlaneKernel kernel_ = simplify_kernels().planes;
   std::uint32_t round_ = 1;
   std::vector<Entry> entries_;  ///< by number of the face, modulo their count
 };
