@@ -111,7 +111,6 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
     if (has_room_for_clusters(corners, near) && slab_proof_.covers(corners, limit, state_.magnitude, near)) return true;
-    near = triangle_near(face, middle_of(corners), near);
     open_parts_.clear();
     original_patches_.cover(
         original_, {corners, 0}, limit, state_.magnitude,
@@ -511,16 +510,6 @@ class ProofWorkers::Worker {
     std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
     chosen_.clear();
     for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) chosen_.push_back(std::get<2>(ranked[k]));
-  }
-
-  /// An original triangle at the sample nearest to the middle of a face: one that lies above it, if any does.
-  [[nodiscard]] std::uint32_t triangle_near(std::uint32_t face, Vec3 middle, std::uint32_t best) {
-    double min_squared = HUGE_VAL;
-    for (std::uint32_t s = state_.samples.first(face); s != no_index; s = state_.samples.following(s)) {
-      const double squared = squared_length(state_.samples.at(s) - middle);
-      if (squared < min_squared) min_squared = squared, best = state_.samples.triangle_near(s);
-    }
-    return best;
   }
 
   /// Whether clusters as large as that of an original near a face fit into it: else it has no inner ones.

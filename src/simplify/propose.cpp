@@ -30,7 +30,7 @@ constexpr std::size_t few_samples = 24;
 /// Root mean square of the distances from the planes in the quadrics of an edge, in tolerances, beyond which the edge
 /// is refused at once. Of what samples and proofs would accept one in forty lies beyond, and most of it comes back when
 /// quadrics are renewed; of what they would refuse four in ten do (48 meshes at 0.1%, proofs one by one).
-constexpr double max_deviation_from_planes = 1.3;
+constexpr double max_deviation_from_planes = 1.1;
 /// Root mean square up to which the placement of least cost is likely to fit.
 constexpr double likely_deviation_from_planes = 0.6;
 /// Where collapses are proven together, edges beyond this are left for later: they are near the limit. With 1.2 a run

@@ -13,21 +13,12 @@ bool contains(std::span<const std::uint32_t> ids, std::uint32_t id) {
 }  // namespace
 
 void CoverAssignment::Faces::set(std::span<const std::uint32_t> faces) {
-  if (size == faces.size() && size > 1) {
-    std::copy(faces.begin(), faces.end(), many);
-    return;
-  }
-  std::uint32_t* list = nullptr;
-  if (faces.size() > 1) {
-    list = new std::uint32_t[faces.size()];
-    std::copy(faces.begin(), faces.end(), list);
-  }
-  if (size > 1) delete[] many;
-  size = static_cast<std::uint32_t>(faces.size());
-  if (list != nullptr)
-    many = list;
-  else if (!faces.empty())
-    only = faces[0];
+  const bool has_room = size_ == faces.size() || faces.size() <= few_.size();
+  std::uint32_t* const list = has_room ? nullptr : new std::uint32_t[faces.size()];
+  if (size_ != faces.size()) free();
+  size_ = static_cast<std::uint32_t>(faces.size());
+  if (list != nullptr) std::memcpy(few_.data(), &list, sizeof(list));
+  std::copy(faces.begin(), faces.end(), is_many() ? many() : few_.data());
 }
 
 void CoverAssignment::replace(std::uint32_t original, std::span<const std::uint32_t> faces, Ids& left) {

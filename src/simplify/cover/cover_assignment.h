@@ -2,8 +2,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace meshbound {
@@ -20,8 +21,7 @@ class CoverAssignment {
     if (face >= originals_of_.size()) originals_of_.resize(std::size_t{face} + 1);
   }
   [[nodiscard]] std::span<const std::uint32_t> faces_of(std::uint32_t original) const {
-    const Faces& faces = faces_of_[original];
-    return {faces.size <= 1 ? &faces.only : faces.many, faces.size};
+    return faces_of_[original].ids();
   }
   /// The cover of `original` is going to be asked for.
   void prefetch(std::uint32_t original) const { __builtin_prefetch(&faces_of_[original]); }
@@ -47,20 +47,32 @@ class CoverAssignment {
   void replace(std::uint32_t original, std::span<const std::uint32_t> faces, Ids& left);
   void remove_from_lists(Ids& left);
 
-  /// Most covers have one face.
-  struct Faces {
-    std::uint32_t size = 0;
-    union {
-      std::uint32_t only;
-      std::uint32_t* many;
-    };
-    Faces() : only(0) {}
-    Faces(Faces&& other) noexcept : size(other.size), many(other.many) { other.size = 0; }
+  /// The faces of a cover. Most have three at most, which need no memory of their own.
+  class Faces {
+   public:
+    Faces() = default;
+    Faces(Faces&& other) noexcept : size_(std::exchange(other.size_, 0)), few_(other.few_) {}
     Faces& operator=(Faces&&) = delete;
-    ~Faces() {
-      if (size > 1) delete[] many;
-    }
+    ~Faces() { free(); }
+
+    [[nodiscard]] std::span<const std::uint32_t> ids() const { return {is_many() ? many() : few_.data(), size_}; }
     void set(std::span<const std::uint32_t> faces);
+
+   private:
+    [[nodiscard]] bool is_many() const { return size_ > few_.size(); }
+    /// Where more than a few are: the address lies in `few_`.
+    [[nodiscard]] std::uint32_t* many() const {
+      std::uint32_t* list = nullptr;
+      std::memcpy(&list, few_.data(), sizeof(list));
+      return list;
+    }
+    void free() {
+      if (is_many()) delete[] many();
+    }
+
+    std::uint32_t size_ = 0;
+    std::array<std::uint32_t, 3> few_{};
+    static_assert(sizeof(std::uint32_t*) <= sizeof(few_));
   };
 
   std::vector<Faces> faces_of_;
