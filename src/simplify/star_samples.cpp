@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/star_samples.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
 #include "simplify/mesh/face_box.h"
@@ -18,17 +16,15 @@ constexpr std::size_t max_outside = 8;
 
 /// Samples of a star above which it is thinned out.
 constexpr std::size_t max_samples = 96;
-/// Cells along the curve that pairs them, as a power of two: a few thousand to an axis.
-constexpr int curve_bits = 12;
 
 constexpr std::size_t lanes = 8;
 
 /// Where only one point is looked at a walk costs more: with 1 a run executes 6% more instructions (seven meshes at
 /// 0.1%).
 constexpr int min_points_of_walk = 2;
-/// It goes on where an edge is up to so many tolerances away, to find where it is farthest: a placement that is better only
-/// at the first point that is too far away has to be tried again. With 1 a run executes 11% more instructions (five
-/// meshes at 0.1%).
+/// It goes on where an edge is up to so many tolerances away, to find where it is farthest: a placement that is better
+/// only at the first point that is too far away has to be tried again. With 1 a run executes 11% more instructions
+/// (five meshes at 0.1%).
 constexpr double reach_of_walk = 2;
 /// Originals that it passes: where more lie below an edge, the rest is looked at point by point.
 constexpr int max_passes = 16;
@@ -201,22 +197,11 @@ void StarSamples::give(std::span<const std::uint32_t> numbers) {
   }
 }
 
-/// The indices of points in the order of a space-filling curve through their box: neighbours in it lie near each other.
+/// The samples by number: those at vertices, then those on edges, both along the space-filling curve by which the
+/// original is sorted, so that neighbours lie near each other.
 void StarSamples::sort_along_curve() {
-  Eigen::AlignedBox3f box;
-  for (const SamplePoints::Block& block : points_.blocks)
-    for (std::size_t k = 0; k < lanes; ++k) box.extend(Eigen::Vector3f(block.x[k], block.y[k], block.z[k]));
-  const float extent = box.sizes().maxCoeff();
-  const float scale = extent > 0 ? static_cast<float>((1 << curve_bits) - 1) / extent : 0;
   order_.clear();
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    const Vec3 p = points_.at(i);
-    const auto cell = [&](double x, int axis) {
-      return static_cast<std::uint32_t>((static_cast<float>(x) - box.min()[axis]) * scale);
-    };
-    order_.emplace_back(hilbert_index(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2), curve_bits),
-                        static_cast<std::uint32_t>(i));
-  }
+  for (std::uint32_t i = 0; i < ids_.size(); ++i) order_.emplace_back(ids_[i], i);
   std::sort(order_.begin(), order_.end());
 }
 
