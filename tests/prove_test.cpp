@@ -12,6 +12,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
+#include "numeric/numbers_below.h"
 #include "reference/small_meshes.h"
 #include "simplify/change_prover.h"
 #include "simplify/cover/forward_cover.h"
@@ -193,6 +194,25 @@ TEST(Proof, AsksNothingOfFacesWhoseVerticesAreAllLocked) {
   proof.run({});
   EXPECT_TRUE(proof.unproven().empty());
   EXPECT_EQ(proof.faces_tested, 1U);
+}
+
+/// Workers keep what they have prepared of faces: not beyond the place where these were.
+TEST(ProofWorkers, ForgetFacesThatHaveMoved) {
+  Approximation it(reference::unit_square(3), reference::unit_square(1), 0.04);
+  ProofWorkers workers(it.state, 1);
+  const FaceBoxes boxes(it.state.mesh);
+  const std::vector<std::uint32_t> originals = numbers_below(it.state.triangles.size());
+  std::vector<std::vector<std::uint32_t>> covers;
+  Proof near(it.state, workers);
+  near.run({});
+  EXPECT_TRUE(near.unproven().empty());
+  EXPECT_TRUE(workers.cover_anywhere(originals, boxes, covers));
+  for (std::uint32_t v = 0; v < it.state.mesh.vertex_count(); ++v)
+    it.state.mesh.move(v, it.state.mesh.position(v) + Vec3{0, 0, 0.05});
+  EXPECT_FALSE(workers.cover_anywhere(originals, boxes, covers));
+  Proof far(it.state, workers);
+  far.run({});
+  EXPECT_EQ(far.unproven().originals, originals);
 }
 
 /// Faces that a collapse does not touch, and that are not beside it, still cover the rest of a large original.

@@ -42,7 +42,8 @@ class ProofWorkers::Worker {
     vertex_marks_.reserve(state.mesh.vertex_count());
   }
 
-  /// Must be called when the mesh has changed, before `cover`.
+  /// Must be called where the mesh may have changed, before `cover` or `cover_anywhere`: what has been prepared of its
+  /// faces is kept until then.
   void forget_faces() {
     prepared_.forget();
     loops_.forget();
