@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/star_samples.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
 #include "simplify/mesh/face_box.h"
@@ -16,6 +18,9 @@ constexpr std::size_t max_outside = 8;
 
 /// Samples of a star above which it is thinned out.
 constexpr std::size_t max_samples = 96;
+/// Cells along the curve that pairs them, as a power of two: a few thousand to an axis. What they leave of 64 bits is
+/// for the index of a sample.
+constexpr int curve_bits = 12, index_bits = 64 - 3 * curve_bits;
 
 constexpr std::size_t lanes = 8;
 
@@ -197,11 +202,22 @@ void StarSamples::give(std::span<const std::uint32_t> numbers) {
   }
 }
 
-/// The samples by number: those at vertices, then those on edges, both along the space-filling curve by which the
-/// original is sorted, so that neighbours lie near each other.
+/// The indices of samples in the order of a space-filling curve through their box: neighbours in it lie near each
+/// other.
 void StarSamples::sort_along_curve() {
+  Eigen::AlignedBox3f box;
+  for (const SamplePoints::Block& block : points_.blocks)
+    for (std::size_t k = 0; k < lanes; ++k) box.extend(Eigen::Vector3f(block.x[k], block.y[k], block.z[k]));
+  const float extent = box.sizes().maxCoeff();
+  const float scale = extent > 0 ? static_cast<float>((1 << curve_bits) - 1) / extent : 0;
   order_.clear();
-  for (std::uint32_t i = 0; i < ids_.size(); ++i) order_.emplace_back(ids_[i], i);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const Vec3 p = points_.at(i);
+    const auto cell = [&](double x, int axis) {
+      return static_cast<std::uint32_t>((static_cast<float>(x) - box.min()[axis]) * scale);
+    };
+    order_.push_back(hilbert_index(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2), curve_bits) << index_bits | i);
+  }
   std::sort(order_.begin(), order_.end());
 }
 
@@ -212,8 +228,9 @@ void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
     return state_.samples.are_alike(ids_[i], ids_[j], state_.vertices, state_.triangles, state_.tolerance);
   };
   sort_along_curve();
+  const auto in_order = [&](std::size_t k) { return order_[k] & ((std::uint64_t{1} << index_bits) - 1); };
   for (std::size_t k = 0; k < order_.size(); ++k) {
-    const std::size_t i = order_[k].second, j = order_[std::min(k + 1, order_.size() - 1)].second;
+    const std::size_t i = in_order(k), j = in_order(std::min(k + 1, order_.size() - 1));
     if (i == j || !are_alike(i, j)) {
       state_.samples.give_to(ids_[i], numbers[nearest(i)]);
       continue;

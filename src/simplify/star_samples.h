@@ -79,7 +79,7 @@ class StarSamples {
   std::size_t compared_ = 0;                                    ///< blocks whose offsets are known
   std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces
   std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< points that only a face beside is near
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order_;  ///< along a curve: sample, point
+  std::vector<std::uint64_t> order_;  ///< places along a curve, in the lower bits the points there
 };
 
 }  // namespace meshbound
