@@ -87,6 +87,20 @@ TEST(SurfaceWalk, EndsAtABorder) {
   EXPECT_FALSE(walk.pass(beyond));
 }
 
+/// The way begins beyond two sides of the first face, and is far from the face across the first of them.
+TEST(SurfaceWalk, PassesToFacesThatHoldItsPointOnly) {
+  const TriangleMesh corner{{{-1, 0, 0}, {0, 0, 0}, {2, 1, 0}, {-0.5, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}};
+  const ArrayMesh mesh = indexed_manifold(corner);
+  PreparedFaces faces(MeshSoup{mesh});
+  SurfaceWalk walk(faces);
+  walk.set_tolerance(0.6, 2);
+  const Vec3 start{1.26, -0.02, 0}, end{-0.5, -0.9, 0};
+  EXPECT_FALSE(walk.begin(1, start));
+  ASSERT_TRUE(walk.begin(0, start));
+  ASSERT_FALSE(walk.reaches(end));
+  EXPECT_FALSE(walk.pass(end));
+}
+
 TEST(SurfaceWalk, TellsHowFarItsPointIs) {
   const ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
   PreparedFaces faces(MeshSoup{mesh});
