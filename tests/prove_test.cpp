@@ -209,13 +209,15 @@ TEST(ProofWorkers, ForgetFacesThatHaveMoved) {
   Proof near(it.state, workers);
   near.run({});
   EXPECT_TRUE(near.unproven().empty());
+  std::vector<std::vector<std::uint32_t>> covers;
+  move_by(0.05);
+  EXPECT_FALSE(workers.cover_anywhere(originals, boxes, covers));
+  move_by(-0.05);
+  EXPECT_TRUE(workers.cover_anywhere(originals, boxes, covers));
   move_by(0.05);
   Proof far(it.state, workers);
   far.run({});
   EXPECT_EQ(far.unproven().originals, originals);
-  move_by(-0.05);
-  std::vector<std::vector<std::uint32_t>> covers;
-  EXPECT_TRUE(workers.cover_anywhere(originals, boxes, covers));
 }
 
 /// Faces that a collapse does not touch, and that are not beside it, still cover the rest of a large original.
