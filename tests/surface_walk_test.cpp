@@ -11,6 +11,7 @@
 
 #include "decimation_states.h"
 #include "reference/small_meshes.h"
+#include "sheets.h"
 #include "simplify/cover/mesh_soup.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
@@ -20,25 +21,10 @@ namespace meshbound {
 namespace surface_walk_test {
 
 using Eigen::Vector3d;
+using test::bumpy_sheet;
+using test::nearest_at;
 
 constexpr double tolerance = 1.0 / 40;
-
-/// The triangle of a soup that is nearest to a point.
-template <class Soup>
-std::uint32_t nearest_at(const Soup& soup, std::size_t count, Vec3 p) {
-  std::uint32_t best = 0;
-  for (std::uint32_t f = 1; f < count; ++f)
-    if (squared_distance(soup.corners(f), p) < squared_distance(soup.corners(best), p)) best = f;
-  return best;
-}
-
-/// A sheet of 2 n n faces above the unit square, of heights up to `height`.
-TriangleMesh bumpy_sheet(int n, double height, std::mt19937& random) {
-  std::uniform_real_distribution<double> any(-height, height);
-  TriangleMesh sheet = reference::unit_square(n);
-  for (Vector3d& p : sheet.vertices) p.z() = any(random);
-  return sheet;
-}
 
 TEST(SurfaceWalk, IsNearAFaceAllTheWay) {
   std::mt19937 random(3);

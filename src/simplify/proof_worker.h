@@ -276,13 +276,13 @@ class ProofWorkers::Worker {
   /// The faces that a parity proof of an original may use.
   template <class Usable>
   struct UsableFaces {
-    const ArrayMesh& mesh;
+    MeshSoup all;
     const Usable& is_usable;
 
-    [[nodiscard]] Corners corners(std::uint32_t face) const { return mesh.triangle(face); }
+    [[nodiscard]] Corners corners(std::uint32_t face) const { return all.corners(face); }
     [[nodiscard]] std::uint32_t neighbour(std::uint32_t face, std::size_t k) const {
-      const Corner twin = mesh.twin(3 * face + static_cast<Corner>(k));
-      return twin == no_index || !is_usable(twin / 3) ? no_index : twin / 3;
+      const std::uint32_t across = all.neighbour(face, k);
+      return across == no_index || !is_usable(across) ? no_index : across;
     }
   };
   /// Covers a large original by patches of usable faces, and by the candidates where patches end.
@@ -291,7 +291,7 @@ class ProofWorkers::Worker {
                         std::vector<std::uint32_t>& faces) {
     faces.clear();
     open_parts_.clear();
-    patches_.cover(UsableFaces<Usable>{state_.mesh, is_usable}, {corners, 0}, limit, state_.magnitude, found_, faces,
+    patches_.cover(UsableFaces<Usable>{{state_.mesh}, is_usable}, {corners, 0}, limit, state_.magnitude, found_, faces,
                    open_parts_);
     for (const PatchCover::Part& part : open_parts_) {
       const std::optional<FaceMask> used = cover_.cover_sub_triangle(part.corners, part.cuts);

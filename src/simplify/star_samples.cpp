@@ -228,7 +228,9 @@ void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
     return state_.samples.are_alike(ids_[i], ids_[j], state_.vertices, state_.triangles, state_.tolerance);
   };
   sort_along_curve();
-  const auto in_order = [&](std::size_t k) { return order_[k] & ((std::uint64_t{1} << index_bits) - 1); };
+  const auto in_order = [&](std::size_t k) {
+    return static_cast<std::size_t>(order_[k] & ((std::uint64_t{1} << index_bits) - 1));
+  };
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const std::size_t i = in_order(k), j = in_order(std::min(k + 1, order_.size() - 1));
     if (i == j || !are_alike(i, j)) {

@@ -38,13 +38,14 @@ class LoopCover {
     bool holds_both = false;  ///< it is known to be within the tolerance of both ends, as `CandidateFaces` tells
   };
 
-  /// Of an original; all must outlive this.
+  /// Covers triangles of the original that these vertices and triangles make. All three must outlive this.
   LoopCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, PreparedFaces<MeshSoup>& faces)
       : vertices_(vertices), triangles_(triangles), mesh_(faces.soup().mesh), walk_(faces), walks_(walk_count) {}
 
-  /// Must be called when the mesh, or what `start_at` and `is_usable` tell, has changed.
+  /// Forgets all walks. Must be called when the mesh, or what `start_at` and `is_usable` tell, has changed, as must
+  /// `PreparedFaces::forget`.
   void forget() { ++round_; }
-  /// Of a state whose coordinates are at most `magnitude`.
+  /// Sets the distance within which faces hold points. No coordinate may be larger than `magnitude`.
   void set_tolerance(double tolerance, double magnitude);
   /// Whether a face is within the tolerance of a point; false says nothing.
   [[nodiscard]] bool is_near(std::uint32_t face, Vec3 point) { return walk_.begin(face, point); }
@@ -102,7 +103,8 @@ class LoopCover {
     }
     return walk;
   }
-  /// Whether the walk reaches the other end.
+  /// Whether the walk reaches the other end. It looks at faces that are not usable before it stops there: as such a
+  /// face shares two vertices with one that is usable, no other thread changes it.
   template <class Usable>
   [[nodiscard]] bool goes(Walk& walk, const Start& start, const Usable& is_usable) {
     const Vec3 end = vertices_[walk.from == walk.low ? walk.high : walk.low];

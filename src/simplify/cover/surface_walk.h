@@ -22,7 +22,7 @@ class SurfaceWalk {
   /// The faces must outlive this.
   explicit SurfaceWalk(PreparedFaces<Soup>& faces) : prepared_(faces) {}
 
-  /// Of coordinates that are at most `magnitude`.
+  /// Sets the distance within which faces hold points. No coordinate may be larger than `magnitude`.
   void set_tolerance(double tolerance, double magnitude) {
     tolerance_ = tolerance;
     rim_ = inner_share * tolerance;
