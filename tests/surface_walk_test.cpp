@@ -160,6 +160,23 @@ TEST(StarSamples, LookBeyondTheLastPassageOfAWalk) {
   EXPECT_GT(*stray, 0.75);
 }
 
+/// Nothing is looked at where a walk does not lead: here over a hole.
+TEST(StarSamples, TellEdgesThatAWalkFindsTooFar) {
+  const Vec3 vertex{0.01, 0.3, 0}, end{0.99, 0.35, 0}, above{0.01, 0.3, 1.1 * tolerance};
+  for (const double height : {0.9 * tolerance, 1.2 * tolerance}) {
+    test::StateOf state(roof(height));
+    state->grow_tolerance(tolerance);
+    StarSamples samples(*state);
+    EXPECT_EQ(samples.is_edge_near(vertex, end, 0, tolerance), height < tolerance);
+    EXPECT_FALSE(samples.is_edge_near(above, end, 0, tolerance)) << "it begins too far away";
+  }
+  TriangleMesh two = reference::unit_square(6);
+  std::erase_if(two.triangles, [&](const Triangle& t) { return std::abs(two.vertices[t[0]].x() - 0.5) < 0.2; });
+  test::StateOf state(two);
+  state->grow_tolerance(tolerance);
+  EXPECT_TRUE(StarSamples(*state).is_edge_near(vertex, end, 0, tolerance));
+}
+
 TEST(PreparedFaces, FollowTheMesh) {
   ArrayMesh mesh = indexed_manifold(reference::unit_square(1));
   PreparedFaces prepared(MeshSoup{mesh});

@@ -245,6 +245,18 @@ bool Proposer::are_edges_near(Vec3 point) {
   return found_.empty();
 }
 
+bool Proposer::has_stray_edge(std::uint32_t face) {
+  const ArrayMesh& mesh = state_.mesh;
+  const double limit = state_.limit_around(mesh.triangle(face)),
+               length_of_long = points_on_edges_together.spacing * limit;
+  for (Corner c = 3 * face; c < 3 * face + 3; ++c) {
+    if (mesh.edge(c) != c) continue;
+    const Vec3 p = mesh.position(mesh.start(c)), q = mesh.position(mesh.end(c));
+    if (length(q - p) >= length_of_long && !samples_.is_edge_near(p, q, state_.nearest[face], limit)) return true;
+  }
+  return false;
+}
+
 Proposer::AllowedEnds Proposer::allowed_ends(Corner edge) const {
   const std::uint32_t start = state_.mesh.start(edge), end = state_.mesh.end(edge);
   const OnLines on_lines = state_.lines.allowed(state_.mesh, edge);

@@ -29,11 +29,14 @@ class Cutter {
     }
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
-  /// By region: its vertices.
+  /// By region: its vertices, ascending.
   std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions) {
     cut(vertices_, regions, shift_ == 0 ? 0.5 : shifted_cut);
     join_at_hubs();
-    return std::move(of_region_);
+    std::vector<std::vector<std::uint32_t>> of_region(count_);
+    for (std::uint32_t v = 0; v < into_.region_of.size(); ++v)
+      if (into_.region_of[v] != no_index) of_region[into_.region_of[v]].push_back(v);
+    return of_region;
   }
 
  private:
@@ -44,10 +47,8 @@ class Cutter {
 
   void cut(std::span<Placed> vertices, std::uint32_t regions, double share) {
     if (regions == 1) {
-      std::vector<std::uint32_t>& of_region = of_region_.emplace_back();
-      for (const Placed& placed : vertices) of_region.push_back(placed.vertex);
-      std::sort(of_region.begin(), of_region.end());
-      for (const std::uint32_t v : of_region) into_.region_of[v] = static_cast<std::uint32_t>(of_region_.size()) - 1;
+      for (const Placed& placed : vertices) into_.region_of[placed.vertex] = count_;
+      ++count_;
       return;
     }
     Eigen::AlignedBox3d box;
@@ -67,7 +68,7 @@ class Cutter {
   /// refused: the cap of a cylinder would be decimated in one sector only, and the other cap in another one.
   void join_at_hubs() {
     const ArrayMesh& mesh = state_.mesh;
-    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0), joined = numbers_below(of_region_.size());
+    std::vector<std::uint32_t> faces(mesh.vertex_count(), 0), joined = numbers_below(count_);
     const auto root = [&](std::uint32_t r) {
       while (joined[r] != r) r = joined[r];
       return r;
@@ -91,21 +92,9 @@ class Cutter {
   }
   /// `joined` names for each region the one that it becomes part of, which has no higher number.
   void join(const std::vector<std::uint32_t>& joined) {
-    std::vector<std::vector<std::uint32_t>> kept;
-    std::vector<std::uint32_t> number(joined.size());
-    for (std::uint32_t r = 0; r < joined.size(); ++r) {
-      if (joined[r] == r) {
-        number[r] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(std::move(of_region_[r]));
-        continue;
-      }
-      number[r] = number[joined[r]];
-      std::vector<std::uint32_t>& into = kept[number[r]];
-      const auto middle = static_cast<std::ptrdiff_t>(into.size());
-      into.insert(into.end(), of_region_[r].begin(), of_region_[r].end());
-      std::inplace_merge(into.begin(), into.begin() + middle, into.end());
-    }
-    of_region_ = std::move(kept);
+    std::vector<std::uint32_t> number(count_);
+    count_ = 0;
+    for (std::uint32_t r = 0; r < joined.size(); ++r) number[r] = joined[r] == r ? count_++ : number[joined[r]];
     for (const Placed& placed : vertices_) into_.region_of[placed.vertex] = number[into_.region_of[placed.vertex]];
   }
 
@@ -113,7 +102,7 @@ class Cutter {
   Split& into_;
   const int shift_;
   std::vector<Placed> vertices_;
-  std::vector<std::vector<std::uint32_t>> of_region_;
+  std::uint32_t count_ = 0;  ///< of regions so far
 };
 
 void assign_faces(const DecimationState& state, Split& split) {

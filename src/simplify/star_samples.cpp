@@ -130,15 +130,15 @@ bool StarSamples::is_near_original(Vec3 point, double limit) {
   return is_near(point, near_, limit);
 }
 
-/// Where the edge passes from one original to the next it is farthest from both.
-StarSamples::Walked StarSamples::walk_below(Vec3 vertex, Vec3 end, double limit) {
+/// Where the edge passes from one original to the next it is farthest from both. `near` is an original near the vertex.
+StarSamples::Walked StarSamples::walk_below(Vec3 vertex, Vec3 end, std::uint32_t near, double limit) {
   const auto share_to = [&](Vec3 p) { return length(p - vertex) / length(end - vertex); };
-  Walked walked{0, near_, std::nullopt};
+  Walked walked{0, near, std::nullopt};
   walk_.set_tolerance(reach_of_walk * state_.limit, state_.magnitude);
-  if (!walk_.begin(near_, vertex)) return walked;
+  if (!walk_.begin(near, vertex)) return walked;
   double farthest = limit * limit;
   Vec3 point;
-  std::uint32_t near = no_index;
+  near = no_index;
   for (int k = 0; k < max_passes && walked.share < 1; ++k) {
     if (walk_.reaches(end)) {
       walked.share = 1;
@@ -157,13 +157,17 @@ StarSamples::Walked StarSamples::walk_below(Vec3 vertex, Vec3 end, double limit)
 std::optional<double> StarSamples::stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit) {
   if (ids_.empty()) return std::nullopt;
   Walked walked{0, near_, std::nullopt};
-  if (points >= min_points_of_walk) walked = walk_below(vertex, end, limit);
+  if (points >= min_points_of_walk) walked = walk_below(vertex, end, near_, limit);
   if (walked.stray) return walked.stray;
   for (int k = 1; k <= points; ++k) {
     const double share = static_cast<double>(k) / (points + 1);
     if (share > walked.share && !is_near(vertex + share * (end - vertex), walked.near, limit)) return share;
   }
   return std::nullopt;
+}
+
+bool StarSamples::is_edge_near(Vec3 vertex, Vec3 end, std::uint32_t near, double limit) {
+  return is_near(vertex, near, limit) && !walk_below(vertex, end, near, limit).stray;
 }
 
 Vec3 StarSamples::offset_from_original(Vec3 point) {

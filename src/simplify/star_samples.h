@@ -42,6 +42,9 @@ class StarSamples {
   /// Looks along the edge from that vertex to `end`, by a walk over the original or at `points` points in equal steps.
   /// Returns the share of the way to a point that is not within `limit` of the original; absent if none was seen.
   [[nodiscard]] std::optional<double> stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit);
+  /// Whether nothing is seen to be too far from the original by a look at a vertex of the mesh and by a walk from there
+  /// to `end`, as far as it leads. `near` is an original triangle to start with. No star is needed.
+  [[nodiscard]] bool is_edge_near(Vec3 vertex, Vec3 end, std::uint32_t near, double limit);
   /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
   /// Assigns each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the
@@ -55,7 +58,7 @@ class StarSamples {
     std::uint32_t near = 0;       ///< the original triangle that it has reached
     std::optional<double> stray;  ///< share of the way to the farthest point, if that is too far away
   };
-  [[nodiscard]] Walked walk_below(Vec3 vertex, Vec3 end, double limit);
+  [[nodiscard]] Walked walk_below(Vec3 vertex, Vec3 end, std::uint32_t near, double limit);
   [[nodiscard]] bool is_near(Vec3 point, std::uint32_t& near, double limit);
   void compare_blocks(std::size_t end);
   [[nodiscard]] std::uint32_t triangle_near(Vec3 point) const;
