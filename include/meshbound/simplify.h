@@ -150,13 +150,13 @@ struct SimplifiedLevel {
 
 /// How the collapses of a run came about, for those who tune it.
 struct CollapseCounts {
-  std::uint64_t tried = 0;             ///< edges compared with samples of the original
-  std::uint64_t refused = 0;           ///< edges tried that samples refused
-  std::uint64_t proven_together = 0;   ///< collapses that samples admitted and one common proof confirmed
-  std::uint64_t taken_back = 0;        ///< collapses that samples admitted and that were undone where that proof failed
-  std::uint64_t proven_alone = 0;      ///< collapses, and other changes, that were proven one by one
-  std::uint64_t restored = 0;          ///< proven collapses that were undone for the texture or the normals
-  std::uint64_t unproven = 0;          ///< changes tried one by one and undone, as their proof failed
+  std::uint64_t tried = 0;            ///< edges compared with samples of the original
+  std::uint64_t refused = 0;          ///< edges tried that samples refused
+  std::uint64_t proven_together = 0;  ///< collapses that samples admitted and one common proof confirmed
+  std::uint64_t taken_back = 0;       ///< collapses that samples admitted, undone where that proof failed or would have
+  std::uint64_t proven_alone = 0;     ///< collapses, and other changes, that were proven one by one
+  std::uint64_t restored = 0;         ///< proven collapses that were undone for the texture or the normals
+  std::uint64_t unproven = 0;         ///< changes tried one by one and undone, as their proof failed
   std::uint64_t originals_tested = 0;  ///< triangles of the original that proofs tested
   std::uint64_t faces_tested = 0;      ///< faces of the result that proofs tested
 

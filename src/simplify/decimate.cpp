@@ -20,12 +20,12 @@ namespace meshbound {
 namespace {
 
 /// Samples may reach this share of the tolerance in the first collapses, which are proven together: beyond, edges have
-/// to be looked at more closely. With 0.6 or 0.8 a run takes 1% and 4% longer (37 meshes at 0.1%).
+/// to be looked at more closely. With 0.6 or 0.8 a run takes 3% and 6% longer (37 meshes at 0.1%).
 constexpr double share_together = 0.7;
 
 /// Where a face has so few originals or fewer, in the mean, the collapses near the tolerance are proven together too.
-/// One in five is undone then, with what was built on it, and proven one by one; this pays while an original is proven
-/// by itself. It does not where faces are so large that one proof covers whole clusters of originals.
+/// One in ten to one in three is undone then, and proven one by one; this pays while an original is proven by itself.
+/// It does not where faces are so large that one proof covers whole clusters of originals.
 constexpr std::size_t max_originals_of_face = OriginalClusters::size;
 
 /// Vertices of a region at least: smaller ones lose more at their seams than threads gain. A proof takes much longer
