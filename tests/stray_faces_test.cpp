@@ -62,6 +62,7 @@ TEST(StrayFaces, HaveLongEdgesFarFromTheOriginal) {
 TEST(StrayFaces, AreUnproven) {
   Unfolded it(2 * tolerance);
   const std::vector<std::uint32_t> strays = it.strays();
+  ASSERT_FALSE(strays.empty());
   it.state->stamp[strays.front()] = 0;
   EXPECT_EQ(it.strays(), std::vector<std::uint32_t>(strays.begin() + 1, strays.end()));
   it.faces = {strays.back()};
