@@ -38,7 +38,7 @@ struct Unfolded {
   }
   [[nodiscard]] std::vector<std::uint32_t> strays(int threads = 1) {
     DecimationThreads of_run(*state, threads);
-    return stray_faces(*state, faces, of_run);
+    return stray_faces(*state, faces, of_run, {});
   }
   [[nodiscard]] bool passes_below(std::uint32_t face) const {
     const auto corners = state->mesh.triangle(face);
@@ -67,6 +67,13 @@ TEST(StrayFaces, AreUnproven) {
   EXPECT_EQ(it.strays(), std::vector<std::uint32_t>(strays.begin() + 1, strays.end()));
   it.faces = {strays.back()};
   EXPECT_EQ(it.strays(), it.faces);
+}
+
+TEST(StrayFaces, AreNotLookedForOnceARunIsStopped) {
+  Unfolded it(2 * tolerance);
+  DecimationThreads threads(*it.state, 1);
+  const StopToken stopped = StopToken().until(StopToken::Clock::now(), 0);
+  EXPECT_THROW((void)stray_faces(*it.state, it.faces, threads, stopped), Stopped);
 }
 
 }  // namespace stray_faces_test

@@ -225,14 +225,19 @@ bool Run::proves_later() const {
 std::size_t Run::undo_strays() {
   std::size_t undone = 0;
   std::vector<std::uint32_t> changed = numbers_below(state_.stamp.size());
-  for (;;) {
-    const Unproven strays{{}, stray_faces(state_, changed, threads_)};
-    if (strays.empty()) return undone;
-    Repair repaired = repair(state_, strays);
-    undone += repaired.changes;
-    threads_.together.taken_back += repaired.changes;
-    changed = std::move(repaired.faces);
+  try {
+    for (;;) {
+      const Unproven strays{{}, stray_faces(state_, changed, threads_, goal_.stop)};
+      if (strays.empty()) break;
+      Repair repaired = repair(state_, strays);
+      undone += repaired.changes;
+      changed = std::move(repaired.faces);
+    }
+  } catch (const Stopped&) {
+    note_stop();
   }
+  threads_.together.taken_back += undone;
+  return undone;
 }
 
 /// Most collapses; those that are still refused for a share of the tolerance are open again then.

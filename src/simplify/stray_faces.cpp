@@ -14,12 +14,13 @@ constexpr std::size_t faces_of_look = 64;
 }  // namespace
 
 std::vector<std::uint32_t> stray_faces(const DecimationState& state, std::span<const std::uint32_t> faces,
-                                       DecimationThreads& threads) {
+                                       DecimationThreads& threads, const StopToken& stop) {
   FirstError error;
   std::vector<std::uint8_t> is_stray(faces.size(), 0);
 #pragma omp parallel for schedule(dynamic, faces_of_look) num_threads(threads.count())
   for (std::size_t i = 0; i < faces.size(); ++i) {
     error.guard([&] {
+      if (i % faces_of_look == 0) stop.check();
       Proposer& proposer = *threads.proposers[static_cast<std::size_t>(omp_get_thread_num())];
       const std::uint32_t face = faces[i];
       if (state.is_unproven(face) && !state.mesh.is_removed(face)) is_stray[i] = proposer.has_stray_edge(face) ? 1 : 0;
