@@ -18,7 +18,6 @@
 #include "simplify/cover/forward_cover.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
-#include "simplify/proof_worker.h"
 #include "simplify/propose.h"
 #include "simplify/repair.h"
 
@@ -219,35 +218,6 @@ TEST(ProofWorkers, ForgetFacesThatHaveMoved) {
   Proof far(it.state, workers);
   far.run({});
   EXPECT_EQ(far.unproven().originals, originals);
-}
-
-/// Either way to cover originals after a change looks at the faces anew.
-TEST(ProofWorkers, ForgetFacesThatAChangeHasMoved) {
-  Approximation it(reference::unit_square(1), reference::unit_square(3), 0.04);
-  ProofWorkers workers(it.state, 1);
-  Proof proof(it.state, workers);
-  proof.run({});
-  ASSERT_TRUE(proof.unproven().empty());
-  proof.commit();
-  const Split split = whole(it.state);
-  const std::vector<std::uint32_t> faces = numbers_below(it.state.mesh.face_count());
-  std::vector<EditLog::Stamp> stamps;
-  for (const std::uint32_t f : faces) stamps.push_back({f, 0});
-  ProofWorkers::Worker& worker = workers.of_thread(0);
-  const auto move_to = [&](double height) {
-    for (std::uint32_t v = 0; v < it.state.mesh.vertex_count(); ++v) {
-      const Vec3 p = it.state.mesh.position(v);
-      it.state.mesh.move(v, {p.x, p.y, height});
-    }
-  };
-  for (const double height : {0.03, 0.05, -0.03}) {
-    move_to(height);
-    EXPECT_EQ(worker.cover_change(stamps, split, 0), height < 0.04) << height;
-  }
-  for (const double height : {0.05, 0.03, 0.05}) {
-    move_to(height);
-    EXPECT_EQ(worker.cover_group(faces, split, 0), height < 0.04) << height;
-  }
 }
 
 /// Faces that a collapse does not touch, and that are not beside it, still cover the rest of a large original.
