@@ -2,7 +2,7 @@
 #include "attributes/sectors.h"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 
 #include "numeric/disjoint_sets.h"
 #include "numeric/no_index.h"
@@ -16,53 +16,74 @@ std::uint32_t vertex(const SimplifiedLevel& level, std::uint32_t corner) {
   return level.mesh.triangles[corner / 3][corner % 3];
 }
 
-/// An edge, and a corner where it starts.
-using EdgeOfCorner = std::pair<Edge, std::uint32_t>;
+/// The corners where the edges of all triangles start, by the smaller vertex of the edge.
+struct CornersByVertex {
+  std::vector<std::uint32_t> end;  ///< by vertex: where its corners end
+  std::vector<std::uint32_t> corners;
+};
 
-/// The edges of all triangles that are no lines; those of one edge follow one another, by corner.
-std::vector<EdgeOfCorner> edges_between_lines(const SimplifiedLevel& level) {
-  std::vector<Edge> lines;
-  for (const Edge& edge : level.lines) lines.push_back(sorted(edge));
-  std::sort(lines.begin(), lines.end());
-  std::vector<EdgeOfCorner> edges;
-  edges.reserve(3 * level.mesh.triangles.size());
-  for (std::uint32_t c = 0; c < 3 * level.mesh.triangles.size(); ++c) {
-    const Edge edge = sorted({vertex(level, c), vertex(level, next(c))});
-    if (!std::binary_search(lines.begin(), lines.end(), edge)) edges.emplace_back(edge, c);
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
+Edge edge_at(const SimplifiedLevel& level, std::uint32_t corner) {
+  return sorted({vertex(level, corner), vertex(level, next(corner))});
+}
+
+CornersByVertex corners_by_vertex(const SimplifiedLevel& level) {
+  const auto count = static_cast<std::uint32_t>(3 * level.mesh.triangles.size());
+  CornersByVertex by{std::vector<std::uint32_t>(level.mesh.vertices.size() + 1, 0), std::vector<std::uint32_t>(count)};
+  for (std::uint32_t c = 0; c < count; ++c) ++by.end[edge_at(level, c)[0] + 1];
+  std::partial_sum(by.end.begin(), by.end.end(), by.end.begin());
+  for (std::uint32_t c = 0; c < count; ++c) by.corners[by.end[edge_at(level, c)[0]]++] = c;
+  return by;
 }
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level, const MayJoin& may_join) {
-  const auto count = static_cast<std::uint32_t>(3 * level.mesh.triangles.size());
-  DisjointSets sets(count);
-  const std::vector<EdgeOfCorner> edges = edges_between_lines(level);
-  std::size_t first = 0;  // the first one of the same edge
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    if (edges[e].first != edges[first].first) {
-      first = e;
-      continue;
+Sectors::Sectors(std::span<const std::uint32_t> name_of) : corners_(name_of.size()) {
+  std::vector<std::uint32_t> sector_of(name_of.size(), no_index);  // by name
+  std::vector<std::uint32_t> sector;                               // by corner
+  sector.reserve(name_of.size());
+  for (const std::uint32_t name : name_of) {
+    if (sector_of[name] == no_index) {
+      sector_of[name] = static_cast<std::uint32_t>(end_.size());
+      end_.push_back(0);
     }
-    const std::uint32_t one = edges[first].second, other = edges[e].second;
+    sector.push_back(sector_of[name]);
+    ++end_[sector.back()];
+  }
+  std::exclusive_scan(end_.begin(), end_.end(), end_.begin(), std::uint32_t{0});
+  for (std::uint32_t c = 0; c < sector.size(); ++c) corners_[end_[sector[c]]++] = c;
+}
+
+SectorFinder::SectorFinder(const SimplifiedLevel& level) : level_(level) {
+  std::vector<Edge> lines;
+  for (const Edge& edge : level.lines) lines.push_back(sorted(edge));
+  std::sort(lines.begin(), lines.end());
+  const CornersByVertex by_vertex = corners_by_vertex(level);
+  std::vector<std::array<std::uint32_t, 2>> to;  // of one vertex: the larger vertex of an edge, and the corner
+  for (std::size_t first = 0, v = 0; v + 1 < by_vertex.end.size(); first = by_vertex.end[v++]) {
+    to.clear();
+    for (std::size_t i = first; i < by_vertex.end[v]; ++i)
+      to.push_back({edge_at(level, by_vertex.corners[i])[1], by_vertex.corners[i]});
+    std::sort(to.begin(), to.end());
+    for (std::size_t i = 1, of_edge = 0; i < to.size(); ++i) {
+      if (to[i][0] != to[of_edge][0])
+        of_edge = i;
+      else if (!std::binary_search(lines.begin(), lines.end(), Edge{static_cast<std::uint32_t>(v), to[i][0]}))
+        across_.push_back({to[of_edge][1], to[i][1]});
+    }
+  }
+}
+
+Sectors SectorFinder::find(const MayJoin& may_join) const {
+  const auto count = static_cast<std::uint32_t>(3 * level_.mesh.triangles.size());
+  DisjointSets sets(count);
+  for (const auto& [one, other] : across_)
     for (const std::uint32_t i : {other, next(other)})
       for (const std::uint32_t j : {one, next(one)})
-        if (vertex(level, i) == vertex(level, j) && (!may_join || may_join(i, j))) sets.unite(i, j);
-  }
-
-  std::vector<std::vector<std::uint32_t>> result;
-  std::vector<std::uint32_t> sector_of(count, no_index);  // by name of its set
-  for (std::uint32_t c = 0; c < count; ++c) {
-    std::uint32_t& sector = sector_of[sets.find(c)];
-    if (sector == no_index) {
-      sector = static_cast<std::uint32_t>(result.size());
-      result.emplace_back();
-    }
-    result[sector].push_back(c);
-  }
-  return result;
+        if (vertex(level_, i) == vertex(level_, j) && (!may_join || may_join(i, j))) sets.unite(i, j);
+  std::vector<std::uint32_t> name_of;
+  name_of.reserve(count);
+  for (std::uint32_t c = 0; c < count; ++c) name_of.push_back(sets.find(c));
+  return Sectors(name_of);
 }
 
 }  // namespace meshbound

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "meshbound/simplify.h"
@@ -18,9 +20,34 @@ namespace meshbound {
 /// Whether two corners at one vertex, of triangles with a common edge there, may be in one sector.
 using MayJoin = std::function<bool(std::uint32_t, std::uint32_t)>;
 
-/// The corners of a level, numbered 3 t + k, by sector: the corners around one vertex that are connected without
-/// crossing a line. Sectors are ordered by their first corners, and corners ascend in a sector. O(n log n).
-[[nodiscard]] std::vector<std::vector<std::uint32_t>> sectors(const SimplifiedLevel& level,
-                                                              const MayJoin& may_join = {});
+/// Sets of corners, numbered 3 t + k, one after another.
+class Sectors {
+ public:
+  /// `name_of` maps each corner to the number of its set, below the number of corners.
+  explicit Sectors(std::span<const std::uint32_t> name_of);
+  [[nodiscard]] std::size_t size() const { return end_.size(); }
+  /// The corners of a sector, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t sector) const {
+    const std::size_t first = sector == 0 ? 0 : end_[sector - 1];
+    return std::span(corners_).subspan(first, end_[sector] - first);
+  }
+
+ private:
+  std::vector<std::uint32_t> corners_, end_;
+};
+
+/// Finds the corners around one vertex that are connected without crossing a line.
+class SectorFinder {
+ public:
+  /// The level must outlive this. Expected O(n).
+  explicit SectorFinder(const SimplifiedLevel& level);
+  /// Sectors, ordered by their first corners. O(n).
+  [[nodiscard]] Sectors find(const MayJoin& may_join = {}) const;
+
+ private:
+  const SimplifiedLevel& level_;
+  /// Corners where an edge starts that is no line, and another one of the same edge: the first.
+  std::vector<std::array<std::uint32_t, 2>> across_;
+};
 
 }  // namespace meshbound

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "attributes/chart_surface.h"
@@ -86,6 +87,7 @@ class Transfer {
       : original_mesh_(mesh),
         from_(attributes),
         level_(level),
+        sectors_(level),
         keeps_vertices_(stands_on_vertices(mesh, level)),
         on_line_(level.mesh.vertices.size(), 0) {
     for (const Edge& edge : level.lines)
@@ -144,7 +146,9 @@ class Transfer {
       result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, no_values()});
     const bool has_own_coordinates = !level_.texture_coordinates.empty();
     const bool needs_points = !has_own_coordinates || !from_.named.empty();
-    for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
+    const Sectors sectors = sectors_.find();
+    for (std::size_t s = 0; s < sectors.size(); ++s) {
+      const std::span<const std::uint32_t> corners = sectors[s];
       const WeightedPoint at = needs_points ? point_of_sector(corners) : WeightedPoint();
       if (!from_.texture_coordinates.empty()) {
         const auto value =
@@ -169,11 +173,11 @@ class Transfer {
     return Eigen::Vector3d(value.x(), value.y(), 0);
   }
 
-  static void set_index(std::vector<Triangle>& index, const std::vector<std::uint32_t>& corners, std::size_t value) {
+  static void set_index(std::vector<Triangle>& index, std::span<const std::uint32_t> corners, std::size_t value) {
     for (const std::uint32_t c : corners) index[c / 3][c % 3] = static_cast<std::uint32_t>(value);
   }
 
-  WeightedPoint point_of_sector(const std::vector<std::uint32_t>& corners) {
+  WeightedPoint point_of_sector(std::span<const std::uint32_t> corners) {
     const std::uint32_t c = corners.front();
     if (keeps_vertices_ || on_line_[vertex(c)] != 0) {
       if (const auto of_original = corner_of_original(corners)) return WeightedPoint::at_corner(*of_original);
@@ -189,7 +193,7 @@ class Transfer {
 
   /// Among the corners of the original at the position, in the same chart, the one whose triangle is nearest to the
   /// sector. All of them have equal values unless the chart touches itself along a line.
-  [[nodiscard]] std::optional<std::uint32_t> corner_of_original(const std::vector<std::uint32_t>& corners) {
+  [[nodiscard]] std::optional<std::uint32_t> corner_of_original(std::span<const std::uint32_t> corners) {
     const Eigen::Vector3d p = position(corners.front());
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
     for (const std::uint32_t c : corners) way += (point_inside(c, 1) - p).stableNormalized();
@@ -280,7 +284,9 @@ class Transfer {
     const auto is_smooth = [&](std::uint32_t i, std::uint32_t j) {
       return by_corner[i].dot(by_corner[j]) >= smooth_cosine;
     };
-    for (const std::vector<std::uint32_t>& corners : sectors(level_, is_smooth)) {
+    const Sectors sectors = sectors_.find(is_smooth);
+    for (std::size_t s = 0; s < sectors.size(); ++s) {
+      const std::span<const std::uint32_t> corners = sectors[s];
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const std::uint32_t c : corners) sum += by_corner[c];
       if (!(sum.norm() > 0)) continue;
@@ -296,7 +302,9 @@ class Transfer {
     CornerAttribute result;
     result.index = no_values();
     FirstUse number_of(from_.normals.values.size());
-    for (const std::vector<std::uint32_t>& corners : sectors(level_)) {
+    const Sectors sectors = sectors_.find();
+    for (std::size_t s = 0; s < sectors.size(); ++s) {
+      const std::span<const std::uint32_t> corners = sectors[s];
       const auto of_original = corner_of_original(corners);
       if (!of_original) continue;
       for (const std::uint32_t c : corners) {
@@ -350,6 +358,7 @@ class Transfer {
   std::optional<ChartSurface> original_;  ///< once asked for
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
+  const SectorFinder sectors_;
   bool keeps_vertices_;                          ///< every vertex of the level is one of the original
   std::vector<std::uint8_t> on_line_;            ///< by vertex
   std::vector<NormalOnChart> normal_of_vertex_;  ///< by vertex: the one found last

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "geometry/longest_edge.h"
+#include "geometry/triangle_table.h"
 #include "meshbound/error.h"
 #include "numeric/tasks.h"
 #include "simplify/cover/box_tree.h"
@@ -24,6 +25,15 @@ using Corners = std::array<Eigen::Vector3d, 3>;
 Corners corners_of(const MeshView& mesh, std::size_t triangle) {
   const Triangle t = mesh.triangle(triangle);
   return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
+}
+
+/// Triangles by the positions of their corners.
+using Triangles = TriangleTable<3>;
+
+Triangles::Corners content(const Corners& corners) {
+  Triangles::Corners content;
+  for (std::size_t k = 0; k < 3; ++k) content[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
+  return content;
 }
 
 /// The unit normal; absent for a triangle without area.
@@ -63,6 +73,12 @@ class Faces {
   }
   [[nodiscard]] const Eigen::Vector3d& normal(std::uint32_t face) const { return normals_[face]; }
   [[nodiscard]] std::uint32_t source(std::uint32_t face) const { return source_[face]; }
+  [[nodiscard]] Triangles table() const {
+    std::vector<Triangles::Corners> contents;
+    contents.reserve(size());
+    for (std::uint32_t f = 0; f < size(); ++f) contents.push_back(content(corners(f)));
+    return Triangles(std::move(contents));
+  }
   [[nodiscard]] std::vector<Eigen::AlignedBox3d> boxes() const {
     std::vector<Eigen::AlignedBox3d> boxes(size());
     for (std::uint32_t f = 0; f < size(); ++f)
@@ -106,7 +122,7 @@ double tie_of(const MeshView& mesh) {
 class StandIns {
  public:
   StandIns(const MeshView& a, const MeshView& b, int threads)
-      : faces_(b), tree_(faces_.mesh(), {threads}), boxes_(faces_.boxes()), tie_(tie_of(a)) {}
+      : faces_(b), table_(faces_.table()), tree_(faces_.mesh(), {threads}), boxes_(faces_.boxes()), tie_(tie_of(a)) {}
 
   /// The turns of the faces of A from `begin` to below `end`: of those above the tolerance, of the first that turns
   /// most, and of some others.
@@ -114,16 +130,23 @@ class StandIns {
                                          double tolerance) const {
     std::vector<SurfacePoint> middles;
     std::vector<Eigen::Vector3d> positions, normals;
+    std::optional<FaceTurn> unchanged;  // the first
     for (std::size_t t = begin; t < end; ++t) {
       const Corners corners = corners_of(a, t);
       const auto normal = normal_of(corners);
       if (!normal) continue;
-      middles.push_back({(corners[0] + corners[1] + corners[2]) / 3, static_cast<std::uint32_t>(t)});
+      const SurfacePoint middle{(corners[0] + corners[1] + corners[2]) / 3, static_cast<std::uint32_t>(t)};
+      if (const auto same = unturned(corners, *normal)) {
+        if (!unchanged) unchanged = {middle, {middle.position, *same}, 0};
+        continue;
+      }
+      middles.push_back(middle);
       positions.push_back(middles.back().position);
       normals.push_back(*normal);
     }
     const std::vector<ClosestPoint> closest = closest_points(tree_, positions, {1});
     std::vector<FaceTurn> turns;
+    if (unchanged) turns.push_back(*unchanged);
     double worst = 0;
     for (std::size_t i = 0; i < middles.size(); ++i) {
       // The face that stands for this one turns no more than the one that is found nearest.
@@ -136,6 +159,12 @@ class StandIns {
   }
 
  private:
+  /// The face of B with the same corners and the same normal, up to rounding, if there is one: no other one turns less.
+  [[nodiscard]] std::optional<std::uint32_t> unturned(const Corners& corners, const Eigen::Vector3d& normal) const {
+    const std::uint32_t same = table_.find(content(corners));
+    if (same == no_index || !(normal.dot(faces_.normal(same)) > 0)) return std::nullopt;
+    return faces_.source(same);
+  }
   /// The turn from a face to that of the faces within `reach` of its middle which turns least.
   [[nodiscard]] FaceTurn turn_of(const SurfacePoint& middle, const Eigen::Vector3d& normal, double reach) const {
     FaceTurn turn{middle, {}, HUGE_VAL};
@@ -153,6 +182,7 @@ class StandIns {
   }
 
   Faces faces_;
+  Triangles table_;
   Bvh tree_;
   BoxTree boxes_;
   double tie_;
