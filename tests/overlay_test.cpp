@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "reference/point_triangle_cases.h"
@@ -71,6 +73,56 @@ TEST(OverlayDistance, ByDoublesEnclosesThatToASegment) {
   int compared = 0;
   for (int run = 0; run < 3000; ++run) compared += compare(random_segment(random), random_segment(random), random);
   EXPECT_GT(compared, 3000);
+}
+
+/// What the planes of two triangles say of a limit, against exact distances. Counts the pairs that they tell are near.
+int compare_planes(const TexturedTriangle& a, const TexturedTriangle& b, const ExactUnits& of_both) {
+  const ChartTriangle of_a = chart_triangle(a, of_both), of_b = chart_triangle(b, of_both);
+  Overlay overlay(of_both);
+  overlay.begin(of_a);
+  overlay.add(of_b);
+  if (overlay.candidates() == 0 || of_a.chart != Chart::Area || of_b.chart != Chart::Area) return 0;
+  double at_corners = 0;  // of A, from the plane of B
+  for (const auto& corner : overlay.whole())
+    at_corners = std::max(at_corners, overlay.rough_distance(0, corner.node).upper);
+  Overlay::Polygon covered = overlay.whole();
+  overlay.clip(covered, 0);
+  for (const auto& corner : covered) {
+    const double exact = overlay.distance(0, corner.node, 0).lower;
+    EXPECT_FALSE(overlay.is_within(0, std::nextafter(exact, 0)));
+  }
+  return overlay.is_within(0, at_corners + 1e-9) ? 1 : 0;
+}
+
+TEST(LiftedPlane, NeverTellsThatAPointIsNearerThanItIs) {
+  reference::Random random(4);
+  int near = 0;
+  for (int run = 0; run < 3000; ++run) near += compare_planes(random_triangle(random), random_triangle(random), units);
+  EXPECT_GT(near, 1000);
+}
+
+/// Nearly no area in the texture: what a step in the texture leads to in space is hardly known.
+TEST(LiftedPlane, HoldsWhereATriangleIsNearlyASegment) {
+  reference::Random random(5);
+  int near = 0;
+  for (int run = 0; run < 3000; ++run) {
+    TexturedTriangle a = random_segment(random), b = random_segment(random);
+    for (TexturedTriangle* t : {&a, &b})
+      for (Eigen::Vector2d& uv : t->coordinates) uv.y() += 0x1p-45 * (1 + random.below(9));
+    near += compare_planes(a, b, {-45, -6});
+  }
+  EXPECT_GT(near, 0);
+}
+
+/// Squares of such lengths underflow or overflow.
+TEST(LiftedPlane, HoldsForAnyUnitOfLength) {
+  const std::array<Eigen::Vector2d, 3> uv = {{{0, 0}, {1, 0}, {0, 1}}};
+  for (const double unit : {0x1p-1000, 0x1p-500, 0x1p-280, 1.0, 0x1p400, 0x1p600}) {
+    TexturedTriangle a{{{{0, 0, 0}, {unit, 0, 0}, {0, unit, 0}}}, uv, 0, 0}, b = a;
+    for (Eigen::Vector3d& p : b.corners) p.z() += 3 * unit;
+    EXPECT_FALSE(LiftedPlane(a).is_within(b, 2.9999 * unit)) << unit;
+    EXPECT_EQ(LiftedPlane(a).is_within(b, 3.0001 * unit), unit > 0x1p-300 && unit < 0x1p500) << unit;
+  }
 }
 
 TEST(DoubledArea, EnclosesTheTruth) {

@@ -90,7 +90,7 @@ bool is_end(const Ends& ends, const Eigen::Vector2d& at) {
 }  // namespace
 
 ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units) {
-  ChartTriangle result{&triangle, Chart::Area, false, {0, 1, 2}};
+  ChartTriangle result{&triangle, Chart::Area, false, {0, 1, 2}, {}};
   const auto points = texture_points<Approximate>(result, units);
   const Approximate near_area = cross<Approximate>(points[1] - points[0], points[2] - points[0]);
   int turn = 0;
@@ -99,7 +99,10 @@ ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits&
     turn = sgn(cross<mpz_class>(exact_points[1] - exact_points[0], exact_points[2] - exact_points[0]));
   }
   result.turned = turn < 0;
-  if (turn != 0) return result;
+  if (turn != 0) {
+    result.plane = LiftedPlane(triangle);
+    return result;
+  }
   const auto& uv = triangle.coordinates;
   std::sort(result.along.begin(), result.along.end(), [&](std::uint8_t p, std::uint8_t q) {
     return std::pair(uv[p].x(), uv[p].y()) < std::pair(uv[q].x(), uv[q].y());

@@ -3,6 +3,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,12 +20,31 @@ namespace meshbound {
 /// What a triangle covers in the texture.
 enum class Chart : std::uint8_t { Area, Segment, Point };
 
+/// A triangle with an area in the texture, continued as a plane: the position at each texture coordinate, in doubles.
+class LiftedPlane {
+ public:
+  LiftedPlane() = default;
+  explicit LiftedPlane(const TexturedTriangle& triangle);
+
+  /// Whether the corners of a triangle are known to be within `limit` of the points of this plane with their texture
+  /// coordinates. The offset is linear in the texture coordinate, so its length over the triangle is largest at one of
+  /// them. O(1).
+  [[nodiscard]] bool is_within(const TexturedTriangle& triangle, double limit) const;
+
+ private:
+  Eigen::Vector2d from_;                ///< texture coordinate of a corner
+  Eigen::Vector3d at_;                  ///< its position
+  std::array<Eigen::Vector3d, 2> way_;  ///< derivatives of the position by u and v
+  double error_ = HUGE_VAL;             ///< of any coordinate of a derivative
+};
+
 /// A triangle with what is known of its texture coordinates from the start.
 struct ChartTriangle {
   const TexturedTriangle* source = nullptr;
   Chart chart = Chart::Area;
   bool turned = false;                            ///< the coordinates go round clockwise
   std::array<std::uint8_t, 3> along = {0, 1, 2};  ///< of a segment: its first, middle and last corner in the texture
+  LiftedPlane plane;                              ///< set where it has an area
 };
 
 /// Units, as exponents of 2, that all texture coordinates and all positions are multiples of.
@@ -101,10 +121,9 @@ class Overlay {
   /// `distance`, where `rough` is what `rough_distance` says of the point.
   [[nodiscard]] Bounds refined(const Bounds& rough, std::uint32_t candidate, const Node& node, double precision);
   /// Whether a quick look shows that no point of A is farther than `limit` from the point of the candidate with its
-  /// texture coordinate. Both must have an area in the texture. The offset between these points is linear in the
-  /// texture coordinate, so its length over what both cover is at most that at the corners of either, wherever these
-  /// lie. O(1).
-  [[nodiscard]] bool is_within(std::uint32_t candidate, double limit);
+  /// texture coordinate. Both must have an area in the texture. What both cover lies within the corners of either.
+  /// O(1).
+  [[nodiscard]] bool is_within(std::uint32_t candidate, double limit) const;
   /// The point and that nearest point, rounded to doubles.
   [[nodiscard]] TextureWitness witness(std::uint32_t candidate, const Node& node);
   /// The area of the polygon as a share of that of A.

@@ -107,11 +107,9 @@ Bounds Overlay::refined(const Bounds& rough, std::uint32_t candidate, const Node
   return rough.upper - rough.lower <= precision ? rough : exact_distance(candidates_[candidate], node);
 }
 
-bool Overlay::is_within(std::uint32_t candidate, double limit) {
-  Candidate& c = candidates_[candidate];
-  const auto is_near = [&](const Node& node) { return near_distance(c, node).upper <= limit; };
-  if (std::all_of(whole_.begin(), whole_.end(), [&](const PolygonCorner& p) { return is_near(p.node); })) return true;
-  return is_near(corner_of(candidate, 2)) && is_near(corner_of(candidate, 0)) && is_near(corner_of(candidate, 1));
+bool Overlay::is_within(std::uint32_t candidate, double limit) const {
+  const ChartTriangle& b = *candidates_[candidate].triangle;
+  return b.plane.is_within(*a_->source, limit) || a_->plane.is_within(*b.source, limit);
 }
 
 /// A corner p of A, less the point of the candidate's plane with its texture coordinate: that is corner 0 plus

@@ -164,7 +164,7 @@ class Direction {
   /// Looks for a lower bound where the upper bounds are largest, so that the rest need not be bounded below it.
   void find_lower_bound() {
     std::vector<std::size_t> worst = open();
-    worst.resize(std::min(worst.size(), first_batch));
+    worst.resize(std::min(worst.size(), batch_for_lower));
     refine(worst, rough_error_bound());
   }
 
@@ -238,6 +238,9 @@ class Direction {
   }
 
   static constexpr std::size_t first_batch = 16;
+  /// Triangles that a lower bound is looked for in. Runs of `simplify_with_bound` with a texture execute 1% more with
+  /// 16 and 0.1% less with 4 (six models at two tolerances).
+  static constexpr std::size_t batch_for_lower = 8;
 
   const Charts &a_, &b_;
   const TextureDeviationOptions& options_;
