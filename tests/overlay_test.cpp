@@ -101,17 +101,31 @@ TEST(LiftedPlane, NeverTellsThatAPointIsNearerThanItIs) {
   EXPECT_GT(near, 1000);
 }
 
-/// Nearly no area in the texture: what a step in the texture leads to in space is hardly known.
+/// Nearly no area in the texture: what a step in the texture leads to in space is hardly known. Thirds are rounded.
 TEST(LiftedPlane, HoldsWhereATriangleIsNearlyASegment) {
   reference::Random random(5);
   int near = 0;
   for (int run = 0; run < 3000; ++run) {
     TexturedTriangle a = random_segment(random), b = random_segment(random);
     for (TexturedTriangle* t : {&a, &b})
-      for (Eigen::Vector2d& uv : t->coordinates) uv.y() += 0x1p-45 * (1 + random.below(9));
-    near += compare_planes(a, b, {-45, -6});
+      for (Eigen::Vector2d& uv : t->coordinates) uv = {uv.x() / 3, 0x1p-30 * random.below(9) / 3};
+    near += compare_planes(a, b, {-90, -6});
   }
   EXPECT_GT(near, 0);
+}
+
+/// One triangle in the plane of the other, so that all that there is are errors.
+TEST(LiftedPlane, HoldsForOffsetsOfTheSizeOfRounding) {
+  reference::Random random(6);
+  for (int run = 0; run < 3000; ++run) {
+    TexturedTriangle a = random_triangle(random), b = random_triangle(random);
+    for (TexturedTriangle* t : {&a, &b})
+      for (std::size_t k = 0; k < 3; ++k) {
+        t->coordinates[k] /= 3;
+        t->corners[k] = {t->coordinates[k].x(), t->coordinates[k].y(), 1};
+      }
+    (void)compare_planes(a, b, {-70, -70});
+  }
 }
 
 /// Squares of such lengths underflow or overflow.
@@ -123,6 +137,13 @@ TEST(LiftedPlane, HoldsForAnyUnitOfLength) {
     EXPECT_FALSE(LiftedPlane(a).is_within(b, 2.9999 * unit)) << unit;
     EXPECT_EQ(LiftedPlane(a).is_within(b, 3.0001 * unit), unit > 0x1p-300 && unit < 0x1p500) << unit;
   }
+}
+
+/// Doubles cannot tell whether there is an area in the texture, so they know nothing of the plane.
+TEST(LiftedPlane, TellsNothingWhereDoublesDoNotKnowTheArea) {
+  const TexturedTriangle t{
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {{{0, 0}, {0.1, 0.3}, {0.2, std::nextafter(0.6, 1)}}}, 0, 0};
+  EXPECT_FALSE(LiftedPlane(t).is_within(t, 1e100));
 }
 
 TEST(DoubledArea, EnclosesTheTruth) {

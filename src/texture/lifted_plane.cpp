@@ -31,22 +31,19 @@ LiftedPlane::LiftedPlane(const TexturedTriangle& triangle)
   }
 }
 
+/// The errors of the derivatives are at least 9 u of the largest one: an area has 8 u, and u is rounded with its
+/// inverse. So half of the error below stands for what they may be off by, and the other half, 27 u of the way on the
+/// plane on all axes together, for rounding: at most 4 u of that way on each axis, and 2 u of the way to the corner,
+/// which is no longer than the two together. The rest, and the root of three squares, round by 8 u of the distance, for
+/// which `grown` has room. Squares may underflow below 2^-300.
 bool LiftedPlane::is_within(const TexturedTriangle& triangle, double limit) const {
-  double squared = 0, error = 0;  // the largest
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d step = triangle.coordinates[k] - from_;
-    const Eigen::Vector3d there = triangle.corners[k] - at_, by_u = step.x() * way_[0], by_v = step.y() * way_[1];
-    const double squared_here = (there - (by_u + by_v)).squaredNorm();
-    // Steps, products, sums and differences round by at most 5 u of these sizes, for which 8 u have room.
-    const double size = (there.cwiseAbs() + by_u.cwiseAbs() + by_v.cwiseAbs()).sum();
-    const double error_here = 3 * (step.cwiseAbs().sum() * error_) + size * (8 * unit_roundoff);
-    if (!(squared_here < 0x1p1000 && error_here < 0x1p500)) return false;  // also where either is not a number
-    squared = std::max(squared, squared_here);
-    error = std::max(error, error_here);
+    const Eigen::Vector3d offset = triangle.corners[k] - at_ - (step.x() * way_[0] + step.y() * way_[1]);
+    const double distance = std::max(offset.norm(), 0x1p-300), error = 6 * (step.cwiseAbs().sum() * error_);
+    if (!((distance + error) * Approximate::grown <= limit)) return false;  // also where something is not a number
   }
-  // A sum of three squares and its root round by 4 u of the root, for which `grown` has room, unless squares underflow.
-  const double distance = std::max(std::sqrt(squared), 0x1p-300);
-  return (distance + error) * Approximate::grown <= limit;
+  return true;
 }
 
 }  // namespace meshbound
