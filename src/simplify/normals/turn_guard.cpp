@@ -22,9 +22,9 @@ constexpr std::size_t max_with_rival = 64;
 /// take as long with 1.5, 3 and 5; all would cost a tenth where surfaces bend much (four models at three tolerances).
 constexpr double near_rival = 2;
 
-/// In squared distances of the sample from the star: rivals beyond are left alone, so that what holds them would have to
-/// have moved by three quarters of the way. With 64 as many faces come out of twelve runs (six models at 1% and 0.1%,
-/// 30 degrees), with 4 up to 4% more, as more is taken back; all rivals would cost a third more.
+/// In squared distances of the sample from the star: rivals beyond are left alone, so that what holds them would have
+/// to have moved by three quarters of the way. With 64 as many faces come out of twelve runs (six models at 1% and
+/// 0.1%, 30 degrees), with 4 up to 4% more, as more is taken back; all rivals would cost a third more.
 constexpr double far_rival = 16;
 
 constexpr std::size_t lanes = 8;
@@ -51,6 +51,11 @@ void TurnGuard::Compared::set_nearest(std::size_t i, std::size_t face) {
 
 double TurnGuard::Compared::squared(std::size_t i) const { return offsets[i / lanes].squared[i % lanes]; }
 
+TurnGuard::TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {
+  in_star_.reserve(mesh.face_count());
+  around_.reserve(mesh.face_count());
+}
+
 void TurnGuard::add(std::uint32_t sample, Compared& to) const {
   to.samples.push_back(sample);
   to.points.add(turns_.sample(sample).at - origin_);
@@ -66,29 +71,30 @@ void TurnGuard::begin(const TurnedStar& star) {
     star_.push_back(c / 3);
   }
   own_.clear();
-  for (const std::uint32_t face : star_) turns_.for_each_sample(face, [&](std::uint32_t s) { add(s, own_); });
-  std::sort(star_.begin(), star_.end());
+  in_star_.clear();
+  for (const std::uint32_t face : star_) {
+    in_star_.insert(face);
+    turns_.for_each_sample(face, [&](std::uint32_t s) { add(s, own_); });
+  }
   has_others_ = false;
 }
-
-bool TurnGuard::is_in_star(std::uint32_t face) const { return std::binary_search(star_.begin(), star_.end(), face); }
 
 /// Finds the samples of faces beside the star, and those that have a rival in it. The vertices of a star all belong to
 /// the region of its collapse, so no other thread changes the faces beside it or their samples.
 void TurnGuard::find_others() {
   around_.clear();
-  for (const Corner c : moved_)
-    if (const Corner across = mesh_.twin(next_corner(c)); across != no_index) around_.push_back(across / 3);
-  sort_unique(around_);
   others_.clear();
-  for (const std::uint32_t f : around_)
-    if (!is_in_star(f)) turns_.for_each_sample(f, [&](std::uint32_t s) { add(s, others_); });
+  for (const Corner c : moved_) {
+    const Corner across = mesh_.twin(next_corner(c));
+    if (across == no_index || in_star_.contains(across / 3) || !around_.insert(across / 3)) continue;
+    turns_.for_each_sample(across / 3, [&](std::uint32_t s) { add(s, others_); });
+  }
   numbers_.clear();
   for (const std::uint32_t s : own_.samples) {
     const auto with = turns_.rivals().with(s);
     for (const std::uint32_t other : with.first(std::min(with.size(), max_with_rival))) {
       const std::uint32_t face = turns_.face_of(other);
-      const bool is_known = is_in_star(face) || std::binary_search(around_.begin(), around_.end(), face);
+      const bool is_known = in_star_.contains(face) || around_.contains(face);
       if (!is_known && is_readable(face)) numbers_.push_back(other);
     }
   }
@@ -102,7 +108,7 @@ void TurnGuard::find_others() {
 /// `below` and than that of the present `nearest`.
 void TurnGuard::look_at(std::uint32_t face, const FaceTurns::Sample& sample, double below,
                         std::optional<RivalFace>& nearest) const {
-  if (!is_readable(face) || is_in_star(face)) return;
+  if (!is_readable(face) || in_star_.contains(face)) return;
   const double limit = nearest ? nearest->squared : below;
   const std::array<Vec3, 3> corners = mesh_.triangle(face);
   if (squared_distance(box_of(corners), sample.at) >= limit) return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simplify/kernel/kernels.h"
+#include "simplify/mesh/marked_ids.h"
 #include "simplify/normals/face_turns.h"
 
 namespace meshbound {
@@ -23,7 +24,7 @@ struct TurnedStar {
 /// or from one of those that are nearest. Each thread needs its own.
 class TurnGuard {
  public:
-  TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {}
+  TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh);
 
   /// Selects the region of the next stars, and what is known of regions: see `Split`.
   void enter(std::span<const std::uint32_t> region_of_face, std::uint32_t region) {
@@ -79,7 +80,6 @@ class TurnGuard {
   /// Compares the samples block by block, and asks holds(i) for each: the first one that does not hold.
   template <class Holds>
   std::optional<std::size_t> first_refused(Compared& compared, std::span<const SampleFace> faces, const Holds& holds);
-  [[nodiscard]] bool is_in_star(std::uint32_t face) const;
   /// Whether no other thread changes the face: it is of the same region, or between regions and stays as it is.
   [[nodiscard]] bool is_readable(std::uint32_t face) const {
     return region_of_face_.empty() || region_of_face_[face] == region_ || region_of_face_[face] == no_index;
@@ -102,12 +102,13 @@ class TurnGuard {
   Vec3 origin_;
   std::vector<Corner> moved_;
   std::vector<Face> faces_;               ///< that stay
-  std::vector<std::uint32_t> star_;       ///< all faces, ascending
+  std::vector<std::uint32_t> star_;       ///< all faces
+  MarkedIds in_star_, around_;            ///< faces: these, and those beside them that are read
   Compared own_;                          ///< samples of the star
   Compared others_;                       ///< samples of faces around it, or with rivals in it
   std::vector<double> squared_from_own_;  ///< by sample of `others_`: from its face; negative: not known yet
   bool has_others_ = false;               ///< they are known
-  std::vector<std::uint32_t> around_, numbers_;
+  std::vector<std::uint32_t> numbers_;
   float deviation_ = 0;
 };
 
