@@ -497,6 +497,32 @@ TEST(Proximity, AgreesWithTheDistanceOfTheTriangle) {
   }
 }
 
+double distance_to(const TriangleMesh& mesh, std::size_t triangle, const Eigen::Vector3d& p) {
+  const Corners c = corners(mesh, triangle);
+  return closest_point(Bvh(single_triangle(c[0], c[1], c[2])), p).distance.upper;
+}
+
+/// Far from a good hint the walk ends on the wrong side of the sphere, unless the nearest one is asked for.
+TEST(Proximity, FindsATriangleNearby) {
+  const TriangleMesh sphere = icosphere(3);
+  const Bvh tree(sphere);
+  Proximity proximity(tree);
+  const TriangleMesh probes = random_soup(7, 40, 0.3);
+  std::size_t nearer_than_walked = 0;
+  for (std::size_t i = 0; i < probes.triangles.size(); ++i) {
+    const Eigen::Vector3d p = corners(probes, i)[0];
+    const auto hint = static_cast<std::uint32_t>(37 * i % sphere.triangles.size());
+    const std::uint32_t walked = proximity.nearby_triangle(p, hint, HUGE_VAL),
+                        nearest = proximity.nearby_triangle(p, hint, 0);
+    EXPECT_LE(distance_to(sphere, walked, p), distance_to(sphere, hint, p));
+    EXPECT_NEAR(distance_to(sphere, nearest, p), closest_point(tree, p).distance.upper, 1e-12);
+    if (distance_to(sphere, nearest, p) < distance_to(sphere, walked, p) - 1e-6) ++nearer_than_walked;
+    const double in_between = 0.5 * (distance_to(sphere, nearest, p) + distance_to(sphere, walked, p));
+    EXPECT_LE(distance_to(sphere, proximity.nearby_triangle(p, hint, in_between), p), in_between + 1e-12);
+  }
+  EXPECT_LT(nearer_than_walked, probes.triangles.size() / 2);
+}
+
 /// A triangle that lies above a square by as much as one likes: both have z = 0 but for that.
 TEST(Proximity, IsNeverWithinAToleranceThatRoundingHides) {
   const Bvh tree(unit_square(3));

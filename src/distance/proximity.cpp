@@ -117,4 +117,15 @@ double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hi
   return impl_->map.length_up(impl_->current.proven_upper(nearest.squared, 0));
 }
 
+std::uint32_t Proximity::nearby_triangle(const Eigen::Vector3d& point, std::uint32_t hint, double far) {
+  double magnitude = 1, error = 0;
+  const Vec3 p = impl_->load(point, magnitude, error);
+  if (!(magnitude <= max_magnitude)) return closest_point(impl_->bvh, point).point.triangle;
+  SearchKernel& kernel = impl_->kernel_for(impl_->map.length_down(impl_->current.tolerance), magnitude, error);
+  const double working_far = impl_->map.working_length_down(far);
+  Nearest found = kernel.nearby(p, impl_->slot_of_triangle[hint]);
+  if (found.squared > working_far * working_far) found = kernel.nearest(p, found.slot, 0);
+  return impl_->data.triangle_of_slot[found.slot];
+}
+
 }  // namespace meshbound

@@ -33,6 +33,9 @@ class SearchKernel {
   /// The nearest triangle, or the first one found within `enough_squared`; starts with `hint`.
   virtual Nearest nearest(const Vec3& p, std::uint32_t hint, double enough_squared) = 0;
 
+  /// Where a walk from `hint` from neighbour to neighbour comes no nearer to p: often the nearest triangle.
+  virtual Nearest nearby(const Vec3& p, std::uint32_t hint) = 0;
+
   /// Offers a point of triangle `from_slot` of A, at a computed distance: raises the lower bound if it proves one.
   virtual void offer(const Vec3& p, const Nearest& nearest, std::uint32_t from_slot) = 0;
 

@@ -24,6 +24,12 @@ class SearchKernelImpl final : public SearchKernel {
     return best;
   }
 
+  Nearest nearby(const Vec3& p, std::uint32_t hint) override {
+    Nearest best{closest_on_triangle(triangle_at(walker_.target(), hint), p).squared_distance, hint};
+    descend(walker_.target(), p, 0, best, walker_.counters().queries);
+    return best;
+  }
+
   void offer(const Vec3& p, const Nearest& nearest, std::uint32_t from_slot) override {
     walker_.set_from(from_slot);
     walker_.offer(p, nearest, 0);
