@@ -160,21 +160,44 @@ TEST(StarSamples, LookBeyondTheLastPassageOfAWalk) {
   EXPECT_GT(*stray, 0.75);
 }
 
-/// Nothing is looked at where a walk does not lead: here over a hole.
+/// Where a walk does not lead, here over a hole, nothing but the points is looked at.
 TEST(StarSamples, TellEdgesThatAWalkFindsTooFar) {
   const Vec3 vertex{0.01, 0.3, 0}, end{0.99, 0.35, 0}, above{0.01, 0.3, 1.1 * tolerance};
+  std::uint32_t near = 0;
   for (const double height : {0.9 * tolerance, 1.2 * tolerance}) {
     test::StateOf state(roof(height));
     state->grow_tolerance(tolerance);
     StarSamples samples(*state);
-    EXPECT_EQ(samples.is_edge_near(vertex, end, 0, tolerance), height < tolerance);
-    EXPECT_FALSE(samples.is_edge_near(above, end, 0, tolerance)) << "it begins too far away";
+    EXPECT_EQ(samples.is_edge_near(vertex, end, near, 0, tolerance), height < tolerance);
+    EXPECT_FALSE(samples.is_edge_near(above, end, near, 0, tolerance)) << "it begins too far away";
   }
   TriangleMesh two = reference::unit_square(6);
   std::erase_if(two.triangles, [&](const Triangle& t) { return std::abs(two.vertices[t[0]].x() - 0.5) < 0.2; });
   test::StateOf state(two);
   state->grow_tolerance(tolerance);
-  EXPECT_TRUE(StarSamples(*state).is_edge_near(vertex, end, 0, tolerance));
+  StarSamples samples(*state);
+  EXPECT_TRUE(samples.is_edge_near(vertex, end, near, 0, tolerance));
+  EXPECT_FALSE(samples.is_edge_near(vertex, end, near, 7, tolerance));
+}
+
+TEST(StarSamples, WalkBelowAnEdge) {
+  test::StateOf state(roof(1.2 * tolerance));
+  state->grow_tolerance(tolerance);
+  StarSamples samples(*state);
+  const Vec3 vertex{0.01, 0.3, 0};
+  std::uint32_t near = 0;
+  EXPECT_TRUE(samples.is_edge_near(vertex, vertex, near, 0, tolerance));
+  const StarSamples::Walked over_ridge = samples.walk_below(vertex, {0.99, 0.35, 0}, near, 9);
+  EXPECT_EQ(over_ridge.share, 1);
+  ASSERT_TRUE(over_ridge.farthest);
+  EXPECT_NEAR(over_ridge.farthest->point.x, 0.5, 0.01);
+  EXPECT_NEAR(std::sqrt(over_ridge.farthest->squared), 1.2 * tolerance, 0.01 * tolerance);
+  const StarSamples::Walked short_way = samples.walk_below(vertex, {0.02, 0.305, 0}, near, 9);
+  EXPECT_EQ(short_way.share, 1);
+  EXPECT_FALSE(short_way.farthest) << "it stays over one original";
+  const StarSamples::Walked too_high = samples.walk_below({0.01, 0.3, 3 * tolerance}, {0.99, 0.35, 0}, near, 9);
+  EXPECT_EQ(too_high.share, 0);
+  EXPECT_LT(samples.walk_below(vertex, {0.99, 0.35, 0}, near, 2).share, 1);
 }
 
 TEST(PreparedFaces, FollowTheMesh) {

@@ -66,11 +66,13 @@ class LocalEdit {
   void undo_group();
 
  private:
-  void clear();
+  void begin();
   void take_face(std::uint32_t face);
   void take_beside(Corner rim);
-  void add_to_original(Vec3 p, double share, std::uint32_t& hint, DeviationSums& sums);
-  [[nodiscard]] bool is_edge_near(Vec3 from, Vec3 to, double limit, std::uint32_t& hint);
+  void add_point(Vec3 p, std::uint32_t near, double share, DeviationSums& sums) const;
+  void add_edge(Vec3 vertex, Vec3 end, std::uint32_t near, DeviationSums& sums);
+  [[nodiscard]] std::uint32_t original_near(Vec3 p, std::uint32_t hint);
+  [[nodiscard]] std::span<const Corners> changing_edges() const;
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
   [[nodiscard]] bool owns_around(std::uint32_t vertex) const;
   [[nodiscard]] bool has_edge(std::uint32_t a, std::uint32_t b) const;
@@ -94,7 +96,7 @@ class LocalEdit {
   std::vector<GuardedFace> before_;                      ///< faces that stay
   std::vector<Corners> corners_;                         ///< of the faces that stay, as they would be
   std::vector<SampleFace> faces_;                        ///< `corners_` relative to the origin
-  std::vector<std::uint32_t> hints_;                     ///< by point of the edges: an original triangle near it
+  std::uint32_t near_ = 0;                               ///< an original near the vertex that moves
 
   bool grouped_ = false;
   Quadric quadric_before_;  ///< of the vertex that the collapse of the group keeps

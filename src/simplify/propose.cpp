@@ -250,10 +250,11 @@ bool Proposer::has_stray_edge(std::uint32_t face) {
   const ArrayMesh& mesh = state_.mesh;
   const double limit = state_.limit_around(mesh.triangle(face)),
                length_of_long = points_on_edges_together.spacing * limit;
+  std::uint32_t near = state_.nearest[face];
   for (Corner c = 3 * face; c < 3 * face + 3; ++c) {
     if (mesh.edge(c) != c) continue;
     const Vec3 p = mesh.position(mesh.start(c)), q = mesh.position(mesh.end(c));
-    if (length(q - p) >= length_of_long && !samples_.is_edge_near(p, q, state_.nearest[face], limit)) return true;
+    if (length(q - p) >= length_of_long && !samples_.is_edge_near(p, q, near, 0, limit)) return true;
   }
   return false;
 }

@@ -42,9 +42,26 @@ class StarSamples {
   /// Looks along the edge from that vertex to `end`, by a walk over the original or at `points` points in equal steps.
   /// Returns the share of the way to a point that is not within `limit` of the original; absent if none was seen.
   [[nodiscard]] std::optional<double> stray_on_edge(Vec3 vertex, Vec3 end, int points, double limit);
-  /// Whether nothing is seen to be too far from the original by a look at a vertex of the mesh and by a walk from there
-  /// to `end`, as far as it leads. `near` is an original triangle to start with. No star is needed.
-  [[nodiscard]] bool is_edge_near(Vec3 vertex, Vec3 end, std::uint32_t near, double limit);
+  /// Whether nothing is seen to be too far from the original by a look at a vertex of the mesh, by a walk from there to
+  /// `end`, and beyond where the walk leads at those of `points` points in equal steps. `near` is an original triangle
+  /// to start with, and one near the vertex then. No star is needed.
+  [[nodiscard]] bool is_edge_near(Vec3 vertex, Vec3 end, std::uint32_t& near, int points, double limit);
+  /// Where an edge passes from one original to the next below.
+  struct Crossing {
+    Vec3 point;
+    std::uint32_t near = 0;  ///< the next original
+    double squared = 0;      ///< distance from both
+  };
+  /// How far a walk over the original below an edge has come.
+  struct Walked {
+    double share = 0;        ///< of the way: 1 at the end
+    std::uint32_t near = 0;  ///< the original that it has reached
+    std::optional<Crossing> farthest;
+  };
+  /// Walks from a vertex near original `near` to `end`, as long as the edge is within two tolerances of the original.
+  /// Between two crossings an edge is nearer to the original than at the farther one, or at an end of it. Ends after
+  /// `max_passes` originals. No star is needed.
+  [[nodiscard]] Walked walk_below(Vec3 vertex, Vec3 end, std::uint32_t near, int max_passes);
   /// The vector from the closest point of the original to `point`.
   [[nodiscard]] Vec3 offset_from_original(Vec3 point);
   /// Assigns each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the
@@ -52,13 +69,8 @@ class StarSamples {
   void give(std::span<const std::uint32_t> numbers);
 
  private:
-  /// What a walk along an edge has seen.
-  struct Walked {
-    double share = 0;             ///< of the way that it has gone
-    std::uint32_t near = 0;       ///< the original triangle that it has reached
-    std::optional<double> stray;  ///< share of the way to the farthest point, if that is too far away
-  };
-  [[nodiscard]] Walked walk_below(Vec3 vertex, Vec3 end, std::uint32_t near, double limit);
+  [[nodiscard]] std::optional<double> stray_beyond(Vec3 vertex, Vec3 end, const Walked& walked, int points,
+                                                   double limit);
   [[nodiscard]] bool is_near(Vec3 point, std::uint32_t& near, double limit);
   void compare_blocks(std::size_t end);
   [[nodiscard]] std::uint32_t triangle_near(Vec3 point) const;
