@@ -19,6 +19,10 @@ constexpr int points_to_guide = 7, points_to_test = 15;
 /// meshes at 0.1%).
 constexpr int max_passes = 64;
 
+/// Originals below the edges around a vertex and its neighbours, which are walked along again and again: with 128
+/// `high` takes 9% longer (four meshes at 0.1%).
+constexpr std::size_t originals_of_ring = 1024;
+
 /// In tolerances: how far a point may be from an original that a walk has led to. Where it is farther there may be a
 /// nearer one that no walk leads to. With 1, 2 and 4 `high` takes 1.03, 0.96 and 0.93 of the time for 0.2% fewer, 0.4%
 /// and 3.4% more faces (20 meshes at 0.1%).
@@ -32,7 +36,8 @@ constexpr double low_deviation = 1e-6, min_flip_gain = 0.05;
 
 }  // namespace
 
-LocalEdit::LocalEdit(DecimationState& state) : state_(state), samples_(state), proximity_(state.tree) {
+LocalEdit::LocalEdit(DecimationState& state)
+    : state_(state), samples_(state, originals_of_ring), proximity_(state.tree) {
   is_of_group_.reserve(state.mesh.face_count());
 }
 

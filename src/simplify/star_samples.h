@@ -16,10 +16,11 @@ namespace meshbound {
 /// The samples of a few faces, compared with the faces that a change would replace them by. One for each thread.
 class StarSamples {
  public:
-  explicit StarSamples(DecimationState& state)
+  /// `max_originals` are kept prepared for walks, a power of two.
+  explicit StarSamples(DecimationState& state, std::size_t max_originals = PreparedFaces<OriginalSoup>::few)
       : state_(state),
         proximity_(state.tree),
-        originals_(OriginalSoup{state.vertices, state.triangles, state.neighbours}),
+        originals_(OriginalSoup{state.vertices, state.triangles, state.neighbours}, max_originals),
         walk_(originals_) {}
 
   /// Starts anew, without samples. `points` are relative to `origin`, a point nearby.

@@ -38,7 +38,11 @@ class PreparedFaces {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  explicit PreparedFaces(const Soup& soup) : soup_(soup), entries_(entry_count) {}
+  /// More than the faces around a star, so that few take the place of others.
+  static constexpr std::size_t few = 128;
+
+  /// `max_faces` are kept, a power of two. O(max_faces).
+  explicit PreparedFaces(const Soup& soup, std::size_t max_faces = few) : soup_(soup), entries_(max_faces) {}
 
   /// Must be called when the soup has changed.
   void forget() { ++round_; }
@@ -62,8 +66,6 @@ class PreparedFaces {
   [[nodiscard]] const Soup& soup() const { return soup_; }
 
  private:
-  /// More than the faces around a star, so that few take the place of others.
-  static constexpr std::size_t entry_count = 128;
   struct Entry {
     std::uint32_t face = no_index;
     std::uint32_t round = 0;  ///< of `forget` when the corners were those of the face
@@ -74,7 +76,7 @@ class PreparedFaces {
     FacePlanes planes;
   };
   Entry& entry(std::uint32_t face) {
-    Entry& entry = entries_[face % entry_count];
+    Entry& entry = entries_[face & (entries_.size() - 1)];
     if (entry.face != face || entry.round != round_) renew(entry, face);
     return entry;
   }
