@@ -34,8 +34,8 @@ class Proximity {
   [[nodiscard]] double upper_distance(const Eigen::Vector3d& point, std::uint32_t& hint, double enough = 0);
 
   /// A triangle near `point`, for guides that prove nothing: where a walk from `hint` from neighbour to neighbour comes
-  /// no nearer; or the nearest one, where that is farther than `far`. Model units and coordinates. Throws `InvalidInput`
-  /// as above for the point. O(1) where the hint is good, expected O(log n) else.
+  /// no nearer; or the nearest one, where that is farther than `far`. Model units and coordinates. Throws
+  /// `InvalidInput` as above for the point. O(1) where the hint is good, expected O(log n) else.
   [[nodiscard]] std::uint32_t nearby_triangle(const Eigen::Vector3d& point, std::uint32_t hint, double far);
 
  private:

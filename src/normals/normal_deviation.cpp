@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "geometry/longest_edge.h"
-#include "geometry/triangle_table.h"
+#include "geometry/same_triangles.h"
 #include "meshbound/error.h"
 #include "numeric/tasks.h"
 #include "simplify/cover/box_tree.h"
@@ -28,7 +28,7 @@ Corners corners_of(const MeshView& mesh, std::size_t triangle) {
 }
 
 /// Triangles by the positions of their corners.
-using Triangles = TriangleTable<3>;
+using Triangles = SameTriangles<3>;
 
 Triangles::Corners content(const Corners& corners) {
   Triangles::Corners content;

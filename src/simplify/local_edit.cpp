@@ -180,9 +180,9 @@ void LocalEdit::add_point(Vec3 p, std::uint32_t near, double share, DeviationSum
   sums.add((1 / state_.tolerance) * closest_on_triangle(nearest, p).offset, -share);
 }
 
-/// An original triangle near a point, and near a triangle near that. Where a walk leads to one beyond the tolerance there
-/// may be a nearer one that no walk leads to. Looking from 0.5 or 1.25 tolerances on takes 1.03 or 0.98 of the time, for
-/// 0.4% or 0.2% more faces (seven meshes at 0.1%).
+/// An original triangle near a point, and near a triangle near that. Where a walk leads to one beyond the tolerance
+/// there may be a nearer one that no walk leads to. Looking from 0.5 or 1.25 tolerances on takes 1.03 or 0.98 of the
+/// time, for 0.4% or 0.2% more faces (seven meshes at 0.1%).
 std::uint32_t LocalEdit::original_near(Vec3 p, std::uint32_t hint) {
   return proximity_.nearby_triangle({p.x, p.y, p.z}, hint, state_.tolerance);
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/triangle_table.h"
+#include "geometry/same_triangles.h"
 #include "numeric/no_index.h"
 #include "simplify/cover/box_tree.h"
 #include "texture/charts.h"
@@ -15,7 +15,7 @@ namespace meshbound {
 namespace {
 
 /// Triangles by their positions, texture coordinates and material.
-using Triangles = TriangleTable<6>;
+using Triangles = SameTriangles<6>;
 
 Triangles::Corners content(const TexturedTriangle& t) {
   Triangles::Corners corners;

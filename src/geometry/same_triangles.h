@@ -14,12 +14,12 @@ namespace meshbound {
 /// Triangles, each corner so many numbers, found by these, in whatever order the corners come. -0 and 0 are equal.
 /// Immutable, safe to share.
 template <std::size_t Numbers>
-class TriangleTable {
+class SameTriangles {
  public:
   using Corners = std::array<std::array<double, Numbers>, 3>;
 
   /// O(n).
-  explicit TriangleTable(std::vector<Corners> triangles)
+  explicit SameTriangles(std::vector<Corners> triangles)
       : triangles_(std::move(triangles)),
         shift_(63 - static_cast<int>(std::bit_width(triangles_.size()))),
         first_(std::size_t{1} << (64 - shift_), no_index),
