@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "datasets/analytic_meshes.h"
 #include "decimation_fixture.h"
 #include "meshbound/distance.h"
+#include "reference/small_meshes.h"
 #include "simplify/local_edit.h"
 #include "simplify/region_collapses.h"
 #include "simplify/regions.h"
@@ -119,6 +122,30 @@ struct Snapshot {
            quadrics == other.quadrics && faces_of_samples == other.faces_of_samples && locked == other.locked;
   }
 };
+
+/// The middle of a roof is moved down its slope: an edge to the other side then runs below the ridge, there by 8/9 of
+/// its height. A ridge of three tolerances is too high for a walk: the nearest of the points on the edge is 0.8 of it
+/// away.
+TEST(LocalEdit, CountsEdgesWhereTheyAreFarthestFromTheOriginal) {
+  const double tolerance = 0.01;
+  for (const auto& [ridge, share] : {std::pair{1.5 * tolerance, 8.0 / 9}, std::pair{3 * tolerance, 0.8}}) {
+    TriangleMesh roof = reference::unit_square(2);
+    for (Eigen::Vector3d& p : roof.vertices) p.z() = 2 * ridge * (0.5 - std::abs(p.x() - 0.5));
+    test::StateOf state(roof);
+    state->grow_tolerance(tolerance);
+    state->set_samples(tolerance);
+    Split all = whole(*state);
+    LocalEdit edit(*state);
+    edit.enter(all, all.regions[0]);
+    std::uint32_t middle = 0;
+    while (state->mesh.position(middle).x != 0.5 || state->mesh.position(middle).y != 0.5) ++middle;
+    ASSERT_TRUE(edit.gather_move(middle));
+    ASSERT_TRUE(edit.place({0.1, 0.5, 0.2 * ridge}));
+    const double of_edges = edit.deviation().sum - edit.sampled_deviation().sum;
+    EXPECT_GT(of_edges, std::pow(0.98 * share * ridge / tolerance, 6));
+    EXPECT_LT(of_edges, 6 * std::pow(ridge / tolerance, 6));
+  }
+}
 
 TEST(RelaxedCollapse, LeavesNothingBehindWhereItFails) {
   const Case c = cases()[1];
