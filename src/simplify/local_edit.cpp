@@ -15,8 +15,8 @@ namespace {
 /// time, as an edge may leave the original anywhere.
 constexpr int points_to_guide = 7, points_to_test = 15;
 
-/// Originals that a walk below an edge passes. With 16 `high` takes up to 1.15 of the time, for 1% more faces (three
-/// meshes at 0.1%).
+/// Originals that a walk below an edge passes. With 16 `high` takes 1.15 of the time for 0.6% more faces (three meshes
+/// at 0.1%).
 constexpr int max_passes = 64;
 
 /// Originals below the edges around a vertex and its neighbours, which are walked along again and again: with 128

@@ -32,10 +32,11 @@ class LiftedPlane {
   [[nodiscard]] bool is_within(const TexturedTriangle& triangle, double limit) const;
 
  private:
-  Eigen::Vector2d from_;                ///< texture coordinate of a corner
-  Eigen::Vector3d at_;                  ///< its position
-  std::array<Eigen::Vector3d, 2> way_;  ///< derivatives of the position by u and v
-  double error_ = HUGE_VAL;             ///< of any coordinate of a derivative
+  Eigen::Vector2d from_ = Eigen::Vector2d::Zero();  ///< texture coordinate of a corner
+  Eigen::Vector3d at_ = Eigen::Vector3d::Zero();    ///< its position
+  /// Derivatives of the position by u and v.
+  std::array<Eigen::Vector3d, 2> way_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  double error_ = HUGE_VAL;  ///< of any coordinate of a derivative; infinite: nothing is known
 };
 
 /// A triangle with what is known of its texture coordinates from the start.

@@ -23,8 +23,9 @@ constexpr std::size_t max_with_rival = 64;
 constexpr double near_rival = 2;
 
 /// In squared distances of the sample from the star: rivals beyond are left alone, so that what holds them would have
-/// to have moved by three quarters of the way. With 64 as many faces come out of twelve runs (six models at 1% and
-/// 0.1%, 30 degrees), with 4 up to 4% more, as more is taken back; all rivals would cost a third more.
+/// to have moved by three quarters of the way. With 64 or with all rivals as many faces come out of twelve runs (six
+/// models at 1% and 0.1%, 30 degrees); these checks take up to half as long again with all. With 4 up to 4% more faces
+/// come out, as more is taken back.
 constexpr double far_rival = 16;
 
 constexpr std::size_t lanes = 8;
