@@ -87,7 +87,6 @@ class Transfer {
       : original_mesh_(mesh),
         from_(attributes),
         level_(level),
-        sectors_(level),
         keeps_vertices_(stands_on_vertices(mesh, level)),
         on_line_(level.mesh.vertices.size(), 0) {
     for (const Edge& edge : level.lines)
@@ -122,6 +121,10 @@ class Transfer {
     if (!original_) original_.emplace(original_mesh_, from_);
     return *original_;
   }
+  [[nodiscard]] Sectors sectors(const MayJoin& may_join = {}) {
+    if (!sectors_) sectors_.emplace(level_);
+    return sectors_->find(may_join);
+  }
   [[nodiscard]] std::uint32_t vertex(std::uint32_t corner) const {
     return level_.mesh.triangles[corner / 3][corner % 3];
   }
@@ -146,7 +149,7 @@ class Transfer {
       result.named.push_back({from.name, from.width, from.interpolation, from.has_seams, {}, no_values()});
     const bool has_own_coordinates = !level_.texture_coordinates.empty();
     const bool needs_points = !has_own_coordinates || !from_.named.empty();
-    const Sectors sectors = sectors_.find();
+    const Sectors sectors = this->sectors();
     for (std::size_t s = 0; s < sectors.size(); ++s) {
       const std::span<const std::uint32_t> corners = sectors[s];
       const WeightedPoint at = needs_points ? point_of_sector(corners) : WeightedPoint();
@@ -278,13 +281,13 @@ class Transfer {
     return keeps_vertices_ ? normals_of_vertices(by_corner) : shared_means(by_corner);
   }
 
-  [[nodiscard]] CornerAttribute shared_means(const std::vector<Eigen::Vector3d>& by_corner) const {
+  [[nodiscard]] CornerAttribute shared_means(const std::vector<Eigen::Vector3d>& by_corner) {
     CornerAttribute result;
     result.index = no_values();
     const auto is_smooth = [&](std::uint32_t i, std::uint32_t j) {
       return by_corner[i].dot(by_corner[j]) >= smooth_cosine;
     };
-    const Sectors sectors = sectors_.find(is_smooth);
+    const Sectors sectors = this->sectors(is_smooth);
     for (std::size_t s = 0; s < sectors.size(); ++s) {
       const std::span<const std::uint32_t> corners = sectors[s];
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -302,7 +305,7 @@ class Transfer {
     CornerAttribute result;
     result.index = no_values();
     FirstUse number_of(from_.normals.values.size());
-    const Sectors sectors = sectors_.find();
+    const Sectors sectors = this->sectors();
     for (std::size_t s = 0; s < sectors.size(); ++s) {
       const std::span<const std::uint32_t> corners = sectors[s];
       const auto of_original = corner_of_original(corners);
@@ -358,7 +361,7 @@ class Transfer {
   std::optional<ChartSurface> original_;  ///< once asked for
   const MeshAttributes& from_;
   const SimplifiedLevel& level_;
-  const SectorFinder sectors_;
+  std::optional<SectorFinder> sectors_;          ///< once asked for
   bool keeps_vertices_;                          ///< every vertex of the level is one of the original
   std::vector<std::uint8_t> on_line_;            ///< by vertex
   std::vector<NormalOnChart> normal_of_vertex_;  ///< by vertex: the one found last
