@@ -502,7 +502,7 @@ double distance_to(const TriangleMesh& mesh, std::size_t triangle, const Eigen::
   return closest_point(Bvh(single_triangle(c[0], c[1], c[2])), p).distance.upper;
 }
 
-/// Far from a good hint the walk ends on the wrong side of the sphere, unless the nearest one is asked for.
+/// From a bad hint a walk may end at a triangle that is not the nearest one.
 TEST(Proximity, FindsATriangleNearby) {
   const TriangleMesh sphere = icosphere(3);
   const Bvh tree(sphere);

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "distance/shortcuts/triangle_table.h"
+#include "geometry/eigen_vec3.h"
 #include "geometry/longest_edge.h"
-#include "geometry/same_triangles.h"
+#include "geometry/position_table.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "numeric/tasks.h"
 #include "simplify/cover/box_tree.h"
@@ -25,15 +28,6 @@ using Corners = std::array<Eigen::Vector3d, 3>;
 Corners corners_of(const MeshView& mesh, std::size_t triangle) {
   const Triangle t = mesh.triangle(triangle);
   return {mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])};
-}
-
-/// Triangles by the positions of their corners.
-using Triangles = SameTriangles<3>;
-
-Triangles::Corners content(const Corners& corners) {
-  Triangles::Corners content;
-  for (std::size_t k = 0; k < 3; ++k) content[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
-  return content;
 }
 
 /// The unit normal; absent for a triangle without area.
@@ -73,12 +67,7 @@ class Faces {
   }
   [[nodiscard]] const Eigen::Vector3d& normal(std::uint32_t face) const { return normals_[face]; }
   [[nodiscard]] std::uint32_t source(std::uint32_t face) const { return source_[face]; }
-  [[nodiscard]] Triangles table() const {
-    std::vector<Triangles::Corners> contents;
-    contents.reserve(size());
-    for (std::uint32_t f = 0; f < size(); ++f) contents.push_back(content(corners(f)));
-    return Triangles(std::move(contents));
-  }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
   [[nodiscard]] std::vector<Eigen::AlignedBox3d> boxes() const {
     std::vector<Eigen::AlignedBox3d> boxes(size());
     for (std::uint32_t f = 0; f < size(); ++f)
@@ -122,7 +111,11 @@ double tie_of(const MeshView& mesh) {
 class StandIns {
  public:
   StandIns(const MeshView& a, const MeshView& b, int threads)
-      : faces_(b), table_(faces_.table()), tree_(faces_.mesh(), {threads}), boxes_(faces_.boxes()), tie_(tie_of(a)) {}
+      : faces_(b),
+        positions_(positions_of(faces_.mesh())),
+        tree_(faces_.mesh(), {threads}),
+        boxes_(faces_.boxes()),
+        tie_(tie_of(a)) {}
 
   /// The turns of the faces of A from `begin` to below `end`: of those above the tolerance, of the first that turns
   /// most, and of some others.
@@ -161,7 +154,10 @@ class StandIns {
  private:
   /// The face of B with the same corners and the same normal, up to rounding, if there is one: no other one turns less.
   [[nodiscard]] std::optional<std::uint32_t> unturned(const Corners& corners, const Eigen::Vector3d& normal) const {
-    const std::uint32_t same = table_.find(content(corners));
+    const Triangle at = {vertex_at_.find(to_vec3(corners[0])), vertex_at_.find(to_vec3(corners[1])),
+                         vertex_at_.find(to_vec3(corners[2]))};
+    if (std::find(at.begin(), at.end(), no_index) != at.end()) return std::nullopt;
+    const std::uint32_t same = face_at_.find(at);
     if (same == no_index || !(normal.dot(faces_.normal(same)) > 0)) return std::nullopt;
     return faces_.source(same);
   }
@@ -182,7 +178,9 @@ class StandIns {
   }
 
   Faces faces_;
-  Triangles table_;
+  std::vector<Vec3> positions_;  ///< of the corners of the faces
+  PositionTable vertex_at_{positions_};
+  TriangleTable face_at_{faces_.triangles(), positions_, vertex_at_};
   Bvh tree_;
   BoxTree boxes_;
   double tie_;

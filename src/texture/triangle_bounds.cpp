@@ -2,11 +2,13 @@
 #include "texture/triangle_bounds.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
-#include "geometry/same_triangles.h"
 #include "numeric/no_index.h"
 #include "simplify/cover/box_tree.h"
 #include "texture/charts.h"
@@ -14,25 +16,66 @@
 namespace meshbound {
 namespace {
 
-/// Triangles by their positions, texture coordinates and material.
-using Triangles = SameTriangles<6>;
-
-Triangles::Corners content(const TexturedTriangle& t) {
-  Triangles::Corners corners;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d& p = t.corners[k];
-    const Eigen::Vector2d& uv = t.coordinates[k];
-    corners[k] = {uv.x(), uv.y(), p.x(), p.y(), p.z(), static_cast<double>(t.material)};
+/// The triangles of a mesh, found by their content, in whatever order their corners come.
+class Triangles {
+ public:
+  /// `triangles` must outlive this. O(n).
+  explicit Triangles(const std::vector<TexturedTriangle>& triangles)
+      : triangles_(triangles),
+        shift_(63 - static_cast<int>(std::bit_width(triangles.size()))),
+        first_(std::size_t{1} << (64 - shift_), no_index) {
+    keys_.reserve(triangles.size());
+    for (const TexturedTriangle& t : triangles) keys_.push_back(key(t));
+    next_.resize(triangles.size());
+    for (std::uint32_t i = static_cast<std::uint32_t>(triangles.size()); i-- > 0;)
+      next_[i] = std::exchange(first_[keys_[i] >> shift_], i);
   }
-  return corners;
-}
 
-Triangles table_of(const TexturedMesh& mesh) {
-  std::vector<Triangles::Corners> contents;
-  contents.reserve(mesh.triangles.size());
-  for (const TexturedTriangle& t : mesh.triangles) contents.push_back(content(t));
-  return Triangles(std::move(contents));
-}
+  /// The smallest index of such a triangle; `no_index` if there is none.
+  [[nodiscard]] std::uint32_t find(const TexturedTriangle& t) const {
+    const std::uint64_t wanted = key(t);
+    for (std::uint32_t i = first_[wanted >> shift_]; i != no_index; i = next_[i])
+      if (keys_[i] == wanted && content(triangles_[i]) == content(t)) return i;
+    return no_index;
+  }
+  [[nodiscard]] bool has(const TexturedTriangle& t) const { return find(t) != no_index; }
+
+ private:
+  using Corner = std::array<double, 5>;
+  using Content = std::pair<std::uint32_t, std::array<Corner, 3>>;
+
+  static std::array<Corner, 3> corners(const TexturedTriangle& t) {
+    std::array<Corner, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = t.corners[k];
+      corners[k] = {t.coordinates[k].x(), t.coordinates[k].y(), p.x(), p.y(), p.z()};
+    }
+    return corners;
+  }
+  static Content content(const TexturedTriangle& t) {
+    Content all{t.material, corners(t)};
+    std::sort(all.second.begin(), all.second.end());
+    return all;
+  }
+
+  /// Equal for equal contents, rarely for others: a sum over the corners, in whatever order these come.
+  static std::uint64_t key(const TexturedTriangle& t) {
+    constexpr std::uint64_t odd = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
+    std::uint64_t sum = t.material;
+    for (const Corner& corner : corners(t)) {
+      std::uint64_t key = 0;
+      for (const double x : corner) key = (std::rotl(key, 5) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * odd;  // no -0
+      sum += key ^ (key >> 32);
+    }
+    return sum * odd;
+  }
+
+  const std::vector<TexturedTriangle>& triangles_;
+  int shift_;                         ///< the highest bits of a key are the number of its list
+  std::vector<std::uint32_t> first_;  ///< by list
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint32_t> next_;  ///< by triangle: the next one of its list, with a larger index
+};
 
 /// The boxes, in the texture, of the triangles that only one of two meshes has.
 BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b, const Triangles& of_new_b) {
@@ -40,35 +83,37 @@ BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b, const Tr
   if (b == new_b) return BoxTree(boxes);
   const auto add = [&](const TexturedMesh& of, const Triangles& others) {
     for (const TexturedTriangle& t : of.triangles)
-      if (!others.has(content(t))) boxes.push_back(box_in_texture(t));
+      if (!others.has(t)) boxes.push_back(box_in_texture(t));
   };
   add(b, of_new_b);
-  add(new_b, table_of(b));
+  add(new_b, Triangles(b.triangles));
   return BoxTree(boxes);
 }
 
 TriangleBounds bounds_of_equal(const TexturedMesh& a, const Triangles& of_b) {
   TriangleBounds bounds;
   bounds.uncovered.resize(a.triangles.size());
-  for (const TexturedTriangle& t : a.triangles) bounds.upper.push_back(of_b.has(content(t)) ? 0 : HUGE_VAL);
+  for (const TexturedTriangle& t : a.triangles) bounds.upper.push_back(of_b.has(t) ? 0 : HUGE_VAL);
   return bounds;
 }
 
 }  // namespace
 
-TriangleBounds bounds_of_equal(const TexturedMesh& a, const TexturedMesh& b) { return bounds_of_equal(a, table_of(b)); }
+TriangleBounds bounds_of_equal(const TexturedMesh& a, const TexturedMesh& b) {
+  return bounds_of_equal(a, Triangles(b.triangles));
+}
 
 TriangleBounds bounds_left(const TriangleBounds& known, const TexturedMesh& a, const TexturedMesh& b,
                            const TexturedMesh& new_a, const TexturedMesh& new_b) {
-  const Triangles of_new_b = table_of(new_b);
+  const Triangles of_new_b(new_b.triangles);
   std::optional<Triangles> before;  // those of A, where the new ones are others
-  if (!(a == new_a)) before.emplace(table_of(a));
+  if (!(a == new_a)) before.emplace(a.triangles);
   TriangleBounds left = bounds_of_equal(new_a, of_new_b);
   const BoxTree changed = changed_boxes(b, new_b, of_new_b);
   std::vector<std::uint32_t> met;
   for (std::size_t i = 0; i < new_a.triangles.size(); ++i) {
     if (left.upper[i] == 0) continue;
-    const std::size_t same = before ? before->find(content(new_a.triangles[i])) : i;
+    const std::size_t same = before ? before->find(new_a.triangles[i]) : i;
     if (same == no_index) continue;
     met.clear();
     changed.find(box_in_texture(new_a.triangles[i]), met);
