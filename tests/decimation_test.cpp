@@ -20,6 +20,7 @@
 #include "numeric/vector_code.h"
 #include "reference/small_meshes.h"
 #include "setting.h"
+#include "simplify/decimation.h"
 #include "simplify/faults.h"
 #include "simplify/region_collapses.h"
 #include "simplify_options.h"
@@ -66,6 +67,24 @@ TEST(Drivers, AreAskedOnlyForRegionsWithOpenEdges) {
   EXPECT_TRUE(holds(datasets::torus(1, 0.3, 120, 48), result.last()));
   EXPECT_GT(driver->asked, 0);
   EXPECT_EQ(driver->in_vain, 0);
+}
+
+TEST(StartOfADecimation, CoversWhatIsRepeated) {
+  TriangleMesh mesh = datasets::cube(1, 6);
+  const std::size_t count = mesh.triangles.size();
+  for (std::size_t t = 0; t < count; t += 5) {
+    const auto [a, b, c] = mesh.triangles[t];
+    mesh.triangles.push_back({c, b, a});
+  }
+  mesh.triangles.push_back({0, 0, 1});
+  ProvenMesh start;
+  meshbound::Decimation(mesh, within(0.01), {}).current_proof(start);
+  for (std::size_t t = 0; t < count; ++t) EXPECT_EQ(start.cover[t].size(), 1U) << t;
+  for (std::size_t t = 0; t < count; t += 5) {
+    const auto repeated = start.cover[count + t / 5];
+    EXPECT_TRUE(std::ranges::equal(repeated, start.cover[t])) << t;
+  }
+  EXPECT_TRUE(start.cover[mesh.triangles.size() - 1].empty());
 }
 
 class Decimation : public testing::TestWithParam<test::NamedDriver> {

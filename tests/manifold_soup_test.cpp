@@ -113,6 +113,17 @@ std::string surface_defect(const ManifoldSoup& manifold, const TriangleMesh& sou
     if (found == expected.end() || found->second != manifold.triangle_of[f]) return "face " + std::to_string(f);
     expected.erase(found);
   }
+  for (const auto& [triangle, of] : manifold.repetitions) {
+    const auto is_face = [&](std::uint32_t t) {
+      return std::binary_search(manifold.triangle_of.begin(), manifold.triangle_of.end(), t);
+    };
+    if (is_face(triangle) || !is_face(of) || shape(soup, soup.triangles[triangle]) != shape(soup, soup.triangles[of]))
+      return "triangle " + std::to_string(triangle) + " repeats triangle " + std::to_string(of);
+  }
+  const auto degenerate = std::count_if(soup.triangles.begin(), soup.triangles.end(),
+                                        [&](const Triangle& t) { return is_degenerate(shape(soup, t)); });
+  if (manifold.repetitions.size() + static_cast<std::size_t>(degenerate) != manifold.dropped_triangles)
+    return "number of repetitions";
   return expected.empty() ? "" : "a triangle without a face: " + std::to_string(expected.begin()->second);
 }
 

@@ -209,7 +209,7 @@ TEST(ProofWorkers, ForgetFacesThatHaveMoved) {
   Proof near(it.state, workers);
   near.run({});
   EXPECT_TRUE(near.unproven().empty());
-  std::vector<std::vector<std::uint32_t>> covers;
+  std::vector<IdList> covers;
   move_by(0.05);
   EXPECT_FALSE(workers.cover_anywhere(originals, boxes, covers));
   move_by(-0.05);

@@ -12,6 +12,7 @@
 #include "simplify/cover/candidate_faces.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/forward_cover.h"
+#include "simplify/cover/id_list.h"
 #include "simplify/cover/original_clusters.h"
 #include "simplify/kernel/kernels.h"
 
@@ -135,6 +136,40 @@ TEST(DeviationKernel, LeavesOutWeightsThatNoSumWouldShow) {
           EXPECT_EQ(sums.matrix[1], 0) << doublings;
       }
     }
+  }
+}
+
+/// Sizes around 3 and the powers of two, where memory is taken and given back.
+TEST(IdList, IsAListOfAnySize) {
+  std::mt19937 random(8);
+  IdList list;
+  std::vector<std::uint32_t> expected;
+  for (int step = 0; step < 3000; ++step) {
+    const auto size = static_cast<std::uint32_t>(random() % 40);
+    switch (random() % 4) {
+      case 0:
+        expected.clear();
+        for (std::uint32_t i = 0; i < size; ++i) expected.push_back(static_cast<std::uint32_t>(random()));
+        list.assign(expected);
+        break;
+      case 1: {
+        const auto is_wanted = [k = random() % 5](std::uint32_t id) { return id % 5 >= k; };
+        std::erase_if(expected, [&](std::uint32_t id) { return !is_wanted(id); });
+        list.keep_if(is_wanted);
+        break;
+      }
+      case 2: {
+        IdList moved = std::move(list);
+        list = {};
+        list = std::move(moved);
+        break;
+      }
+      default:
+        expected.push_back(size);
+        list.add(size);
+    }
+    ASSERT_TRUE(std::ranges::equal(list.ids(), expected)) << "step " << step;
+    ASSERT_EQ(list.empty(), expected.empty());
   }
 }
 

@@ -71,6 +71,7 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
       options_(options),
       frame_(used_bounding_box(original_)),
       tree_(mapped(original_, frame_), BvhOptions{options.threads, stop}) {
+  vertices_.reserve(original_.vertices.size());
   for (const Eigen::Vector3d& p : original_.vertices) {
     vertices_.push_back(to_vec3(frame_.to_frame(p)));
     largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
@@ -130,13 +131,13 @@ void Decimation::make_state(const StopToken& stop) {
   dropped_triangles_ = soup.dropped_triangles;
   split_ = soup.split;
   std::vector<Vec3> positions;
+  positions.reserve(soup.vertex_of.size());
   for (const std::uint32_t v : soup.vertex_of) positions.push_back(start_points()[v]);
   ArrayMesh mesh(std::move(positions), soup.faces, soup.twin);
   if (start_ != nullptr)
     go_on_from_start(std::move(soup), std::move(mesh));
   else
-    state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
-                   std::move(soup.triangle_of));
+    start_as_original(std::move(soup), std::move(mesh));
   stop.check();
   if (keeps_sides()) note_turned_faces();
   if (has_lines()) set_lines();
@@ -160,6 +161,17 @@ std::vector<std::uint32_t> Decimation::index_of_caller_triangle() const {
   std::vector<std::uint32_t> index(order_.triangle.size());
   for (std::uint32_t t = 0; t < index.size(); ++t) index[order_.triangle[t]] = t;
   return index;
+}
+
+void Decimation::start_as_original(ManifoldSoup soup, ArrayMesh mesh) {
+  state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
+                 std::move(soup.triangle_of));
+  const std::vector<std::uint32_t>& triangles = state_->source_triangle;
+  for (const auto& [triangle, of] : soup.repetitions) {
+    const auto face =
+        static_cast<std::uint32_t>(std::lower_bound(triangles.begin(), triangles.end(), of) - triangles.begin());
+    state_->cover.assign(triangle, {&face, 1});
+  }
 }
 
 void Decimation::go_on_from_start(ManifoldSoup soup, ArrayMesh mesh) {

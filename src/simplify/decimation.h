@@ -46,6 +46,7 @@ class Decimation {
   Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
              const StopToken& stop);
   void make_state(const StopToken& stop);
+  void start_as_original(ManifoldSoup soup, ArrayMesh mesh);
   void go_on_from_start(ManifoldSoup soup, ArrayMesh mesh);
   [[nodiscard]] const TriangleMesh& start_mesh() const { return start_ != nullptr ? start_->mesh : original_; }
   [[nodiscard]] const std::vector<Vec3>& start_points() const { return start_ != nullptr ? start_points_ : vertices_; }

@@ -223,6 +223,7 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
                       std::move(vertex_of_vertex), triangle_of_face, triangle_of_face,
                       CoverAssignment(original_triangles.size())) {
   starts_as_original = true;
+  cover.reserve_faces(faces);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
 }
 

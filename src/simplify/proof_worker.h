@@ -48,59 +48,50 @@ class ProofWorkers::Worker {
     prepared_.forget();
     loops_.forget();
   }
-  /// Covers an original triangle: sets `only` to a face that covers it alone, or else `faces` to faces that do so
-  /// together. Neither is set if no cover was found.
-  void cover(std::uint32_t t, std::uint32_t& only, std::vector<std::uint32_t>& faces) {
-    only = no_index;
-    faces.clear();
+  /// Faces that cover an original triangle together; none if no cover was found. Valid until the next call.
+  std::span<const std::uint32_t> cover(std::uint32_t t) {
+    drafted_.clear();
     const auto& v = state_.triangles[t];
     const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
     const double limit = state_.limit_around(corners);
-    if (!(limit > 0)) return;
+    if (!(limit > 0)) return {};
     std::array<std::uint32_t, 3> at{};
     for (std::size_t k = 0; k < 3; ++k) at[k] = sample_face(v[k]);
     for (std::size_t k = 0; k < 3; ++k) {
       if (at[k] == no_index || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
-      if (!holds(at[k], corners, limit)) continue;
-      only = at[k];
-      return;
+      if (holds(at[k], corners, limit)) return draft(at[k]);
     }
     const auto known = std::find_if(at.begin(), at.end(), [](std::uint32_t f) { return f != no_index; });
+    const auto is_usable = [](std::uint32_t) { return true; };
     if (known != at.end()) {
       const std::uint32_t under = face_under(middle_of(corners), *known);
-      if (holds(under, corners, limit)) {
-        only = under;
-        return;
-      }
+      if (holds(under, corners, limit)) return draft(under);
       loops_.set_tolerance(limit, state_.magnitude);
       const auto start_at = [&](std::uint32_t from, std::uint32_t) {
         return LoopCover::Start{sample_face(from), false};
       };
-      if (loops_.covers(
-              t, start_at, [](std::uint32_t) { return true; }, faces))
-        return;
+      if (loops_.covers(t, start_at, is_usable, drafted_)) return drafted_;
     }
     find_around(at, grown(box_of(corners), state_.tolerance));
-    cover_by_found(
-        t, corners, limit, [](std::uint32_t) { return true; }, faces);
+    cover_by_found(t, corners, limit, is_usable);
+    return drafted_;
   }
 
-  /// The faces that cover an original triangle, found by boxes where the samples do not know which faces are near.
-  void cover_anywhere(std::uint32_t t, const FaceBoxes& boxes, std::vector<std::uint32_t>& faces) {
-    faces.clear();
+  /// As `cover`, with faces found by boxes where the samples do not know which faces are near.
+  std::span<const std::uint32_t> cover_anywhere(std::uint32_t t, const FaceBoxes& boxes) {
+    drafted_.clear();
     const auto& v = state_.triangles[t];
     const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
     const double limit = state_.limit_around(corners);
-    if (!(limit > 0)) return;
+    if (!(limit > 0)) return {};
     found_.clear();
     boxes.find(grown(box_of(corners), state_.tolerance), found_);
     std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
     const auto one =
         std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
-    if (one != found_.end())
-      faces.push_back(*one);
-    else
-      cover_in_sub_triangles(corners, limit, faces);
+    if (one != found_.end()) return draft(*one);
+    cover_in_sub_triangles(corners, limit);
+    return drafted_;
   }
 
   /// Whether a face is near the original; `near` is an original triangle to start with, and the one found.
@@ -287,18 +278,17 @@ class ProofWorkers::Worker {
   };
   /// Covers a large original by patches of usable faces, and by the candidates where patches end.
   template <class Usable>
-  bool cover_by_patches(const Corners& corners, double limit, const Usable& is_usable,
-                        std::vector<std::uint32_t>& faces) {
-    faces.clear();
+  bool cover_by_patches(const Corners& corners, double limit, const Usable& is_usable) {
+    drafted_.clear();
     open_parts_.clear();
-    patches_.cover(UsableFaces<Usable>{{state_.mesh}, is_usable}, {corners, 0}, limit, state_.magnitude, found_, faces,
-                   open_parts_);
+    patches_.cover(UsableFaces<Usable>{{state_.mesh}, is_usable}, {corners, 0}, limit, state_.magnitude, found_,
+                   drafted_, open_parts_);
     for (const PatchCover::Part& part : open_parts_) {
       const std::optional<FaceMask> used = cover_.cover_sub_triangle(part.corners, part.cuts);
-      if (!used || *used == 0) return faces.clear(), false;
-      take(*used, faces);
+      if (!used || *used == 0) return drafted_.clear(), false;
+      take(*used, drafted_);
     }
-    sort_unique(faces);
+    sort_unique(drafted_);
     return true;
   }
   /// A candidate of `added` that holds a vertex of an original, or else one of the faces that have covered the
@@ -319,22 +309,21 @@ class ProofWorkers::Worker {
     const FaceMask all = ForwardCover::first(cover_.size());
     if (!cover_.are_corners_near(t, all)) return false;
     if (state_.cover.faces_of(t).size() >= many_faces &&
-        cover_by_patches(original_.corners(t), limit, is_usable, drafted_))
+        cover_by_patches(original_.corners(t), limit, is_usable))
       return true;
     drafted_.clear();
     take(cover_.cover(t, all), drafted_);
     return !drafted_.empty();
   }
-  /// Covers an original by faces near those found. Leaves `faces` empty if it does not succeed.
+  /// Covers an original by faces near those found. `drafted_`, empty before, are then those that do so.
   template <class Usable>
-  void cover_by_found(std::uint32_t t, const Corners& corners, double limit, const Usable& is_usable,
-                      std::vector<std::uint32_t>& faces) {
+  void cover_by_found(std::uint32_t t, const Corners& corners, double limit, const Usable& is_usable) {
     if (found_.size() <= CandidateFaces::capacity) {
       enter(found_, limit);
-      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), faces);
-      if (!faces.empty() || (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable, faces))) return;
+      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
+      if (!drafted_.empty() || (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable))) return;
     }
-    cover_in_sub_triangles(corners, limit, faces);
+    cover_in_sub_triangles(corners, limit);
   }
   /// Enters the faces around the first `count` of those found.
   template <class Owned>
@@ -421,7 +410,7 @@ class ProofWorkers::Worker {
       found_.push_back(f);
     }
     spread(reach, owned);
-    cover_by_found(t, corners, limit, owned, drafted_);
+    cover_by_found(t, corners, limit, owned);
     return !drafted_.empty();
   }
 
@@ -454,11 +443,15 @@ class ProofWorkers::Worker {
     cover_.begin(limit);
     for (const std::uint32_t f : faces) cover_.add(state_.mesh.triangle(f), f);
   }
+  std::span<const std::uint32_t> draft(std::uint32_t face) {
+    drafted_.assign(1, face);
+    return drafted_;
+  }
   void take(FaceMask used, std::vector<std::uint32_t>& faces) const {
     for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
   }
 
-  void cover_in_sub_triangles(const Corners& corners, double limit, std::vector<std::uint32_t>& faces) {
+  void cover_in_sub_triangles(const Corners& corners, double limit) {
     sub_triangles_.assign(1, {corners, 0});
     for (std::size_t count = 1; !sub_triangles_.empty();) {
       const SubTriangle sub_triangle = sub_triangles_.back();
@@ -467,13 +460,13 @@ class ProofWorkers::Worker {
       enter(chosen_, limit);
       const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);
       if (!used || (*used == 0 && (sub_triangle.halvings == max_halvings || ++count > max_sub_triangles))) {
-        faces.clear();
+        drafted_.clear();
         return;
       }
       if (*used == 0) halve(sub_triangle);
-      take(*used, faces);
+      take(*used, drafted_);
     }
-    sort_unique(faces);
+    sort_unique(drafted_);
   }
 
   void halve(const SubTriangle& sub_triangle) {

@@ -11,11 +11,11 @@ ProofWorkers::ProofWorkers(const DecimationState& state, int threads) {
 ProofWorkers::~ProofWorkers() = default;
 
 bool ProofWorkers::cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
-                                  std::vector<std::vector<std::uint32_t>>& covers) {
+                                  std::vector<IdList>& covers) {
   covers.resize(originals.size());
   workers_.front()->forget_faces();
   for (std::size_t i = 0; i < originals.size(); ++i) {
-    workers_.front()->cover_anywhere(originals[i], boxes, covers[i]);
+    covers[i].assign(workers_.front()->cover_anywhere(originals[i], boxes));
     if (covers[i].empty()) return false;
   }
   return true;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simplify/cover/box_tree.h"
+#include "simplify/cover/id_list.h"
 #include "simplify/decimation_state.h"
 
 namespace meshbound {
@@ -34,7 +35,7 @@ class ProofWorkers {
 
   /// Covers originals by faces found by their boxes. False if one has no cover.
   [[nodiscard]] bool cover_anywhere(std::span<const std::uint32_t> originals, const FaceBoxes& boxes,
-                                    std::vector<std::vector<std::uint32_t>>& covers);
+                                    std::vector<IdList>& covers);
 
   class Worker;
   [[nodiscard]] std::size_t count() const { return workers_.size(); }

@@ -23,15 +23,8 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
     if (is_stale(t)) originals_.push_back(t);
   for (std::uint32_t f = 0; f < state.stamp.size(); ++f)
     if (state.is_unproven(f) && !state.mesh.is_removed(f)) open_faces_.push_back(f);
-  only_face_.assign(originals_.size(), no_index);
-  faces_.resize(originals_.size());
+  drafts_.resize(originals_.size());
   open_originals_ = numbers_below(originals_.size());
-}
-
-std::span<const std::uint32_t> Proof::draft(std::uint32_t index) const {
-  if (!faces_[index].empty()) return faces_[index];
-  if (only_face_[index] == no_index) return {};
-  return {&only_face_[index], 1};
 }
 
 bool Proof::is_stale(std::uint32_t original) const {
@@ -54,7 +47,7 @@ void Proof::run(const StopToken& stop) {
       ProofWorkers::Worker& worker = workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num()));
       if (i < open_originals_.size()) {
         const std::uint32_t at = open_originals_[i];
-        worker.cover(originals_[at], only_face_[at], faces_[at]);
+        drafts_[at].assign(worker.cover(originals_[at]));
       } else {
         const std::uint32_t face = open_faces_[i - open_originals_.size()];
         is_near[i - open_originals_.size()] = worker.is_near(face, state_.nearest[face]);
@@ -67,7 +60,7 @@ void Proof::run(const StopToken& stop) {
   faces_tested += open_faces_.size();
   unproven_ = {};
   for (const std::uint32_t at : open_originals_)
-    if (draft(at).empty()) unproven_.originals.push_back(originals_[at]);
+    if (drafts_[at].empty()) unproven_.originals.push_back(originals_[at]);
   for (std::size_t i = 0; i < open_faces_.size(); ++i)
     if (is_near[i] == 0) unproven_.faces.push_back(open_faces_[i]);
 }
@@ -76,10 +69,11 @@ void Proof::run(const StopToken& stop) {
 void Proof::cover_anywhere() {
   std::vector<std::uint32_t> lost;
   for (const std::uint32_t at : open_originals_)
-    if (draft(at).empty()) lost.push_back(at);
+    if (drafts_[at].empty()) lost.push_back(at);
   if (lost.empty()) return;
   const FaceBoxes boxes(state_.mesh);
-  for (const std::uint32_t at : lost) workers_.of_thread(0).cover_anywhere(originals_[at], boxes, faces_[at]);
+  for (const std::uint32_t at : lost)
+    drafts_[at].assign(workers_.of_thread(0).cover_anywhere(originals_[at], boxes));
 }
 
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {
@@ -88,10 +82,9 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
   const auto is_changed = [&](std::uint32_t f) { return std::binary_search(changed.begin(), changed.end(), f); };
   for (std::uint32_t i = 0; i < originals_.size(); ++i) {
     if (originals_[i] == no_index) continue;
-    const auto faces = draft(i);
+    const auto faces = drafts_[i].ids();
     if (!faces.empty() && std::none_of(faces.begin(), faces.end(), is_changed)) continue;
-    only_face_[i] = no_index;
-    faces_[i].clear();
+    drafts_[i] = {};
     if (is_stale(originals_[i]))
       open_originals_.push_back(i);
     else
@@ -102,17 +95,17 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
 }
 
 void Proof::commit() {
-  std::vector<std::uint32_t> originals, indices;
-  for (std::uint32_t i = 0; i < originals_.size(); ++i) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < originals_.size(); ++i) {
     if (originals_[i] == no_index) continue;
-    originals.push_back(originals_[i]);
-    indices.push_back(i);
+    originals_[count] = originals_[i];
+    drafts_[count++] = std::move(drafts_[i]);
   }
-  state_.cover.assign(originals, [&](std::size_t i) { return draft(indices[i]); });
   if (state_.proven_changes)
     for (const EditLog& log : state_.logs) state_.proven_changes->add(log);
+  state_.logs.clear();  // room for the covers
+  state_.cover.assign(std::span(originals_).first(count), [&](std::size_t i) { return drafts_[i].ids(); });
   std::fill(state_.stamp.begin(), state_.stamp.end(), 0);
-  state_.logs.clear();
 }
 
 }  // namespace meshbound

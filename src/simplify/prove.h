@@ -43,15 +43,12 @@ class Proof {
  private:
   void cover_anywhere();
   [[nodiscard]] bool is_stale(std::uint32_t original) const;
-  /// The faces that cover `originals_[index]`; empty if it is open.
-  [[nodiscard]] std::span<const std::uint32_t> draft(std::uint32_t index) const;
 
   DecimationState& state_;
   ProofWorkers& workers_;
-  std::vector<std::uint32_t> originals_;           ///< to be covered anew; none: not any more
-  std::vector<std::uint32_t> only_face_;           ///< by index in `originals_`: the face that covers it alone, or none
-  std::vector<std::vector<std::uint32_t>> faces_;  ///< by index in `originals_`: faces that cover it together
-  std::vector<std::uint32_t> open_originals_;      ///< indices in `originals_`
+  std::vector<std::uint32_t> originals_;       ///< to be covered anew; none: not any more
+  std::vector<IdList> drafts_;                 ///< by index in `originals_`: faces that cover it; empty if it is open
+  std::vector<std::uint32_t> open_originals_;  ///< indices in `originals_`
   std::vector<std::uint32_t> open_faces_;
   Unproven unproven_;
 };

@@ -65,7 +65,7 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
   const std::vector<Component> all = components(state.mesh);
   if (all.size() < 2) return pruned;
   const FaceBoxes boxes(state.mesh);
-  std::vector<std::vector<std::uint32_t>> covers;
+  std::vector<IdList> covers;
   for (const Component& component : all) {
     if (state.faces < min_faces + component.size() || state.faces == component.size()) continue;
     if (must_stay(state, component, keeps_borders)) continue;
@@ -76,11 +76,11 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
       continue;
     }
     for (const std::uint32_t f : component) state.samples.clear(f);
-    state.cover.assign(originals, [&](std::size_t i) { return std::span<const std::uint32_t>(covers[i]); });
+    state.cover.assign(originals, [&](std::size_t i) { return covers[i].ids(); });
     for (std::size_t i = 0; i < originals.size(); ++i) {
       for (const std::uint32_t v : state.triangles[originals[i]]) {
         const std::uint32_t at = state.samples.face_of(v);
-        if (at != no_index && state.mesh.is_removed(at)) state.samples.give_to(v, covers[i].front());
+        if (at != no_index && state.mesh.is_removed(at)) state.samples.give_to(v, covers[i].ids().front());
       }
     }
     state.faces -= component.size();

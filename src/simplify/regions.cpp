@@ -158,6 +158,7 @@ void merge(DecimationState& state, Split split) {
   for (Region& region : split.regions) {
     state.faces -= region.removed_faces;
     state.clock = std::max(state.clock, region.clock);
+    region.log.edits.shrink_to_fit(), region.log.stamps.shrink_to_fit();  // kept until the next proof
     if (!region.log.edits.empty()) state.logs.push_back(std::move(region.log));
     if (state.proven_changes) state.proven_changes->add(region.proven);
   }

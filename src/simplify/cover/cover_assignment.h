@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <utility>
 #include <vector>
+
+#include "simplify/cover/id_list.h"
 
 namespace meshbound {
 
@@ -17,8 +16,9 @@ class CoverAssignment {
 
   explicit CoverAssignment(std::size_t originals) : faces_of_(originals) {}
 
-  void reserve_face(std::uint32_t face) {
-    if (face >= originals_of_.size()) originals_of_.resize(std::size_t{face} + 1);
+  /// For faces with numbers below `count`.
+  void reserve_faces(std::size_t count) {
+    if (count > originals_of_.size()) originals_of_.resize(count);
   }
   [[nodiscard]] std::span<const std::uint32_t> faces_of(std::uint32_t original) const {
     return faces_of_[original].ids();
@@ -27,7 +27,7 @@ class CoverAssignment {
   void prefetch(std::uint32_t original) const { __builtin_prefetch(&faces_of_[original]); }
   [[nodiscard]] std::span<const std::uint32_t> originals_of(std::uint32_t face) const {
     if (face >= originals_of_.size()) return {};
-    return originals_of_[face];
+    return originals_of_[face].ids();
   }
 
   /// Replaces the covers of some originals by cover_of(0), cover_of(1), ..., in their order, each face once. The faces
@@ -47,36 +47,7 @@ class CoverAssignment {
   void replace(std::uint32_t original, std::span<const std::uint32_t> faces, Ids& left);
   void remove_from_lists(Ids& left);
 
-  /// The faces of a cover. Most have three at most, which need no memory of their own.
-  class Faces {
-   public:
-    Faces() = default;
-    Faces(Faces&& other) noexcept : size_(std::exchange(other.size_, 0)), few_(other.few_) {}
-    Faces& operator=(Faces&&) = delete;
-    ~Faces() { free(); }
-
-    [[nodiscard]] std::span<const std::uint32_t> ids() const { return {is_many() ? many() : few_.data(), size_}; }
-    void set(std::span<const std::uint32_t> faces);
-
-   private:
-    [[nodiscard]] bool is_many() const { return size_ > few_.size(); }
-    /// Where more than a few are: the address lies in `few_`.
-    [[nodiscard]] std::uint32_t* many() const {
-      std::uint32_t* list = nullptr;
-      std::memcpy(&list, few_.data(), sizeof(list));
-      return list;
-    }
-    void free() {
-      if (is_many()) delete[] many();
-    }
-
-    std::uint32_t size_ = 0;
-    std::array<std::uint32_t, 3> few_{};
-    static_assert(sizeof(std::uint32_t*) <= sizeof(few_));
-  };
-
-  std::vector<Faces> faces_of_;
-  std::vector<Ids> originals_of_;
+  std::vector<IdList> faces_of_, originals_of_;
 };
 
 }  // namespace meshbound

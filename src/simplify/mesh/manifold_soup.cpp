@@ -66,7 +66,7 @@ class ManifoldBuilder {
 
  private:
   /// A triangle, seen from the lowest of its corners.
-  struct Repetition {
+  struct Seen {
     std::uint32_t middle, highest, triangle;
   };
   /// An edge of a face, seen from the lower of its ends.
@@ -105,7 +105,7 @@ class ManifoldBuilder {
   [[nodiscard]] std::uint32_t across_entering(std::uint32_t corner) const { return at(result_.twin, previous(corner)); }
 
   /// Marks repetitions among triangles with the same corners in `dropped`, and sets the sheets of the others.
-  void sort_out(std::span<const Repetition> same, std::vector<std::uint8_t>& dropped);
+  void sort_out(std::span<const Seen> same, std::vector<std::uint8_t>& dropped);
   /// Whether the lowest corner of a triangle is followed by the highest: of two triangles with the same corners, one
   /// is the back of the other where this differs.
   [[nodiscard]] bool shows_back(std::uint32_t triangle) const {
@@ -123,14 +123,15 @@ class ManifoldBuilder {
   ManifoldSoup result_;               ///< until `split_vertices`, corners are vertices of the soup
 };
 
-void ManifoldBuilder::sort_out(std::span<const Repetition> same, std::vector<std::uint8_t>& dropped) {
+void ManifoldBuilder::sort_out(std::span<const Seen> same, std::vector<std::uint8_t>& dropped) {
   if (same.size() == 1) return;
   std::vector<std::pair<std::uint32_t, bool>> looks;  // by sheet
-  for (const Repetition& repetition : same) {
-    const std::uint32_t t = repetition.triangle;
+  for (const Seen& seen : same) {
+    const std::uint32_t t = seen.triangle;
     const auto look = look_.empty() ? std::pair(0U, false) : std::pair(look_[t], shows_back(t));
     if (std::find(looks.begin(), looks.end(), look) != looks.end()) {
       dropped[t] = 1;
+      result_.repetitions.push_back({t, same.front().triangle});
       continue;
     }
     if (!looks.empty() && sheet_.empty()) sheet_.assign(soup_.triangle_count(), 0);
@@ -152,12 +153,12 @@ void ManifoldBuilder::take_distinct_triangles() {
       if (a == b || b == c)
         dropped[t] = 1;
       else
-        add(a, Repetition{b, c, t});
+        add(a, Seen{b, c, t});
     }
   };
-  for_each_vertex<Repetition>(first_.size(), for_each_triangle, [&](std::span<Repetition> here) {
-    const auto corners = [](const Repetition& r) { return std::tuple(r.middle, r.highest); };
-    std::sort(here.begin(), here.end(), [&](const Repetition& a, const Repetition& b) {
+  for_each_vertex<Seen>(first_.size(), for_each_triangle, [&](std::span<Seen> here) {
+    const auto corners = [](const Seen& seen) { return std::tuple(seen.middle, seen.highest); };
+    std::sort(here.begin(), here.end(), [&](const Seen& a, const Seen& b) {
       return std::tuple(corners(a), a.triangle) < std::tuple(corners(b), b.triangle);
     });
     for (std::size_t i = 0, end = 0; i < here.size(); i = end) {

@@ -19,12 +19,17 @@ namespace meshbound {
 /// do so: no two edges run from one vertex to another, as in a half-edge structure. The faces around a vertex form one
 /// fan or one ring, and every vertex has a face.
 struct ManifoldSoup {
+  /// A triangle that was dropped, for it has the corners of one that was not.
+  struct Repetition {
+    std::uint32_t triangle, of;
+  };
   std::vector<Triangle> faces;                     ///< corners as indices below `vertex_of.size()`
   std::vector<std::array<std::uint32_t, 3>> twin;  ///< by face and corner: the opposite edge, `no_index` at a border
   std::vector<std::uint32_t> vertex_of;    ///< by vertex: the first vertex of the soup with its coordinates (-0 is 0)
   std::vector<std::uint32_t> triangle_of;  ///< by face: the triangle of the soup, ascending
-  std::size_t dropped_triangles = 0;       ///< those with two corners of equal coordinates, and repetitions
-  bool split = false;                      ///< vertices were duplicated or triangles turned over
+  std::vector<Repetition> repetitions;
+  std::size_t dropped_triangles = 0;  ///< those with two corners of equal coordinates, and repetitions
+  bool split = false;                 ///< vertices were duplicated or triangles turned over
 };
 
 /// Joins the triangles of a soup where they form a surface. Vertices with equal coordinates are one. An edge of exactly
