@@ -28,9 +28,9 @@ constexpr double share_together = 0.7;
 /// It does not where faces are so large that one proof covers whole clusters of originals.
 constexpr std::size_t max_originals_of_face = OriginalClusters::size;
 
-/// Vertices of a region at least: smaller ones lose more at their seams than threads gain. A proof takes much longer
-/// than a proposal, so it pays to prove in regions when a mesh has become small.
-constexpr std::size_t min_vertices_together = 2000, min_vertices_one_by_one = 1000;
+/// Vertices of a region at least: smaller ones lose more at their seams than threads gain. Those that are cut elsewhere
+/// have what lay at seams before, and a proof takes much longer than a proposal.
+constexpr std::size_t min_vertices_together = 2000, min_vertices_cut_elsewhere = 1000, min_vertices_one_by_one = 500;
 
 /// Where not even one of so many edges is open, all get their turn in one region: the splits would take longer. With 8
 /// or 16 less time is saved (37 meshes at 0.02%).
@@ -164,7 +164,8 @@ std::function<bool(std::size_t)> Run::must_stop() {
 void Run::propose(int shift, double share) {
   if (has_ended()) return;
   if (is_global() && shift > 0) return;
-  in_regions(is_global() ? whole(state_) : split(state_, shift, min_vertices_together),
+  const std::size_t min_vertices = shift == 0 ? min_vertices_together : min_vertices_cut_elsewhere;
+  in_regions(is_global() ? whole(state_) : split(state_, shift, min_vertices),
              [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
                RegionCollapses::Limits limits{share, must_stop(), nullptr};
                if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };

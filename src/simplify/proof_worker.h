@@ -308,8 +308,7 @@ class ProofWorkers::Worker {
   bool cover_by_candidates(std::uint32_t t, double limit, const Usable& is_usable) {
     const FaceMask all = ForwardCover::first(cover_.size());
     if (!cover_.are_corners_near(t, all)) return false;
-    if (state_.cover.faces_of(t).size() >= many_faces &&
-        cover_by_patches(original_.corners(t), limit, is_usable))
+    if (state_.cover.faces_of(t).size() >= many_faces && cover_by_patches(original_.corners(t), limit, is_usable))
       return true;
     drafted_.clear();
     take(cover_.cover(t, all), drafted_);

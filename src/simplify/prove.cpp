@@ -72,8 +72,15 @@ void Proof::cover_anywhere() {
     if (drafts_[at].empty()) lost.push_back(at);
   if (lost.empty()) return;
   const FaceBoxes boxes(state_.mesh);
-  for (const std::uint32_t at : lost)
-    drafts_[at].assign(workers_.of_thread(0).cover_anywhere(originals_[at], boxes));
+  FirstError error;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(workers_.count()))
+  for (std::size_t i = 0; i < lost.size(); ++i) {
+    error.guard([&] {
+      ProofWorkers::Worker& worker = workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num()));
+      drafts_[lost[i]].assign(worker.cover_anywhere(originals_[lost[i]], boxes));
+    });
+  }
+  error.rethrow();
 }
 
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {

@@ -52,8 +52,23 @@ void RegionCollapses::list_edges() {
     mesh().append_edges_around(v, edges_before_);
 }
 
+/// Whether faces around the edge cover an original together with faces of other regions: no change here can be proven.
+bool RegionCollapses::shares_covers(Corner edge) const {
+  if (split_.region_of.empty()) return false;
+  const auto is_covered_here = [&](std::uint32_t original) {
+    const auto faces = state_.cover.faces_of(original);
+    return faces.size() == 1 || std::ranges::all_of(faces, [&](std::uint32_t f) { return owns_face(f); });
+  };
+  const auto covers_alone = [&](Corner c) {
+    return std::ranges::all_of(state_.cover.originals_of(c / 3), is_covered_here);
+  };
+  return !mesh().for_each_corner(mesh().start(edge), covers_alone) ||
+         !mesh().for_each_corner(mesh().end(edge), covers_alone);
+}
+
 bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   if (!proposer_.is_inside(edge)) return false;
+  if (prover_ != nullptr && shares_covers(edge)) return false;
   std::optional<Vec3> point = proposer_.placement(edge, limits_.share, wanted);
   const bool point_found = point.has_value();
   if (point_found) list_edges();

@@ -71,6 +71,7 @@ class RegionCollapses {
 
  private:
   [[nodiscard]] bool is_owned(Corner edge) const;
+  [[nodiscard]] bool shares_covers(Corner edge) const;
   [[nodiscard]] bool make(Vec3 point);
   void mark_refused(Corner edge, float deviation);
   void list_edges();

@@ -60,7 +60,8 @@ class IdList {
     if (room_for(size) != room_for(size_)) {
       std::uint32_t* const list = size > few ? new std::uint32_t[room_for(size)] : nullptr;
       std::array<std::uint32_t, few> kept{};
-      std::copy_n(std::as_const(*this).begin(), std::min<std::size_t>(size, size_), list != nullptr ? list : kept.data());
+      std::copy_n(std::as_const(*this).begin(), std::min<std::size_t>(size, size_),
+                  list != nullptr ? list : kept.data());
       free();
       if (list != nullptr) std::memcpy(kept.data(), &list, sizeof(list));
       few_ = kept;
