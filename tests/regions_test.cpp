@@ -21,6 +21,8 @@
 #include "meshbound/simplify.h"
 #include "numeric/no_index.h"
 #include "reference/small_meshes.h"
+#include "simplify/change_prover.h"
+#include "simplify/region_collapses.h"
 #include "simplify_options.h"
 
 namespace meshbound {
@@ -133,6 +135,33 @@ TEST(Merge, CountsTheFacesThatAreGoneAndKeepsTheLogsInTheirOrder) {
   ASSERT_EQ(state->logs.size(), regions - 1) << "that of a region without a change is no use";
   for (std::size_t i = 1; i < state->logs.size(); ++i)
     EXPECT_LT(state->logs[i - 1].last_number(), state->logs[i].last_number());
+}
+
+/// No change of a face can be proven here that covers an original together with one of another region.
+TEST(RegionCollapses, LeaveEdgesForLaterWhoseFacesShareCoversWithOtherRegions) {
+  test::StateOf state(reference::unit_square(50));
+  state->grow_tolerance(0.01);
+  state->set_samples(0.01);
+  Split parts = split(*state, 0, 1000);
+  ASSERT_EQ(parts.regions.size(), 2u);
+  ProofWorkers workers(*state, 1);
+  Proposer proposer(*state);
+  ChangeProver prover(*state, workers, 0);
+  RegionCollapses collapses(*state, parts, parts.regions[0], proposer, &prover,
+                            {1, [](std::size_t) { return false; }, nullptr});
+  const auto& open = collapses.open_edges();
+  const auto edge = std::find_if(open.begin(), open.end(), [&](Corner e) { return proposer.is_inside(e); });
+  ASSERT_NE(edge, open.end());
+  std::uint32_t beyond = 0;
+  while (!parts.owns_face(1, beyond)) ++beyond;
+  const std::uint32_t face = *edge / 3, original = state->source_triangle[face];
+  state->cover.assign(original, std::vector<std::uint32_t>{face, beyond});
+  EXPECT_FALSE(collapses.collapse(*edge));
+  EXPECT_TRUE(collapses.is_open(*edge));
+  EXPECT_EQ(proposer.counts.tried, 0u);
+  state->cover.assign(original, {&face, 1});
+  EXPECT_TRUE(collapses.collapse(*edge));
+  EXPECT_EQ(proposer.counts.tried, 1u);
 }
 
 class Regions : public testing::TestWithParam<test::NamedDriver> {
