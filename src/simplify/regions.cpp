@@ -25,7 +25,7 @@ class Cutter {
     for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v) {
       if (!state.mesh.is_vertex(v)) continue;
       const Vec3 p = state.mesh.position(v);
-      vertices_.push_back({Eigen::Vector3d(dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)), v});
+      vertices_.push_back({Eigen::Vector3d(dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)).cast<float>(), v});
     }
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
@@ -41,7 +41,7 @@ class Cutter {
 
  private:
   struct Placed {
-    Eigen::Vector3d along;  ///< the axes of the cuts
+    Eigen::Vector3f along;  ///< the axes of the cuts
     std::uint32_t vertex;
   };
 
@@ -51,7 +51,7 @@ class Cutter {
       ++count_;
       return;
     }
-    Eigen::AlignedBox3d box;
+    Eigen::AlignedBox3f box;
     for (const Placed& placed : vertices) box.extend(placed.along);
     Eigen::Index axis = 0;
     box.sizes().maxCoeff(&axis);
