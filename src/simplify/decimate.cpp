@@ -267,6 +267,7 @@ void Run::try_the_others_again() {
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
+/// Whether enough edges are open for regions to be worth it.
 bool Run::is_worth_a_cut() const {
   if (is_global() || has_ended()) return false;
   const ArrayMesh& mesh = state_.mesh;
@@ -294,6 +295,7 @@ void Run::prove_one_by_one() {
   }
 }
 
+/// The driver collapses what is open in each region.
 void Run::collapse_and_prove(Split regions) {
   in_regions(std::move(regions), [&](const Split& split, Region& region, Proposer& proposer, ChangeProver& prover) {
     RegionCollapses::Limits limits{1, must_stop(), nullptr};
