@@ -126,10 +126,8 @@ class ProofWorkers::Worker {
     find_affected(changed, [](const EditLog::Stamp& stamp) { return stamp.face; });
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     if (!split.region_of.empty()) {
-      for (const std::uint32_t t : affected_) {
-        const auto faces = state_.cover.faces_of(t);
-        if (!std::all_of(faces.begin(), faces.end(), owned)) return meets_seam_ = true, false;
-      }
+      for (const std::uint32_t t : affected_)
+        if (!is_covered_in(split, region, state_.cover, t)) return meets_seam_ = true, false;
     }
     if (affected_.empty()) return true;
     Eigen::AlignedBox3d box;
@@ -193,8 +191,7 @@ class ProofWorkers::Worker {
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     begin_covers();
     for (std::size_t i = 0; i < affected_.size(); ++i) {
-      const auto faces = state_.cover.faces_of(affected_[i]);
-      if (!std::all_of(faces.begin(), faces.end(), owned)) return false;
+      if (!is_covered_in(split, region, state_.cover, affected_[i])) return false;
       if (!cover_among(affected_[i], changed, owned)) return false;
       set_cover(i, drafted_);
     }

@@ -56,8 +56,7 @@ void RegionCollapses::list_edges() {
 bool RegionCollapses::shares_covers(Corner edge) const {
   if (split_.region_of.empty()) return false;
   const auto is_covered_here = [&](std::uint32_t original) {
-    const auto faces = state_.cover.faces_of(original);
-    return faces.size() == 1 || std::ranges::all_of(faces, [&](std::uint32_t f) { return owns_face(f); });
+    return is_covered_in(split_, region_.id, state_.cover, original);
   };
   const auto covers_alone = [&](Corner c) {
     return std::ranges::all_of(state_.cover.originals_of(c / 3), is_covered_here);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,13 @@ struct Split {
     return region_of_face.empty() || region_of_face[face] == region;
   }
 };
+
+/// Whether all faces that cover an original belong to the region: else no change there can be proven, as the faces of
+/// other regions, and what is known of them, may not be touched.
+[[nodiscard]] inline bool is_covered_in(const Split& split, std::uint32_t region, const CoverAssignment& cover,
+                                        std::uint32_t original) {
+  return std::ranges::all_of(cover.faces_of(original), [&](std::uint32_t f) { return split.owns_face(region, f); });
+}
 
 /// Number of ways in which `split` can cut a mesh.
 inline constexpr int shifts_of_split = cut_directions;
