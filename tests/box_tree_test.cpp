@@ -38,6 +38,36 @@ TEST(BoxTree, FindsTheBoxesThatMeetABox) {
   }
 }
 
+// A box that touches the query in a corner is found wherever both are, however large their coordinates; one that is
+// apart by more than single precision is not.
+TEST(BoxTree, LosesNoBoxToRounding) {
+  reference::Random random(2);
+  for (const double scale : {1e-300, 1.0 / 3, 1e5 / 3, 1e290}) {
+    for (const double offset : {0.0, 1e9}) {
+      std::vector<Eigen::AlignedBox3d> boxes;
+      for (int i = 0; i < 500; ++i) {
+        const Eigen::AlignedBox3d box = random_box(random);
+        const Eigen::Vector3d to = Eigen::Vector3d::Constant(offset);
+        boxes.emplace_back(scale * (box.min() + to), scale * (box.max() + to));
+      }
+      const BoxTree tree(boxes);
+      for (const Eigen::AlignedBox3d& box : boxes) {
+        std::vector<std::uint32_t> found;
+        tree.find(Eigen::AlignedBox3d(box.max(), 1.1 * box.max()), found);
+        std::sort(found.begin(), found.end());
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+          const bool is_found = std::binary_search(found.begin(), found.end(), i);
+          if (boxes[i].intersects(Eigen::AlignedBox3d(box.max(), 1.1 * box.max()))) {
+            EXPECT_TRUE(is_found) << scale << " " << offset;
+          } else if (scale > 1e-300 && scale < 1e290) {
+            EXPECT_FALSE(is_found) << scale << " " << offset;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(BoxTree, FindsNothingInEmptyBoxes) {
   const BoxTree tree(std::vector<Eigen::AlignedBox3d>(20));
   std::vector<std::uint32_t> found;

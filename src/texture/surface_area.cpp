@@ -12,7 +12,8 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// The exponent of the largest coordinate, so that areas neither overflow nor underflow in units of its power of two.
+/// The exponent of the largest coordinate, so that areas neither overflow nor underflow in units of its power of two; no
+/// further from 0 than that this power and its reciprocal are normal numbers.
 int exponent_of(const TexturedMesh& mesh) {
   double largest = 0;
   const auto look_at = [&](const Corners& corners) {
@@ -22,23 +23,23 @@ int exponent_of(const TexturedMesh& mesh) {
   for (const Corners& corners : mesh.bare) look_at(corners);
   int exponent = 0;
   std::frexp(largest, &exponent);
-  return exponent;
+  return std::clamp(exponent, -1000, 1000);
 }
 
-/// x in units of 2^exponent; a value that underflows has an error.
-Approximate at_exponent(double x, int exponent) {
-  const double value = std::ldexp(x, -exponent);
+/// x in a unit that is a power of two; a value that underflows has an error.
+Approximate in_unit(double x, double by_unit) {
+  const double value = x * by_unit;
   return {value, std::fabs(value) < Approximate::small && x != 0 ? Approximate::tiny : 0};
 }
 
-/// Twice the area of a triangle in units of 2^(2 exponent).
-Approximate area(const Corners& corners, int exponent) {
+/// Twice the area of a triangle in squares of the unit.
+Approximate area(const Corners& corners, double by_unit) {
   std::array<Approximate, 3> ab, ac;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    const Approximate from = at_exponent(corners[0][axis], exponent);
-    ab[i] = at_exponent(corners[1][axis], exponent) - from;
-    ac[i] = at_exponent(corners[2][axis], exponent) - from;
+    const Approximate from = in_unit(corners[0][axis], by_unit);
+    ab[i] = in_unit(corners[1][axis], by_unit) - from;
+    ac[i] = in_unit(corners[2][axis], by_unit) - from;
   }
   double squares = 0, error = 0;
   bool is_zero = true;
@@ -57,15 +58,17 @@ Approximate area(const Corners& corners, int exponent) {
 }  // namespace
 
 Bounds uncovered_share_of(const TexturedMesh& mesh, std::span<const Approximate> shares) {
-  const int exponent = exponent_of(mesh);
+  const auto is_covered = [](const Approximate& share) { return share.is_zero(); };
+  if (mesh.bare.empty() && std::ranges::all_of(shares, is_covered)) return {0, 0};
+  const double by_unit = std::ldexp(1.0, -exponent_of(mesh));
   Approximate all, uncovered;
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    const Approximate of_triangle = area(mesh.triangles[i].corners, exponent);
+    const Approximate of_triangle = area(mesh.triangles[i].corners, by_unit);
     all = all + of_triangle;
     uncovered = uncovered + of_triangle * shares[i];
   }
   for (const Corners& corners : mesh.bare) {
-    const Approximate of_triangle = area(corners, exponent);
+    const Approximate of_triangle = area(corners, by_unit);
     all = all + of_triangle;
     uncovered = uncovered + of_triangle;
   }

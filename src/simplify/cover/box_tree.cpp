@@ -2,7 +2,7 @@
 #include "simplify/cover/box_tree.h"
 
 #if defined(__SSE2__)
-#include <emmintrin.h>
+#include <xmmintrin.h>
 #endif
 
 #include <algorithm>
@@ -15,35 +15,34 @@
 namespace meshbound {
 
 BoxTree::Node::Node() {
-  std::fill_n(lo[0], 3 * width, std::numeric_limits<double>::infinity());
-  std::fill_n(hi[0], 3 * width, -std::numeric_limits<double>::infinity());
+  std::fill_n(lo[0], 3 * width, std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(hi[0], 3 * width, std::numeric_limits<float>::quiet_NaN());
 }
 
-void BoxTree::Node::set(std::size_t lane, const Eigen::AlignedBox3d& box) {
+void BoxTree::Node::set(std::size_t lane, const Box& box) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    lo[axis][lane] = box.min()[axis];
-    hi[axis][lane] = box.max()[axis];
+    lo[axis][lane] = box.lo[axis];
+    hi[axis][lane] = box.hi[axis];
   }
 }
 
 /// By hand where processors have SSE2, which all of 64 bits have: compilers compare lane by lane otherwise.
-unsigned BoxTree::Node::meeting(const Eigen::AlignedBox3d& box) const {
+unsigned BoxTree::Node::meeting(const Box& box) const {
   unsigned bits = 0;
 #if defined(__SSE2__)
-  for (std::size_t lane = 0; lane < width; lane += 2) {
-    __m128d meets = _mm_castsi128_pd(_mm_set1_epi32(-1));
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const __m128d below = _mm_cmple_pd(_mm_loadu_pd(&lo[axis][lane]), _mm_set1_pd(box.max()[axis])),
-                    above = _mm_cmpge_pd(_mm_loadu_pd(&hi[axis][lane]), _mm_set1_pd(box.min()[axis]));
-      meets = _mm_and_pd(meets, _mm_and_pd(below, above));
-    }
-    bits |= static_cast<unsigned>(_mm_movemask_pd(meets)) << lane;
+  for (std::size_t lane = 0; lane < width; lane += 4) {
+    const auto meets_on = [&](Eigen::Index axis) {
+      return _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&lo[axis][lane]), _mm_set1_ps(box.hi[axis])),
+                        _mm_cmpge_ps(_mm_loadu_ps(&hi[axis][lane]), _mm_set1_ps(box.lo[axis])));
+    };
+    const __m128 meets = _mm_and_ps(_mm_and_ps(meets_on(0), meets_on(1)), meets_on(2));
+    bits |= static_cast<unsigned>(_mm_movemask_ps(meets)) << lane;
   }
 #else
   for (std::size_t lane = 0; lane < width; ++lane) {
     bool meets = true;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
-      meets = meets && lo[axis][lane] <= box.max()[axis] && hi[axis][lane] >= box.min()[axis];
+      meets = meets && lo[axis][lane] <= box.hi[axis] && hi[axis][lane] >= box.lo[axis];
     bits |= (meets ? 1U : 0U) << lane;
   }
 #endif
@@ -98,7 +97,14 @@ std::vector<std::uint32_t> order_of(const std::vector<Eigen::AlignedBox3d>& boxe
 
 }  // namespace
 
+BoxTree::Box BoxTree::rounded(const Eigen::AlignedBox3d& box) const {
+  return {(box.min() - origin_).cast<float>(), (box.max() - origin_).cast<float>()};
+}
+
 BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_of(boxes, width)) {
+  Eigen::AlignedBox3d all;
+  for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+  if (!all.isEmpty()) origin_ = all.center();
   std::vector<Eigen::AlignedBox3d> below;
   below.reserve(order_.size());
   for (const std::uint32_t index : order_) below.push_back(boxes[index]);
@@ -106,7 +112,8 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_o
     std::vector<Node>& nodes = levels_.emplace_back((below.size() + width - 1) / width);
     std::vector<Eigen::AlignedBox3d> around(nodes.size());
     for (std::size_t i = 0; i < below.size(); ++i) {
-      nodes[i / width].set(i % width, below[i]);
+      if (below[i].isEmpty()) continue;
+      nodes[i / width].set(i % width, rounded(below[i]));
       around[i / width].extend(below[i]);
     }
     below = std::move(around);
@@ -114,11 +121,10 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_o
 }
 
 void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
-  if (!order_.empty()) search(levels_.size() - 1, 0, box, found);
+  if (!order_.empty()) search(levels_.size() - 1, 0, rounded(box), found);
 }
 
-void BoxTree::search(std::size_t level, std::size_t index, const Eigen::AlignedBox3d& box,
-                     std::vector<std::uint32_t>& found) const {
+void BoxTree::search(std::size_t level, std::size_t index, const Box& box, std::vector<std::uint32_t>& found) const {
   for (unsigned lanes = levels_[level][index].meeting(box); lanes != 0; lanes &= lanes - 1) {
     const std::size_t child = width * index + static_cast<std::size_t>(std::countr_zero(lanes));
     if (level > 0)

@@ -6,11 +6,13 @@
 
 namespace meshbound {
 
-/// Finds the boxes that meet a box: a tree of nodes that hold eight boxes each, halved along the longest axis.
-/// Immutable, safe to share.
+/// Finds the boxes that meet a box: a tree of nodes that hold eight boxes each, halved along the longest axis. Boxes
+/// are compared in single precision, relative to the middle of all. Subtraction and rounding keep the order of numbers,
+/// so that none is lost; one that misses the box by less than that rounding may be found as well. Immutable, safe to
+/// share.
 class BoxTree {
  public:
-  /// O(n log n). Coordinates are finite.
+  /// O(n log n). Coordinates are finite; nothing meets an empty box.
   explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
 
   /// Appends the indices of the boxes that meet `box`, in an order that depends on the boxes alone.
@@ -19,18 +21,22 @@ class BoxTree {
  private:
   static constexpr std::size_t width = 8;
 
-  /// Boxes by axis; those of unused lanes meet nothing.
+  struct Box {
+    Eigen::Vector3f lo, hi;
+  };
+  /// Boxes by axis; those of unused lanes are not numbers, which meet nothing.
   struct Node {
     Node();
-    void set(std::size_t lane, const Eigen::AlignedBox3d& box);
+    void set(std::size_t lane, const Box& box);
     /// A bit for each lane whose box meets this one.
-    [[nodiscard]] unsigned meeting(const Eigen::AlignedBox3d& box) const;
-    double lo[3][width], hi[3][width];
+    [[nodiscard]] unsigned meeting(const Box& box) const;
+    float lo[3][width], hi[3][width];
   };
 
-  void search(std::size_t level, std::size_t index, const Eigen::AlignedBox3d& box,
-              std::vector<std::uint32_t>& found) const;
+  [[nodiscard]] Box rounded(const Eigen::AlignedBox3d& box) const;
+  void search(std::size_t level, std::size_t index, const Box& box, std::vector<std::uint32_t>& found) const;
 
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> order_;  ///< indices of the boxes
   /// By level: node i has the boxes 8 i to 8 i + 7 in order, or the boxes around these nodes of the level before.
   std::vector<std::vector<Node>> levels_;
