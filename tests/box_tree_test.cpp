@@ -39,7 +39,7 @@ TEST(BoxTree, FindsTheBoxesThatMeetABox) {
 }
 
 // A box that touches the query in a corner is found wherever both are, however large their coordinates; one that is
-// apart by more than single precision is not.
+// apart by more than single precision is not, even if there is another one far away.
 TEST(BoxTree, LosesNoBoxToRounding) {
   reference::Random random(2);
   for (const double scale : {1e-300, 1.0 / 3, 1e5 / 3, 1e290}) {
@@ -50,14 +50,16 @@ TEST(BoxTree, LosesNoBoxToRounding) {
         const Eigen::Vector3d to = Eigen::Vector3d::Constant(offset);
         boxes.emplace_back(scale * (box.min() + to), scale * (box.max() + to));
       }
+      boxes.emplace_back(Eigen::Vector3d::Constant(1e12 * scale), Eigen::Vector3d::Constant(1e13 * scale));
       const BoxTree tree(boxes);
       for (const Eigen::AlignedBox3d& box : boxes) {
+        const Eigen::AlignedBox3d query(box.max(), 1.1 * box.max());
         std::vector<std::uint32_t> found;
-        tree.find(Eigen::AlignedBox3d(box.max(), 1.1 * box.max()), found);
+        tree.find(query, found);
         std::sort(found.begin(), found.end());
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
           const bool is_found = std::binary_search(found.begin(), found.end(), i);
-          if (boxes[i].intersects(Eigen::AlignedBox3d(box.max(), 1.1 * box.max()))) {
+          if (boxes[i].intersects(query)) {
             EXPECT_TRUE(is_found) << scale << " " << offset;
           } else if (scale > 1e-300 && scale < 1e290) {
             EXPECT_FALSE(is_found) << scale << " " << offset;

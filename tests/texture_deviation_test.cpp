@@ -15,6 +15,7 @@
 #include "meshbound/io.h"
 #include "reference/texture_oracle.h"
 #include "texture/approximate.h"
+#include "texture/surface_area.h"
 
 namespace meshbound {
 namespace texture_deviation_test {
@@ -286,6 +287,15 @@ TEST(TextureDeviation, HoldsForTheSmallestAndLargestCoordinates) {
     const TextureDeviation in_texture = measured(grid(2, far(0)), grid(2, far(0.5)));
     expect_value(in_texture.bounds, 0.5);
     EXPECT_EQ(in_texture.a_to_b.uncovered.upper, 0);
+  }
+}
+
+/// Areas of such triangles overflow or underflow.
+TEST(TextureDeviation, SaysWhatIsUncoveredOfTheSmallestAndLargestTriangles) {
+  for (const double scale : {0x1p-1070, 0x1p-1010, 0x1p-600, 0x1p600, 0x1p1000}) {
+    const TexturedMesh mesh = grid(2, [&](double s, double t) { return Corner{{s * scale, t * scale, 0}, {s, t}}; });
+    const Bounds uncovered = uncovered_share_of(mesh, std::vector<Approximate>(8, {0.5, 0}));
+    expect_value(uncovered, 0.5);
   }
 }
 

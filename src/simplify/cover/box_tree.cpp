@@ -102,9 +102,9 @@ BoxTree::Box BoxTree::rounded(const Eigen::AlignedBox3d& box) const {
 }
 
 BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_of(boxes, width)) {
-  Eigen::AlignedBox3d all;
-  for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
-  if (!all.isEmpty()) origin_ = all.center();
+  if (order_.empty()) return;
+  const Eigen::Vector3d middle = boxes[order_[order_.size() / 2]].center();
+  if (middle.allFinite()) origin_ = middle;
   std::vector<Eigen::AlignedBox3d> below;
   below.reserve(order_.size());
   for (const std::uint32_t index : order_) below.push_back(boxes[index]);

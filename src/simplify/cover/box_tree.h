@@ -7,9 +7,9 @@
 namespace meshbound {
 
 /// Finds the boxes that meet a box: a tree of nodes that hold eight boxes each, halved along the longest axis. Boxes
-/// are compared in single precision, relative to the middle of all. Subtraction and rounding keep the order of numbers,
-/// so that none is lost; one that misses the box by less than that rounding may be found as well. Immutable, safe to
-/// share.
+/// are compared in single precision, relative to one in the middle of their order, so that a few far away do not make
+/// this coarse. Subtraction and rounding keep the order of numbers: none is lost, and one that misses the box by less
+/// than that rounding may be found as well. Immutable, safe to share.
 class BoxTree {
  public:
   /// O(n log n). Coordinates are finite; nothing meets an empty box.
