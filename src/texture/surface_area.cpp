@@ -12,8 +12,8 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// The exponent of the largest coordinate, so that areas neither overflow nor underflow in units of its power of two; no
-/// further from 0 than that this power and its reciprocal are normal numbers.
+/// The exponent of the largest coordinate, so that areas neither overflow nor underflow in units of its power of two;
+/// no further from 0 than that this power and its reciprocal are normal numbers.
 int exponent_of(const TexturedMesh& mesh) {
   double largest = 0;
   const auto look_at = [&](const Corners& corners) {
