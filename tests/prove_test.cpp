@@ -12,6 +12,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
+#include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "reference/small_meshes.h"
 #include "simplify/change_prover.h"
@@ -246,6 +247,51 @@ TEST(ChangeProver, ProvesACollapseBelowAnOriginalThatReachesFarBeyond) {
     ++made;
   }
   EXPECT_GT(made, 20);
+}
+
+/// Makes so many collapses that each change this face. Returns how many were made.
+std::size_t collapse_around(DecimationState& state, std::uint32_t face, std::size_t most) {
+  Split split = whole(state);
+  Region& region = split.regions.front();
+  Proposer proposer(state);
+  proposer.enter(split, region);
+  std::size_t made = 0;
+  for (Corner c = 0; c < 3 * state.mesh.face_count() && made < most; ++c) {
+    const Corner twin = state.mesh.is_removed(c / 3) ? no_index : state.mesh.twin(c);
+    if (twin == no_index || c / 3 == face || twin / 3 == face) continue;
+    const std::optional<Vec3> point = proposer.placement(c, 1, std::nullopt);
+    const auto& moved = proposer.star().moved;
+    if (!point || std::none_of(moved.begin(), moved.end(), [&](Corner m) { return m / 3 == face; })) continue;
+    proposer.collapse(region, *point);
+    proposer.make_final(region);
+    ++made;
+  }
+  merge(state, std::move(split));
+  return made;
+}
+
+TEST(Repair, UndoesAsManyOfTheLastChangesOfAFaceAsItIsAskedTo) {
+  constexpr std::uint32_t face = 100;
+  for (const std::size_t depth : {1, 2, 4, 100}) {
+    SCOPED_TRACE(depth);
+    Approximation it(reference::unit_square(8), reference::unit_square(8), 0.1);
+    std::fill(it.state.stamp.begin(), it.state.stamp.end(), 0);
+    const std::size_t faces = it.state.faces;
+    ASSERT_EQ(collapse_around(it.state, face, 5), 5U);
+    ASSERT_EQ(it.state.faces, faces - 10);
+    const std::size_t undone = std::min<std::size_t>(depth, 5);
+    EXPECT_EQ(repair(it.state, {{}, {face}}, depth).changes, undone);
+    EXPECT_EQ(it.state.faces, faces - 2 * (5 - undone));
+  }
+}
+
+TEST(RepairDepth, GrowsWhereFewFailuresComeOneAfterTheOther) {
+  const Unproven few{{}, {1, 2}}, many{numbers_below(10), numbers_below(10)};
+  RepairDepth depth;
+  for (int repair = 0; repair < 5; ++repair) EXPECT_EQ(depth.of(many), 1U);
+  for (const std::size_t expected : {1, 1, 2, 2, 4, 4, 8}) EXPECT_EQ(depth.of(few), expected);
+  EXPECT_EQ(depth.of(many), 8U);
+  for (int repair = 0; repair < 200; ++repair) EXPECT_GE(depth.of(few), 8U);
 }
 
 /// A sheet of 50 faces whose vertices lie up to 0.65 tolerances above and below a triangle that is 40 tolerances long.

@@ -7,8 +7,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <random>
 
+#include "datasets/analytic_meshes.h"
 #include "json_claims.h"
+#include "meshbound/io.h"
 #include "run_tool.h"
 
 namespace meshbound {
@@ -56,6 +59,8 @@ class TextureTool : public testing::Test {
   std::string even_ = folder_ / "even.obj", raised_ = folder_ / "raised.obj", warped_ = folder_ / "warped.obj";
   std::string out_ = folder_ / "out.obj";
 };
+
+class SlowTextureTool : public TextureTool {};
 
 TEST_F(TextureTool, TellsHowFarTheTextureMoves) {
   const ToolRun result = measure({even_, raised_, "--texture", "--texture-size", "8", "--json", "-"});
@@ -218,6 +223,37 @@ TEST_F(TextureTool, KeepsFacesFromTurning) {
   EXPECT_EQ(document["normals"]["tolerance"], 20);
   EXPECT_GT(faces(document), faces(without));
   EXPECT_LE(faces(document), 2 * n);  // two for each slope
+}
+
+/// Sixty ellipsoids that cross each other.
+TriangleMesh crossing_ellipsoids() {
+  std::mt19937 random(1);
+  const auto between = [&](double lo, double hi) { return lo + (hi - lo) * static_cast<double>(random()) / 0x1p32; };
+  TriangleMesh all;
+  for (int k = 0; k < 60; ++k) {
+    const TriangleMesh sphere = datasets::icosphere(1, 3);
+    const Eigen::Vector3d centre(between(0, 1), between(0, 1), between(0, 1)),
+        radii(between(0.1, 0.2), between(0.1, 0.2), between(0.1, 0.2));
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    for (const Eigen::Vector3d& p : sphere.vertices) all.vertices.emplace_back(centre + radii.cwiseProduct(p));
+    for (const Triangle& t : sphere.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return all;
+}
+
+/// Where sheets cross, what is taken back on one of them may stand for the other: in 20 rounds and more.
+TEST_F(SlowTextureTool, KeepsNormalsWhereManySheetsCross) {
+  const std::string crossing = folder_ / "crossing.ply";
+  const TriangleMesh mesh = crossing_ellipsoids();
+  write_mesh(crossing, mesh);
+  for (const std::string tolerance : {"1%", "2%"}) {
+    const ToolRun run =
+        simplify({crossing, folder_ / "out.ply", "--tolerance", tolerance, "--normal-tolerance", "45", "--json", "-"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const json document = checked_document(run.out);
+    EXPECT_LE(document["normals"]["max_degrees"].get<double>(), 45);
+    EXPECT_LT(document["simplified"]["faces"].get<std::size_t>(), mesh.triangles.size() / 5);
+  }
 }
 
 }  // namespace texture_tool_test

@@ -67,9 +67,9 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
   return level;
 }
 
-bool LevelRun::take_back(std::span<const Refuted> refuted, const TakeBack& how) {
+bool LevelRun::take_back(std::span<const Refuted> refuted) {
   const Clock::time_point start = Clock::now();
-  const bool is_changed = decimation_ && decimation_->take_back(refuted, how);
+  const bool is_changed = decimation_ && decimation_->take_back(refuted);
   simplify_seconds_ += seconds_since(start);
   return is_changed;
 }

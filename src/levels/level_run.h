@@ -22,7 +22,7 @@ class LevelRun {
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
   /// Undoes what has led to refuted triangles of the last level, as `Decimation::take_back`; `next` then makes a level
   /// for the tolerance of the call before once more.
-  [[nodiscard]] bool take_back(std::span<const Refuted> refuted, const TakeBack& how);
+  [[nodiscard]] bool take_back(std::span<const Refuted> refuted);
   /// Edges of the original that are feature lines.
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }
   /// Fills everything in the result but its levels and the times of measurements.

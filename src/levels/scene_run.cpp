@@ -239,9 +239,8 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
 }
 
 /// A group is told which of its triangles are refuted by their numbers in one copy.
-bool SceneRun::take_back(std::span<const Refuted> refuted, const TakeBack& how) {
-  if (groups_.size() == 1 && groups_.front().group.triangles.empty())
-    return groups_.front().run->take_back(refuted, how);
+bool SceneRun::take_back(std::span<const Refuted> refuted) {
+  if (groups_.size() == 1 && groups_.front().group.triangles.empty()) return groups_.front().run->take_back(refuted);
   std::vector<std::pair<Group*, std::uint32_t>> of_level, of_original(original_.triangles.size());
   for (Group& group : groups_) {
     const std::size_t copies = std::max<std::size_t>(group.group.copies.size(), 1);
@@ -262,7 +261,7 @@ bool SceneRun::take_back(std::span<const Refuted> refuted, const TakeBack& how) 
   bool is_changed = false;
   for (const auto& item : by_group) {
     Group& group = *item.first;
-    timed(group, [&] { is_changed = group.run->take_back(item.second, how) || is_changed; });
+    timed(group, [&] { is_changed = group.run->take_back(item.second) || is_changed; });
   }
   return is_changed;
 }

@@ -58,6 +58,22 @@ StopToken later(const StopToken& stop) {
   return stop.until(stop.deadline, proof_share_of_time * stop.seconds_left());
 }
 
+/// Proves what is open, and undoes by `undo` what fails until the rest holds. Returns how many changes were undone.
+/// Throws `Stopped` where `stop` asks for it.
+std::size_t prove_or_undo(DecimationState& state, Proof& proof,
+                          Repair (*undo)(DecimationState&, const Unproven&, std::size_t),
+                          const std::function<StopToken()>& stop) {
+  std::size_t undone = 0;
+  RepairDepth depth;
+  for (proof.run(stop()); !proof.unproven().empty(); proof.run(stop())) {
+    const Repair repaired = undo(state, proof.unproven(), depth.of(proof.unproven()));
+    undone += repaired.changes;
+    proof.reopen(repaired.faces);
+  }
+  proof.commit();
+  return undone;
+}
+
 /// One run of `decimate`.
 class Run {
  public:
@@ -190,25 +206,18 @@ StopToken Run::stop_of_proof() const {
 /// undone. Returns how many were undone.
 std::size_t Run::prove_and_repair() {
   if (state_.logs.empty()) return 0;
-  std::size_t left = proposed();
-  std::size_t taken_back = 0;
+  const std::size_t changes = proposed();
+  std::size_t taken_back = changes;
   const std::size_t faces = state_.faces;
   Proof proof(state_, threads_.workers);
   try {
-    for (proof.run(stop_of_proof()); !proof.unproven().empty(); proof.run(stop_of_proof())) {
-      const Repair repaired = repair(state_, proof.unproven());
-      taken_back += repaired.changes;
-      left -= repaired.changes;
-      proof.reopen(repaired.faces);
-    }
-    proof.commit();
+    taken_back = prove_or_undo(state_, proof, repair, [this] { return stop_of_proof(); });
   } catch (const Stopped&) {
     undo_all(state_);
     note_stop();
-    taken_back += std::exchange(left, 0);
   }
   threads_.together.taken_back += taken_back;
-  threads_.together.proven_together += left;
+  threads_.together.proven_together += changes - taken_back;
   threads_.together.originals_tested += proof.originals_tested;
   threads_.together.faces_tested += proof.faces_tested;
   if (ended_by_ == EndedBy::Target && state_.faces > goal_.target_faces && state_.faces > faces)
@@ -228,10 +237,10 @@ std::size_t Run::undo_strays() {
   std::size_t undone = 0;
   std::vector<std::uint32_t> changed = numbers_below(state_.stamp.size());
   try {
-    for (;;) {
+    for (RepairDepth depth;;) {
       const Unproven strays{{}, stray_faces(state_, changed, threads_, goal_.stop)};
       if (strays.empty()) break;
-      Repair repaired = repair(state_, strays);
+      Repair repaired = repair(state_, strays, depth.of(strays));
       undone += repaired.changes;
       changed = std::move(repaired.faces);
     }
@@ -365,18 +374,12 @@ EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationT
   return Run(state, goal, threads)();
 }
 
-bool take_back(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how,
-               DecimationThreads& threads) {
+bool take_back(DecimationState& state, std::span<const Refuted> refuted, DecimationThreads& threads) {
   std::fill(state.refused_at.begin(), state.refused_at.end(),
             state.clock + 1);  // only what this changes is tried again
-  std::size_t restored = undo_refuted(state, refuted, how).changes;
+  std::size_t restored = undo_refuted(state, refuted).changes;
   Proof proof(state, threads.workers);
-  for (proof.run({}); !proof.unproven().empty(); proof.run({})) {
-    const Repair repaired = repair_proven(state, proof.unproven());
-    restored += repaired.changes;
-    proof.reopen(repaired.faces);
-  }
-  proof.commit();
+  restored += prove_or_undo(state, proof, repair_proven, [] { return StopToken(); });
   state.reset_quadrics();  // those of vertices that came back are unknown
   threads.together.restored += restored;
   return restored > 0;

@@ -30,7 +30,6 @@ struct DecimationGoal {
 
 /// Undoes what has led to what is refuted by a measurement of the mesh, and proves the state again. False if there is
 /// nothing to undo. `DecimationState::proven_changes` must be set.
-[[nodiscard]] bool take_back(DecimationState& state, std::span<const Refuted> refuted, const TakeBack& how,
-                             DecimationThreads& threads);
+[[nodiscard]] bool take_back(DecimationState& state, std::span<const Refuted> refuted, DecimationThreads& threads);
 
 }  // namespace meshbound

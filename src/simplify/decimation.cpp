@@ -227,7 +227,7 @@ std::vector<std::uint8_t> Decimation::locked() const {
   return locked;
 }
 
-bool Decimation::take_back(std::span<const Refuted> refuted, const TakeBack& how) {
+bool Decimation::take_back(std::span<const Refuted> refuted) {
   const std::vector<std::uint32_t> faces = faces_in_order();
   const std::vector<std::uint32_t> index = index_of_caller_triangle();
   std::vector<Refuted> here;
@@ -235,7 +235,7 @@ bool Decimation::take_back(std::span<const Refuted> refuted, const TakeBack& how
     const bool has_face = face < faces.size();  // those after them are triangles of the original
     here.push_back({original == no_index ? no_index : index[original], has_face ? faces[face] : no_index});
   }
-  return meshbound::take_back(*state_, here, how, *threads_);
+  return meshbound::take_back(*state_, here, *threads_);
 }
 
 void Decimation::lock_features(std::vector<std::uint8_t>& locked) const {

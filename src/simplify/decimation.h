@@ -31,7 +31,7 @@ class Decimation {
   /// Undoes what has led to triangles that a measurement of `current_mesh` refutes, for good. The numbers are those of
   /// the original and of `current_mesh`. False if there is nothing to undo. Needs texture coordinates or a tolerance
   /// for normals in the options.
-  [[nodiscard]] bool take_back(std::span<const Refuted> refuted, const TakeBack& how);
+  [[nodiscard]] bool take_back(std::span<const Refuted> refuted);
 
   /// The current mesh in model coordinates, with its sources. Vertices and triangles are in the order of the original.
   void current_mesh(SimplifiedLevel& into) const;

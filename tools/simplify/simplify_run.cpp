@@ -36,11 +36,6 @@
 namespace meshbound::tools {
 namespace {
 
-/// Rounds in which changes are undone for texture and normals; each goes back four times as far as the one before.
-/// Where sheets cross each other some face may turn too much in many rounds (c3d_ogre at 2% and 45 degrees: in 14), so
-/// in the last ones what comes back stays as it is.
-constexpr std::size_t max_rounds = 20, first_round_to_stay = 16;
-
 /// What of a level, or of the original, has moved too far in the texture or turned too much.
 std::vector<Refuted> refuted_by(const GatedOutput& output) {
   std::vector<Refuted> refuted;
@@ -71,8 +66,8 @@ class Run : DecimationRun {
   void choose_appearance();
   void set_requirements(GatedOutput& output) const;
   [[nodiscard]] bool looks_wrong(GatedOutput& output);
-  [[nodiscard]] bool takes_back(const GatedOutput& output, std::size_t round);
-  [[nodiscard]] bool tightens_appearance(std::size_t output, std::size_t round);
+  [[nodiscard]] bool takes_back(const GatedOutput& output);
+  [[nodiscard]] bool tightens_appearance(std::size_t output);
   [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
   void guard_texture(SimplifyOptions& simplify) const;
   void certify(std::size_t output, ProgressBar& bar);
@@ -241,12 +236,12 @@ void Run::make_levels() {
   verdict_ = Verdict::Within;
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
     set_requirements(outputs_[i]);
-    for (std::size_t round = 0;; ++round) {
+    for (;;) {
       if (i < tolerances_.size()) make_level(i);  // OUT may repeat the last level
       end_if_interrupted();
-      if (looks_wrong(outputs_[i]) && takes_back(outputs_[i], round)) continue;
+      if (looks_wrong(outputs_[i]) && takes_back(outputs_[i])) continue;
       certify(i, bar);
-      if (!tightens_appearance(i, round)) break;
+      if (!tightens_appearance(i)) break;
     }
     if (i > 0 && outputs_[i].summary().faces > outputs_[i - 1].summary().faces) take_finer(i);
   }
@@ -340,24 +335,23 @@ void Run::certify(std::size_t index, ProgressBar& bar) {
         save_reproducer(options_, output, {tolerances_, tolerance, target_ratio_}).string());
 }
 
-/// Undoes what has led to a texture that has moved too far or to faces that have turned too much: more in each round.
-/// False if nothing was undone, or not in time.
-bool Run::takes_back(const GatedOutput& output, std::size_t round) {
+/// Undoes what has led to a texture that has moved too far or to faces that have turned too much. False if nothing was
+/// undone, or not in time.
+bool Run::takes_back(const GatedOutput& output) {
   end_if_interrupted();
-  if (is_out_of_time() || round >= max_rounds) return false;
+  if (is_out_of_time()) return false;
   watch_.lap();
-  const bool is_changed = scene_->take_back(
-      refuted_by(output), {.depth = std::size_t{4} << (2 * round), .stays_as_it_is = round >= first_round_to_stay});
+  const bool is_changed = scene_->take_back(refuted_by(output));
   report_.seconds.simplify += watch_.lap();
   return is_changed;
 }
 
 /// Takes back what moves the texture too far or turns faces too much as the file reads. A result that does not get
 /// within these tolerances in this way is replaced by the original.
-bool Run::tightens_appearance(std::size_t index, std::size_t round) {
+bool Run::tightens_appearance(std::size_t index) {
   GatedOutput& output = outputs_[index];
   if (output.verdict() != Verdict::Within || output.keeps_appearance()) return false;
-  if (takes_back(output, round)) return true;
+  if (takes_back(output)) return true;
   const bool has_smaller = index > 0 && outputs_[index - 1].keeps_appearance();
   decided_by_[index] =
       fall_back(output, has_smaller ? &outputs_[index - 1] : nullptr, measurement(tolerance_of(index)));
