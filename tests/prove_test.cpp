@@ -12,7 +12,6 @@
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
-#include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "reference/small_meshes.h"
 #include "simplify/change_prover.h"
@@ -56,6 +55,12 @@ struct Approximation {
   Approximation(const Approximation&) = delete;
   Approximation& operator=(const Approximation&) = delete;
 
+  /// Leaves only the originals to be proven.
+  void take_faces_as_near() {
+    std::fill(state.stamp.begin(), state.stamp.end(), 0);
+    state.cover = CoverAssignment(state.triangles.size());
+  }
+
   TriangleMesh soup;
   std::vector<Vec3> vertices;
   Bvh tree;
@@ -68,7 +73,13 @@ Unproven prove(const TriangleMesh& original, const TriangleMesh& mesh, double to
   ProofWorkers workers(it.state, threads);
   Proof proof(it.state, workers);
   proof.run({});
-  return proof.unproven();
+  Unproven unproven = proof.unproven();
+  if (unproven.faces.empty()) return unproven;
+  it.take_faces_as_near();
+  Proof of_originals(it.state, workers);
+  of_originals.run({});
+  unproven.originals = of_originals.unproven().originals;
+  return unproven;
 }
 
 struct Pair {
@@ -130,6 +141,25 @@ TEST(Proof, NamesAnOriginalTriangleWithNothingNear) {
   const Unproven unproven = prove(original, with_hole, 0.01);
   EXPECT_EQ(unproven.originals, std::vector<std::uint32_t>{50});
   EXPECT_EQ(unproven.faces, std::vector<std::uint32_t>());
+}
+
+TEST(Proof, AsksForOriginalsOnceNoFaceIsTooFar) {
+  TriangleMesh moved = datasets::icosphere(1, 3);
+  moved.vertices[50] *= 1.05;
+  Approximation it(datasets::icosphere(1, 4), moved, 0.02);
+  ProofWorkers workers(it.state, 1);
+  Proof proof(it.state, workers);
+  proof.run({});
+  EXPECT_FALSE(proof.unproven().faces.empty());
+  EXPECT_EQ(proof.originals_tested, 0U);
+  EXPECT_EQ(proof.faces_tested, moved.triangles.size());
+  const std::vector<std::uint32_t> faces = proof.unproven().faces;
+  it.state.mesh.move(50, (1 / 1.05) * it.state.mesh.position(50));
+  proof.reopen(faces);
+  proof.run({});
+  EXPECT_TRUE(proof.unproven().empty());
+  EXPECT_EQ(proof.originals_tested, it.state.triangles.size());
+  EXPECT_EQ(proof.faces_tested, moved.triangles.size() + faces.size());
 }
 
 /// Such coordinates would have larger rounding errors than the proof allows for.
@@ -216,6 +246,7 @@ TEST(ProofWorkers, ForgetFacesThatHaveMoved) {
   move_by(-0.05);
   EXPECT_TRUE(workers.cover_anywhere(originals, boxes, covers));
   move_by(0.05);
+  it.take_faces_as_near();
   Proof far(it.state, workers);
   far.run({});
   EXPECT_EQ(far.unproven().originals, originals);
@@ -247,51 +278,6 @@ TEST(ChangeProver, ProvesACollapseBelowAnOriginalThatReachesFarBeyond) {
     ++made;
   }
   EXPECT_GT(made, 20);
-}
-
-/// Makes so many collapses that each change this face. Returns how many were made.
-std::size_t collapse_around(DecimationState& state, std::uint32_t face, std::size_t most) {
-  Split split = whole(state);
-  Region& region = split.regions.front();
-  Proposer proposer(state);
-  proposer.enter(split, region);
-  std::size_t made = 0;
-  for (Corner c = 0; c < 3 * state.mesh.face_count() && made < most; ++c) {
-    const Corner twin = state.mesh.is_removed(c / 3) ? no_index : state.mesh.twin(c);
-    if (twin == no_index || c / 3 == face || twin / 3 == face) continue;
-    const std::optional<Vec3> point = proposer.placement(c, 1, std::nullopt);
-    const auto& moved = proposer.star().moved;
-    if (!point || std::none_of(moved.begin(), moved.end(), [&](Corner m) { return m / 3 == face; })) continue;
-    proposer.collapse(region, *point);
-    proposer.make_final(region);
-    ++made;
-  }
-  merge(state, std::move(split));
-  return made;
-}
-
-TEST(Repair, UndoesAsManyOfTheLastChangesOfAFaceAsItIsAskedTo) {
-  constexpr std::uint32_t face = 100;
-  for (const std::size_t depth : {1, 2, 4, 100}) {
-    SCOPED_TRACE(depth);
-    Approximation it(reference::unit_square(8), reference::unit_square(8), 0.1);
-    std::fill(it.state.stamp.begin(), it.state.stamp.end(), 0);
-    const std::size_t faces = it.state.faces;
-    ASSERT_EQ(collapse_around(it.state, face, 5), 5U);
-    ASSERT_EQ(it.state.faces, faces - 10);
-    const std::size_t undone = std::min<std::size_t>(depth, 5);
-    EXPECT_EQ(repair(it.state, {{}, {face}}, depth).changes, undone);
-    EXPECT_EQ(it.state.faces, faces - 2 * (5 - undone));
-  }
-}
-
-TEST(RepairDepth, GrowsWhereFewFailuresComeOneAfterTheOther) {
-  const Unproven few{{}, {1, 2}}, many{numbers_below(10), numbers_below(10)};
-  RepairDepth depth;
-  for (int repair = 0; repair < 5; ++repair) EXPECT_EQ(depth.of(many), 1U);
-  for (const std::size_t expected : {1, 1, 2, 2, 4, 4, 8}) EXPECT_EQ(depth.of(few), expected);
-  EXPECT_EQ(depth.of(many), 8U);
-  for (int repair = 0; repair < 200; ++repair) EXPECT_GE(depth.of(few), 8U);
 }
 
 /// A sheet of 50 faces whose vertices lie up to 0.65 tolerances above and below a triangle that is 40 tolerances long.

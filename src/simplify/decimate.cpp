@@ -60,13 +60,11 @@ StopToken later(const StopToken& stop) {
 
 /// Proves what is open, and undoes by `undo` what fails until the rest holds. Returns how many changes were undone.
 /// Throws `Stopped` where `stop` asks for it.
-std::size_t prove_or_undo(DecimationState& state, Proof& proof,
-                          Repair (*undo)(DecimationState&, const Unproven&, std::size_t),
+std::size_t prove_or_undo(DecimationState& state, Proof& proof, Repair (*undo)(DecimationState&, const Unproven&),
                           const std::function<StopToken()>& stop) {
   std::size_t undone = 0;
-  RepairDepth depth;
   for (proof.run(stop()); !proof.unproven().empty(); proof.run(stop())) {
-    const Repair repaired = undo(state, proof.unproven(), depth.of(proof.unproven()));
+    const Repair repaired = undo(state, proof.unproven());
     undone += repaired.changes;
     proof.reopen(repaired.faces);
   }
@@ -237,10 +235,10 @@ std::size_t Run::undo_strays() {
   std::size_t undone = 0;
   std::vector<std::uint32_t> changed = numbers_below(state_.stamp.size());
   try {
-    for (RepairDepth depth;;) {
+    for (;;) {
       const Unproven strays{{}, stray_faces(state_, changed, threads_, goal_.stop)};
       if (strays.empty()) break;
-      Repair repaired = repair(state_, strays, depth.of(strays));
+      Repair repaired = repair(state_, strays);
       undone += repaired.changes;
       changed = std::move(repaired.faces);
     }

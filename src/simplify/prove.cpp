@@ -35,34 +35,48 @@ bool Proof::is_stale(std::uint32_t original) const {
 }
 
 void Proof::run(const StopToken& stop) {
-  FirstError error;
-  const auto threads = static_cast<int>(workers_.count());
-  const std::size_t count = open_originals_.size() + open_faces_.size();
-  std::vector<std::uint8_t> is_near(open_faces_.size(), 0);
   for (std::size_t k = 0; k < workers_.count(); ++k) workers_.of_thread(k).forget_faces();
-#pragma omp parallel for schedule(dynamic, items_of_run) num_threads(threads)
+  unproven_ = {{}, find_far_faces(stop)};
+  if (!unproven_.faces.empty()) return;
+  cover(stop);
+  cover_anywhere();
+  for (const std::uint32_t at : open_originals_)
+    if (drafts_[at].empty()) unproven_.originals.push_back(originals_[at]);
+}
+
+/// Calls work(worker, i) for each i below `count`, on all threads; `at_once` of them are one task.
+void Proof::for_each(std::size_t count, std::size_t at_once, const StopToken& stop, const Work& work) {
+  FirstError error;
+#pragma omp parallel for schedule(dynamic, at_once) num_threads(static_cast <int>(workers_.count()))
   for (std::size_t i = 0; i < count; ++i) {
     error.guard([&] {
       if (i % items_of_run == 0) stop.check();
-      ProofWorkers::Worker& worker = workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num()));
-      if (i < open_originals_.size()) {
-        const std::uint32_t at = open_originals_[i];
-        drafts_[at].assign(worker.cover(originals_[at]));
-      } else {
-        const std::uint32_t face = open_faces_[i - open_originals_.size()];
-        is_near[i - open_originals_.size()] = worker.is_near(face, state_.nearest[face]);
-      }
+      work(workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num())), i);
     });
   }
   error.rethrow();
-  cover_anywhere();
-  originals_tested += open_originals_.size();
+}
+
+/// Those of the open faces that are too far from the original.
+std::vector<std::uint32_t> Proof::find_far_faces(const StopToken& stop) {
+  std::vector<std::uint8_t> is_near(open_faces_.size(), 0);
+  for_each(open_faces_.size(), items_of_run, stop, [&](ProofWorkers::Worker& worker, std::size_t i) {
+    is_near[i] = worker.is_near(open_faces_[i], state_.nearest[open_faces_[i]]);
+  });
   faces_tested += open_faces_.size();
-  unproven_ = {};
-  for (const std::uint32_t at : open_originals_)
-    if (drafts_[at].empty()) unproven_.originals.push_back(originals_[at]);
+  std::vector<std::uint32_t> far;
   for (std::size_t i = 0; i < open_faces_.size(); ++i)
-    if (is_near[i] == 0) unproven_.faces.push_back(open_faces_[i]);
+    if (is_near[i] == 0) far.push_back(open_faces_[i]);
+  return far;
+}
+
+/// Covers the open originals by the faces that samples lead to.
+void Proof::cover(const StopToken& stop) {
+  for_each(open_originals_.size(), items_of_run, stop, [&](ProofWorkers::Worker& worker, std::size_t i) {
+    const std::uint32_t at = open_originals_[i];
+    drafts_[at].assign(worker.cover(originals_[at]));
+  });
+  originals_tested += open_originals_.size();
 }
 
 /// Covers the originals that samples have not led to a cover.
@@ -72,15 +86,9 @@ void Proof::cover_anywhere() {
     if (drafts_[at].empty()) lost.push_back(at);
   if (lost.empty()) return;
   const FaceBoxes boxes(state_.mesh);
-  FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(workers_.count()))
-  for (std::size_t i = 0; i < lost.size(); ++i) {
-    error.guard([&] {
-      ProofWorkers::Worker& worker = workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num()));
-      drafts_[lost[i]].assign(worker.cover_anywhere(originals_[lost[i]], boxes));
-    });
-  }
-  error.rethrow();
+  for_each(lost.size(), 1, {}, [&](ProofWorkers::Worker& worker, std::size_t i) {
+    drafts_[lost[i]].assign(worker.cover_anywhere(originals_[lost[i]], boxes));
+  });
 }
 
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {

@@ -3,6 +3,7 @@
 /// since the last one.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,8 @@ class Proof {
  public:
   Proof(DecimationState& state, ProofWorkers& workers);
 
-  /// Proves what is still open. Throws `Stopped` where `stop` asks for it; the state is then as it was.
+  /// Proves what is still open: faces first, and originals once no face is too far. Throws `Stopped` where `stop` asks
+  /// for it; the state is then as it was.
   void run(const StopToken& stop);
   /// What does not hold; empty if all is proven.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
@@ -41,6 +43,10 @@ class Proof {
   std::uint64_t originals_tested = 0, faces_tested = 0;
 
  private:
+  using Work = std::function<void(ProofWorkers::Worker& worker, std::size_t i)>;
+  void for_each(std::size_t count, std::size_t at_once, const StopToken& stop, const Work& work);
+  [[nodiscard]] std::vector<std::uint32_t> find_far_faces(const StopToken& stop);
+  void cover(const StopToken& stop);
   void cover_anywhere();
   [[nodiscard]] bool is_stale(std::uint32_t original) const;
 

@@ -18,11 +18,6 @@ namespace {
 /// Samples may reach this share of what they could before where a proof has failed.
 constexpr float smaller_share = 0.85F;
 
-/// Where more has failed the changes at fault are many, and some of each are enough: if all of them were undone, runs
-/// whose samples are far off would leave more faces.
-constexpr std::size_t few_failures = 16;
-constexpr int repairs_to_double = 2;
-
 /// The mesh and what belongs to its vertices, but for samples and stamps. Returns how many faces came back.
 std::size_t take_back(DecimationState& s, const Edit& edit) {
   std::size_t faces = 0;
@@ -55,24 +50,20 @@ void restore_coordinates(DecimationState& s, const EditLog& log, std::size_t fir
 /// Undoes changes, the last one first, together with everything built on them.
 class Undoing {
  public:
-  /// Unproven changes. Blame falls on so many changes of a face.
-  explicit Undoing(DecimationState& state, std::size_t depth = 1) : Undoing(state, state.stamp, state.logs, depth) {}
+  /// Unproven changes.
+  explicit Undoing(DecimationState& state) : Undoing(state, state.stamp, state.logs) {}
   /// `last` has the number of the last change of each face, 0 for none, `logs` the changes.
-  Undoing(DecimationState& state, std::vector<std::uint32_t>& last, std::vector<EditLog>& logs, std::size_t depth)
-      : state_(state), last_(last), logs_(logs), depth_(depth) {}
+  Undoing(DecimationState& state, std::vector<std::uint32_t>& last, std::vector<EditLog>& logs)
+      : state_(state), last_(last), logs_(logs) {}
 
-  /// Marks the last changes of a face to be undone, and to be tried again with a smaller share of the tolerance. False
-  /// if there are none.
+  /// Marks the last change of a face to be undone, and to be tried again with a smaller share of the tolerance. False
+  /// if there is none.
   bool blame(std::uint32_t face) {
-    std::uint32_t number = last_[face];
-    for (std::size_t k = 0; k < depth_ && number != 0; ++k) {
-      wanted_.push(number);
-      at_fault_.push_back(number);
-      const auto stamps = stamps_of(number);
-      number =
-          std::find_if(stamps.begin(), stamps.end(), [&](const auto& stamp) { return stamp.face == face; })->before;
-    }
-    return last_[face] != 0;
+    const std::uint32_t number = last_[face];
+    if (number == 0) return false;
+    wanted_.push(number);
+    at_fault_.push_back(number);
+    return true;
   }
   /// Those of the changes that were marked by `blame`.
   [[nodiscard]] std::vector<Corner> blamed_edges() const {
@@ -177,7 +168,6 @@ class Undoing {
   DecimationState& state_;
   std::vector<std::uint32_t>& last_;
   std::vector<EditLog>& logs_;
-  std::size_t depth_;
   std::priority_queue<std::uint32_t> wanted_;
   std::size_t undone_ = 0;
   std::vector<std::uint32_t> at_fault_, changed_, samples_, faces_;
@@ -223,13 +213,6 @@ class NearestFaces {
 };
 
 }  // namespace
-
-std::size_t RepairDepth::of(const Unproven& unproven) {
-  constexpr int largest = 30;  // a run makes fewer changes than this power of two
-  const std::size_t depth = std::size_t{1} << std::min(with_few_failures_ / repairs_to_double, largest);
-  if (unproven.originals.size() + unproven.faces.size() <= few_failures) ++with_few_failures_;
-  return depth;
-}
 
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
                std::span<const std::uint32_t> faces) {
@@ -300,15 +283,15 @@ Repair undo_proven(DecimationState& state, Undoing& undoing) {
 
 }  // namespace
 
-Repair repair(DecimationState& state, const Unproven& unproven, std::size_t depth) {
-  Undoing undoing(state, depth);
+Repair repair(DecimationState& state, const Unproven& unproven) {
+  Undoing undoing(state);
   (void)blame(undoing, state, unproven);
   return undo_blamed(state, undoing);
 }
 
-Repair repair_proven(DecimationState& state, const Unproven& unproven, std::size_t depth) {
+Repair repair_proven(DecimationState& state, const Unproven& unproven) {
   ProvenChanges& changes = *state.proven_changes;
-  Undoing undoing(state, changes.last, changes.logs, depth);
+  Undoing undoing(state, changes.last, changes.logs);
   if (!blame(undoing, state, unproven))
     for (std::uint32_t f = 0; f < changes.last.size(); ++f) undoing.want(changes.last[f]);
   return undo_proven(state, undoing);
@@ -316,7 +299,7 @@ Repair repair_proven(DecimationState& state, const Unproven& unproven, std::size
 
 Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted) {
   ProvenChanges& changes = *state.proven_changes;
-  Undoing undoing(state, changes.last, changes.logs, 1);
+  Undoing undoing(state, changes.last, changes.logs);
   NearestFaces nearest(state);
   for (const auto& [original, face] : refuted) {
     if (original != no_index && blame_around(undoing, nearest, state, original)) continue;

@@ -9,31 +9,19 @@
 namespace meshbound {
 
 /// Undoes the changes that caused what could not be proven, and those made on top of them. From then on, samples around
-/// may reach a smaller share of the tolerance. `depth`: so many of the last changes of each face at fault are undone.
+/// may reach a smaller share of the tolerance.
 struct Repair {
   std::vector<std::uint32_t> faces;  ///< changed by undoing, ascending
   std::size_t changes = 0;           ///< changes undone
 };
-[[nodiscard]] Repair repair(DecimationState& state, const Unproven& unproven, std::size_t depth);
+[[nodiscard]] Repair repair(DecimationState& state, const Unproven& unproven);
 /// As `repair`, but undoes proven changes: `DecimationState::proven_changes` must be set, and nothing else be unproven.
 /// The faces that this changes are unproven then.
-[[nodiscard]] Repair repair_proven(DecimationState& state, const Unproven& unproven, std::size_t depth);
+[[nodiscard]] Repair repair_proven(DecimationState& state, const Unproven& unproven);
 /// Undoes proven changes that led to what is refuted, and those made on top of them. A face is blamed only where none
 /// of those around the original has changed. The vertices of the changes are `DecimationState::refuted`. The faces that
 /// this changes are unproven then.
 [[nodiscard]] Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted);
-
-/// How many of the last changes of a face the repairs of one proof undo: one at first, and twice as many after each two
-/// repairs with few failures. Changes on a long edge may fail one after the other, each in a repair of its own (fandisk
-/// at 0.05%: 62 of them, now 8).
-class RepairDepth {
- public:
-  /// For the next repair.
-  [[nodiscard]] std::size_t of(const Unproven& unproven);
-
- private:
-  int with_few_failures_ = 0;
-};
 
 /// Notes a change of a region that is about to be made to these faces. `edge` is that of the `Edit`.
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
