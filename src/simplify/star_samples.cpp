@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/hilbert.h"
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
 #include "simplify/mesh/face_box.h"
@@ -219,13 +218,20 @@ void StarSamples::sort_along_curve() {
     for (std::size_t k = 0; k < lanes; ++k) box.extend(Eigen::Vector3f(block.x[k], block.y[k], block.z[k]));
   const float extent = box.sizes().maxCoeff();
   const float scale = extent > 0 ? static_cast<float>((1 << curve_bits) - 1) / extent : 0;
+  const auto cell = [&](double x, int axis) {
+    return static_cast<std::uint32_t>((static_cast<float>(x) - box.min()[axis]) * scale);
+  };
   order_.clear();
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    const Vec3 p = points_.at(i);
-    const auto cell = [&](double x, int axis) {
-      return static_cast<std::uint32_t>((static_cast<float>(x) - box.min()[axis]) * scale);
-    };
-    order_.push_back(hilbert_index(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2), curve_bits) << index_bits | i);
+  Cells cells;
+  Batch<std::uint64_t> places;
+  for (std::size_t begin = 0; begin < ids_.size(); begin += cells.x.size()) {
+    const std::size_t count = std::min(cells.x.size(), ids_.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 p = points_.at(begin + i);
+      cells.x[i] = cell(p.x, 0), cells.y[i] = cell(p.y, 1), cells.z[i] = cell(p.z, 2);
+    }
+    build_kernels_.hilbert_indices(cells, curve_bits, places);
+    for (std::size_t i = 0; i < count; ++i) order_.push_back(places[i] << index_bits | (begin + i));
   }
   std::sort(order_.begin(), order_.end());
 }

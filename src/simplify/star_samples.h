@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bvh/build_kernels.h"
 #include "meshbound/proximity.h"
 #include "simplify/cover/parity_view.h"
 #include "simplify/cover/surface_walk.h"
@@ -86,6 +87,7 @@ class StarSamples {
   PreparedFaces<OriginalSoup> originals_;
   SurfaceWalk<OriginalSoup> walk_;
   SampleKernel kernel_ = simplify_kernels().samples;
+  BuildKernels build_kernels_ = build_kernels();
   std::uint32_t near_ = 0;  ///< original triangle near that vertex
   Vec3 origin_;
   std::vector<std::uint32_t> next_;  ///< samples of each face that is being added
