@@ -196,7 +196,7 @@ TEST_P(Decimation, TakesEverythingBackWhereEveryFaceIsRefutedAgainAndAgain) {
     return all;
   };
   for (int round = 0; run.take_back(all_of()); ++round) {
-    ASSERT_LT(round, 20);
+    ASSERT_LT(round, 8);
     level = run.next(options.tolerance, 0);
   }
   EXPECT_EQ(level.mesh.vertices, sphere.vertices);

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "numeric/first_error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/tasks.h"
 #include "simplify/proof_worker.h"
 
 namespace meshbound {
@@ -46,15 +46,13 @@ void Proof::run(const StopToken& stop) {
 
 /// Calls work(worker, i) for each i below `count`, on all threads; `at_once` of them are one task.
 void Proof::for_each(std::size_t count, std::size_t at_once, const StopToken& stop, const Work& work) {
-  FirstError error;
-#pragma omp parallel for schedule(dynamic, at_once) num_threads(static_cast <int>(workers_.count()))
-  for (std::size_t i = 0; i < count; ++i) {
-    error.guard([&] {
-      if (i % items_of_run == 0) stop.check();
-      work(workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num())), i);
+  with_team(static_cast<int>(workers_.count()), [&] {
+    for_each_range(count, at_once, [&](std::size_t begin, std::size_t end) {
+      stop.check();
+      ProofWorkers::Worker& worker = workers_.of_thread(static_cast<std::size_t>(omp_get_thread_num()));
+      for (std::size_t i = begin; i < end; ++i) work(worker, i);
     });
-  }
-  error.rethrow();
+  });
 }
 
 /// Those of the open faces that are too far from the original.
