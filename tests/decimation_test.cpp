@@ -182,6 +182,35 @@ TEST_P(Decimation, TakesBackChangesOfTheFaceWhereTheOriginalHasNone) {
   EXPECT_EQ(restored_by({of_torus / 2, 0}), by_original);
 }
 
+/// Where a texture coordinate shows that undoing the last change around a triangle was not enough, those before it are
+/// undone too: here until all is as it was, as no face around has a coordinate from the other side of the torus.
+TEST_P(Decimation, TakesBackMoreWhereATextureCoordinateAsksForIt) {
+  const TriangleMesh torus = datasets::torus(1, 0.3, 60, 24);
+  SimplifyOptions options = with_changes_kept(this->options(0.02));
+  for (const Triangle& t : torus.triangles) {
+    auto& corners = options.texture_coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = torus.vertices[t[k]].head<2>();
+  }
+  options.texture_tolerance = 1;
+  const auto original = static_cast<std::uint32_t>(torus.triangles.size() / 2);
+  const auto middle_of = [&](std::uint32_t t) {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& corner : options.texture_coordinates[t]) middle += corner / 3;
+    return middle;
+  };
+  const auto restored_by = [&](std::optional<Eigen::Vector2d> coordinate) {
+    LevelRun run(torus, options);
+    (void)run.next(options.tolerance, 0);
+    EXPECT_TRUE(run.take_back(std::vector<Refuted>{{original, no_index, coordinate}}));
+    SimplifyResult result;
+    run.describe(result);
+    return result.counts.restored;
+  };
+  const std::size_t last_changes = restored_by(std::nullopt);
+  EXPECT_EQ(restored_by(middle_of(original)), last_changes);
+  EXPECT_GT(restored_by(-middle_of(original)), last_changes);
+}
+
 /// Each round takes something back for good, so that the original is left in the end.
 TEST_P(Decimation, TakesEverythingBackWhereEveryFaceIsRefutedAgainAndAgain) {
   const TriangleMesh sphere = datasets::icosphere(1, 3);

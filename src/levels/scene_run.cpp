@@ -252,11 +252,13 @@ bool SceneRun::take_back(std::span<const Refuted> refuted) {
     }
   }
   std::map<Group*, std::vector<Refuted>> by_group;
-  for (const auto& [original, face] : refuted) {
-    const auto [group, here] = original == no_index ? std::pair<Group*, std::uint32_t>() : of_original[original];
-    const auto [group_of_face, face_here] = face == no_index ? std::pair<Group*, std::uint32_t>() : of_level[face];
-    if (group != nullptr) by_group[group].push_back({here, group_of_face == group ? face_here : no_index});
-    if (group_of_face != nullptr && group_of_face != group) by_group[group_of_face].push_back({no_index, face_here});
+  for (const Refuted& r : refuted) {
+    const auto [group, here] = r.original == no_index ? std::pair<Group*, std::uint32_t>() : of_original[r.original];
+    const auto [group_of_face, face_here] = r.face == no_index ? std::pair<Group*, std::uint32_t>() : of_level[r.face];
+    if (group != nullptr)
+      by_group[group].push_back({here, group_of_face == group ? face_here : no_index, r.coordinate});
+    if (group_of_face != nullptr && group_of_face != group)
+      by_group[group_of_face].push_back({no_index, face_here, r.coordinate});
   }
   bool is_changed = false;
   for (const auto& item : by_group) {

@@ -375,7 +375,7 @@ EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationT
 bool take_back(DecimationState& state, std::span<const Refuted> refuted, DecimationThreads& threads) {
   std::fill(state.refused_at.begin(), state.refused_at.end(),
             state.clock + 1);  // only what this changes is tried again
-  std::size_t restored = undo_refuted(state, refuted).changes;
+  std::size_t restored = undo_refuted(state, refuted);
   Proof proof(state, threads.workers);
   restored += prove_or_undo(state, proof, repair_proven, [] { return StopToken(); });
   state.reset_quadrics();  // those of vertices that came back are unknown

@@ -9,7 +9,7 @@
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
 #include "simplify/decimation_threads.h"
-#include "simplify/refuted.h"
+#include "simplify/mesh/refuted.h"
 
 namespace meshbound {
 

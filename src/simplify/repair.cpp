@@ -10,6 +10,8 @@
 #include "numeric/no_index.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/mesh/nearest_triangle.h"
+#include "simplify/normals/refuted_turns.h"
+#include "simplify/texture/refuted_texture.h"
 #include "simplify/texture/texture_guard.h"
 
 namespace meshbound {
@@ -297,20 +299,46 @@ Repair repair_proven(DecimationState& state, const Unproven& unproven) {
   return undo_proven(state, undoing);
 }
 
-Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted) {
+namespace {
+
+/// Undoes the last change around each.
+Repair undo_last_around(DecimationState& state, std::span<const Refuted> refuted) {
   ProvenChanges& changes = *state.proven_changes;
   Undoing undoing(state, changes.last, changes.logs);
   NearestFaces nearest(state);
-  for (const auto& [original, face] : refuted) {
-    if (original != no_index && blame_around(undoing, nearest, state, original)) continue;
-    if (face != no_index) (void)undoing.blame(face);
+  for (const Refuted& r : refuted) {
+    if (r.original != no_index && blame_around(undoing, nearest, state, r.original)) continue;
+    if (r.face != no_index) (void)undoing.blame(r.face);
   }
   const std::vector<Corner> edges = undoing.blamed_edges();
-  state.refuted.resize(state.mesh.vertex_count(), 0);
   const Repair repair = undo_proven(state, undoing);
   for (const Corner edge : edges)
     for (const std::uint32_t v : {state.mesh.start(edge), state.mesh.end(edge)}) state.refuted[v] = 1;
   return repair;
+}
+
+/// What is still refuted after changes of these faces were undone.
+std::vector<Refuted> still_refuted(const DecimationState& state, std::span<const Refuted> refuted,
+                                   std::span<const std::uint32_t> changed) {
+  std::vector<Refuted> left;
+  const auto add = [&](const std::vector<Refuted>& more) { left.insert(left.end(), more.begin(), more.end()); };
+  if (state.texture) add(refuted_by_texture(*state.texture, state.mesh, refuted, changed));
+  if (state.turns) add(refuted_by_turns(*state.turns, state.mesh, state.source_triangle, refuted));
+  return left;
+}
+
+}  // namespace
+
+std::size_t undo_refuted(DecimationState& state, std::span<const Refuted> refuted) {
+  state.refuted.resize(state.mesh.vertex_count(), 0);
+  std::size_t undone = 0;
+  for (std::vector<Refuted> left(refuted.begin(), refuted.end()); !left.empty();) {
+    const Repair repair = undo_last_around(state, left);
+    if (repair.changes == 0) break;
+    undone += repair.changes;
+    left = still_refuted(state, left, repair.faces);
+  }
+  return undone;
 }
 
 void undo_all(DecimationState& state) {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "simplify/mesh/refuted.h"
 #include "simplify/prove.h"
-#include "simplify/refuted.h"
 
 namespace meshbound {
 
@@ -18,10 +18,11 @@ struct Repair {
 /// As `repair`, but undoes proven changes: `DecimationState::proven_changes` must be set, and nothing else be unproven.
 /// The faces that this changes are unproven then.
 [[nodiscard]] Repair repair_proven(DecimationState& state, const Unproven& unproven);
-/// Undoes proven changes that led to what is refuted, and those made on top of them. A face is blamed only where none
+/// Undoes proven changes that led to what is refuted, and those made on top of them: the last one around each, and
+/// those before it as long as its texture coordinate shows that they are at fault too. A face is blamed only where none
 /// of those around the original has changed. The vertices of the changes are `DecimationState::refuted`. The faces that
-/// this changes are unproven then.
-[[nodiscard]] Repair undo_refuted(DecimationState& state, std::span<const Refuted> refuted);
+/// this changes are unproven then. Returns how many were undone.
+[[nodiscard]] std::size_t undo_refuted(DecimationState& state, std::span<const Refuted> refuted);
 
 /// Notes a change of a region that is about to be made to these faces. `edge` is that of the `Edit`.
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,

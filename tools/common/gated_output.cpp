@@ -112,7 +112,7 @@ void GatedOutput::look_at(MeshWithTree& original, const MeshFile& level, int thr
     const bool is_known = normals_looked_at_ && looked_at_.vertices == level.mesh.vertices &&
                           looked_at_.triangles == level.mesh.triangles;
     if (!is_known)
-      normals_looked_at_ = meshbound::normal_deviation(original.mesh(), level.mesh, {normal_tolerance_, threads});
+      normals_looked_at_ = normal_comparison_.measure(original.mesh(), level.mesh, {normal_tolerance_, threads});
     looked_at_ = level.mesh;
     normals_ = normals_looked_at_;
   }

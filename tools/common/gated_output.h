@@ -15,6 +15,7 @@
 #include "meshbound/simplify.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/texture_deviation.h"
+#include "normals/normal_comparison.h"
 #include "texture/texture_comparison.h"
 
 namespace meshbound::tools {
@@ -128,6 +129,7 @@ class GatedOutput {
   TextureComparison texture_comparison_;
   std::optional<TextureDeviation> texture_;
   std::optional<double> normal_tolerance_;
+  NormalComparison normal_comparison_;
   std::optional<NormalDeviation> normals_;
   TriangleMesh looked_at_;  ///< whose deviation of normals is known
   std::optional<NormalDeviation> normals_looked_at_;

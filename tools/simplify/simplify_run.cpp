@@ -40,8 +40,10 @@ namespace {
 std::vector<Refuted> refuted_by(const GatedOutput& output) {
   std::vector<Refuted> refuted;
   if (const auto& texture = output.texture_deviation()) {
-    for (const TextureWitness& w : texture->a_to_b.exceeding) refuted.push_back({w.from.triangle, w.nearest.triangle});
-    for (const TextureWitness& w : texture->b_to_a.exceeding) refuted.push_back({no_index, w.from.triangle});
+    for (const TextureWitness& w : texture->a_to_b.exceeding)
+      refuted.push_back({w.from.triangle, w.nearest.triangle, w.coordinate});
+    for (const TextureWitness& w : texture->b_to_a.exceeding)
+      refuted.push_back({no_index, w.from.triangle, w.coordinate});
   }
   if (const auto& normals = output.normal_deviation())
     for (const FaceTurn& turn : normals->exceeding) refuted.push_back({turn.from.triangle, turn.nearest.triangle});

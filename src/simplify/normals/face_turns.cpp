@@ -22,6 +22,7 @@ FaceTurns::FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned
     lists_.add(f);
     face_of_.push_back(f);
   }
+  start_of_ = face_of_;
   rivals_.emplace(triangles, Rivals::Limits{limits.reach, min_cosine_, limits.threads});
 }
 

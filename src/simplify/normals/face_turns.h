@@ -32,6 +32,11 @@ class FaceTurns {
   FaceTurns(const ArrayMesh& start, std::vector<std::uint8_t> is_turned_over, const Limits& limits);
 
   [[nodiscard]] const Sample& sample(std::uint32_t s) const { return samples_[s]; }
+  /// The sample that a face had at the start; `no_index` if it had none. O(log n).
+  [[nodiscard]] std::uint32_t sample_of_start(std::uint32_t face) const {
+    const auto at = std::lower_bound(start_of_.begin(), start_of_.end(), face);
+    return at != start_of_.end() && *at == face ? static_cast<std::uint32_t>(at - start_of_.begin()) : no_index;
+  }
   /// Calls visit(sample) for all samples of the face.
   template <class Visit>
   void for_each_sample(std::uint32_t face, const Visit& visit) const {
@@ -66,7 +71,8 @@ class FaceTurns {
   double max_angle_, min_cosine_;
   std::vector<Sample> samples_;
   SampleLists lists_;
-  std::vector<std::uint32_t> face_of_;  ///< by sample
+  std::vector<std::uint32_t> face_of_;   ///< by sample
+  std::vector<std::uint32_t> start_of_;  ///< by sample: the face that had it at the start, ascending
   std::optional<Rivals> rivals_;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "numeric/no_index.h"
+#include "simplify/texture/weighted_points.h"
 
 namespace meshbound {
 namespace {
@@ -22,14 +23,14 @@ bool has_coordinates(const CornerCoordinates& corners) {
   return std::all_of(corners.begin(), corners.end(), [](const Eigen::Vector2d& uv) { return uv.allFinite(); });
 }
 
-Eigen::AlignedBox3d box_of(const CornerCoordinates& corners, std::uint32_t material) {
+}  // namespace
+
+Eigen::AlignedBox3d box_in_texture(const CornerCoordinates& corners, std::uint32_t material) {
   Eigen::AlignedBox3d box;
   if (!has_coordinates(corners)) return box;
   for (const Eigen::Vector2d& uv : corners) box.extend(Eigen::Vector3d(uv.x(), uv.y(), material));
   return box;
 }
-
-}  // namespace
 
 std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners, const Eigen::Vector2d& coordinate) {
   const Eigen::Vector2d u = corners[1] - corners[0], v = corners[2] - corners[0], w = coordinate - corners[0];
@@ -37,6 +38,14 @@ std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners
   if (area == 0) return std::nullopt;
   const double second = (w.x() * v.y() - w.y() * v.x()) / area, third = (u.x() * w.y() - u.y() * w.x()) / area;
   return std::array<double, 3>{1 - second - third, second, third};
+}
+
+std::optional<std::array<double, 3>> weights_inside(const CornerCoordinates& corners,
+                                                    const Eigen::Vector2d& coordinate) {
+  const auto weights = weights_at(corners, coordinate);
+  if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < -rounding; }))
+    return std::nullopt;
+  return weights;
 }
 
 Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
@@ -47,8 +56,18 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
       materials_(std::move(materials)) {
   std::vector<Eigen::AlignedBox3d> boxes;
   boxes.reserve(coordinates_.size());
-  for (std::uint32_t t = 0; t < coordinates_.size(); ++t) boxes.push_back(box_of(coordinates_[t], material(t)));
+  for (std::uint32_t t = 0; t < coordinates_.size(); ++t) boxes.push_back(box_in_texture(coordinates_[t], material(t)));
   tree_.emplace(boxes);
+}
+
+std::array<Vec3, 3> Atlas::corners(std::uint32_t triangle) const {
+  const Triangle& t = triangles_[triangle];
+  return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
+}
+
+std::optional<Vec3> Atlas::point(std::uint32_t triangle, const Eigen::Vector2d& coordinate) const {
+  const auto weights = weights_at(coordinates_[triangle], coordinate);
+  return weights ? std::optional(point_of(corners(triangle), *weights)) : std::nullopt;
 }
 
 template <class Visit>
@@ -58,11 +77,8 @@ void Atlas::for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t mate
   const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material);
   tree_->find({at, at}, found);
   for (const std::uint32_t t : found) {
-    const auto weights = weights_at(coordinates_[t], coordinate);
-    if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < -rounding; })) continue;
-    const auto& v = triangles_[t];
-    if (!visit((*weights)[0] * vertices_[v[0]] + (*weights)[1] * vertices_[v[1]] + (*weights)[2] * vertices_[v[2]]))
-      return;
+    const auto weights = weights_inside(coordinates_[t], coordinate);
+    if (weights && !visit(point_of(corners(t), *weights))) return;
   }
 }
 

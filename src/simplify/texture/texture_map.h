@@ -27,6 +27,8 @@ class Atlas {
         std::vector<CornerCoordinates> coordinates, std::vector<std::uint32_t> materials);
 
   [[nodiscard]] const CornerCoordinates& coordinates(std::uint32_t triangle) const { return coordinates_[triangle]; }
+  /// The point of the triangle with this coordinate, which may be rounded off it; nothing if there is none.
+  [[nodiscard]] std::optional<Vec3> point(std::uint32_t triangle, const Eigen::Vector2d& coordinate) const;
   [[nodiscard]] std::uint32_t material(std::uint32_t triangle) const {
     return materials_.empty() ? 0 : materials_[triangle];
   }
@@ -40,6 +42,7 @@ class Atlas {
                                         std::vector<std::uint32_t>& found) const;
 
  private:
+  [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle) const;
   template <class Visit>
   void for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
                       const Visit& visit) const;
@@ -104,5 +107,11 @@ class TextureMap {
 /// Barycentric coordinates of a point in a triangle of the texture; nothing where that has no area.
 [[nodiscard]] std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners,
                                                               const Eigen::Vector2d& coordinate);
+/// As `weights_at`; nothing where the triangle does not cover the point.
+[[nodiscard]] std::optional<std::array<double, 3>> weights_inside(const CornerCoordinates& corners,
+                                                                  const Eigen::Vector2d& coordinate);
+
+/// The box of a triangle in the texture, with the material as third coordinate; empty for one without coordinates.
+[[nodiscard]] Eigen::AlignedBox3d box_in_texture(const CornerCoordinates& corners, std::uint32_t material);
 
 }  // namespace meshbound

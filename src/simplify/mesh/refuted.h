@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "numeric/no_index.h"
 
@@ -10,6 +12,8 @@ namespace meshbound {
 /// both.
 struct Refuted {
   std::uint32_t original = no_index, face = no_index;
+  /// Where the texture has moved too far: a texture coordinate of that triangle and of the face.
+  std::optional<Eigen::Vector2d> coordinate = std::nullopt;
 };
 
 }  // namespace meshbound

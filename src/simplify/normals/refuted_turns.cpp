@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/normals/refuted_turns.h"
+
+#include <array>
+
+#include "simplify/mesh/face_box.h"
+
+namespace meshbound {
+namespace {
+
+/// Whether the nearest of the faces turns little from the sample.
+bool holds(const FaceTurns& turns, const ArrayMesh& mesh, const FaceTurns::Sample& sample,
+           std::span<const std::uint32_t> faces) {
+  double nearest = HUGE_VAL;
+  bool is_allowed = true;
+  for (const std::uint32_t face : faces) {
+    if (face == no_index || mesh.is_removed(face)) continue;
+    const std::array<Vec3, 3> corners = mesh.triangle(face);
+    const double squared = squared_distance(corners, sample.at);
+    if (squared > nearest) continue;
+    const bool is_as_near = squared == nearest;
+    nearest = squared;
+    is_allowed = turns.allows(sample.normal, turns.normal(face, corners)) || (is_as_near && is_allowed);
+  }
+  return is_allowed;
+}
+
+}  // namespace
+
+std::vector<Refuted> refuted_by_turns(const FaceTurns& turns, const ArrayMesh& mesh,
+                                      std::span<const std::uint32_t> source_triangle,
+                                      std::span<const Refuted> refuted) {
+  std::vector<std::uint32_t> start_of(source_triangle.size(), no_index);
+  for (std::uint32_t f = 0; f < source_triangle.size(); ++f) start_of[source_triangle[f]] = f;
+  std::vector<Refuted> left;
+  for (const Refuted& r : refuted) {
+    if (r.coordinate || r.original == no_index || start_of[r.original] == no_index) continue;
+    const std::uint32_t sample = turns.sample_of_start(start_of[r.original]);
+    if (sample != no_index && !holds(turns, mesh, turns.sample(sample), std::array{turns.face_of(sample), r.face}))
+      left.push_back(r);
+  }
+  return left;
+}
+
+}  // namespace meshbound
