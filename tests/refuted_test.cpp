@@ -104,15 +104,16 @@ TEST_F(RefutedByTexture, NamesTheFaceThatIsTooFarNow) {
   EXPECT_TRUE(is_around(found[0].face));
 }
 
-TEST_F(RefutedByTexture, LeavesOutWhatHasTurned) {
+TEST_F(RefutedByTexture, LeavesOutWhatHasTurnedAndWhatIsNoFace) {
   lift(5);
+  EXPECT_TRUE(left({no_index, no_index, at_}, faces_).empty());
   EXPECT_TRUE(left({20, face_around(), std::nullopt}, faces_).empty());
 }
 
 class RefutedByTurns : public Square {
  protected:
   [[nodiscard]] std::vector<Refuted> left(const Refuted& refuted) const {
-    return refuted_by_turns(turns_, *mesh_, faces_, std::vector{refuted});
+    return refuted_by_turns(turns_, *mesh_, faces_, faces_.size(), std::vector{refuted});
   }
   FaceTurns turns_{*mesh_, std::vector<std::uint8_t>(mesh_->face_count(), 0), {30, 1, 1}};
 };
@@ -143,6 +144,18 @@ TEST_F(RefutedByTurns, ComparesWithTheFaceThatWasFoundWhereThatIsNearer) {
   EXPECT_TRUE(left({around, found}).empty());
   for (const std::uint32_t v : mesh_->corners(found)) mesh_->move(v, mesh_->position(v) + Vec3{0, 0, 2});
   EXPECT_EQ(left({around, found}).size(), 1U);
+}
+
+/// Each face stands for an original with twice its number plus 100; those between are none.
+TEST_F(RefutedByTurns, LeavesOutOriginalsThatAreNoFace) {
+  lift(5);
+  std::vector<std::uint32_t> source_triangle;
+  for (const std::uint32_t f : faces_) source_triangle.push_back(2 * f + 100);
+  const std::uint32_t original = 2 * face_around() + 100;
+  const std::vector<Refuted> all{{original, no_index}, {original + 1, no_index}, {3, no_index}};
+  const std::vector<Refuted> left = refuted_by_turns(turns_, *mesh_, source_triangle, 200, all);
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(left[0].original, original);
 }
 
 TEST_F(RefutedByTurns, LeavesOutFacesAndTexture) {

@@ -323,7 +323,8 @@ std::vector<Refuted> still_refuted(const DecimationState& state, std::span<const
   std::vector<Refuted> left;
   const auto add = [&](const std::vector<Refuted>& more) { left.insert(left.end(), more.begin(), more.end()); };
   if (state.texture) add(refuted_by_texture(*state.texture, state.mesh, refuted, changed));
-  if (state.turns) add(refuted_by_turns(*state.turns, state.mesh, state.source_triangle, refuted));
+  if (state.turns)
+    add(refuted_by_turns(*state.turns, state.mesh, state.source_triangle, state.triangles.size(), refuted));
   return left;
 }
 

@@ -25,13 +25,19 @@ bool holds(const FaceTurns& turns, const ArrayMesh& mesh, const FaceTurns::Sampl
   return is_allowed;
 }
 
+/// By triangle of the original: the face that it was at the start; `no_index` where it was none.
+std::vector<std::uint32_t> faces_of_originals(std::span<const std::uint32_t> source_triangle, std::size_t originals) {
+  std::vector<std::uint32_t> face_of(originals, no_index);
+  for (std::uint32_t f = 0; f < source_triangle.size(); ++f) face_of[source_triangle[f]] = f;
+  return face_of;
+}
+
 }  // namespace
 
 std::vector<Refuted> refuted_by_turns(const FaceTurns& turns, const ArrayMesh& mesh,
-                                      std::span<const std::uint32_t> source_triangle,
+                                      std::span<const std::uint32_t> source_triangle, std::size_t originals,
                                       std::span<const Refuted> refuted) {
-  std::vector<std::uint32_t> start_of(source_triangle.size(), no_index);
-  for (std::uint32_t f = 0; f < source_triangle.size(); ++f) start_of[source_triangle[f]] = f;
+  const std::vector<std::uint32_t> start_of = faces_of_originals(source_triangle, originals);
   std::vector<Refuted> left;
   for (const Refuted& r : refuted) {
     if (r.coordinate || r.original == no_index || start_of[r.original] == no_index) continue;

@@ -50,8 +50,8 @@ std::vector<Refuted> refuted_by_texture(const TextureMap& texture, const ArrayMe
   const double squared_limit = texture.limit * texture.limit;
   FacesInTexture faces(texture, mesh, changed);
   for (const Refuted& r : refuted) {
-    if (!r.coordinate) continue;
     const bool is_of_original = r.original != no_index;
+    if (!r.coordinate || (!is_of_original && r.face == no_index)) continue;
     const std::uint32_t material = is_of_original ? texture.atlas().material(r.original) : texture.material(r.face);
     const auto point = is_of_original ? texture.atlas().point(r.original, *r.coordinate) : std::nullopt;
     bool is_shown = !point;
