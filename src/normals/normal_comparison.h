@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "meshbound/normal_deviation.h"
-#include "meshbound/triangle_mesh.h"
 #include "normals/stand_ins.h"
 
 namespace meshbound {

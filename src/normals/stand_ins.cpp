@@ -91,7 +91,7 @@ void StandIns::complete(const MeshView& a, std::size_t begin, std::span<NearStan
     const auto normal = normal_of(corners);
     if (!normal) continue;
     if (has(corners, *normal)) {
-      near[i] = {tie_, 0};
+      near[i] = {tie_, 0};  // the centroid is rounded off the face by less
       continue;
     }
     unknown.push_back(i);
