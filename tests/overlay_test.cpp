@@ -44,8 +44,8 @@ int compare(const TexturedTriangle& a, const TexturedTriangle& b, reference::Ran
   overlay.add(of_b);
   if (overlay.candidates() == 0 || of_b.chart == Chart::Point) return 0;
   std::vector<Overlay::Node> points;
-  Overlay::Polygon covered = overlay.whole();
-  overlay.clip(covered, 0);
+  Overlay::Polygon covered;
+  overlay.clip(overlay.whole(), 0, covered);
   for (const auto& corner : covered) points.push_back(corner.node);
   for (int k = 0; k < 4; ++k)
     points.push_back(Overlay::given({random.below(5) / 4.0 + 0x1p-4, random.below(5) / 4.0, random.below(5) / 4.0}));
@@ -85,8 +85,8 @@ int compare_planes(const TexturedTriangle& a, const TexturedTriangle& b, const E
   double at_corners = 0;  // of A, from the plane of B
   for (const auto& corner : overlay.whole())
     at_corners = std::max(at_corners, overlay.rough_distance(0, corner.node).upper);
-  Overlay::Polygon covered = overlay.whole();
-  overlay.clip(covered, 0);
+  Overlay::Polygon covered;
+  overlay.clip(overlay.whole(), 0, covered);
   for (const auto& corner : covered) {
     const double exact = overlay.distance(0, corner.node, 0).lower;
     EXPECT_FALSE(overlay.is_within(0, std::nextafter(exact, 0)));

@@ -45,6 +45,10 @@ TEST(SampleKernel, IsTheSameOnEveryProcessor) {
   portable_simplify_kernels().samples.offsets(points.blocks, triangles, portable);
   simplify_kernels().samples.offsets(points.blocks, triangles, fastest);
   EXPECT_TRUE(portable == fastest);
+  std::vector<SampleDistances> portable_distances(5), fastest_distances(5);
+  portable_simplify_kernels().samples.distances(points.blocks, triangles, portable_distances);
+  simplify_kernels().samples.distances(points.blocks, triangles, fastest_distances);
+  EXPECT_TRUE(portable_distances == fastest_distances);
   DeviationSums one, two;
   portable_simplify_kernels().samples.add_deviations(points, triangles, 2, one);
   simplify_kernels().samples.add_deviations(points, triangles, 2, two);
@@ -53,6 +57,24 @@ TEST(SampleKernel, IsTheSameOnEveryProcessor) {
   EXPECT_GT(one.worst_squared, 0);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(one.gradient[k], two.gradient[k]);
   for (int k = 0; k < 6; ++k) EXPECT_EQ(one.curvature[k], two.curvature[k]);
+}
+
+TEST(SampleKernel, GivesTheDistancesOfOffsets) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  SamplePoints points;
+  for (int i = 0; i < 80; ++i) points.add(point());
+  std::vector<SampleFace> faces;
+  for (int i = 0; i < 6; ++i) faces.emplace_back(point(), point(), point());
+  std::vector<SampleOffsets> offsets(10);
+  std::vector<SampleDistances> distances(10);
+  simplify_kernels().samples.offsets(points.blocks, faces, offsets);
+  simplify_kernels().samples.distances(points.blocks, faces, distances);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(distances[i / 8].squared[i % 8], offsets[i / 8].squared[i % 8]);
+    EXPECT_EQ(distances[i / 8].face[i % 8], offsets[i / 8].face[i % 8]);
+  }
 }
 
 /// A shared side is looked at once, and no distance is lost by that.

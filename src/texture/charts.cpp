@@ -12,11 +12,12 @@ bool seems_to_overlap(const ChartTriangle& a, const ChartTriangle& b) {
   const auto& uv = a.source->coordinates;
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d &from = uv[k], way = uv[(k + 1) % 3] - from;
-    const auto is_beyond = [&](const Eigen::Vector2d& p) {
+    double inmost = 0;  // the largest area on the side of `a`
+    for (const Eigen::Vector2d& p : b.source->coordinates) {
       const double area = way.x() * (p.y() - from.y()) - way.y() * (p.x() - from.x());
-      return a.turned ? area >= 0 : area <= 0;
-    };
-    if (std::all_of(b.source->coordinates.begin(), b.source->coordinates.end(), is_beyond)) return false;
+      inmost = std::max(inmost, a.turned ? -area : area);
+    }
+    if (inmost == 0) return false;
   }
   return true;
 }

@@ -15,17 +15,6 @@ bool is_before(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
   return std::tie(p.x(), p.y()) < std::tie(q.x(), q.y());
 }
 
-/// Whether all of the triangle that the overlay is of lies on one side of a line, or on it.
-bool is_on_one_side(Overlay& overlay, Overlay::Line line, const Overlay::Polygon& whole) {
-  bool has_left = false, has_right = false;
-  for (const auto& corner : whole) {
-    const int side = overlay.side(line, corner.node);
-    has_left = has_left || side > 0;
-    has_right = has_right || side < 0;
-  }
-  return !has_left || !has_right;
-}
-
 /// Whether a coordinate is known to lie on an edge of a triangle or beyond it; edge k is opposite to corner k.
 bool is_beyond(const ChartTriangle& t, std::size_t k, const Eigen::Vector2d& p) {
   const Eigen::Vector2d &from = t.source->coordinates[(k + 1) % 3], &to = t.source->coordinates[(k + 2) % 3];
@@ -34,11 +23,14 @@ bool is_beyond(const ChartTriangle& t, std::size_t k, const Eigen::Vector2d& p) 
   return sign_is_known(doubled_area(from, to, p), sign) && (t.turned ? sign >= 0 : sign <= 0);
 }
 
-/// Whether a segment is known to have no point inside a triangle, by an edge that it lies beyond.
-bool is_segment_beyond(const ChartTriangle& t, const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (is_beyond(t, k, p) && is_beyond(t, k, q)) return true;
-  return false;
+/// By corner of another triangle: a bit for each edge of `t` that it is known to lie on or beyond. A segment between
+/// two corners with a bit in common has no point inside `t`.
+std::array<unsigned, 3> edges_before_corners(const ChartTriangle& t, const ChartTriangle& other) {
+  std::array<unsigned, 3> before{};
+  for (std::size_t corner = 0; corner < 3; ++corner)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (is_beyond(t, k, other.source->coordinates[corner])) before[corner] |= 1U << k;
+  return before;
 }
 
 /// Inner points of a piece, by the weights of its first corners against 1 for the others, to be tried in turn: a point
@@ -112,10 +104,12 @@ constexpr std::size_t max_open_edges = 64;
 void Covering::add_edges(Overlay& overlay, std::uint32_t candidate) {
   const ChartTriangle& b = overlay.candidate(candidate);
   const auto lines = overlay.lines_of(candidate);
+  std::optional<std::array<unsigned, 3>> before;
   for (std::uint32_t k = 0; k < 3; ++k) {  // line k lies opposite to corner k
-    if (is_on_one_side(overlay, lines[k], overlay.whole())) continue;
+    if (overlay.is_on_one_side(lines[k], overlay.whole())) continue;
+    if (!before) before = edges_before_corners(overlay.triangle(), b);
+    if (((*before)[(k + 1) % 3] & (*before)[(k + 2) % 3]) != 0) continue;
     const Eigen::Vector2d *from = &b.source->coordinates[(k + 1) % 3], *to = &b.source->coordinates[(k + 2) % 3];
-    if (is_segment_beyond(overlay.triangle(), *from, *to)) continue;
     const bool is_forth = is_before(*from, *to);
     if (!is_forth) std::swap(from, to);
     edges_.push_back({from, to, is_forth != b.turned ? 1 : -1, candidate, k});
@@ -152,7 +146,7 @@ void Covering::cut(Overlay& overlay, const Edge& edge) {
   const Overlay::Line line = overlay.lines_of(edge.candidate)[edge.number];
   halves_.clear();
   for (Overlay::Polygon& piece : pieces_) {
-    if (is_on_one_side(overlay, line, piece) || is_beyond(overlay, piece, ends)) {
+    if (overlay.is_on_one_side(line, piece) || is_beyond(overlay, piece, ends)) {
       halves_.push_back(std::move(piece));
       continue;
     }

@@ -6,27 +6,22 @@
 #include "texture/overlay_numbers.h"
 
 namespace meshbound {
-namespace {
-
-Approximate difference(double x, double y) { return Approximate{x, 0} - Approximate{y, 0}; }
-
-}  // namespace
-
-/// With p, q the ways in the texture from the first corner to the others, and r, s those in space, the derivatives are
-/// (q.v r - p.v s) / (p x q) by u and (p.u s - q.u r) / (p x q) by v.
+/// The derivative of a coordinate of the position by v is the area of the triangle with that coordinate in place of v,
+/// over the area in the texture; by u it is that with the coordinate in place of u.
 LiftedPlane::LiftedPlane(const TexturedTriangle& triangle)
     : from_(triangle.coordinates[0]), at_(triangle.corners[0]), error_(0) {
   const auto& uv = triangle.coordinates;
-  const auto by_area = Approximate{1, 0} / doubled_area(uv[0], uv[1], uv[2]);
-  const auto along = [&](std::size_t corner, Eigen::Index axis) { return difference(uv[corner][axis], uv[0][axis]); };
+  const Approximate by_area = Approximate{1, 0} / doubled_area(uv[0], uv[1], uv[2]);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Approximate r = difference(triangle.corners[1][axis], at_[axis]),
-                      s = difference(triangle.corners[2][axis], at_[axis]);
-    const std::array<Approximate, 2> by = {(along(2, 1) * r - along(1, 1) * s) * by_area,
-                                           (along(1, 0) * s - along(2, 0) * r) * by_area};
-    for (std::size_t k = 0; k < 2; ++k) {
-      way_[k][axis] = by[k].value;
-      error_ = std::max(error_, std::isnan(by[k].error) ? HUGE_VAL : by[k].error);
+    const auto with = [&](std::size_t k, Eigen::Index replaced) {
+      Eigen::Vector2d point = uv[k];
+      point[replaced] = triangle.corners[k][axis];
+      return point;
+    };
+    for (const Eigen::Index replaced : {0, 1}) {
+      const Approximate way = doubled_area(with(0, replaced), with(1, replaced), with(2, replaced)) * by_area;
+      way_[static_cast<std::size_t>(replaced)][axis] = way.value;
+      error_ = std::max(error_, std::isnan(way.error) ? HUGE_VAL : way.error);
     }
   }
 }

@@ -91,10 +91,9 @@ bool is_end(const Ends& ends, const Eigen::Vector2d& at) {
 
 ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units) {
   ChartTriangle result{&triangle, Chart::Area, false, {0, 1, 2}, {}};
-  const auto points = texture_points<Approximate>(result, units);
-  const Approximate near_area = cross<Approximate>(points[1] - points[0], points[2] - points[0]);
+  const auto& uv = triangle.coordinates;
   int turn = 0;
-  if (!sign_is_known(near_area, turn)) {
+  if (!sign_is_known(doubled_area(uv[0], uv[1], uv[2]), turn)) {
     const auto exact_points = texture_points<mpz_class>(result, units);
     turn = sgn(cross<mpz_class>(exact_points[1] - exact_points[0], exact_points[2] - exact_points[0]));
   }
@@ -103,7 +102,6 @@ ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits&
     result.plane = LiftedPlane(triangle);
     return result;
   }
-  const auto& uv = triangle.coordinates;
   std::sort(result.along.begin(), result.along.end(), [&](std::uint8_t p, std::uint8_t q) {
     return std::pair(uv[p].x(), uv[p].y()) < std::pair(uv[q].x(), uv[q].y());
   });
@@ -115,6 +113,7 @@ void Overlay::begin(const ChartTriangle& a) {
   a_ = &a;
   lines_.clear();
   candidates_.clear();
+  spanning_.clear();
   for (std::size_t i = 0; i < 3; ++i) {
     LineData line;
     line.at[i] = {1, 0};
@@ -149,6 +148,7 @@ void Overlay::add(const ChartTriangle& b) {
     }
     lines_.push_back(std::move(line));
   }
+  if (a_->chart != Chart::Area || b.chart == Chart::Area) spanning_.push_back(candidates());
   candidates_.push_back(candidate);
 }
 
@@ -248,11 +248,25 @@ int Overlay::side(Line line, const Node& node) {
   return sgn(weighted(exact(line), exact(node)));
 }
 
-void Overlay::clip(const Polygon& polygon, Line line, bool flip, Polygon& result) {
-  result.clear();
+bool Overlay::is_on_one_side(Line line, const Polygon& polygon) {
+  bool has_inside = false, has_outside = false;
+  for (const PolygonCorner& corner : polygon) {
+    const int here = side(line, corner.node);
+    has_inside = has_inside || here > 0;
+    has_outside = has_outside || here < 0;
+    if (has_inside && has_outside) return false;
+  }
+  return true;
+}
+
+void Overlay::set_sides(const Polygon& polygon, Line line) {
   sides_.clear();
-  for (const PolygonCorner& corner : polygon)
-    sides_.push_back(flip ? -side(line, corner.node) : side(line, corner.node));
+  for (const PolygonCorner& corner : polygon) sides_.push_back(side(line, corner.node));
+}
+
+/// Keeps what lies on the positive side of the line, or on it.
+void Overlay::cut_by_sides(const Polygon& polygon, Line line, Polygon& result) {
+  result.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const int here = sides_[i], next = sides_[(i + 1) % polygon.size()];
     const Line to_next = polygon[i].to_next;
@@ -262,12 +276,23 @@ void Overlay::clip(const Polygon& polygon, Line line, bool flip, Polygon& result
   }
 }
 
-void Overlay::clip(Polygon& polygon, std::uint32_t candidate) {
+void Overlay::clip(const Polygon& polygon, Line line, bool flip, Polygon& result) {
+  set_sides(polygon, line);
+  if (flip)
+    for (int& side : sides_) side = -side;
+  cut_by_sides(polygon, line, result);
+}
+
+void Overlay::clip(const Polygon& polygon, std::uint32_t candidate, Polygon& result) {
+  const Polygon* rest = &polygon;
   for (const Line line : lines_of(candidate)) {
-    if (polygon.empty()) return;
-    clip(polygon, line, false, clipped_);
-    std::swap(polygon, clipped_);
+    set_sides(*rest, line);
+    if (std::none_of(sides_.begin(), sides_.end(), [](int side) { return side < 0; })) continue;
+    cut_by_sides(*rest, line, clipped_);
+    std::swap(result, clipped_);
+    rest = &result;
   }
+  if (rest != &result) result = polygon;
 }
 
 bool Overlay::covers(std::uint32_t candidate, const Node& node) {

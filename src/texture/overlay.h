@@ -94,6 +94,8 @@ class Overlay {
   [[nodiscard]] const ChartTriangle& triangle() const { return *a_; }
   [[nodiscard]] std::uint32_t candidates() const { return static_cast<std::uint32_t>(candidates_.size()); }
   [[nodiscard]] const ChartTriangle& candidate(std::uint32_t c) const { return *candidates_[c].triangle; }
+  /// The candidates that can cover more of A than a line or a point, in ascending order; valid until one is added.
+  [[nodiscard]] std::span<const std::uint32_t> spanning() const { return spanning_; }
 
   /// The whole triangle A.
   [[nodiscard]] const Polygon& whole() const { return whole_; }
@@ -107,10 +109,12 @@ class Overlay {
 
   /// The side of the line that the point lies on: 1 inside, 0 on the line, -1 outside.
   [[nodiscard]] int side(Line line, const Node& node);
+  /// Whether all of the polygon lies on one side of the line, or on it.
+  [[nodiscard]] bool is_on_one_side(Line line, const Polygon& polygon);
   /// Sets `result` to what of the polygon lies inside the line or on it; with `flip`, outside or on it.
   void clip(const Polygon& polygon, Line line, bool flip, Polygon& result);
-  /// Clips the polygon to what the candidate covers of it.
-  void clip(Polygon& polygon, std::uint32_t candidate);
+  /// Sets `result`, another polygon, to what the candidate covers of this one.
+  void clip(const Polygon& polygon, std::uint32_t candidate, Polygon& result);
   [[nodiscard]] bool covers(std::uint32_t candidate, const Node& node);
 
   /// Bounds of the distance from the point to the nearest point of the candidate with the same texture coordinate; the
@@ -157,6 +161,8 @@ class Overlay {
   [[nodiscard]] const ExactWeights& exact(Line line);
   [[nodiscard]] ExactWeights exact(const Node& node);
   [[nodiscard]] Node crossing(Line line, Line other);
+  void set_sides(const Polygon& polygon, Line line);
+  void cut_by_sides(const Polygon& polygon, Line line, Polygon& result);
   [[nodiscard]] Offsets offsets_at_corners(const Candidate& candidate) const;
   [[nodiscard]] Bounds near_distance(Candidate& candidate, const Node& node);
   [[nodiscard]] Bounds near_distance_to_fibre(const Candidate& candidate, const Node& node) const;
@@ -168,8 +174,9 @@ class Overlay {
   const ChartTriangle* a_ = nullptr;
   std::vector<LineData> lines_;
   std::vector<Candidate> candidates_;
+  std::vector<std::uint32_t> spanning_;
   Polygon whole_, clipped_;
-  std::vector<int> sides_;
+  std::vector<int> sides_;  ///< by corner of a polygon
 };
 
 /// Bounds of the distance between two points.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "meshbound/error.h"
+#include "texture/overlay_numbers.h"
 
 namespace meshbound {
 namespace {
@@ -26,31 +27,23 @@ int exponent_of(const TexturedMesh& mesh) {
   return std::clamp(exponent, -1000, 1000);
 }
 
-/// x in a unit that is a power of two; a value that underflows has an error.
-Approximate in_unit(double x, double by_unit) {
-  const double value = x * by_unit;
-  return {value, std::fabs(value) < Approximate::small && x != 0 ? Approximate::tiny : 0};
-}
-
-/// Twice the area of a triangle in squares of the unit.
+/// Twice the area of a triangle in squares of the unit, a power of two: the length of the vector of the areas that it
+/// has when seen along the axes. Coordinates that underflow in the unit are off by less than `tiny`, like its areas.
 Approximate area(const Corners& corners, double by_unit) {
-  std::array<Approximate, 3> ab, ac;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    const Approximate from = in_unit(corners[0][axis], by_unit);
-    ab[i] = in_unit(corners[1][axis], by_unit) - from;
-    ac[i] = in_unit(corners[2][axis], by_unit) - from;
+  Corners in_unit;
+  bool is_exact = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    in_unit[k] = by_unit * corners[k];
+    is_exact = is_exact && 1 / by_unit * in_unit[k] == corners[k];
   }
-  double squares = 0, error = 0;
-  bool is_zero = true;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const Approximate component = ab[j] * ac[k] - ab[k] * ac[j];
-    is_zero = is_zero && component.is_zero();
-    squares += component.value * component.value;
-    error += component.error;
+  double squares = 0, error = is_exact ? 0 : Approximate::tiny;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto along_axis = [&](const Eigen::Vector3d& p) { return Eigen::Vector2d(p[(i + 1) % 3], p[(i + 2) % 3]); };
+    const Approximate seen = doubled_area(along_axis(in_unit[0]), along_axis(in_unit[1]), along_axis(in_unit[2]));
+    squares += seen.value * seen.value;
+    error += seen.error;
   }
-  if (is_zero) return {};
+  if (squares == 0 && error == 0) return {};
   const double root = std::sqrt(squares);
   return {root, (error + root * (8 * unit_roundoff)) * Approximate::grown + 0x1p-500};  // 2^-500: squares underflow
 }

@@ -48,15 +48,6 @@ Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate
   return cover;
 }
 
-/// The candidates from `first` on that can cover more of A than a line or a point.
-std::vector<std::uint32_t> spanning_candidates(const Overlay& overlay, std::uint32_t first) {
-  std::vector<std::uint32_t> found;
-  const Chart chart = overlay.triangle().chart;
-  for (std::uint32_t c = first; c < overlay.candidates(); ++c)
-    if (chart != Chart::Area || overlay.candidate(c).chart == Chart::Area) found.push_back(c);
-  return found;
-}
-
 /// Sets the lower bound to the distance from the point to the nearest candidate that covers it, if that is larger or no
 /// distance is known yet.
 void include(Overlay& overlay, const Node& node, double precision, TriangleDeviation& result) {
@@ -86,12 +77,6 @@ double upper_at_corners(Overlay& overlay, const Polygon& covered, std::uint32_t 
   return upper;
 }
 
-/// Sets `covered` to what a candidate covers of A.
-void set_covered(Overlay& overlay, std::uint32_t candidate, Polygon& covered) {
-  covered = overlay.whole();
-  overlay.clip(covered, candidate);
-}
-
 /// Whether a candidate covers all of A.
 bool covers_all(Overlay& overlay, std::uint32_t candidate) {
   const Polygon& whole = overlay.whole();
@@ -112,10 +97,8 @@ class PieceSearch {
     if (overlay_.triangle().chart == Chart::Area)
       search_beside_near_ones();
     else
-      search(Piece{overlay_.whole(), {}, spanning_candidates(overlay_, 0)});
-    std::vector<std::uint32_t> touching;
-    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
-      if (is_bounded_[c] == 0) touching.push_back(c);
+      search(Piece{overlay_.whole(), {}, spanning_from(0)});
+    const std::vector<std::uint32_t> touching = uncovered_.empty() ? std::vector<std::uint32_t>() : not_bounded();
     for (const Polygon& polygon : std::exchange(uncovered_, {})) {
       result_.uncovered = result_.uncovered + overlay_.share(polygon);
       for (const std::uint32_t c : touching) search_where_touched(polygon, c);
@@ -127,7 +110,7 @@ class PieceSearch {
  private:
   /// Accepts what candidates cover that are within the limit everywhere, and searches the rest.
   void search_beside_near_ones() {
-    const std::vector<std::uint32_t> candidates = spanning_candidates(overlay_, 0);
+    const std::vector<std::uint32_t> candidates = spanning_from(0);
     std::vector<std::uint32_t> near, rest;
     double upper = -1;
     for (const std::uint32_t c : candidates)
@@ -142,17 +125,44 @@ class PieceSearch {
 
   /// Whether what the candidate covers is within the limit; then `upper` is raised to its bound.
   bool is_within_limit(std::uint32_t candidate, double& upper) {
-    set_covered(overlay_, candidate, covered_);
+    overlay_.clip(overlay_.whole(), candidate, covered_);
     const double bound = upper_at_corners(overlay_, covered_, candidate, goal_.precision);
     if (bound > limit()) return false;
     upper = std::max(upper, bound);
     return true;
   }
 
+  /// The candidates from `first` on that can cover more of A than a line or a point.
+  [[nodiscard]] std::vector<std::uint32_t> spanning_from(std::uint32_t first) const {
+    const std::span<const std::uint32_t> spanning = overlay_.spanning();
+    return {std::lower_bound(spanning.begin(), spanning.end(), first), spanning.end()};
+  }
+
+  /// The candidates that may cover points of A which lie in no piece with a bound.
+  [[nodiscard]] std::vector<std::uint32_t> not_bounded() {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
+      if (is_bounded_[c] == 0 && !lies_in_bounded(c)) found.push_back(c);
+    return found;
+  }
+
+  /// Whether all that the candidate covers of A, often a corner, is also covered by one that is bounded.
+  [[nodiscard]] bool lies_in_bounded(std::uint32_t candidate) {
+    overlay_.clip(overlay_.whole(), candidate, covered_);
+    const auto covers_it = [&](std::uint32_t other) {
+      return std::all_of(covered_.begin(), covered_.end(),
+                         [&](const auto& corner) { return overlay_.covers(other, corner.node); });
+    };
+    if (covered_.empty()) return true;
+    for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
+      if (is_bounded_[other] != 0 && covers_it(other)) return true;
+    return false;
+  }
+
   void search_where_touched(const Polygon& uncovered, std::uint32_t candidate) {
-    Piece piece{uncovered, {candidate}, {}, true};
-    overlay_.clip(piece.polygon, candidate);
-    if (piece.polygon.empty()) return;
+    overlay_.clip(uncovered, candidate, covered_);
+    if (covered_.empty()) return;
+    Piece piece{covered_, {candidate}, {}, true};
     for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
       if (other != candidate) piece.part.push_back(other);
     search(std::move(piece));
@@ -247,7 +257,7 @@ class PieceSearch {
     if (others_.empty()) return;
     for (const ChartTriangle* other : std::exchange(others_, {})) overlay_.add(*other);
     is_bounded_.resize(overlay_.candidates(), 0);
-    unlikely_ = spanning_candidates(overlay_, likely_);
+    unlikely_ = spanning_from(likely_);
     Line cut = 0;
     std::erase_if(unlikely_, [&, whole = overlay_.whole()](std::uint32_t c) {
       return cover_of(overlay_, whole, c, cut) == Cover::None;
@@ -259,7 +269,7 @@ class PieceSearch {
     add_others();
     for (const auto& corner : overlay_.whole()) raise(corner.node);
     for (std::uint32_t c = 0; c < overlay_.candidates() && !result_.far; ++c) {
-      set_covered(overlay_, c, covered_);
+      overlay_.clip(overlay_.whole(), c, covered_);
       if (!covered_.empty()) raise(covered_.front().node);
     }
   }
@@ -335,15 +345,14 @@ class PieceSearch {
 
 std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision, double least) {
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
-  const std::vector<std::uint32_t> candidates = spanning_candidates(overlay, 0);
-  for (const std::uint32_t c : candidates)
+  for (const std::uint32_t c : overlay.spanning())
     if (covers_all(overlay, c)) return std::max(least, upper_at_corners(overlay, overlay.whole(), c, precision));
-  if (!Covering().is_complete(overlay, candidates)) return std::nullopt;
+  if (!Covering().is_complete(overlay, overlay.spanning())) return std::nullopt;
   double upper = least;
   Polygon covered;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
     if (overlay.is_within(c, upper)) continue;
-    set_covered(overlay, c, covered);
+    overlay.clip(overlay.whole(), c, covered);
     upper = std::max(upper, upper_at_corners(overlay, covered, c, precision));
   }
   return upper;

@@ -80,8 +80,8 @@ bool TextureSearch::cell_is_near(const Polygon& cell, std::uint32_t candidate) {
 bool TextureSearch::is_untouched(const Polygon& piece) {
   if (meets_degenerate_) return false;
   for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
-    Polygon covered = piece;
-    overlay_.clip(covered, c);
+    Polygon covered;
+    overlay_.clip(piece, c, covered);
     if (!covered.empty()) return false;
   }
   return true;

@@ -27,27 +27,38 @@ void BoxTree::Node::set(std::size_t lane, const Box& box) {
 }
 
 /// By hand where processors have SSE2, which all of 64 bits have: compilers compare lane by lane otherwise.
-unsigned BoxTree::Node::meeting(const Box& box) const {
-  unsigned bits = 0;
 #if defined(__SSE2__)
-  for (std::size_t lane = 0; lane < width; lane += 4) {
-    const auto meets_on = [&](Eigen::Index axis) {
-      return _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&lo[axis][lane]), _mm_set1_ps(box.hi[axis])),
-                        _mm_cmpge_ps(_mm_loadu_ps(&hi[axis][lane]), _mm_set1_ps(box.lo[axis])));
+struct BoxTree::Wanted {
+  explicit Wanted(const Box& box)
+      : lo{_mm_set1_ps(box.lo[0]), _mm_set1_ps(box.lo[1]), _mm_set1_ps(box.lo[2])},
+        hi{_mm_set1_ps(box.hi[0]), _mm_set1_ps(box.hi[1]), _mm_set1_ps(box.hi[2])} {}
+  __m128 lo[3], hi[3];
+};
+
+unsigned BoxTree::Node::meeting(const Wanted& box) const {
+  const auto meets_from = [&](std::size_t lane) {
+    const auto meets_on = [&](std::size_t axis) {
+      return _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&lo[axis][lane]), box.hi[axis]),
+                        _mm_cmpge_ps(_mm_loadu_ps(&hi[axis][lane]), box.lo[axis]));
     };
-    const __m128 meets = _mm_and_ps(_mm_and_ps(meets_on(0), meets_on(1)), meets_on(2));
-    bits |= static_cast<unsigned>(_mm_movemask_ps(meets)) << lane;
-  }
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_and_ps(_mm_and_ps(meets_on(0), meets_on(1)), meets_on(2))));
+  };
+  return meets_from(0) | meets_from(4) << 4;
+}
 #else
+struct BoxTree::Wanted : Box {};
+
+unsigned BoxTree::Node::meeting(const Wanted& box) const {
+  unsigned bits = 0;
   for (std::size_t lane = 0; lane < width; ++lane) {
     bool meets = true;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       meets = meets && lo[axis][lane] <= box.hi[axis] && hi[axis][lane] >= box.lo[axis];
     bits |= (meets ? 1U : 0U) << lane;
   }
-#endif
   return bits;
 }
+#endif
 
 namespace {
 
@@ -121,16 +132,26 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_o
 }
 
 void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
-  if (!order_.empty()) search(levels_.size() - 1, 0, rounded(box), found);
-}
-
-void BoxTree::search(std::size_t level, std::size_t index, const Box& box, std::vector<std::uint32_t>& found) const {
-  for (unsigned lanes = levels_[level][index].meeting(box); lanes != 0; lanes &= lanes - 1) {
-    const std::size_t child = width * index + static_cast<std::size_t>(std::countr_zero(lanes));
-    if (level > 0)
-      search(level - 1, child, box, found);
-    else
-      found.push_back(order_[child]);
+  if (order_.empty()) return;
+  const Wanted wanted(rounded(box));
+  std::array<unsigned, max_levels> open;           // by level above the lowest: lanes of a node that are left
+  std::array<std::size_t, max_levels> first_lane;  // and the number of its first lane
+  const std::size_t top = levels_.size() - 1;
+  for (std::size_t level = top, node = 0;;) {
+    const unsigned meeting = levels_[level][node].meeting(wanted);
+    if (level == 0) {
+      for (unsigned lanes = meeting; lanes != 0; lanes &= lanes - 1)
+        found.push_back(order_[width * node + static_cast<std::size_t>(std::countr_zero(lanes))]);
+      ++level;
+    } else {
+      open[level] = meeting;
+      first_lane[level] = width * node;
+    }
+    while (level <= top && open[level] == 0) ++level;
+    if (level > top) return;
+    node = first_lane[level] + static_cast<std::size_t>(std::countr_zero(open[level]));
+    open[level] &= open[level] - 1;
+    --level;
   }
 }
 

@@ -24,20 +24,21 @@ class BoxTree {
   struct Box {
     Eigen::Vector3f lo, hi;
   };
+  struct Wanted;  ///< the box that is looked for
   /// Boxes by axis; those of unused lanes are not numbers, which meet nothing.
   struct Node {
     Node();
     void set(std::size_t lane, const Box& box);
     /// A bit for each lane whose box meets this one.
-    [[nodiscard]] unsigned meeting(const Box& box) const;
+    [[nodiscard]] unsigned meeting(const Wanted& box) const;
     float lo[3][width], hi[3][width];
   };
 
   [[nodiscard]] Box rounded(const Eigen::AlignedBox3d& box) const;
-  void search(std::size_t level, std::size_t index, const Box& box, std::vector<std::uint32_t>& found) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  std::vector<std::uint32_t> order_;  ///< indices of the boxes
+  std::vector<std::uint32_t> order_;             ///< indices of the boxes
+  static constexpr std::size_t max_levels = 11;  ///< 8^11 is more than there are indices
   /// By level: node i has the boxes 8 i to 8 i + 7 in order, or the boxes around these nodes of the level before.
   std::vector<std::vector<Node>> levels_;
 };

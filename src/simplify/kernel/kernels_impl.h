@@ -11,7 +11,7 @@ namespace meshbound {
 inline namespace MESHBOUND_ISA {
 
 inline SimplifyKernels kernels_of_this_instruction_set() {
-  return {{offsets, add_deviations},
+  return {{offsets, distances, add_deviations},
           {linearise, weighted_sums, largest_along},
           {set_planes, test_slab, reach_in_slabs},
           {look_at_slabs, look_at_vertices}};

@@ -75,11 +75,20 @@ struct alignas(32) SampleOffsets {
   bool operator==(const SampleOffsets&) const = default;
 };
 
+/// Squared distances of eight points from the closest of some faces, and which one that is.
+struct alignas(32) SampleDistances {
+  float squared[8], face[8];
+  bool operator==(const SampleDistances&) const = default;
+};
+
 /// The inner loops over sample points, see `SimplifyKernels`.
 struct SampleKernel {
   /// Offsets of all points, by block; there must be a face.
   void (*offsets)(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
                   std::span<SampleOffsets> offsets);
+  /// What `offsets` says of distances alone, in less time.
+  void (*distances)(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
+                    std::span<SampleDistances> distances);
   /// Adds the points, each against the face nearest to it. `by_tolerance` is 1 / tolerance.
   void (*add_deviations)(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
                          DeviationSums& sums);

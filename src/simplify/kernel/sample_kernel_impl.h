@@ -32,9 +32,23 @@ struct Offset8 {
   }
 };
 
-/// For any w the nearest point of the line through w on ac and parallel to ab is found first: with the best w, that is
-/// the closest point unless it lies on ac or bc. A shared side ac is left to the other face.
-inline Offset8 offset_from(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
+/// The least of the squared lengths of offsets, by lane.
+struct LeastSquared8 {
+  Float8 squared;
+
+  explicit LeastSquared8(const Offset8& offset) : squared(offset.squared) {}
+  [[nodiscard]] LeastSquared8 or_nearer(const Offset8& other) const {
+    LeastSquared8 result = *this;
+    result.squared = minimum(other.squared, squared);
+    return result;
+  }
+};
+
+/// What `Nearest` keeps of the offset from the closest point of a face. For any w the nearest point of the line through
+/// w on ac and parallel to ab is found first: with the best w, that is the closest point unless it lies on ac or bc. A
+/// shared side ac is left to the other face.
+template <class Nearest>
+inline Nearest nearest_on(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
   const Float8 one = broadcast8(1);
   const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
   const Float8 on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
@@ -46,10 +60,10 @@ inline Offset8 offset_from(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
   const Float8 along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
   const Offset8 from_bc(px - back * f.ab.x - along * f.ac.x, py - back * f.ab.y - along * f.ac.y,
                         pz - back * f.ab.z - along * f.ac.z, Float8{});
-  if (f.shares_ac) return inside.or_nearer(from_bc);
+  if (f.shares_ac) return Nearest(inside).or_nearer(from_bc);
   const Float8 on = clamped(on_ac * f.by_ac, one);
   const Offset8 from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
-  return inside.or_nearer(from_ac).or_nearer(from_bc);
+  return Nearest(inside).or_nearer(from_ac).or_nearer(from_bc);
 }
 
 /// The offset from the nearest face so far, and which one it is.
@@ -67,7 +81,7 @@ inline Closest8 closest_of(const SamplePoints::Block& points, std::span<const Sa
   Closest8 at;
   const Float8 x = load8(points.x), y = load8(points.y), z = load8(points.z);
   for (std::size_t k = 0; k < faces.size(); ++k)
-    at.offer(offset_from(faces[k], x, y, z), broadcast8(static_cast<float>(k)));
+    at.offer(nearest_on<Offset8>(faces[k], x, y, z), broadcast8(static_cast<float>(k)));
   return at;
 }
 
@@ -81,6 +95,21 @@ inline void offsets(std::span<const SamplePoints::Block> points, std::span<const
     store8(offsets[i].squared, at.squared);
     store8(offsets[i].share, at.share);
     store8(offsets[i].face, face);
+  }
+}
+
+inline void distances(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
+                      std::span<SampleDistances> distances) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Float8 x = load8(points[i].x), y = load8(points[i].y), z = load8(points[i].z);
+    Float8 least = broadcast8(HUGE_VALF), face{};
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const Float8 squared = nearest_on<LeastSquared8>(faces[k], x, y, z).squared;
+      face = squared < least ? broadcast8(static_cast<float>(k)) : face;
+      least = minimum(squared, least);
+    }
+    store8(distances[i].squared, least);
+    store8(distances[i].face, face);
   }
 }
 

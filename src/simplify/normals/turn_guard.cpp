@@ -43,14 +43,14 @@ void TurnGuard::Compared::put_first(std::size_t i) {
 }
 
 std::size_t TurnGuard::Compared::nearest(std::size_t i) const {
-  return static_cast<std::size_t>(offsets[i / lanes].face[i % lanes]);
+  return static_cast<std::size_t>(distances[i / lanes].face[i % lanes]);
 }
 
 void TurnGuard::Compared::set_nearest(std::size_t i, std::size_t face) {
-  offsets[i / lanes].face[i % lanes] = static_cast<float>(face);
+  distances[i / lanes].face[i % lanes] = static_cast<float>(face);
 }
 
-double TurnGuard::Compared::squared(std::size_t i) const { return offsets[i / lanes].squared[i % lanes]; }
+double TurnGuard::Compared::squared(std::size_t i) const { return distances[i / lanes].squared[i % lanes]; }
 
 TurnGuard::TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {
   in_star_.reserve(mesh.face_count());
@@ -201,9 +201,9 @@ template <class Holds>
 std::optional<std::size_t> TurnGuard::first_refused(Compared& compared, std::span<const SampleFace> faces,
                                                     const Holds& holds) {
   const std::span<const SamplePoints::Block> blocks = compared.points.blocks;
-  compared.offsets.resize(blocks.size());
+  compared.distances.resize(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    kernel_.offsets(blocks.subspan(b, 1), faces, std::span(compared.offsets).subspan(b, 1));
+    kernel_.distances(blocks.subspan(b, 1), faces, std::span(compared.distances).subspan(b, 1));
     for (std::size_t i = lanes * b; i < std::min(lanes * (b + 1), compared.samples.size()); ++i)
       if (!holds(i)) return i;
   }

@@ -56,7 +56,7 @@ class TurnGuard {
   struct Compared {
     std::vector<std::uint32_t> samples;
     SamplePoints points;
-    std::vector<SampleOffsets> offsets;
+    std::vector<SampleDistances> distances;
 
     void clear();
     void put_first(std::size_t i);
