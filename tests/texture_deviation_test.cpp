@@ -220,6 +220,14 @@ TEST(TextureDeviation, CountsPointsThatAreCoveredOnABorder) {
   EXPECT_GT(found.a_to_b.uncovered.lower, 1 - 1e-12);
 }
 
+/// Two charts that cover the same border, and no more of the texture: the nearer one counts.
+TEST(TextureDeviation, CountsPointsThatTwoCoverOnABorder) {
+  const auto right = [](double height) {
+    return grid(1, [height](double s, double t) { return Corner{{s, t, height}, {s + 1, t}}; });
+  };
+  expect_value(measured(grid(1, flat), joined(right(9), right(7))).a_to_b.bounds, std::sqrt(1 + 49.0));
+}
+
 /// A chart inside of a triangle, far below the error bound: no corner of the triangle tells where it is.
 TEST(TextureDeviation, NamesAPointOfATriangleBeyondTheTolerance) {
   const TexturedMesh inside = grid(1, [](double s, double t) { return Corner{{s, t, 5}, {(1 + s) / 3, (1 + t) / 8}}; });
@@ -291,6 +299,14 @@ TEST(TextureDeviation, HoldsForTheSmallestAndLargestCoordinates) {
 }
 
 /// Areas of such triangles overflow or underflow.
+/// Twice the areas are 1 and 7, the length of (2, 3, 6).
+TEST(TextureDeviation, SaysWhatIsUncoveredByAreasInSpace) {
+  TexturedMesh mesh;
+  mesh.triangles.push_back(triangle({{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}}));
+  mesh.triangles.push_back(triangle({{5, 5, 5}, {0, 0}}, {{5, 7, 4}, {1, 0}}, {{2, 5, 6}, {0, 1}}));
+  expect_value(uncovered_share_of(mesh, std::vector<Approximate>{{0, 0}, {1, 0}}), 7.0 / 8);
+}
+
 TEST(TextureDeviation, SaysWhatIsUncoveredOfTheSmallestAndLargestTriangles) {
   for (const double scale : {0x1p-1070, 0x1p-1010, 0x1p-600, 0x1p600, 0x1p1000}) {
     const TexturedMesh mesh = grid(2, [&](double s, double t) { return Corner{{s * scale, t * scale, 0}, {s, t}}; });
