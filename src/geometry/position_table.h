@@ -41,11 +41,14 @@ class PositionTable {
  public:
   /// `vertices` must outlive this. Expected O(n).
   explicit PositionTable(std::span<const Vec3> vertices);
+  /// Sets `first` to what `first_at_position` returns.
+  PositionTable(std::span<const Vec3> vertices, std::vector<std::uint32_t>& first);
 
   /// The index of the first vertex at p, or `no_index`. Expected O(1).
   [[nodiscard]] std::uint32_t find(const Vec3& p) const { return table_[entry_of(p)]; }
 
  private:
+  std::uint32_t add(std::uint32_t vertex);
   [[nodiscard]] std::size_t entry_of(const Vec3& p) const;
 
   std::span<const Vec3> vertices_;

@@ -7,6 +7,7 @@
 #include "bvh/bvh_data.h"
 #include "geometry/position_table.h"
 #include "numeric/no_index.h"
+#include "numeric/tasks.h"
 
 namespace meshbound {
 namespace {
@@ -43,45 +44,50 @@ void join(std::span<HalfEdge> edges, std::vector<TriangleNeighbours>& neighbours
 class CheckedNeighbours {
  public:
   CheckedNeighbours(const Bvh::Data& tree, std::span<const Vec3> vertices, std::span<const Triangle> triangles)
-      : tree_(tree), vertices_(vertices), triangles_(triangles) {}
+      : tree_(tree), vertices_(vertices), triangles_(triangles), first_corner_(triangles.size()) {}
+
+  /// Looks at the corners of the triangle in a slot. All must have been looked at before neighbours are asked for.
+  void look_at(std::uint32_t slot) {
+    const Triangle& t = triangle(slot);
+    const std::uint32_t first = tree_.source_vertex[tree_.corners[slot][0]];
+    const bool is_degenerate = are_one(t[0], t[1]) || are_one(t[1], t[2]) || are_one(t[2], t[0]);
+    first_corner_[slot] = is_degenerate ? degenerate : first == t[0] ? 0 : first == t[1] ? 1 : 2;
+  }
 
   /// The neighbours of the triangle in a slot, in the order of its corners in the mesh.
   [[nodiscard]] TriangleNeighbours operator()(std::uint32_t slot) const {
     TriangleNeighbours neighbours{no_index, no_index, no_index};
+    if (first_corner_[slot] == degenerate) return neighbours;
     const Triangle& t = triangle(slot);
-    if (!has_three_positions(t)) return neighbours;
-    const std::uint32_t turn = first_corner(slot);
     for (std::uint32_t e = 0; e < 3; ++e) {
-      const std::uint32_t k = (turn + e) % 3, across = tree_.neighbours[slot][e].slot;
-      if (across != no_slot && is_partner(across, t[k], t[(k + 1) % 3], slot))
+      const std::uint32_t k = corner(slot, e), across = tree_.neighbours[slot][e].slot;
+      if (across != no_slot && is_partner(across, t[k], t[after(k)], slot))
         neighbours[k] = tree_.triangle_of_slot[across];
     }
     return neighbours;
   }
 
  private:
+  static constexpr std::uint8_t degenerate = 3;  ///< two corners have one position
+
   [[nodiscard]] const Triangle& triangle(std::uint32_t slot) const { return triangles_[tree_.triangle_of_slot[slot]]; }
   [[nodiscard]] bool are_one(std::uint32_t u, std::uint32_t v) const {
     return u == v || same_position(vertices_[u], vertices_[v]);
   }
-  [[nodiscard]] bool has_three_positions(const Triangle& t) const {
-    return !are_one(t[0], t[1]) && !are_one(t[1], t[2]) && !are_one(t[2], t[0]);
-  }
-  /// The corner in the mesh of the one that the tree has first.
-  [[nodiscard]] std::uint32_t first_corner(std::uint32_t slot) const {
-    const Triangle& t = triangle(slot);
-    const std::uint32_t first = tree_.source_vertex[tree_.corners[slot][0]];
-    return first == t[0] ? 0 : first == t[1] ? 1 : 2;
+  static std::uint32_t after(std::uint32_t corner) { return corner == 2 ? 0 : corner + 1; }
+  /// The number in the mesh of a corner of the tree.
+  [[nodiscard]] std::uint32_t corner(std::uint32_t slot, std::uint32_t of_tree) const {
+    const std::uint32_t k = first_corner_[slot] + of_tree;
+    return k < 3 ? k : k - 3;
   }
   /// Whether the edge from u to v of the triangle in slot `from` is the partner of an edge of the one in `slot`.
   [[nodiscard]] bool is_partner(std::uint32_t slot, std::uint32_t u, std::uint32_t v, std::uint32_t from) const {
+    if (slot == from || first_corner_[slot] == degenerate) return false;
     const Triangle& t = triangle(slot);
-    if (slot == from || !has_three_positions(t)) return false;
-    const std::uint32_t turn = first_corner(slot);
     for (std::uint32_t e = 0; e < 3; ++e) {
-      const std::uint32_t p = t[(turn + e) % 3], q = t[(turn + e + 1) % 3];
-      if ((are_one(p, u) && are_one(q, v)) || (are_one(p, v) && are_one(q, u)))
-        return tree_.neighbours[slot][e].slot == from;
+      if (tree_.neighbours[slot][e].slot != from) continue;
+      const std::uint32_t k = corner(slot, e), p = t[k], q = t[after(k)];
+      if ((are_one(p, v) && are_one(q, u)) || (are_one(p, u) && are_one(q, v))) return true;
     }
     return false;
   }
@@ -89,16 +95,28 @@ class CheckedNeighbours {
   const Bvh::Data& tree_;
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
+  std::vector<std::uint8_t> first_corner_;  ///< by slot: the one in the mesh that the tree has first; or `degenerate`
 };
+
+constexpr std::size_t grain = 4096;  ///< slots that a thread takes at once
 
 }  // namespace
 
 std::vector<TriangleNeighbours> edge_neighbours(const Bvh& tree, std::span<const Vec3> vertices,
-                                                std::span<const Triangle> triangles) {
-  const CheckedNeighbours neighbours_of(tree.data(), vertices, triangles);
+                                                std::span<const Triangle> triangles, int threads) {
+  CheckedNeighbours neighbours_of(tree.data(), vertices, triangles);
   std::vector<TriangleNeighbours> neighbours(triangles.size());
-  for (std::uint32_t slot = 0; slot < triangles.size(); ++slot)
-    neighbours[tree.data().triangle_of_slot[slot]] = neighbours_of(slot);
+  const auto for_each_slot = [&](const auto& use) {
+    for_each_range(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (auto slot = static_cast<std::uint32_t>(begin); slot < end; ++slot) use(slot);
+    });
+  };
+  with_team(threads, [&] {
+    for_each_slot([&](std::uint32_t slot) { neighbours_of.look_at(slot); });
+    for_each_slot([&](std::uint32_t slot) {
+      neighbours[tree.data().triangle_of_slot[slot]] = std::as_const(neighbours_of)(slot);
+    });
+  });
   return neighbours;
 }
 

@@ -25,8 +25,8 @@ using TriangleNeighbours = std::array<std::uint32_t, 3>;
 /// corners. Differs from the function above at edges of more than two triangles only: two of them that have the edge's
 /// vertices for themselves, by index, may be neighbours here. Both functions give an edge of a triangle one partner at
 /// most, whose partner it is, so that the edges inside a set of triangles come in pairs: a parity proof relies on that.
-/// O(n).
+/// O(n), shared by the threads.
 [[nodiscard]] std::vector<TriangleNeighbours> edge_neighbours(const Bvh& tree, std::span<const Vec3> vertices,
-                                                              std::span<const Triangle> triangles);
+                                                              std::span<const Triangle> triangles, int threads = 1);
 
 }  // namespace meshbound

@@ -15,11 +15,9 @@
 #include <utility>
 
 #include "geometry/eigen_vec3.h"
-#include "geometry/position_table.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
-#include "numeric/numbers_below.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/prune.h"
@@ -27,12 +25,17 @@
 namespace meshbound {
 namespace {
 
-TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
-  TriangleMesh result;
-  result.triangles = mesh.triangles;
-  result.vertices.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3d& p : mesh.vertices) result.vertices.push_back(frame.to_frame(p));
-  return result;
+std::vector<Vec3> points_in_frame(const TriangleMesh& mesh, const WorkingFrame& frame) {
+  std::vector<Vec3> points;
+  points.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3d& p : mesh.vertices) points.push_back(to_vec3(frame.to_frame(p)));
+  return points;
+}
+
+/// The triangles of a mesh with these points as its vertices.
+MeshView view_of(const std::vector<Vec3>& points, const TriangleMesh& mesh) {
+  return {reinterpret_cast<const double*>(points.data()), points.size(), sizeof(Vec3),
+          reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), mesh.triangles.size()};
 }
 
 /// What samples may reach of the texture tolerance: between them the texture moves further, and what moves too far is
@@ -40,7 +43,6 @@ TriangleMesh mapped(const TriangleMesh& mesh, const WorkingFrame& frame) {
 /// fewer (six models at three tolerances).
 constexpr double share_of_texture_tolerance = 0.88;
 
-bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
 /// False at a border, and where a face has no area and so no normal.
 bool is_feature(const ArrayMesh& mesh, Corner edge, double angle) {
   if (mesh.twin(edge) == no_index) return false;
@@ -70,18 +72,13 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
       original_(order_.mesh),
       options_(options),
       frame_(used_bounding_box(original_)),
-      tree_(mapped(original_, frame_), BvhOptions{options.threads, stop}) {
-  vertices_.reserve(original_.vertices.size());
-  for (const Eigen::Vector3d& p : original_.vertices) {
-    vertices_.push_back(to_vec3(frame_.to_frame(p)));
-    largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
-  }
+      vertices_(points_in_frame(original_, frame_)),
+      start_points_(start != nullptr ? points_in_frame(start->mesh, frame_) : std::vector<Vec3>()),
+      at_start_point_(start_points(), first_of_start_),
+      tree_(view_of(vertices_, original_), BvhOptions{options.threads, stop}) {
+  for (const Eigen::Vector3d& p : original_.vertices) largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
   if (options.precision == Precision::Single && largest_ > std::numeric_limits<float>::max() / 2)
     throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
-  if (start != nullptr)
-    for (const Eigen::Vector3d& p : start->mesh.vertices) start_points_.push_back(to_vec3(frame_.to_frame(p)));
-  stop.check();
-  sort_start_points();
   stop.check();
   make_state(stop);
 }
@@ -122,11 +119,9 @@ std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<co
 
 void Decimation::make_state(const StopToken& stop) {
   check_texture(options_, order_.triangle.size());
-  TriangleMesh framed;
-  framed.triangles = start_mesh().triangles;
-  for (const Vec3 p : start_points()) framed.vertices.emplace_back(p.x, p.y, p.z);
-  ManifoldSoup soup =
-      manifold_soup(framed, start_ == nullptr ? looks_of(options_, order_.triangle) : std::vector<std::uint32_t>());
+  OriginalOfDecimation original(vertices_, original_.triangles, tree_, threads());
+  stop.check();
+  ManifoldSoup soup = soup_of_start(original);
   stop.check();
   dropped_triangles_ = soup.dropped_triangles;
   split_ = soup.split;
@@ -135,9 +130,9 @@ void Decimation::make_state(const StopToken& stop) {
   for (const std::uint32_t v : soup.vertex_of) positions.push_back(start_points()[v]);
   ArrayMesh mesh(std::move(positions), soup.faces, soup.twin);
   if (start_ != nullptr)
-    go_on_from_start(std::move(soup), std::move(mesh));
+    go_on_from_start(std::move(original), std::move(soup), std::move(mesh));
   else
-    start_as_original(std::move(soup), std::move(mesh));
+    start_as_original(std::move(original), std::move(soup), std::move(mesh));
   stop.check();
   if (keeps_sides()) note_turned_faces();
   if (has_lines()) set_lines();
@@ -163,9 +158,15 @@ std::vector<std::uint32_t> Decimation::index_of_caller_triangle() const {
   return index;
 }
 
-void Decimation::start_as_original(ManifoldSoup soup, ArrayMesh mesh) {
-  state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
-                 std::move(soup.triangle_of));
+ManifoldSoup Decimation::soup_of_start(const OriginalOfDecimation& original) {
+  std::vector<std::uint32_t> first = std::exchange(first_of_start_, {});
+  const MeshView soup = view_of(start_points(), start_mesh());
+  if (start_ != nullptr) return manifold_soup(soup, std::move(first), {}, {});
+  return manifold_soup(soup, std::move(first), original.neighbours, looks_of(options_, order_.triangle));
+}
+
+void Decimation::start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh) {
+  state_.emplace(std::move(original), std::move(mesh), std::move(soup.vertex_of), std::move(soup.triangle_of));
   const std::vector<std::uint32_t>& triangles = state_->source_triangle;
   for (const auto& [triangle, of] : soup.repetitions) {
     const auto face =
@@ -174,7 +175,7 @@ void Decimation::start_as_original(ManifoldSoup soup, ArrayMesh mesh) {
   }
 }
 
-void Decimation::go_on_from_start(ManifoldSoup soup, ArrayMesh mesh) {
+void Decimation::go_on_from_start(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh) {
   std::vector<std::uint32_t> face(start_->mesh.triangles.size(), no_index);  // by triangle of the start
   for (std::uint32_t f = 0; f < soup.triangle_of.size(); ++f) face[soup.triangle_of[f]] = f;
   const std::vector<std::uint32_t> index = index_of_caller_triangle();
@@ -188,27 +189,17 @@ void Decimation::go_on_from_start(ManifoldSoup soup, ArrayMesh mesh) {
     // A face that was dropped lies on others, but a cover with it has to be proven again.
     if (std::find(faces.begin(), faces.end(), no_index) == faces.end()) cover.assign(index[t], faces);
   }
-  state_.emplace(vertices_, original_.triangles, tree_, std::move(mesh), std::move(soup.vertex_of),
-                 std::move(soup.triangle_of), std::move(near), std::move(cover));
+  state_.emplace(std::move(original), std::move(mesh), std::move(soup.vertex_of), std::move(soup.triangle_of),
+                 std::move(near), std::move(cover));
   if (start_->is_covered.empty()) return;
   state_->is_kept.resize(index.size());
   for (std::uint32_t t = 0; t < index.size(); ++t) state_->is_kept[index[t]] = start_->is_covered[t];
 }
 
-void Decimation::sort_start_points() {
-  const std::vector<Vec3>& points = start_points();
-  by_start_point_ = numbers_below(points.size());
-  std::sort(by_start_point_.begin(), by_start_point_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return is_before(points[a], points[b]) || (same_position(points[a], points[b]) && a < b);
-  });
-}
-
 /// The first vertex of the start, by index, at this position.
 std::optional<std::uint32_t> Decimation::first_at(Vec3 p) const {
-  const auto at = std::lower_bound(by_start_point_.begin(), by_start_point_.end(), p,
-                                   [&](std::uint32_t v, Vec3 q) { return is_before(start_points()[v], q); });
-  if (at == by_start_point_.end() || !same_position(start_points()[*at], p)) return std::nullopt;
-  return *at;
+  const std::uint32_t first = at_start_point_.find(p);
+  return first == no_index ? std::nullopt : std::optional(first);
 }
 
 /// By vertex of the mesh: several vertices of the original, at one position, may have become one, or one several.
@@ -397,7 +388,7 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
       options_.progress(1 - static_cast<double>(faces) / static_cast<double>(original_.triangles.size()));
     };
   }
-  if (state_->samples.size() == 0) state_->set_samples(goal.tolerance);
+  if (state_->samples.size() == 0) state_->set_samples(goal.tolerance, threads());
   const auto prune_components = [&] {
     if (!options_.prune) return;
     const Pruned pruned = prune(*state_, goal.tolerance, target_faces, options_.preserve_boundary, threads_->workers);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/position_table.h"
 #include "meshbound/simplify.h"
 #include "simplify/decimate.h"
 #include "simplify/mesh/manifold_soup.h"
@@ -46,8 +47,9 @@ class Decimation {
   Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
              const StopToken& stop);
   void make_state(const StopToken& stop);
-  void start_as_original(ManifoldSoup soup, ArrayMesh mesh);
-  void go_on_from_start(ManifoldSoup soup, ArrayMesh mesh);
+  [[nodiscard]] ManifoldSoup soup_of_start(const OriginalOfDecimation& original);
+  void start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
+  void go_on_from_start(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
   [[nodiscard]] const TriangleMesh& start_mesh() const { return start_ != nullptr ? start_->mesh : original_; }
   [[nodiscard]] const std::vector<Vec3>& start_points() const { return start_ != nullptr ? start_points_ : vertices_; }
   [[nodiscard]] std::uint32_t caller_vertex(std::uint32_t v) const { return start_ != nullptr ? v : order_.vertex[v]; }
@@ -56,7 +58,6 @@ class Decimation {
   }
   [[nodiscard]] std::vector<std::uint32_t> faces_in_order() const;
   [[nodiscard]] std::vector<std::uint32_t> index_of_caller_triangle() const;
-  void sort_start_points();
   [[nodiscard]] std::optional<std::uint32_t> first_at(Vec3 p) const;
   [[nodiscard]] std::vector<std::uint8_t> locked() const;
   void lock_features(std::vector<std::uint8_t>& locked) const;
@@ -90,7 +91,8 @@ class Decimation {
   double largest_ = 0;                         ///< coordinate of the model
   std::vector<Vec3> vertices_;                 ///< of the original, in the frame
   std::vector<Vec3> start_points_;             ///< vertices of `start_`, in the frame
-  std::vector<std::uint32_t> by_start_point_;  ///< the vertices of the start sorted by position
+  std::vector<std::uint32_t> first_of_start_;  ///< by vertex of the start: the first one there, until the soup is made
+  PositionTable at_start_point_;               ///< the vertices of the start by position
   Bvh tree_;                                   ///< in the frame
   std::optional<DecimationState> state_;
   std::optional<DecimationThreads> threads_;

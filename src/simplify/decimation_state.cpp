@@ -7,6 +7,7 @@
 
 #include "numeric/no_index.h"
 #include "numeric/rounding.h"
+#include "numeric/tasks.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
 #include "simplify/mesh/edge_queue.h"
@@ -36,11 +37,11 @@ constexpr std::uint32_t max_followers = 7;
 /// Faces whose normals are further apart meet in a crease: 20 degrees.
 constexpr double max_cosine_of_crease = 0.94;
 
-using Corners = std::array<Vec3, 3>;
+/// A normal of any length.
+Vec3 normal_of(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
-/// Between two triangles that run along their common edge in opposite directions.
-bool is_crease(const Corners& s, const Corners& t) {
-  const Vec3 m = cross(s[1] - s[0], s[2] - s[0]), n = cross(t[1] - t[0], t[2] - t[0]);
+/// Between two triangles with these normals that run along their common edge in opposite directions.
+bool is_crease(Vec3 m, Vec3 n) {
   return dot(m, n) < max_cosine_of_crease * std::sqrt(squared_length(m) * squared_length(n));
 }
 
@@ -51,27 +52,59 @@ double points_between(Vec3 p, Vec3 q, double spacing) {
   return count > 0 ? std::min(count, max_between) : 0;
 }
 
-bool is_border_or_crease(const ArrayMesh& mesh, Corner edge) {
-  return mesh.twin(edge) == no_index || is_crease(mesh.triangle(edge / 3), mesh.triangle(mesh.twin(edge) / 3));
+constexpr std::size_t grain = 4096;  ///< faces that a thread takes at once
+
+/// What an edge is sampled by.
+struct EdgeToSample {
+  bool is_sharp = false;  ///< a border or a crease
+  std::uint8_t points_between = 0;
+};
+
+/// By corner of the mesh; at all but one of an edge nothing.
+std::vector<EdgeToSample> edges_to_sample(const ArrayMesh& mesh, double spacing, int threads) {
+  std::vector<Vec3> normals(mesh.face_count());
+  std::vector<EdgeToSample> edges(3 * mesh.face_count());
+  const auto look_at = [&](Corner c) {
+    if (mesh.edge(c) != c) return;
+    const Corner twin = mesh.twin(c);
+    const bool is_sharp = twin == no_index || is_crease(normals[c / 3], normals[twin / 3]);
+    const double between = points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing);
+    edges[c] = {is_sharp, static_cast<std::uint8_t>(between)};
+  };
+  with_team(threads, [&] {
+    for_each_range(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {
+      for (auto f = static_cast<std::uint32_t>(begin); f < end; ++f) normals[f] = normal_of(mesh.triangle(f));
+    });
+    for_each_range(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {
+      for (auto c = static_cast<Corner>(3 * begin); c < 3 * end; ++c) look_at(c);
+    });
+  });
+  return edges;
 }
 
 /// At the edge of original t to the one `across` it.
 bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, std::uint32_t t,
                          std::uint32_t across) {
-  const auto corners = [&](std::uint32_t of) {
+  const auto normal = [&](std::uint32_t of) {
     const auto& [a, b, c] = triangles[of];
-    return Corners{vertices[a], vertices[b], vertices[c]};
+    return normal_of({vertices[a], vertices[b], vertices[c]});
   };
-  return across == no_index || is_crease(corners(t), corners(across));
+  return across == no_index || is_crease(normal(t), normal(across));
 }
 
 }  // namespace
 
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
                  const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
-                 double spacing)
-    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), no_index) {
-  for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
+                 double spacing, int threads)
+    : first_(mesh.face_count(), no_index) {
+  const std::vector<EdgeToSample> edges = edges_to_sample(mesh, spacing, threads);
+  std::size_t count = vertices.size();
+  for (const EdgeToSample& edge : edges) count += edge.points_between;
+  samples_.reserve(count);
+  triangle_near_.reserve(count);
+  for (const Vec3& p : vertices) samples_.push_back({p, no_index, no_index});
+  triangle_near_.assign(vertices.size(), 0);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::uint32_t v : triangles[triangle_of_face[f]]) {
       if (samples_[v].face != no_index) continue;
@@ -79,26 +112,17 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       give_to(v, f);
     }
   }
-  const auto for_each_edge = [&](const auto& visit) {
-    for (Corner c = 0; c < 3 * mesh.face_count(); ++c)
-      if (mesh.edge(c) == c) visit(c);
-  };
-  double between = 0;
-  for_each_edge(
-      [&](Corner c) { between += points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing); });
-  samples_.reserve(samples_.size() + static_cast<std::size_t>(between));
-  triangle_near_.reserve(samples_.capacity());
-  for_each_edge([&](Corner c) {
-    const std::uint32_t mark = is_border_or_crease(mesh, c) ? at_edge : 0;
-    for (const std::uint32_t v : {mesh.start(c), mesh.end(c)}) triangle_near_[vertex_of_vertex[v]] |= mark;
-    add_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing, triangle_of_face[c / 3] | mark,
+  for (Corner c = 0; c < edges.size(); ++c) {
+    if (edges[c].points_between == 0 && !edges[c].is_sharp) continue;
+    const std::uint32_t p = mesh.start(c), q = mesh.end(c), mark = edges[c].is_sharp ? at_edge : 0;
+    for (const std::uint32_t v : {p, q}) triangle_near_[vertex_of_vertex[v]] |= mark;
+    add_between(mesh.position(p), mesh.position(q), edges[c].points_between, triangle_of_face[c / 3] | mark,
                 [&](Vec3) { return c / 3; });
-  });
+  }
 }
 
 template <class FaceAt>
-void Samples::add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle_and_mark, const FaceAt& face_at) {
-  const double count = points_between(p, q, spacing);
+void Samples::add_between(Vec3 p, Vec3 q, double count, std::uint32_t triangle_and_mark, const FaceAt& face_at) {
   for (int k = 1; k <= count; ++k) {
     const Vec3 at = p + (k / (count + 1)) * (q - p);
     samples_.push_back({at, no_index, no_index});
@@ -129,7 +153,8 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       if (across != no_index && across < t) continue;
       const std::uint32_t mark = is_border_or_crease(vertices, triangles, t, across) ? at_edge : 0;
       triangle_near_[v] |= mark, triangle_near_[w] |= mark;
-      add_between(vertices[v], vertices[w], spacing, t | mark, [&](Vec3 p) { return nearest_face(t, p); });
+      add_between(vertices[v], vertices[w], points_between(vertices[v], vertices[w], spacing), t | mark,
+                  [&](Vec3 p) { return nearest_face(t, p); });
     }
   }
   std::uint32_t leader = no_index, followers = 0;
@@ -185,15 +210,21 @@ void ProvenChanges::add(const EditLog& proven) {
   }
 }
 
-DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
-                                 const std::vector<Triangle>& original_triangles, const Bvh& original_tree,
-                                 ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+OriginalOfDecimation::OriginalOfDecimation(const std::vector<Vec3>& its_vertices,
+                                           const std::vector<Triangle>& its_triangles, const Bvh& its_tree, int threads)
+    : vertices(its_vertices),
+      triangles(its_triangles),
+      tree(its_tree),
+      neighbours(edge_neighbours(tree, vertices, triangles, threads)) {}
+
+DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
+                                 std::vector<std::uint32_t> vertex_of_vertex,
                                  std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                                  CoverAssignment cover_of)
-    : vertices(original_vertices),
-      triangles(original_triangles),
-      tree(original_tree),
-      neighbours(edge_neighbours(tree, vertices, triangles)),
+    : vertices(original.vertices),
+      triangles(original.triangles),
+      tree(original.tree),
+      neighbours(std::move(original.neighbours)),
       clusters(triangles, vertices.size()),
       slabs({vertices, triangles, neighbours}, clusters),
       mesh(std::move(start)),
@@ -215,13 +246,11 @@ DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
   for (const Vec3 p : vertices) magnitude = std::max({magnitude, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
 
-DecimationState::DecimationState(const std::vector<Vec3>& original_vertices,
-                                 const std::vector<Triangle>& original_triangles, const Bvh& original_tree,
-                                 ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
+                                 std::vector<std::uint32_t> vertex_of_vertex,
                                  std::vector<std::uint32_t> triangle_of_face)
-    : DecimationState(original_vertices, original_triangles, original_tree, std::move(start),
-                      std::move(vertex_of_vertex), triangle_of_face, triangle_of_face,
-                      CoverAssignment(original_triangles.size())) {
+    : DecimationState(std::move(original), std::move(start), std::move(vertex_of_vertex), triangle_of_face,
+                      triangle_of_face, CoverAssignment(original.triangles.size())) {
   starts_as_original = true;
   cover.reserve_faces(faces);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
@@ -240,9 +269,9 @@ void DecimationState::reset_quadrics() {
   quadrics = vertex_quadrics(mesh, texture ? PlaneWeights::Area : PlaneWeights::Equal);
 }
 
-void DecimationState::set_samples(double for_tolerance) {
+void DecimationState::set_samples(double for_tolerance, int threads) {
   const double spacing = spacing_of_samples * for_tolerance;
-  samples = starts_as_original ? Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing)
+  samples = starts_as_original ? Samples(vertices, triangles, mesh, source_triangle, source_vertex, spacing, threads)
                                : Samples(vertices, triangles, mesh, neighbours, cover, for_tolerance);
 }
 

@@ -35,7 +35,7 @@ class Samples {
   /// Takes the vertices of the original, and points at most `spacing` apart on longer edges.
   Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
           const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
-          double spacing);
+          double spacing, int threads);
   /// Takes samples for a mesh that is no longer the original, to be simplified with this tolerance: each sample gets
   /// the nearest of the faces that cover its triangle. Originals without a cover have no samples.
   Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
@@ -77,9 +77,9 @@ class Samples {
   }
 
  private:
-  /// Adds points between p and q that are at most `spacing` apart, up to a limit.
+  /// Adds so many points between p and q.
   template <class FaceAt>
-  void add_between(Vec3 p, Vec3 q, double spacing, std::uint32_t triangle_and_mark, const FaceAt& face_at);
+  void add_between(Vec3 p, Vec3 q, double count, std::uint32_t triangle_and_mark, const FaceAt& face_at);
 
   static constexpr std::uint32_t goes_with = 0x80000000, at_edge = 0x80000000;
   struct alignas(32) Sample {
@@ -148,6 +148,18 @@ struct Region {
   std::vector<std::uint32_t> vertices;  ///< of the region; empty where it is the whole mesh
 };
 
+/// The original of a decimation. What it refers to must outlive it.
+struct OriginalOfDecimation {
+  /// Finds the neighbours of the triangles, O(n) shared by the threads. The tree is built of them.
+  OriginalOfDecimation(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const Bvh& tree,
+                       int threads);
+
+  const std::vector<Vec3>& vertices;
+  const std::vector<Triangle>& triangles;
+  const Bvh& tree;
+  std::vector<TriangleNeighbours> neighbours;  ///< across edges
+};
+
 /// A mesh under decimation and everything known about it.
 ///
 ///
@@ -155,21 +167,19 @@ struct Region {
 /// changed since the last proof, and `logs` can undo the changes. All coordinates are those of the working frame.
 struct DecimationState {
   /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
-  /// vertex of the original is at the same place. The original must outlive this. Samples are still to be set.
-  DecimationState(const std::vector<Vec3>& original_vertices, const std::vector<Triangle>& original_triangles,
-                  const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+  /// vertex of the original is at the same place. Samples are still to be set.
+  DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face);
   /// A mesh that is proven already, with the originals that cover its faces: `cover_of(t)` are faces that original t is
   /// proven to be near, `near` has an original near each face. `vertex_of_vertex` and `triangle_of_face` are numbers of
-  /// what the caller started from. The original must outlive this. Samples are still to be set.
-  DecimationState(const std::vector<Vec3>& original_vertices, const std::vector<Triangle>& original_triangles,
-                  const Bvh& original_tree, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
+  /// what the caller started from. Samples are still to be set.
+  DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
                   CoverAssignment cover_of);
   /// Gives each vertex the planes of the faces that are around it now.
   void reset_quadrics();
-  /// Takes samples for proposals of this tolerance.
-  void set_samples(double for_tolerance);
+  /// Takes samples for proposals of this tolerance. Where they lie does not depend on the threads.
+  void set_samples(double for_tolerance, int threads = 1);
   /// Largest distance between samples on an edge of the original, in tolerances: with samples further apart, a face may
   /// be near both ends of an edge and miss its middle. Half of this costs a tenth more time for as many faces, twice as
   /// much gives 4% more faces.

@@ -2,6 +2,7 @@
 #include "simplify/mesh/manifold_soup.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <span>
 #include <string>
@@ -20,8 +21,12 @@ constexpr std::size_t max_triangles = 0xffffffff / 3;
 constexpr std::uint32_t next(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 constexpr std::uint32_t previous(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-std::uint32_t& at(std::vector<Triangle>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
-std::uint32_t at(const std::vector<Triangle>& table, std::uint32_t corner) { return table[corner / 3][corner % 3]; }
+std::uint32_t& at(std::vector<Triangle>& table, std::uint32_t corner) {
+  return reinterpret_cast<std::uint32_t*>(table.data())[corner];
+}
+std::uint32_t at(const std::vector<Triangle>& table, std::uint32_t corner) {
+  return reinterpret_cast<const std::uint32_t*>(table.data())[corner];
+}
 
 /// Calls `use` with a span of the items of each vertex, in the order of the vertices. `for_each_item(add)` calls
 /// `add(vertex, item)` for each item, twice the same.
@@ -53,12 +58,21 @@ std::vector<std::uint32_t> first_of_equal(const MeshView& soup) {
 
 class ManifoldBuilder {
  public:
-  ManifoldBuilder(const MeshView& soup, std::span<const std::uint32_t> look)
-      : soup_(soup), look_(look), first_(first_of_equal(soup)) {}
+  /// `neighbours` may be empty.
+  ManifoldBuilder(const MeshView& soup, std::vector<std::uint32_t> first,
+                  std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look)
+      : soup_(soup), neighbours_(neighbours), look_(look), is_shared_(first.size(), 0), first_(std::move(first)) {
+    for (std::uint32_t v = 0; v < first_.size(); ++v) {
+      if (first_[v] == v) continue;
+      is_shared_[first_[v]] = 1;
+      has_shared_ = true;
+    }
+  }
 
   ManifoldSoup build() && {
     take_distinct_triangles();
-    if (!join_edges()) orient();
+    join_edges();
+    if (!is_oriented_) orient();
     split_vertices();
     close_slits();
     return std::move(result_);
@@ -79,8 +93,26 @@ class ManifoldBuilder {
     return {first_[corners[0]], first_[corners[1]], first_[corners[2]]};
   }
 
+  /// Whether another triangle may have the corners of this one: not where vertices have their positions for themselves
+  /// and two different triangles lie across edges that have no third one.
+  [[nodiscard]] bool may_be_repeated(std::uint32_t triangle) const {
+    if (neighbours_.empty() || has_shared(welded(triangle))) return true;
+    std::uint32_t across = no_index;
+    for (const std::uint32_t other : neighbours_[triangle]) {
+      if (other == no_index) continue;
+      if (across != no_index && across != other) return false;
+      across = other;
+    }
+    return true;
+  }
+  [[nodiscard]] bool has_shared(const Triangle& corners) const {
+    return has_shared_ && (is_shared_[corners[0]] | is_shared_[corners[1]] | is_shared_[corners[2]]) != 0;
+  }
+
   void take_distinct_triangles();
-  [[nodiscard]] bool join_edges();
+  void join_neighbours();
+  [[nodiscard]] std::uint32_t corner_across(std::uint32_t corner, std::uint32_t face) const;
+  void join_edges();
   void orient();
   void turn_over(const std::vector<std::uint8_t>& turned);
   void split_vertices();
@@ -92,6 +124,11 @@ class ManifoldBuilder {
   void join(std::uint32_t a, std::uint32_t b) {
     at(result_.twin, a) = b;
     at(result_.twin, b) = a;
+  }
+  /// Joins edges that may run in one direction.
+  void join_unoriented(std::uint32_t a, std::uint32_t b) {
+    join(a, b);
+    is_oriented_ = is_oriented_ && runs_upward(a) != runs_upward(b);
   }
   void cut(std::uint32_t corner) {
     at(result_.twin, at(result_.twin, corner)) = no_index;
@@ -117,10 +154,14 @@ class ManifoldBuilder {
   }
 
   MeshView soup_;
+  std::span<const TriangleNeighbours> neighbours_;
   std::span<const std::uint32_t> look_;
-  std::vector<std::uint32_t> sheet_;  ///< by triangle of the soup; empty: all are on the first one
-  std::vector<std::uint32_t> first_;  ///< by vertex of the soup: the first one with its coordinates
-  ManifoldSoup result_;               ///< until `split_vertices`, corners are vertices of the soup
+  std::vector<std::uint32_t> sheet_;     ///< by triangle of the soup; empty: all are on the first one
+  std::vector<std::uint8_t> is_shared_;  ///< by vertex of the soup: another one has it as its first
+  bool has_shared_ = false;              ///< any is
+  bool is_oriented_ = true;              ///< twins run in opposite directions, everywhere
+  std::vector<std::uint32_t> first_;     ///< by vertex of the soup: the first one with its coordinates
+  ManifoldSoup result_;                  ///< until `split_vertices`, corners are vertices of the soup
 };
 
 void ManifoldBuilder::sort_out(std::span<const Seen> same, std::vector<std::uint8_t>& dropped) {
@@ -144,19 +185,24 @@ void ManifoldBuilder::sort_out(std::span<const Seen> same, std::vector<std::uint
 void ManifoldBuilder::take_distinct_triangles() {
   const auto triangles = static_cast<std::uint32_t>(soup_.triangle_count());
   std::vector<std::uint8_t> dropped(triangles, 0);
-  const auto for_each_triangle = [&](const auto& add) {
-    for (std::uint32_t t = 0; t < triangles; ++t) {
+  std::vector<std::uint32_t> candidates;
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    const auto [a, b, c] = welded(t);
+    if (a == b || b == c || c == a)
+      dropped[t] = 1;
+    else if (may_be_repeated(t))
+      candidates.push_back(t);
+  }
+  const auto for_each_candidate = [&](const auto& add) {
+    for (const std::uint32_t t : candidates) {
       auto [a, b, c] = welded(t);
       if (a > b) std::swap(a, b);
       if (b > c) std::swap(b, c);
       if (a > b) std::swap(a, b);
-      if (a == b || b == c)
-        dropped[t] = 1;
-      else
-        add(a, Seen{b, c, t});
+      add(a, Seen{b, c, t});
     }
   };
-  for_each_vertex<Seen>(first_.size(), for_each_triangle, [&](std::span<Seen> here) {
+  for_each_vertex<Seen>(first_.size(), for_each_candidate, [&](std::span<Seen> here) {
     const auto corners = [](const Seen& seen) { return std::tuple(seen.middle, seen.highest); };
     std::sort(here.begin(), here.end(), [&](const Seen& a, const Seen& b) {
       return std::tuple(corners(a), a.triangle) < std::tuple(corners(b), b.triangle);
@@ -176,17 +222,54 @@ void ManifoldBuilder::take_distinct_triangles() {
   }
 }
 
-/// Twins across edges of exactly two faces. True when both run in opposite directions, everywhere.
-bool ManifoldBuilder::join_edges() {
+/// The corner of the face whose edge has the ends of that at `corner`.
+std::uint32_t ManifoldBuilder::corner_across(std::uint32_t corner, std::uint32_t face) const {
+  const std::uint32_t from = at(result_.faces, corner), to = at(result_.faces, next(corner));
+  const auto [a, b, c] = result_.faces[face];
+  const auto has_ends = [&](std::uint32_t p, std::uint32_t q) {  // without branches, which cannot be foretold
+    return static_cast<unsigned>(((p == from) & (q == to)) | ((p == to) & (q == from)));
+  };
+  const unsigned found = has_ends(a, b) | has_ends(b, c) << 1 | has_ends(c, a) << 2;
+  return found == 0 ? no_index : 3 * face + static_cast<std::uint32_t>(std::countr_zero(found));
+}
+
+/// Twins across edges of exactly two triangles of the soup, which are those whose vertices have their positions for
+/// themselves where a tree has found neighbours.
+void ManifoldBuilder::join_neighbours() {
+  if (neighbours_.empty()) return;
+  std::vector<std::uint32_t> numbers;  // of the faces, by triangle; empty: their own
+  if (result_.dropped_triangles > 0) {
+    numbers.assign(soup_.triangle_count(), no_index);
+    for (std::uint32_t f = 0; f < result_.faces.size(); ++f) numbers[result_.triangle_of[f]] = f;
+  }
+  for (std::uint32_t f = 0; f < result_.faces.size(); ++f) {
+    const std::uint32_t t = result_.triangle_of[f];
+    const bool has_shared = this->has_shared(result_.faces[f]);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t across = neighbours_[t][k];
+      if (across == no_index || across < t) continue;
+      if (has_shared && (is_shared_[result_.faces[f][k]] | is_shared_[result_.faces[f][next(k)]]) != 0) continue;
+      const std::uint32_t face = numbers.empty() ? across : numbers[across];
+      const std::uint32_t twin = face == no_index ? no_index : corner_across(3 * f + k, face);
+      if (twin != no_index && sheet_of(twin) == sheet_of(3 * f + k)) join_unoriented(3 * f + k, twin);
+    }
+  }
+}
+
+/// Twins across edges of exactly two faces.
+void ManifoldBuilder::join_edges() {
   const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
   result_.twin.assign(result_.faces.size(), {no_index, no_index, no_index});
+  join_neighbours();
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t c = 0; c < corners; ++c)
+    if (at(result_.twin, c) == no_index) open.push_back(c);
   const auto for_each_side = [&](const auto& add) {
-    for (std::uint32_t c = 0; c < corners; ++c) {
+    for (const std::uint32_t c : open) {
       const std::uint32_t from = at(result_.faces, c), to = at(result_.faces, next(c));
       add(std::min(from, to), Side{std::max(from, to), c});
     }
   };
-  bool oriented = true;
   for_each_vertex<Side>(first_.size(), for_each_side, [&](std::span<Side> here) {
     const auto edge = [&](const Side& side) { return std::tuple(side.high, sheet_of(side.corner)); };
     std::sort(here.begin(), here.end(), [&](const Side& a, const Side& b) {
@@ -195,11 +278,9 @@ bool ManifoldBuilder::join_edges() {
     for (std::size_t i = 0, end = 0; i < here.size(); i = end) {
       while (end < here.size() && edge(here[end]) == edge(here[i])) ++end;
       if (end - i != 2) continue;
-      join(here[i].corner, here[i + 1].corner);
-      oriented = oriented && runs_upward(here[i].corner) != runs_upward(here[i + 1].corner);
+      join_unoriented(here[i].corner, here[i + 1].corner);
     }
   });
-  return oriented;
 }
 
 /// A flood fill over each component, breadth first.
@@ -286,10 +367,15 @@ void ManifoldBuilder::close_slits() {
 }  // namespace
 
 ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> look) {
+  return manifold_soup(soup, first_of_equal(soup), {}, look);
+}
+
+ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
+                           std::span<const TriangleNeighbours> neighbours, std::span<const std::uint32_t> look) {
   if (soup.triangle_count() > max_triangles)
     throw InvalidInput("the mesh has " + std::to_string(soup.triangle_count()) +
                        " triangles; decimation takes 2^32 / 3 of them at most, simplify it in pieces");
-  return ManifoldBuilder(soup, look).build();
+  return ManifoldBuilder(soup, std::move(first_at_position), neighbours, look).build();
 }
 
 }  // namespace meshbound

@@ -9,6 +9,7 @@
 #include "meshbound/mesh_view.h"
 #include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
+#include "proof/edge_neighbours.h"
 
 namespace meshbound {
 
@@ -47,5 +48,11 @@ struct ManifoldSoup {
 /// `soup` is valid (see `validate`). Without faces where no triangle has three different corners. Throws `InvalidInput`
 /// for more than 2^32 / 3 triangles. Deterministic; O(n log d) expected time for d edges at a vertex, O(n) memory.
 [[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> look = {});
+
+/// The same, in less time, where the first vertex at the position of each vertex and the neighbours of each triangle
+/// are known, those that a tree has found (see `edge_neighbours`): edges are sorted only where these are not certain.
+[[nodiscard]] ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
+                                         std::span<const TriangleNeighbours> neighbours,
+                                         std::span<const std::uint32_t> look);
 
 }  // namespace meshbound
