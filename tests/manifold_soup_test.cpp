@@ -8,9 +8,14 @@
 #include <set>
 #include <string>
 
+#include "datasets/analytic_meshes.h"
+#include "geometry/position_table.h"
 #include "manifold_soup_cases.h"
+#include "mesh/mesh_arrays.h"
+#include "meshbound/bvh.h"
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
+#include "reference/hard_meshes.h"
 #include "reference/small_meshes.h"
 
 namespace manifold_soup_test {
@@ -21,6 +26,7 @@ using meshbound::ManifoldSoup;
 using meshbound::no_index;
 using meshbound::Triangle;
 using meshbound::TriangleMesh;
+using meshbound::Vec3;
 
 using Coordinates = std::array<double, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -307,6 +313,61 @@ TEST(ManifoldSoup, IsAManifoldForAnyTriangles) {
   }
   EXPECT_GT(split, 500);
   EXPECT_GT(whole, 20);
+}
+
+/// What differs from the result without neighbours; `look` as for `manifold_soup`.
+std::string difference_with_neighbours(const TriangleMesh& soup, const std::vector<std::uint32_t>& look, int threads) {
+  const std::vector<Vec3> positions = meshbound::positions_of(soup);
+  const auto neighbours = meshbound::edge_neighbours(meshbound::Bvh(soup), positions, soup.triangles, threads);
+  const ManifoldSoup with = manifold_soup(soup, meshbound::first_at_position(positions), neighbours, look);
+  const ManifoldSoup without = manifold_soup(soup, look);
+  if (with.faces != without.faces) return "faces";
+  if (with.twin != without.twin) return "twins";
+  if (with.vertex_of != without.vertex_of || with.triangle_of != without.triangle_of) return "sources";
+  if (!std::ranges::equal(with.repetitions, without.repetitions,
+                          [](const auto& a, const auto& b) { return a.triangle == b.triangle && a.of == b.of; }))
+    return "repetitions";
+  if (with.dropped_triangles != without.dropped_triangles) return "dropped triangles";
+  return with.split != without.split ? "split" : "";
+}
+
+TEST(ManifoldSoup, IsTheSameWithNeighbours) {
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+    TriangleMesh soup = meshbound::test::tangled_soup(seed);
+    std::vector<std::uint32_t> look;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) look.push_back(t % 2);
+    ASSERT_EQ(difference_with_neighbours(soup, {}, 1), "") << "seed " << seed;
+    ASSERT_EQ(difference_with_neighbours(soup, look, 2), "") << "seed " << seed;
+    soup.triangles.push_back(soup.triangles.front());  // twice, then the back of another, then without area
+    soup.triangles.push_back({soup.triangles[1 % soup.triangles.size()]});
+    std::swap(soup.triangles.back()[0], soup.triangles.back()[1]);
+    soup.triangles.push_back({soup.triangles[0][0], soup.triangles[0][1], soup.triangles[0][1]});
+    look.insert(look.end(), {0, 1, 0});
+    ASSERT_EQ(difference_with_neighbours(soup, {}, 1), "") << "seed " << seed;
+    ASSERT_EQ(difference_with_neighbours(soup, look, 1), "") << "seed " << seed;
+  }
+}
+
+/// A mesh and a copy of it with vertices of its own: by these, triangles have other neighbours than by positions.
+TriangleMesh twice(TriangleMesh mesh) {
+  const auto vertices = static_cast<std::uint32_t>(mesh.vertices.size());
+  const std::vector<Triangle> triangles = mesh.triangles;
+  const std::vector<Eigen::Vector3d> points = mesh.vertices;
+  mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end());
+  for (const auto& [a, b, c] : triangles) mesh.triangles.push_back({a + vertices, b + vertices, c + vertices});
+  return mesh;
+}
+
+/// Large enough for several threads.
+TEST(ManifoldSoup, OfAWholeMeshIsTheSameWithNeighbours) {
+  TriangleMesh torus = meshbound::datasets::torus(1, 0.3, 160, 60);
+  EXPECT_EQ(difference_with_neighbours(torus, {}, 3), "");
+  EXPECT_EQ(manifold_soup(torus).dropped_triangles, 0U);
+  EXPECT_EQ(difference_with_neighbours(twice(torus), {}, 3), "");
+  EXPECT_EQ(manifold_soup(twice(torus)).dropped_triangles, torus.triangles.size());
+  torus.triangles.push_back(torus.triangles[7]);
+  EXPECT_EQ(difference_with_neighbours(torus, {}, 3), "");
+  EXPECT_EQ(difference_with_neighbours(meshbound::reference::unwelded(torus), {}, 3), "");
 }
 
 TEST(ManifoldSoup, IsAManifoldForTheSharedMeshes) {
