@@ -162,14 +162,6 @@ TurnGuard::Nearest TurnGuard::nearest_face(const FaceTurns::Sample& sample) cons
   return nearest;
 }
 
-/// From the faces that the sample turns little from.
-double TurnGuard::squared_distance_of_allowed(const FaceTurns::Sample& sample) const {
-  double least = HUGE_VAL;
-  for (const Face& face : faces_)
-    if (turns_.allows(sample.normal, face.normal)) least = std::min(least, squared_distance(face.corners, sample.at));
-  return least;
-}
-
 /// Whether the sample turns little from the nearest face, of the star or of those that hold its rivals.
 bool TurnGuard::holds_own(std::size_t i) {
   const std::optional<RivalFace> rival = nearest_rival(i);
@@ -181,12 +173,6 @@ bool TurnGuard::holds_own(std::size_t i) {
 /// others may stay where they are when that one moves.
 bool TurnGuard::holds_against(std::size_t i, const std::optional<RivalFace>& rival) {
   const FaceTurns::Sample& sample = turns_.sample(own_.samples[i]);
-  const double roughly = own_.squared(i), most = (1 + single_precision) * roughly;
-  if (squared_distance_of_allowed(sample) > (1 + tie) * (rival ? std::min(rival->squared, most) : most)) {
-    const bool is_rival_nearer = rival && rival->squared < roughly;
-    deviation_ = turns_.angle(sample.normal, is_rival_nearer ? rival->normal : faces_[own_.nearest(i)].normal);
-    return false;
-  }
   const Nearest nearest = nearest_face(sample);
   const bool is_rival_nearer = rival && rival->squared < nearest.squared;
   if (nearest.squared_of_allowed <= (1 + tie) * (is_rival_nearer ? rival->squared : nearest.squared)) {

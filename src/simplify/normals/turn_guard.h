@@ -89,7 +89,6 @@ class TurnGuard {
   [[nodiscard]] std::optional<RivalFace> nearest_rival(std::size_t i) const;
   [[nodiscard]] std::optional<RivalFace> nearest_beside_rivals(std::size_t i) const;
   [[nodiscard]] Nearest nearest_face(const FaceTurns::Sample& sample) const;
-  [[nodiscard]] double squared_distance_of_allowed(const FaceTurns::Sample& sample) const;
   [[nodiscard]] bool holds_own(std::size_t i);
   [[nodiscard]] bool holds_against(std::size_t i, const std::optional<RivalFace>& rival);
   [[nodiscard]] bool holds_other(std::size_t i);
