@@ -7,6 +7,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "drivers.h"
+#include "levels/level_run.h"
 #include "meshbound/normal_deviation.h"
 #include "meshbound/simplify.h"
 #include "numeric/vector_code.h"
