@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "bvh/bvh_data.h"
 #include "geometry/position_table.h"

@@ -20,6 +20,7 @@ class BoxTree {
 
  private:
   static constexpr std::size_t width = 8;
+  static constexpr std::size_t max_levels = 11;  ///< 8^11 is more than there are indices
 
   struct Box {
     Eigen::Vector3f lo, hi;
@@ -37,8 +38,7 @@ class BoxTree {
   [[nodiscard]] Box rounded(const Eigen::AlignedBox3d& box) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  std::vector<std::uint32_t> order_;             ///< indices of the boxes
-  static constexpr std::size_t max_levels = 11;  ///< 8^11 is more than there are indices
+  std::vector<std::uint32_t> order_;  ///< indices of the boxes
   /// By level: node i has the boxes 8 i to 8 i + 7 in order, or the boxes around these nodes of the level before.
   std::vector<std::vector<Node>> levels_;
 };

@@ -9,7 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include "mesh/weld.h"
+#include "geometry/position_table.h"
+#include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
 #include "numeric/no_index.h"
 
@@ -42,18 +43,6 @@ void for_each_vertex(std::size_t vertices, const ForEachItem& for_each_item, con
     if (stop != begin) use(std::span(items).subspan(begin, stop - begin));
     begin = stop;
   }
-}
-
-/// By vertex: the first vertex that has its coordinates.
-std::vector<std::uint32_t> first_of_equal(const MeshView& soup) {
-  Welder welder;
-  std::vector<std::uint32_t> first_of_number, first(soup.vertex_count());
-  for (std::uint32_t v = 0; v < first.size(); ++v) {
-    const std::uint32_t number = welder.index_of(soup.vertex(v));
-    if (number == first_of_number.size()) first_of_number.push_back(v);
-    first[v] = first_of_number[number];
-  }
-  return first;
 }
 
 class ManifoldBuilder {
@@ -367,7 +356,7 @@ void ManifoldBuilder::close_slits() {
 }  // namespace
 
 ManifoldSoup manifold_soup(const MeshView& soup, std::span<const std::uint32_t> look) {
-  return manifold_soup(soup, first_of_equal(soup), {}, look);
+  return manifold_soup(soup, first_at_position(positions_of(soup)), {}, look);
 }
 
 ManifoldSoup manifold_soup(const MeshView& soup, std::vector<std::uint32_t> first_at_position,
