@@ -19,8 +19,8 @@ class StateOf {
     const ManifoldSoup soup = manifold_soup(mesh);
     std::vector<Vec3> positions;
     for (const std::uint32_t v : soup.vertex_of) positions.push_back(vertices_[v]);
-    state_.emplace(OriginalOfDecimation(vertices_, triangles_, tree_, 1),
-                   ArrayMesh(std::move(positions), soup.faces, soup.twin), soup.vertex_of, soup.triangle_of);
+    state_.emplace(original_of_decimation(vertices_, triangles_, tree_),
+                   ArrayMesh(std::move(positions), soup.faces, soup.twin), soup.vertex_of, soup.triangle_of, 1);
   }
   StateOf(const StateOf&) = delete;
   StateOf& operator=(const StateOf&) = delete;

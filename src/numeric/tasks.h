@@ -72,4 +72,10 @@ void for_each_range(std::size_t n, std::size_t grain, Work&& work) {
   for_each_task((n + grain - 1) / grain, [&](std::size_t i) { work(i * grain, std::min(n, (i + 1) * grain)); });
 }
 
+/// Calls both, side by side where the team that this is called in has two threads.
+template <class First, class Second>
+void do_both(First&& first, Second&& second) {
+  for_each_task(2, [&](std::size_t i) { i == 0 ? first() : second(); });
+}
+
 }  // namespace meshbound

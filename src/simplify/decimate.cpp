@@ -151,6 +151,7 @@ void Run::in_regions(Split split, const Work& work) {
       const auto thread = static_cast<std::size_t>(omp_get_thread_num());
       threads_.proposers[thread]->enter(split, split.regions[r]);
       work(split, split.regions[r], *threads_.proposers[thread], *threads_.provers[thread]);
+      split.regions[r].log.shrink_to_fit();  // it is kept until the next proof
     });
   }
   merge(state_, std::move(split));
@@ -180,7 +181,7 @@ void Run::propose(int shift, double share) {
   if (has_ended() || (is_global() && shift > 0)) return;
   const bool is_first = shift == 0 && share < 1;
   const std::size_t min_vertices = is_first ? min_vertices_at_first : min_vertices_together;
-  in_regions(is_worth_a_cut() ? split(state_, shift, min_vertices) : whole(state_),
+  in_regions(is_worth_a_cut() ? split(state_, shift, min_vertices, threads_.count()) : whole(state_),
              [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
                RegionCollapses::Limits limits{share, must_stop(), nullptr};
                if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };
@@ -270,7 +271,7 @@ void Run::prove_together() {
 /// Makes edges open again that were refused for a smaller share of the tolerance.
 void Run::try_the_others_again() {
   for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
-    if (state_.deviation[e] <= hopeless_deviation) state_.refused_at[e] = 0;
+    if (state_.refused_at[e] != 0 && state_.deviation[e] <= hopeless_deviation) state_.refused_at[e] = 0;
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
@@ -279,10 +280,14 @@ bool Run::is_worth_a_cut() const {
   if (is_global() || has_ended()) return false;
   const ArrayMesh& mesh = state_.mesh;
   std::size_t edges = 0, open = 0;
-  for (Corner e = 0; e < 3 * mesh.face_count(); ++e) {
-    if (mesh.is_removed(e / 3) || mesh.edge(e) != e) continue;
-    ++edges;
-    open += state_.is_open(e) ? 1 : 0;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.is_removed(f)) continue;
+    for (Corner e = 3 * f; e < 3 * f + 3; ++e) {
+      if (mesh.edge(e) != e) continue;
+      ++edges;
+      open += state_.is_open(e) ? 1 : 0;
+    }
+    if (edges_of_open * open >= 3 * state_.faces) return true;  // there cannot be more edges
   }
   return edges_of_open * open >= edges;
 }
@@ -292,7 +297,7 @@ void Run::prove_one_by_one() {
   while (!has_ended()) {
     const std::size_t before = state_.faces;
     for (int shift = 0; shift < shifts_of_split && is_worth_a_cut(); ++shift) {
-      Split regions = split(state_, shift, min_vertices_one_by_one);
+      Split regions = split(state_, shift, min_vertices_one_by_one, threads_.count());
       if (regions.regions.size() == 1) break;
       collapse_and_prove(std::move(regions));
     }
@@ -329,12 +334,14 @@ void Run::collapse_and_prove(Split regions) {
 bool Run::renew_quadrics() {
   const ArrayMesh& mesh = state_.mesh;
   std::vector<Corner> refused;
-  for (Corner e = 0; e < state_.refused_at.size(); ++e) {
-    if (mesh.is_removed(e / 3) || mesh.edge(e) != e || !is_far_beyond(state_.deviation[e])) continue;
-    if (is_refused_by_planes(state_, e)) refused.push_back(e);
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.is_removed(f)) continue;
+    for (Corner e = 3 * f; e < 3 * f + 3; ++e)
+      if (mesh.edge(e) == e && is_far_beyond(state_.deviation[e]) && is_refused_by_planes(state_, e))
+        refused.push_back(e);
   }
   if (refused.empty()) return false;
-  state_.reset_quadrics();
+  state_.reset_quadrics(threads_.count());
   std::size_t open = 0;
   for (const Corner e : refused) {
     if (is_refused_by_planes(state_, e)) continue;
@@ -378,7 +385,7 @@ bool take_back(DecimationState& state, std::span<const Refuted> refuted, Decimat
   std::size_t restored = undo_refuted(state, refuted);
   Proof proof(state, threads.workers);
   restored += prove_or_undo(state, proof, repair_proven, [] { return StopToken(); });
-  state.reset_quadrics();  // those of vertices that came back are unknown
+  state.reset_quadrics(threads.count());  // those of vertices that came back are unknown
   threads.together.restored += restored;
   return restored > 0;
 }

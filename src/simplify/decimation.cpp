@@ -18,6 +18,7 @@
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
+#include "numeric/tasks.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/prune.h"
@@ -115,20 +116,37 @@ std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<co
   return looks;
 }
 
+/// Takes the faces and twins of `soup`.
+ArrayMesh take_mesh(ManifoldSoup& soup, std::span<const Vec3> points) {
+  std::vector<Vec3> positions;
+  positions.reserve(soup.vertex_of.size());
+  for (const std::uint32_t v : soup.vertex_of) positions.push_back(points[v]);
+  return ArrayMesh(std::move(positions), std::move(soup.faces), std::move(soup.twin));
+}
+
 }  // namespace
 
 void Decimation::make_state(const StopToken& stop) {
   check_texture(options_, order_.triangle.size());
-  OriginalOfDecimation original(vertices_, original_.triangles, tree_, threads());
+  std::vector<TriangleNeighbours> neighbours = edge_neighbours(tree_, vertices_, original_.triangles, threads());
   stop.check();
-  ManifoldSoup soup = soup_of_start(original);
+  ManifoldSoup soup;
+  ArrayMesh mesh;
+  std::optional<ClusteredOriginal> clustered;
+  with_team(threads(), [&] {
+    do_both(
+        [&] {
+          soup = soup_of_start(neighbours);
+          mesh = take_mesh(soup, start_points());
+        },
+        [&] {
+          clustered.emplace(OriginalSoup{vertices_, original_.triangles, neighbours});
+        });
+  });
   stop.check();
   dropped_triangles_ = soup.dropped_triangles;
   split_ = soup.split;
-  std::vector<Vec3> positions;
-  positions.reserve(soup.vertex_of.size());
-  for (const std::uint32_t v : soup.vertex_of) positions.push_back(start_points()[v]);
-  ArrayMesh mesh(std::move(positions), soup.faces, soup.twin);
+  OriginalOfDecimation original{vertices_, original_.triangles, tree_, std::move(neighbours), *std::move(clustered)};
   if (start_ != nullptr)
     go_on_from_start(std::move(original), std::move(soup), std::move(mesh));
   else
@@ -158,15 +176,16 @@ std::vector<std::uint32_t> Decimation::index_of_caller_triangle() const {
   return index;
 }
 
-ManifoldSoup Decimation::soup_of_start(const OriginalOfDecimation& original) {
+ManifoldSoup Decimation::soup_of_start(std::span<const TriangleNeighbours> neighbours) {
   std::vector<std::uint32_t> first = std::exchange(first_of_start_, {});
   const MeshView soup = view_of(start_points(), start_mesh());
   if (start_ != nullptr) return manifold_soup(soup, std::move(first), {}, {});
-  return manifold_soup(soup, std::move(first), original.neighbours, looks_of(options_, order_.triangle));
+  return manifold_soup(soup, std::move(first), neighbours, looks_of(options_, order_.triangle));
 }
 
 void Decimation::start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh) {
-  state_.emplace(std::move(original), std::move(mesh), std::move(soup.vertex_of), std::move(soup.triangle_of));
+  state_.emplace(std::move(original), std::move(mesh), std::move(soup.vertex_of), std::move(soup.triangle_of),
+                 threads());
   const std::vector<std::uint32_t>& triangles = state_->source_triangle;
   for (const auto& [triangle, of] : soup.repetitions) {
     const auto face =
@@ -190,7 +209,7 @@ void Decimation::go_on_from_start(OriginalOfDecimation original, ManifoldSoup so
     if (std::find(faces.begin(), faces.end(), no_index) == faces.end()) cover.assign(index[t], faces);
   }
   state_.emplace(std::move(original), std::move(mesh), std::move(soup.vertex_of), std::move(soup.triangle_of),
-                 std::move(near), std::move(cover));
+                 std::move(near), std::move(cover), threads());
   if (start_->is_covered.empty()) return;
   state_->is_kept.resize(index.size());
   for (std::uint32_t t = 0; t < index.size(); ++t) state_->is_kept[index[t]] = start_->is_covered[t];
@@ -318,7 +337,7 @@ void Decimation::set_texture() {
                           state_->mesh, state_->lines, state_->source_triangle, vertices_, original_.triangles,
                           tolerance);
   state_->texture->limit = share_of_texture_tolerance * tolerance;
-  state_->reset_quadrics();
+  state_->reset_quadrics(threads());
 }
 
 void Decimation::note_turned_faces() {

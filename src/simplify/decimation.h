@@ -47,7 +47,7 @@ class Decimation {
   Decimation(const TriangleMesh& original, const ProvenMesh* start, const SimplifyOptions& options,
              const StopToken& stop);
   void make_state(const StopToken& stop);
-  [[nodiscard]] ManifoldSoup soup_of_start(const OriginalOfDecimation& original);
+  [[nodiscard]] ManifoldSoup soup_of_start(std::span<const TriangleNeighbours> neighbours);
   void start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
   void go_on_from_start(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
   [[nodiscard]] const TriangleMesh& start_mesh() const { return start_ != nullptr ? start_->mesh : original_; }

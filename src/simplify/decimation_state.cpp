@@ -210,30 +210,29 @@ void ProvenChanges::add(const EditLog& proven) {
   }
 }
 
-OriginalOfDecimation::OriginalOfDecimation(const std::vector<Vec3>& its_vertices,
-                                           const std::vector<Triangle>& its_triangles, const Bvh& its_tree, int threads)
-    : vertices(its_vertices),
-      triangles(its_triangles),
-      tree(its_tree),
-      neighbours(edge_neighbours(tree, vertices, triangles, threads)) {}
+OriginalOfDecimation original_of_decimation(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+                                            const Bvh& tree) {
+  std::vector<TriangleNeighbours> neighbours = edge_neighbours(tree, vertices, triangles);
+  ClusteredOriginal clustered({vertices, triangles, neighbours});
+  return {vertices, triangles, tree, std::move(neighbours), std::move(clustered)};
+}
 
 DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
                                  std::vector<std::uint32_t> vertex_of_vertex,
                                  std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
-                                 CoverAssignment cover_of)
+                                 CoverAssignment cover_of, int threads)
     : vertices(original.vertices),
       triangles(original.triangles),
       tree(original.tree),
       neighbours(std::move(original.neighbours)),
-      clusters(triangles, vertices.size()),
-      slabs({vertices, triangles, neighbours}, clusters),
+      clustered(std::move(original.clustered)),
       mesh(std::move(start)),
       faces(mesh.face_count()),
       source_vertex(std::move(vertex_of_vertex)),
       source_triangle(std::move(triangle_of_face)),
       locked(mesh.vertex_count(), 0),
       is_fixed(mesh.face_count(), 0),
-      quadrics(vertex_quadrics(mesh, PlaneWeights::Equal)),
+      quadrics(vertex_quadrics(mesh, PlaneWeights::Equal, threads)),
       share(mesh.vertex_count(), 1),
       stamp(mesh.face_count(), 0),
       touched(mesh.vertex_count(), 0),
@@ -248,9 +247,9 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
 
 DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
                                  std::vector<std::uint32_t> vertex_of_vertex,
-                                 std::vector<std::uint32_t> triangle_of_face)
+                                 std::vector<std::uint32_t> triangle_of_face, int threads)
     : DecimationState(std::move(original), std::move(start), std::move(vertex_of_vertex), triangle_of_face,
-                      triangle_of_face, CoverAssignment(original.triangles.size())) {
+                      triangle_of_face, CoverAssignment(original.triangles.size()), threads) {
   starts_as_original = true;
   cover.reserve_faces(faces);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
@@ -264,9 +263,8 @@ void DecimationState::lock(std::vector<std::uint8_t> vertices_locked) {
   }
 }
 
-void DecimationState::reset_quadrics() {
-  quadrics = {};
-  quadrics = vertex_quadrics(mesh, texture ? PlaneWeights::Area : PlaneWeights::Equal);
+void DecimationState::reset_quadrics(int threads) {
+  quadrics = vertex_quadrics(mesh, texture ? PlaneWeights::Area : PlaneWeights::Equal, threads, std::move(quadrics));
 }
 
 void DecimationState::set_samples(double for_tolerance, int threads) {
@@ -278,7 +276,8 @@ void DecimationState::set_samples(double for_tolerance, int threads) {
 void DecimationState::grow_tolerance(double to) {
   if (to == tolerance) return;
   const auto scale = static_cast<float>(tolerance / to);
-  for (std::size_t e = 0; e < deviation.size(); ++e) {
+  for (std::size_t e = 0; e < refused_at.size(); ++e) {
+    if (refused_at[e] == 0) continue;
     deviation[e] *= scale;
     if (!is_far_beyond(deviation[e])) refused_at[e] = 0;
   }

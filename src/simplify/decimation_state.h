@@ -11,10 +11,9 @@
 #include "meshbound/triangle_mesh.h"
 #include "numeric/no_index.h"
 #include "proof/edge_neighbours.h"
+#include "simplify/cover/clustered_original.h"
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
-#include "simplify/cover/original_clusters.h"
-#include "simplify/cover/slab_tree.h"
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/quadric.h"
@@ -118,6 +117,7 @@ struct EditLog {
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
   void clear() { edits.clear(), stamps.clear(), coordinates.clear(); }
+  void shrink_to_fit() { edits.shrink_to_fit(), stamps.shrink_to_fit(), coordinates.shrink_to_fit(); }
   /// Adds the changes of another log after those here.
   void append(const EditLog& other);
   /// The faces that change `number` has touched.
@@ -150,15 +150,15 @@ struct Region {
 
 /// The original of a decimation. What it refers to must outlive it.
 struct OriginalOfDecimation {
-  /// Finds the neighbours of the triangles, O(n) shared by the threads. The tree is built of them.
-  OriginalOfDecimation(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const Bvh& tree,
-                       int threads);
-
   const std::vector<Vec3>& vertices;
   const std::vector<Triangle>& triangles;
-  const Bvh& tree;
+  const Bvh& tree;                             ///< of the triangles
   std::vector<TriangleNeighbours> neighbours;  ///< across edges
+  ClusteredOriginal clustered;
 };
+/// Finds all of it by one thread.
+[[nodiscard]] OriginalOfDecimation original_of_decimation(const std::vector<Vec3>& vertices,
+                                                          const std::vector<Triangle>& triangles, const Bvh& tree);
 
 /// A mesh under decimation and everything known about it.
 ///
@@ -169,15 +169,15 @@ struct DecimationState {
   /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
   /// vertex of the original is at the same place. Samples are still to be set.
   DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
-                  std::vector<std::uint32_t> triangle_of_face);
+                  std::vector<std::uint32_t> triangle_of_face, int threads);
   /// A mesh that is proven already, with the originals that cover its faces: `cover_of(t)` are faces that original t is
   /// proven to be near, `near` has an original near each face. `vertex_of_vertex` and `triangle_of_face` are numbers of
   /// what the caller started from. Samples are still to be set.
   DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
-                  CoverAssignment cover_of);
+                  CoverAssignment cover_of, int threads);
   /// Gives each vertex the planes of the faces that are around it now.
-  void reset_quadrics();
+  void reset_quadrics(int threads);
   /// Takes samples for proposals of this tolerance. Where they lie does not depend on the threads.
   void set_samples(double for_tolerance, int threads = 1);
   /// Largest distance between samples on an edge of the original, in tolerances: with samples further apart, a face may
@@ -189,8 +189,7 @@ struct DecimationState {
   const std::vector<Triangle>& triangles;            ///< of the original
   const Bvh& tree;                                   ///< of the original
   const std::vector<TriangleNeighbours> neighbours;  ///< of the original, across its edges
-  const OriginalClusters clusters;                   ///< of the original
-  const SlabTree slabs;                              ///< of the original
+  const ClusteredOriginal clustered;                 ///< the original
 
   ArrayMesh mesh;
   std::size_t faces = 0;  ///< those left
@@ -225,7 +224,7 @@ struct DecimationState {
   std::uint32_t clock = 0;                         ///< changes since the start
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
   std::vector<float> deviation;                    ///< by edge that was refused: see `Proposer::deviation`; else 0
-  std::vector<std::uint32_t> index_in_queue;       ///< by edge
+  std::vector<std::uint32_t> index_in_queue;       ///< by edge, see `EdgeQueue`
 
   /// Whether the edge was not refused, or something near has changed since that may help.
   [[nodiscard]] bool is_open(Corner corner) const {

@@ -37,7 +37,6 @@ bool is_within(const TriangleMesh& from, const Bvh& to, double tolerance, const 
 /// Lists the faces around vertices that were touched since the boxes were made.
 void ExceedCheck::find_changed(const Region& region) {
   const ArrayMesh& mesh = state_.mesh;
-  is_changed_.reserve(mesh.face_count());
   is_changed_.clear();
   changed_.clear();
   for (std::uint32_t v = 0; boxes_ && v < mesh.vertex_count(); ++v) {

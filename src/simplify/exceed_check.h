@@ -22,7 +22,7 @@ namespace meshbound {
 class ExceedCheck {
  public:
   /// `state` must outlive this.
-  explicit ExceedCheck(DecimationState& state) : state_(state) {}
+  explicit ExceedCheck(DecimationState& state) : state_(state), is_changed_(state.mesh.face_count()) {}
 
   /// False only if the engine finds the mesh after the collapse that `proposer` refused last to be within `tolerance`
   /// of the original. The mesh is unchanged afterwards. O(n) with a small constant for n vertices.

@@ -31,16 +31,15 @@ class ProofWorkers::Worker {
       : state_(state),
         cover_(state.vertices, state.triangles),
         original_{state.vertices, state.triangles, state.neighbours},
-        affected_members_(state.clusters.count(), 0),
+        affected_members_(state.clustered.clusters.count(), 0),
         patches_(state.mesh.face_count()),
         original_patches_(state.triangles.size()),
-        slab_proof_(original_, state.clusters, state.slabs),
+        slab_proof_(original_, state.clustered.clusters, state.clustered.slabs),
         proximity_(state.tree),
         prepared_(MeshSoup{state.mesh}),
-        loops_(state.vertices, state.triangles, prepared_) {
-    found_marks_.reserve(state.mesh.face_count());
-    vertex_marks_.reserve(state.mesh.vertex_count());
-  }
+        loops_(state.vertices, state.triangles, prepared_),
+        found_marks_(state.mesh.face_count()),
+        vertex_marks_(state.mesh.vertex_count()) {}
 
   /// Must be called where the mesh may have changed, before `cover` or `cover_anywhere`: what has been prepared of its
   /// faces is kept until then.
@@ -234,7 +233,7 @@ class ProofWorkers::Worker {
   bool cover_cluster(std::size_t first, std::size_t end, FaceMask allowed) {
     const std::uint32_t cluster = OriginalClusters::cluster_of(affected_[first]);
     if (end - first < min_affected_of_cluster) return false;
-    const FaceMask used = cover_.hold_all(state_.clusters.vertices(cluster), allowed);
+    const FaceMask used = cover_.hold_all(state_.clustered.clusters.vertices(cluster), allowed);
     if (used == 0) return false;
     set_cover(first, used);
     const auto covers = std::span(covers_).subspan(first, end - first);

@@ -92,7 +92,9 @@ void Proof::cover_anywhere() {
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {
   open_originals_.clear();
   open_faces_.clear();
-  const auto is_changed = [&](std::uint32_t f) { return std::binary_search(changed.begin(), changed.end(), f); };
+  std::vector<std::uint8_t> marks(state_.mesh.face_count(), 0);
+  for (const std::uint32_t f : changed) marks[f] = 1;
+  const auto is_changed = [&](std::uint32_t f) { return marks[f] != 0; };
   for (std::uint32_t i = 0; i < originals_.size(); ++i) {
     if (originals_[i] == no_index) continue;
     const auto faces = drafts_[i].ids();

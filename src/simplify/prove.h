@@ -34,8 +34,7 @@ class Proof {
   void run(const StopToken& stop);
   /// What does not hold; empty if all is proven.
   [[nodiscard]] const Unproven& unproven() const { return unproven_; }
-  /// Opens what was proven with these faces, which are in ascending order: they have been changed again, most of them
-  /// back to what they were.
+  /// Opens what was proven with these faces: they have been changed again, most of them back to what they were.
   void reopen(const std::vector<std::uint32_t>& changed);
   /// Takes the proof over into the state, which then has nothing unproven.
   void commit();

@@ -207,10 +207,11 @@ std::vector<Refiner::Task> tasks(const DecimationState& state, const Split& regi
 /// One round over all regions, each by one thread. Each round is cut elsewhere than the one before.
 void refine_round(DecimationState& state, const std::vector<std::unique_ptr<Refiner>>& refiners, int round,
                   const RefinementGoal& goal) {
-  Split regions = split(state, round % shifts_of_split, min_vertices_refined);
+  const auto threads = static_cast<int>(refiners.size());
+  Split regions = split(state, round % shifts_of_split, min_vertices_refined, threads);
   const std::vector<Refiner::Task> work = tasks(state, regions, goal);
   FirstError error;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(static_cast <int>(refiners.size()))
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t r = 0; r < work.size(); ++r) {
     error.guard([&] {
       refiners[static_cast<std::size_t>(omp_get_thread_num())]->round(regions, regions.regions[r], round, work[r]);

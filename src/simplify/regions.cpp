@@ -8,6 +8,7 @@
 #include "geometry/cut_axes.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/tasks.h"
 #include "simplify/propose.h"
 
 namespace meshbound {
@@ -30,8 +31,9 @@ class Cutter {
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
   /// By region: its vertices, ascending.
-  std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions) {
-    cut(vertices_, regions, shift_ == 0 ? 0.5 : shifted_cut);
+  std::vector<std::vector<std::uint32_t>> run(std::uint32_t regions, int threads) {
+    count_ = regions;
+    with_team(threads, [&] { cut(vertices_, 0, regions, shift_ == 0 ? 0.5 : shifted_cut); });
     join_at_hubs();
     std::vector<std::vector<std::uint32_t>> of_region(count_);
     for (std::uint32_t v = 0; v < into_.region_of.size(); ++v)
@@ -45,10 +47,10 @@ class Cutter {
     std::uint32_t vertex;
   };
 
-  void cut(std::span<Placed> vertices, std::uint32_t regions, double share) {
+  /// Gives these vertices to regions from number `first` on.
+  void cut(std::span<Placed> vertices, std::uint32_t first, std::uint32_t regions, double share) {
     if (regions == 1) {
-      for (const Placed& placed : vertices) into_.region_of[placed.vertex] = count_;
-      ++count_;
+      for (const Placed& placed : vertices) into_.region_of[placed.vertex] = first;
       return;
     }
     Eigen::AlignedBox3f box;
@@ -60,8 +62,9 @@ class Cutter {
                      [axis](const Placed& p, const Placed& q) {
                        return p.along[axis] < q.along[axis] || (p.along[axis] == q.along[axis] && p.vertex < q.vertex);
                      });
-    cut(vertices.first(middle), regions / 2, 0.5);
-    cut(vertices.subspan(middle), regions - regions / 2, 0.5);
+    const std::uint32_t half = regions / 2;
+    do_both([&] { cut(vertices.first(middle), first, half, 0.5); },
+            [&] { cut(vertices.subspan(middle), first + half, regions - half, 0.5); });
   }
 
   /// Makes one region of those around a vertex with so many faces that a collapse next to one of its edges may be
@@ -102,7 +105,7 @@ class Cutter {
   Split& into_;
   const int shift_;
   std::vector<Placed> vertices_;
-  std::uint32_t count_ = 0;  ///< of regions so far
+  std::uint32_t count_ = 0;  ///< of regions
 };
 
 void assign_faces(const DecimationState& state, Split& split) {
@@ -132,14 +135,14 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
 
 }  // namespace
 
-Split split(const DecimationState& state, int shift, std::size_t min_vertices) {
+Split split(const DecimationState& state, int shift, std::size_t min_vertices, int threads) {
   Split result;
   Cutter cutter(state, result, shift);
   std::uint32_t count = 1;
   while (count < max_regions && cutter.vertices() >= 2 * std::size_t{count} * min_vertices) count *= 2;
   if (count == 1) return whole(state);
   result.region_of.assign(state.mesh.vertex_count(), no_index);
-  auto vertices = cutter.run(shift == 0 ? count : count + 1);
+  auto vertices = cutter.run(shift == 0 ? count : count + 1, threads);
   count = static_cast<std::uint32_t>(vertices.size());
   if (count == 1) return whole(state);
   assign_faces(state, result);
@@ -158,7 +161,6 @@ void merge(DecimationState& state, Split split) {
   for (Region& region : split.regions) {
     state.faces -= region.removed_faces;
     state.clock = std::max(state.clock, region.clock);
-    region.log.edits.shrink_to_fit(), region.log.stamps.shrink_to_fit();  // kept until the next proof
     if (!region.log.edits.empty()) state.logs.push_back(std::move(region.log));
     if (state.proven_changes) state.proven_changes->add(region.proven);
   }

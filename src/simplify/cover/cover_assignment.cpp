@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "numeric/sort_unique.h"
+
 namespace meshbound {
 namespace {
 
@@ -25,8 +27,7 @@ void CoverAssignment::replace(std::uint32_t original, std::span<const std::uint3
 }
 
 void CoverAssignment::remove_from_lists(Ids& left) {
-  std::sort(left.begin(), left.end());
-  left.erase(std::unique(left.begin(), left.end()), left.end());
+  sort_unique(left);
   for (const std::uint32_t face : left)
     originals_of_[face].keep_if([&](std::uint32_t original) { return contains(faces_of(original), face); });
 }

@@ -7,18 +7,14 @@
 
 namespace meshbound {
 
-ArrayMesh::ArrayMesh(std::vector<Vec3> positions, const std::vector<Triangle>& faces,
-                     const std::vector<std::array<std::uint32_t, 3>>& twins)
-    : positions_(std::move(positions)), corner_of_(positions_.size(), no_index), removed_(faces.size(), 0) {
-  vertices_.reserve(3 * faces.size());
-  twins_.reserve(3 * faces.size());
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      corner_of_[faces[f][k]] = 3 * f + k;
-      vertices_.push_back(faces[f][k]);
-      twins_.push_back(twins[f][k]);
-    }
-  }
+ArrayMesh::ArrayMesh(std::vector<Vec3> positions, std::vector<Triangle> faces,
+                     std::vector<std::array<std::uint32_t, 3>> twins)
+    : positions_(std::move(positions)),
+      corner_of_(positions_.size(), no_index),
+      removed_(faces.size(), 0),
+      vertices_(std::move(faces)),
+      twins_(std::move(twins)) {
+  for (Corner c = 0; c < 3 * face_count(); ++c) corner_of_[vertices_[c]] = c;
 }
 
 bool ArrayMesh::is_border(std::uint32_t v) const {

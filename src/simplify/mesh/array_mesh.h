@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/vec3.h"
@@ -17,6 +18,21 @@ using Corner = std::uint32_t;
 inline Corner next_corner(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
 inline Corner previous_corner(Corner c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
+/// A number for each corner, made of rows for the faces.
+class CornerTable {
+ public:
+  CornerTable() = default;
+  explicit CornerTable(std::vector<std::array<std::uint32_t, 3>> rows) : rows_(std::move(rows)) {}
+
+  [[nodiscard]] std::uint32_t operator[](Corner c) const {
+    return reinterpret_cast<const std::uint32_t*>(rows_.data())[c];
+  }
+  [[nodiscard]] std::uint32_t& operator[](Corner c) { return reinterpret_cast<std::uint32_t*>(rows_.data())[c]; }
+
+ private:
+  std::vector<std::array<std::uint32_t, 3>> rows_;
+};
+
 /// An oriented 2-manifold with borders in plain arrays, under edge collapses, flips and moved vertices that can be
 /// undone in reverse order.
 ///
@@ -27,8 +43,7 @@ class ArrayMesh {
   ArrayMesh() = default;
   /// Corners of faces are indices of `positions`; `twins` are the corners across the edges, or `no_index` at borders.
   /// The faces around a vertex must be one fan or ring.
-  ArrayMesh(std::vector<Vec3> positions, const std::vector<Triangle>& faces,
-            const std::vector<std::array<std::uint32_t, 3>>& twins);
+  ArrayMesh(std::vector<Vec3> positions, std::vector<Triangle> faces, std::vector<std::array<std::uint32_t, 3>> twins);
 
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }  ///< removed ones too
   [[nodiscard]] std::size_t face_count() const { return removed_.size(); }      ///< removed ones too
@@ -96,9 +111,9 @@ class ArrayMesh {
   void turn(Corner edge, bool back);
 
   std::vector<Vec3> positions_;
-  std::vector<std::uint32_t> vertices_, twins_;  ///< by corner
-  std::vector<Corner> corner_of_;                ///< by vertex: one of its corners; none for removed ones
-  std::vector<std::uint8_t> removed_;            ///< by face
+  std::vector<Corner> corner_of_;      ///< by vertex: one of its corners; none for removed ones
+  std::vector<std::uint8_t> removed_;  ///< by face
+  CornerTable vertices_, twins_;
 };
 
 }  // namespace meshbound

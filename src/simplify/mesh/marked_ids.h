@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -8,9 +9,8 @@ namespace meshbound {
 /// Marks for sets of ids that are emptied in O(1).
 class MarkedIds {
  public:
-  void reserve(std::size_t id) {
-    if (id >= stamps_.size()) stamps_.resize(id + 1, 0);
-  }
+  /// For ids below `count`.
+  explicit MarkedIds(std::size_t count) : stamps_(count, 0) {}
   void clear() { ++current_; }
   /// False when it was in already.
   bool insert(std::uint32_t id) {

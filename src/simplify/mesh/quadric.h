@@ -3,7 +3,6 @@
 /// 1997, with planes weighted as CGAL's `GarlandHeckbert_plane_policies` weights them.
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "simplify/mesh/array_mesh.h"
 
@@ -17,9 +16,17 @@ struct Quadric {
 
   /// `weight` times the squared distance to the plane through `p` with the unit vector `normal`.
   static Quadric of_plane(Vec3 normal, Vec3 p, double weight);
-  Quadric& operator+=(const Quadric& other);
+  Quadric& operator+=(const Quadric& o) {
+    xx += o.xx, xy += o.xy, xz += o.xz, yy += o.yy, yz += o.yz, zz += o.zz;
+    x += o.x, y += o.y, z += o.z, constant += o.constant;
+    return *this;
+  }
   Quadric& operator-=(const Quadric& other);
-  [[nodiscard]] double at(Vec3 p) const;
+  [[nodiscard]] double at(Vec3 p) const {
+    const double ax = xx * p.x + xy * p.y + xz * p.z, ay = xy * p.x + yy * p.y + yz * p.z,
+                 az = xz * p.x + yz * p.y + zz * p.z;
+    return (ax + 2 * x) * p.x + (ay + 2 * y) * p.y + (az + 2 * z) * p.z + constant;
+  }
   /// The weights of all planes together.
   [[nodiscard]] double planes() const { return xx + yy + zz; }
   /// The point with the least value; absent where A is singular.
@@ -35,8 +42,10 @@ enum class PlaneWeights {
   Area
 };
 
-/// By vertex: the planes of the faces around it, and through border edges, perpendicular to their face.
-[[nodiscard]] std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh, PlaneWeights weights);
+/// By vertex: the planes of the faces around it, and through border edges, perpendicular to their face. O(n) shared by
+/// the threads. What `storage` holds does not matter: its memory is used.
+[[nodiscard]] std::vector<Quadric> vertex_quadrics(const ArrayMesh& mesh, PlaneWeights weights, int threads = 1,
+                                                   std::vector<Quadric> storage = {});
 
 struct Placement {
   Vec3 point;
