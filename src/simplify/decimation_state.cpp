@@ -19,10 +19,6 @@ double internal::proof_fault = 1;
 
 namespace {
 
-/// Points between the ends of one edge. With 7 a run takes 10% longer at 0.02% and 4% longer at 0.1%, for as many faces
-/// (37 meshes).
-constexpr double max_between = 3;
-
 /// What is left of the tolerance is room in which the measurement of the finished mesh can decide without refining to
 /// the last digit: it accepts an upper bound of the whole tolerance.
 constexpr double proven_share = 1 - 1e-4;
@@ -47,9 +43,16 @@ bool is_crease(Vec3 m, Vec3 n) {
 
 /// How many points between two ends leave no more than `spacing` between them, up to a limit; none where a coordinate
 /// is no number.
-double points_between(Vec3 p, Vec3 q, double spacing) {
+int points_between(Vec3 p, Vec3 q, double spacing) {
   const double count = std::floor(length(q - p) / spacing);
-  return count > 0 ? std::min(count, max_between) : 0;
+  return count > 0 ? static_cast<int>(std::min(count, double{Samples::max_between})) : 0;
+}
+
+/// Which corner of a triangle has this position, as one of them does.
+std::size_t corner_at(const std::vector<Vec3>& vertices, const Triangle& triangle, Vec3 p) {
+  std::size_t k = 0;
+  while (k < 2 && !same_position(vertices[triangle[k]], p)) ++k;
+  return k;
 }
 
 constexpr std::size_t grain = 4096;  ///< faces that a thread takes at once
@@ -68,7 +71,7 @@ std::vector<EdgeToSample> edges_to_sample(const ArrayMesh& mesh, double spacing,
     if (mesh.edge(c) != c) return;
     const Corner twin = mesh.twin(c);
     const bool is_sharp = twin == no_index || is_crease(normals[c / 3], normals[twin / 3]);
-    const double between = points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing);
+    const int between = points_between(mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), spacing);
     edges[c] = {is_sharp, static_cast<std::uint8_t>(between)};
   };
   with_team(threads, [&] {
@@ -97,44 +100,45 @@ bool is_border_or_crease(const std::vector<Vec3>& vertices, const std::vector<Tr
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
                  const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
                  double spacing, int threads)
-    : first_(mesh.face_count(), no_index) {
+    : Samples(vertices, triangles, mesh.face_count()) {
   const std::vector<EdgeToSample> edges = edges_to_sample(mesh, spacing, threads);
   std::size_t count = vertices.size();
   for (const EdgeToSample& edge : edges) count += edge.points_between;
   samples_.reserve(count);
-  triangle_near_.reserve(count);
-  for (const Vec3& p : vertices) samples_.push_back({p, no_index, no_index});
-  triangle_near_.assign(vertices.size(), 0);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    for (const std::uint32_t v : triangles[triangle_of_face[f]]) {
+    const std::uint32_t t = triangle_of_face[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = triangles[t][k];
       if (samples_[v].face != no_index) continue;
-      triangle_near_[v] = triangle_of_face[f];
+      set_place(v, t, k);
       give_to(v, f);
     }
   }
   for (Corner c = 0; c < edges.size(); ++c) {
     if (edges[c].points_between == 0 && !edges[c].is_sharp) continue;
-    const std::uint32_t p = mesh.start(c), q = mesh.end(c), mark = edges[c].is_sharp ? at_edge : 0;
-    for (const std::uint32_t v : {p, q}) triangle_near_[vertex_of_vertex[v]] |= mark;
-    add_between(mesh.position(p), mesh.position(q), edges[c].points_between, triangle_of_face[c / 3] | mark,
-                [&](Vec3) { return c / 3; });
+    const std::uint32_t t = triangle_of_face[c / 3], p = mesh.start(c), q = mesh.end(c);
+    const std::uint32_t mark = edges[c].is_sharp ? at_edge : 0;
+    for (const std::uint32_t v : {p, q}) samples_[vertex_of_vertex[v]].triangle_and_mark |= mark;
+    const auto corner = [&](std::uint32_t v) { return corner_at(vertices, triangles[t], mesh.position(v)); };
+    add_between(corner(p), corner(q), edges[c].points_between, t | mark, [&](Vec3) { return c / 3; });
   }
 }
 
 template <class FaceAt>
-void Samples::add_between(Vec3 p, Vec3 q, double count, std::uint32_t triangle_and_mark, const FaceAt& face_at) {
+void Samples::add_between(std::size_t from, std::size_t to, int count, std::uint32_t triangle_and_mark,
+                          const FaceAt& face_at) {
   for (int k = 1; k <= count; ++k) {
-    const Vec3 at = p + (k / (count + 1)) * (q - p);
-    samples_.push_back({at, no_index, no_index});
-    triangle_near_.push_back(triangle_and_mark);
-    give_to(static_cast<std::uint32_t>(samples_.size() - 1), face_at(at));
+    const auto number = static_cast<std::uint32_t>(samples_.size());
+    const Place place{static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
+                      static_cast<std::uint8_t>(share_of(k, count))};
+    samples_.push_back({no_index, no_index, triangle_and_mark, place});
+    give_to(number, face_at(at(number)));
   }
 }
 
 Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, const ArrayMesh& mesh,
                  const std::vector<TriangleNeighbours>& neighbours, const CoverAssignment& cover, double tolerance)
-    : samples_(vertices.size()), triangle_near_(vertices.size(), 0), first_(mesh.face_count(), no_index) {
-  for (std::size_t v = 0; v < vertices.size(); ++v) samples_[v].at = vertices[v];
+    : Samples(vertices, triangles, mesh.face_count()) {
   const auto nearest_face = [&](std::uint32_t original, Vec3 p) {
     const auto faces = cover.faces_of(original);
     return *std::min_element(faces.begin(), faces.end(), [&](std::uint32_t f, std::uint32_t g) {
@@ -145,15 +149,16 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (cover.faces_of(t).empty()) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = triangles[t][k], w = triangles[t][(k + 1) % 3], across = neighbours[t][k];
+      const std::size_t l = (k + 1) % 3;
+      const std::uint32_t v = triangles[t][k], w = triangles[t][l], across = neighbours[t][k];
       if (samples_[v].face == no_index) {
-        triangle_near_[v] |= t;
+        set_place(v, t, k);
         samples_[v].face = nearest_face(t, vertices[v]);
       }
       if (across != no_index && across < t) continue;
       const std::uint32_t mark = is_border_or_crease(vertices, triangles, t, across) ? at_edge : 0;
-      triangle_near_[v] |= mark, triangle_near_[w] |= mark;
-      add_between(vertices[v], vertices[w], points_between(vertices[v], vertices[w], spacing), t | mark,
+      samples_[v].triangle_and_mark |= mark, samples_[w].triangle_and_mark |= mark;
+      add_between(k, l, points_between(vertices[v], vertices[w], spacing), t | mark,
                   [&](Vec3 p) { return nearest_face(t, p); });
     }
   }
@@ -161,7 +166,7 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
     if (samples_[v].face == no_index) continue;
     if (leader != no_index && followers < max_followers && samples_[v].face == samples_[leader].face &&
-        are_alike(leader, v, vertices, triangles, tolerance)) {
+        are_alike(leader, v, tolerance)) {
       go_with(v, leader);
       ++followers;
       continue;
@@ -171,14 +176,13 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
   }
 }
 
-bool Samples::are_alike(std::uint32_t s, std::uint32_t t, const std::vector<Vec3>& vertices,
-                        const std::vector<Triangle>& triangles, double tolerance) const {
+bool Samples::are_alike(std::uint32_t s, std::uint32_t t, double tolerance) const {
   if (is_at_edge(s) || is_at_edge(t)) return false;
   const Vec3 way = at(t) - at(s);
   const double max_height = max_deviation_of_pair * tolerance;
   const auto is_in_plane = [&](std::uint32_t sample) {
-    const auto& [i, j, k] = triangles[triangle_near(sample)];
-    const Vec3 normal = cross(vertices[j] - vertices[i], vertices[k] - vertices[i]);
+    const auto& [i, j, k] = triangles_[triangle_near(sample)];
+    const Vec3 normal = cross(vertices_[j] - vertices_[i], vertices_[k] - vertices_[i]);
     const double height = dot(normal, way);
     return height * height <= max_height * max_height * squared_length(normal);
   };

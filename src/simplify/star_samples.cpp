@@ -240,7 +240,7 @@ void StarSamples::sort_along_curve() {
 void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
   const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
   const auto are_alike = [&](std::size_t i, std::size_t j) {
-    return state_.samples.are_alike(ids_[i], ids_[j], state_.vertices, state_.triangles, state_.tolerance);
+    return state_.samples.are_alike(ids_[i], ids_[j], state_.tolerance);
   };
   sort_along_curve();
   const auto in_order = [&](std::size_t k) {
