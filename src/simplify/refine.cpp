@@ -182,13 +182,11 @@ void Refiner::collapse_relaxed() {
     if (mesh.is_removed(edge / 3)) continue;  // flips renumber edges
     const std::uint32_t kept = mesh.start(edge);
     around_.clear();
-    for (const std::uint32_t v : {kept, mesh.end(edge)}) mesh.append_edges_around(v, around_);
+    for (const std::uint32_t v : {kept, mesh.end(edge)})
+      mesh.for_each_edge(v, [&](Corner e) { around_.push_back(e); });
     if (!relaxed_.run(*split_, *region_, edge)) continue;
     for (const Corner e : around_) queue.erase(e);
-    mesh.for_each_corner(kept, [&](Corner c) {
-      for (const Corner e : {mesh.edge(c), mesh.edge(previous_corner(c))}) queue.put(e, edge_cost(state_, e, 1).cost);
-      return true;
-    });
+    mesh.for_each_edge(kept, [&](Corner e) { queue.put(e, edge_cost(state_, e, 1).cost); });
   }
   queue.clear();
 }

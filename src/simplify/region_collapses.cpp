@@ -49,7 +49,7 @@ void RegionCollapses::mark_refused(Corner edge, float deviation) {
 void RegionCollapses::list_edges() {
   edges_before_.clear();
   for (const std::uint32_t v : {proposer_.star().kept, proposer_.star().gone})
-    mesh().append_edges_around(v, edges_before_);
+    mesh().for_each_edge(v, [&](Corner e) { edges_before_.push_back(e); });
 }
 
 /// Whether faces around the edge cover an original together with faces of other regions: no change here can be proven.
@@ -102,10 +102,8 @@ void RegionCollapses::collapse_all() {
   while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_before_) queue.erase(e);
-    mesh().for_each_corner(kept(), [&](Corner c) {
-      for (const Corner e : {mesh().edge(c), mesh().edge(previous_corner(c))})
-        if (is_owned(e)) put(queue, e);
-      return true;
+    mesh().for_each_edge(kept(), [&](Corner e) {
+      if (is_owned(e)) put(queue, e);
     });
   }
   queue.clear();

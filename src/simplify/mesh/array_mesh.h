@@ -83,11 +83,13 @@ class ArrayMesh {
     return true;
   }
   [[nodiscard]] bool is_border(std::uint32_t v) const;
-  /// The edges at a vertex, those between two faces twice.
-  void append_edges_around(std::uint32_t v, std::vector<Corner>& edges) const {
+  /// Calls `visit(edge)` once for each edge at a vertex.
+  template <class Visit>
+  void for_each_edge(std::uint32_t v, const Visit& visit) const {
     for_each_corner(v, [&](Corner c) {
-      edges.push_back(edge(c));
-      edges.push_back(edge(previous_corner(c)));
+      visit(edge(c));
+      const Corner entering = previous_corner(c);
+      if (twins_[entering] == no_index) visit(entering);
       return true;
     });
   }
