@@ -121,13 +121,15 @@ Proposer::Proposer(DecimationState& state) : state_(state), samples_(state) {
 
 void Proposer::gather_samples() {
   gathered_ = true;
-  numbers_.clear();
-  beside_.clear();
-  for (const Corner c : star_.moved) {
-    numbers_.push_back(c / 3);
-    const Corner across = state_.mesh.twin(next_corner(c));
-    if (across != no_index && owns(across / 3)) beside_.push_back(across / 3);
+  numbers_.resize(star_.moved.size());
+  beside_.resize(star_.moved.size());
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < star_.moved.size(); ++i) {
+    numbers_[i] = star_.moved[i] / 3;
+    const Corner across = state_.mesh.twin(next_corner(star_.moved[i]));
+    if (across != no_index && owns(across / 3)) beside_[beside++] = across / 3;
   }
+  beside_.resize(beside);
   samples_.begin(origin_);
   taken_ = numbers_;
   taken_.insert(taken_.end(), star_.removed.begin(), star_.removed.end());

@@ -46,10 +46,10 @@ void RegionCollapses::mark_refused(Corner edge, float deviation) {
   state_.deviation[mesh().edge(edge)] = deviation;
 }
 
-void RegionCollapses::list_edges() {
-  edges_before_.clear();
-  for (const std::uint32_t v : {proposer_.star().kept, proposer_.star().gone})
-    mesh().for_each_edge(v, [&](Corner e) { edges_before_.push_back(e); });
+void RegionCollapses::note_edges_that_go() {
+  edges_gone_.clear();
+  for (const std::uint32_t face : proposer_.star().removed)
+    for (Corner c = 3 * face; c < 3 * face + 3; ++c) edges_gone_.push_back(mesh().edge(c));
 }
 
 /// Whether faces around the edge cover an original together with faces of other regions: no change here can be proven.
@@ -70,7 +70,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   if (prover_ != nullptr && shares_covers(edge)) return false;
   std::optional<Vec3> point = proposer_.placement(edge, limits_.share, wanted);
   const bool point_found = point.has_value();
-  if (point_found) list_edges();
+  if (point_found) note_edges_that_go();
   for (; point; point = proposer_.next_placement(prover_->lost_point(), *point))
     if (make(*point)) return true;
   ++proposer_.counts.refused;
@@ -93,7 +93,10 @@ bool RegionCollapses::refuses_unseen(Corner edge) { return refuses(edge, edge_co
 /// Most edges of a mesh that shrinks little never enter the queue.
 void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
   const EdgeCost cost = edge_cost(state_, edge, limits_.share);
-  if (!refuses(edge, cost)) queue.put(edge, cost.cost);
+  if (refuses(edge, cost))
+    queue.erase(edge);
+  else
+    queue.put(edge, cost.cost);
 }
 
 void RegionCollapses::collapse_all() {
@@ -101,7 +104,7 @@ void RegionCollapses::collapse_all() {
   for (const Corner e : open_edges_) put(queue, e);
   while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
-    for (const Corner e : edges_before_) queue.erase(e);
+    for (const Corner e : edges_gone_) queue.erase(e);
     mesh().for_each_edge(kept(), [&](Corner e) {
       if (is_owned(e)) put(queue, e);
     });

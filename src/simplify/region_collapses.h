@@ -62,9 +62,8 @@ class RegionCollapses {
   /// Collapses the edge, to `wanted` where there is one and that is near enough, else to where it costs least or the
   /// largest distance is least. False: it is refused, and the mesh is as it was.
   bool collapse(Corner edge, std::optional<Vec3> wanted = std::nullopt);
-  /// The vertex that the last collapse left, and the edges around both ends before it.
+  /// The vertex that the last collapse left.
   [[nodiscard]] std::uint32_t kept() const { return proposer_.star().kept; }
-  [[nodiscard]] const std::vector<Corner>& edges_before() const { return edges_before_; }
 
   /// Collapses all open edges by cost, until nothing fits.
   void collapse_all();
@@ -74,7 +73,7 @@ class RegionCollapses {
   [[nodiscard]] bool shares_covers(Corner edge) const;
   [[nodiscard]] bool make(Vec3 point);
   void mark_refused(Corner edge, float deviation);
-  void list_edges();
+  void note_edges_that_go();
   bool refuses(Corner edge, const EdgeCost& cost);
   void put(EdgeQueue& queue, Corner edge);
 
@@ -87,7 +86,8 @@ class RegionCollapses {
   std::uint32_t clock_at_start_;
   bool ended_ = false;
   std::size_t edge_count_ = 0;
-  std::vector<Corner> open_edges_, edges_before_;
+  std::vector<Corner> open_edges_;
+  std::vector<Corner> edges_gone_;  ///< those of the faces that the last collapse removed
 };
 
 }  // namespace meshbound

@@ -55,9 +55,10 @@ void StarSamples::add_faces(std::span<const std::uint32_t> faces) {
     next_.push_back(samples.first(face));
   }
   while (!next_.empty()) {
-    std::size_t left = 0;
+    std::size_t left = 0, place = ids_.size();
+    ids_.resize(place + next_.size());
     for (const std::uint32_t s : next_) {
-      ids_.push_back(s);
+      ids_[place++] = s;
       points_.add(samples.at(s) - origin_);
       const std::uint32_t following = samples.following(s);
       if (following == no_index) continue;
