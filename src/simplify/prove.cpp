@@ -38,6 +38,7 @@ void Proof::run(const StopToken& stop) {
   for (std::size_t k = 0; k < workers_.count(); ++k) workers_.of_thread(k).forget_faces();
   unproven_ = {{}, find_far_faces(stop)};
   if (!unproven_.faces.empty()) return;
+  if (!is_changed_.empty()) reopen_originals();
   cover(stop);
   cover_anywhere();
   for (const std::uint32_t at : open_originals_)
@@ -90,11 +91,18 @@ void Proof::cover_anywhere() {
 }
 
 void Proof::reopen(const std::vector<std::uint32_t>& changed) {
-  open_originals_.clear();
+  is_changed_.resize(state_.mesh.face_count(), 0);
   open_faces_.clear();
-  std::vector<std::uint8_t> marks(state_.mesh.face_count(), 0);
-  for (const std::uint32_t f : changed) marks[f] = 1;
-  const auto is_changed = [&](std::uint32_t f) { return marks[f] != 0; };
+  for (const std::uint32_t f : changed) {
+    is_changed_[f] = 1;
+    if (state_.is_unproven(f) && !state_.mesh.is_removed(f)) open_faces_.push_back(f);
+  }
+}
+
+/// Opens the originals without a cover, and those whose new cover has a face that was changed again.
+void Proof::reopen_originals() {
+  open_originals_.clear();
+  const auto is_changed = [&](std::uint32_t f) { return is_changed_[f] != 0; };
   for (std::uint32_t i = 0; i < originals_.size(); ++i) {
     if (originals_[i] == no_index) continue;
     const auto faces = drafts_[i].ids();
@@ -105,8 +113,7 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
     else
       originals_[i] = no_index;  // its old cover holds again
   }
-  for (const std::uint32_t f : changed)
-    if (state_.is_unproven(f) && !state_.mesh.is_removed(f)) open_faces_.push_back(f);
+  is_changed_.clear();
 }
 
 void Proof::commit() {

@@ -45,6 +45,7 @@ class Proof {
   using Work = std::function<void(ProofWorkers::Worker& worker, std::size_t i)>;
   void for_each(std::size_t count, std::size_t at_once, const StopToken& stop, const Work& work);
   [[nodiscard]] std::vector<std::uint32_t> find_far_faces(const StopToken& stop);
+  void reopen_originals();
   void cover(const StopToken& stop);
   void cover_anywhere();
   [[nodiscard]] bool is_stale(std::uint32_t original) const;
@@ -55,6 +56,7 @@ class Proof {
   std::vector<IdList> drafts_;                 ///< by index in `originals_`: faces that cover it; empty if it is open
   std::vector<std::uint32_t> open_originals_;  ///< indices in `originals_`
   std::vector<std::uint32_t> open_faces_;
+  std::vector<std::uint8_t> is_changed_;  ///< by face: it was reopened since originals were covered; empty: none was
   Unproven unproven_;
 };
 
