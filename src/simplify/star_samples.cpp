@@ -184,14 +184,15 @@ Vec3 StarSamples::offset_from_original(Vec3 point) {
 
 /// The original triangle of the sample nearest to a point.
 std::uint32_t StarSamples::triangle_near(Vec3 point) const {
-  std::uint32_t best = ids_[0];
+  const Vec3 here = point - origin_;
+  std::size_t best = 0;
   double min_squared = HUGE_VAL;
   const std::size_t stride = ids_.size() / 32 + 1;
   for (std::size_t i = 0; i < ids_.size(); i += stride) {
-    const double squared = squared_length(state_.samples.at(ids_[i]) - point);
-    if (squared < min_squared) min_squared = squared, best = ids_[i];
+    const double squared = squared_length(points_.at(i) - here);
+    if (squared < min_squared) min_squared = squared, best = i;
   }
-  return state_.samples.triangle_near(best);
+  return state_.samples.triangle_near(ids_[best]);
 }
 
 /// Which of the changed faces is nearest to a point.
