@@ -169,7 +169,8 @@ bool LocalEdit::place_flipped() {
 bool LocalEdit::flip_lowers_deviation(Corner edge) {
   if (!gather_flip(edge)) return false;
   const double now = deviation().sum;
-  return now >= low_deviation && place_flipped() && deviation().sum < (1 - min_flip_gain) * now;
+  const double enough = (1 - min_flip_gain) * now;
+  return now >= low_deviation && place_flipped() && deviation(enough).sum < enough;
 }
 
 /// A point of an edge, which moves by `share` of what the vertex does, and an original triangle near it.
@@ -211,12 +212,15 @@ DeviationSums LocalEdit::sampled_deviation() const {
   return sums;
 }
 
-DeviationSums LocalEdit::deviation() {
+DeviationSums LocalEdit::deviation(double enough) {
   DeviationSums sums = sampled_deviation();
   const Vec3 vertex = corners_[0][0];
   near_ = original_near(vertex, near_);
   add_point(vertex, near_, 1, sums);
-  for (const Corners& c : changing_edges()) add_edge(c[0], c[1], near_, sums);
+  for (const Corners& c : changing_edges()) {
+    if (sums.sum >= enough) break;
+    add_edge(c[0], c[1], near_, sums);
+  }
   return sums;
 }
 

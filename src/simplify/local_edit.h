@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -44,8 +45,9 @@ class LocalEdit {
   [[nodiscard]] Vec3 origin() const { return origin_; }
 
   /// The sum over the samples, and over points on the edges that change, of (distance / tolerance)^6: a high power
-  /// follows the largest distance and stays smooth. A guide, not a bound.
-  [[nodiscard]] DeviationSums deviation();
+  /// follows the largest distance and stays smooth. A guide, not a bound. Edges are left out once the sum reaches
+  /// `enough`.
+  [[nodiscard]] DeviationSums deviation(double enough = HUGE_VAL);
   /// The part of that sum that stands for samples.
   [[nodiscard]] DeviationSums sampled_deviation() const;
   /// Whether the samples, and points on the edges that change, are within `share` of what has to be proven. Tests many

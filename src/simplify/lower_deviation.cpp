@@ -46,7 +46,7 @@ LoweredDeviation lower_deviation(LocalEdit& edit, Vec3 start, double tolerance, 
     if (way > reach) step = (reach / way) * step;
     for (int attempt = 0; attempt < search.max_attempts; ++attempt, step = shorter_step * step) {
       if (!edit.place(result.point + step)) continue;
-      const DeviationSums there = edit.deviation();
+      const DeviationSums there = edit.deviation(result.lowest.sum);
       if (!(there.sum < result.lowest.sum)) continue;
       gains = there.sum < (1 - search.min_gain) * result.lowest.sum;
       result.point = result.point + step;
