@@ -86,6 +86,14 @@ void expect_valid(const ArrayMesh& mesh) {
     std::sort(visited.begin(), visited.end());
     ASSERT_EQ(visited, expected[v]);
     ASSERT_EQ(mesh.is_border(v), at_border);
+    std::vector<Corner> edges_there, once;
+    for (const Corner c : visited)
+      for (const Corner side : {c, previous_corner(c)}) edges_there.push_back(mesh.edge(side));
+    std::sort(edges_there.begin(), edges_there.end());
+    edges_there.erase(std::unique(edges_there.begin(), edges_there.end()), edges_there.end());
+    mesh.for_each_edge(v, [&](Corner e) { once.push_back(e); });
+    std::sort(once.begin(), once.end());
+    ASSERT_EQ(once, edges_there);
   }
 }
 

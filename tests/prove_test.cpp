@@ -39,7 +39,7 @@ struct Approximation {
       : soup(original),
         vertices(positions_of(original)),
         tree(original),
-        state({vertices, soup.triangles, tree, 1}, indexed_manifold(mesh),
+        state(original_of_decimation(vertices, soup.triangles, tree), indexed_manifold(mesh),
               std::vector<std::uint32_t>(mesh.vertices.size(), 0),
               std::vector<std::uint32_t>(mesh.triangles.size(), 0)) {
     if (!limits.empty()) {

@@ -5,8 +5,14 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <tuple>
+#include <utility>
 
+#include "datasets/analytic_meshes.h"
+#include "geometry/unit.h"
 #include "meshbound/cgal/surface_mesh.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify/mesh/quadric.h"
@@ -84,6 +90,36 @@ TEST(Quadric, IsCgalsWithTheBorderIncluded) {
     ++optima;
   }
   EXPECT_GT(optima, 200);
+}
+
+void expect_equal(const std::vector<Quadric>& one, const std::vector<Quadric>& other) {
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t v = 0; v < one.size(); ++v) {
+    const Quadric &p = one[v], &q = other[v];
+    EXPECT_EQ(std::tie(p.xx, p.xy, p.xz, p.yy, p.yz, p.zz), std::tie(q.xx, q.xy, q.xz, q.yy, q.yz, q.zz));
+    EXPECT_EQ(std::tie(p.x, p.y, p.z, p.constant), std::tie(q.x, q.y, q.z, q.constant));
+  }
+}
+
+/// The faces come in any order, so that those of most vertices are added by several threads.
+TEST(Quadric, HasItsPlanesAddedInTheOrderOfTheFaces) {
+  TriangleMesh sphere = datasets::icosphere(1, 5);
+  std::shuffle(sphere.triangles.begin(), sphere.triangles.end(), std::mt19937(5));
+  const ArrayMesh mesh = indexed_manifold(sphere);
+  std::vector<Quadric> expected(mesh.vertex_count());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    const auto [p, q, r] = mesh.triangle(f);
+    for (const std::uint32_t v : mesh.corners(f)) expected[v] += Quadric::of_plane(unit(cross(q - p, r - p)), p, 1);
+  }
+  for (const int threads : {1, 3}) expect_equal(vertex_quadrics(mesh, PlaneWeights::Equal, threads), expected);
+}
+
+TEST(Quadric, IsTheSameForAnyNumberOfThreads) {
+  const ArrayMesh mesh = indexed_manifold(to_triangle_mesh(waves(100)));
+  for (const PlaneWeights weights : {PlaneWeights::Equal, PlaneWeights::Area}) {
+    std::vector<Quadric> used(7, Quadric{1, 2, 3});
+    expect_equal(vertex_quadrics(mesh, weights, 3, std::move(used)), vertex_quadrics(mesh, weights));
+  }
 }
 
 TEST(Quadric, OfFlatSurroundingsGivesAPointNearTheEdge) {

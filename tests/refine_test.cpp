@@ -147,6 +147,25 @@ TEST(LocalEdit, CountsEdgesWhereTheyAreFarthestFromTheOriginal) {
   }
 }
 
+TEST(LocalEdit, LeavesEdgesOutOnceTheSumIsEnough) {
+  TriangleMesh roof = reference::unit_square(2);
+  for (Eigen::Vector3d& p : roof.vertices) p.z() = 0.03 * (0.5 - std::abs(p.x() - 0.5));
+  test::StateOf state(roof);
+  state->grow_tolerance(0.01);
+  state->set_samples(0.01);
+  Split all = whole(*state);
+  LocalEdit edit(*state);
+  edit.enter(all, all.regions[0]);
+  std::uint32_t middle = 0;
+  while (state->mesh.position(middle).x != 0.5 || state->mesh.position(middle).y != 0.5) ++middle;
+  ASSERT_TRUE(edit.gather_move(middle));
+  ASSERT_TRUE(edit.place({0.1, 0.5, 0.003}));
+  const double full = edit.deviation().sum;
+  EXPECT_EQ(edit.deviation(full).sum, full);
+  EXPECT_LT(edit.deviation(0).sum, full);
+  for (const double share : {0.9, 0.5, 0.1}) EXPECT_GE(edit.deviation(share * full).sum, share * full);
+}
+
 TEST(RelaxedCollapse, LeavesNothingBehindWhereItFails) {
   const Case c = cases()[1];
   DecimationFixture fixture(c.mesh, c.tolerance);

@@ -83,8 +83,12 @@ TEST(Split, CutsElsewhereWhereItIsShifted) {
 
 TEST(Split, DependsOnTheMeshAlone) {
   const test::StateOf state(terrain());
-  for (int shift = 0; shift < shifts_of_split; ++shift)
-    EXPECT_EQ(split(*state, shift, min_vertices).region_of, split(*state, shift, min_vertices).region_of);
+  for (int shift = 0; shift < shifts_of_split; ++shift) {
+    const Split one = split(*state, shift, 300), three = split(*state, shift, 300, 3);
+    EXPECT_GT(one.regions.size(), 8u);
+    EXPECT_EQ(one.region_of, three.region_of);
+    EXPECT_EQ(one.region_of_face, three.region_of_face);
+  }
 }
 
 /// A thread asks for faces of other regions, whose corners may change meanwhile.

@@ -87,6 +87,18 @@ TEST(Tasks, HandOnAnExceptionOfATaskOfATask) {
   }
 }
 
+TEST(Tasks, DoBothOfTwo) {
+  for (const int threads : {1, 2, 3}) {
+    int first = 0, second = 0;
+    with_team(threads, [&] { do_both([&] { ++first; }, [&] { ++second; }); });
+    do_both([&] { ++first; }, [&] { ++second; });
+    EXPECT_EQ(first, 2);
+    EXPECT_EQ(second, 2);
+    EXPECT_THROW(with_team(threads, [&] { do_both([&] { ++first; }, [] { throw std::runtime_error("second"); }); }),
+                 std::runtime_error);
+  }
+}
+
 TEST(Tasks, RunOneAfterTheOtherOutsideAnyTeam) {
   for_each_task(0, [](std::size_t) { FAIL() << "there is nothing to do"; });
   std::vector<std::size_t> order;

@@ -166,7 +166,7 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
   for (std::uint32_t v = 0; v < vertices.size(); ++v) {
     if (samples_[v].face == no_index) continue;
     if (leader != no_index && followers < max_followers && samples_[v].face == samples_[leader].face &&
-        are_alike(leader, v, tolerance)) {
+        around(leader, tolerance).are_alike(around(v, tolerance))) {
       go_with(v, leader);
       ++followers;
       continue;
@@ -176,17 +176,11 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
   }
 }
 
-bool Samples::are_alike(std::uint32_t s, std::uint32_t t, double tolerance) const {
-  if (is_at_edge(s) || is_at_edge(t)) return false;
-  const Vec3 way = at(t) - at(s);
+Samples::Surroundings Samples::around(std::uint32_t sample, double tolerance) const {
+  const auto& [i, j, k] = triangles_[triangle_near(sample)];
+  const Vec3 normal = cross(vertices_[j] - vertices_[i], vertices_[k] - vertices_[i]);
   const double max_height = max_deviation_of_pair * tolerance;
-  const auto is_in_plane = [&](std::uint32_t sample) {
-    const auto& [i, j, k] = triangles_[triangle_near(sample)];
-    const Vec3 normal = cross(vertices_[j] - vertices_[i], vertices_[k] - vertices_[i]);
-    const double height = dot(normal, way);
-    return height * height <= max_height * max_height * squared_length(normal);
-  };
-  return is_in_plane(s) && is_in_plane(t);
+  return {at(sample), normal, is_at_edge(sample) ? -1 : max_height * max_height * squared_length(normal)};
 }
 
 void EditLog::append(const EditLog& other) {

@@ -62,9 +62,19 @@ class Samples {
   [[nodiscard]] bool is_at_edge(std::uint32_t sample) const {
     return (samples_[sample].triangle_and_mark & at_edge) != 0;
   }
-  /// Whether either sample lies in the plane of the original at the other: then a face near one is near the other too,
-  /// unless it ends between them.
-  [[nodiscard]] bool are_alike(std::uint32_t s, std::uint32_t t, double tolerance) const;
+  /// A sample and the plane of the original there.
+  struct Surroundings {
+    Vec3 at, normal;
+    double max_squared_height = 0;  ///< times the squared length of `normal`; negative at borders and creases
+    /// Whether either sample lies in the plane of the other: then a face near one is near the other too, unless it ends
+    /// between them.
+    [[nodiscard]] bool are_alike(const Surroundings& other) const {
+      const Vec3 way = other.at - at;
+      const double height = dot(normal, way), height_there = dot(other.normal, way);
+      return height * height <= max_squared_height && height_there * height_there <= other.max_squared_height;
+    }
+  };
+  [[nodiscard]] Surroundings around(std::uint32_t sample, double tolerance) const;
   /// The face of a sample; `no_index` if it has none.
   [[nodiscard]] std::uint32_t face_of(std::uint32_t sample) const {
     while ((samples_[sample].following & goes_with) != 0 && samples_[sample].following != no_index)
@@ -203,15 +213,15 @@ struct DecimationState {
   /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
   /// vertex of the original is at the same place. Samples are still to be set.
   DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
-                  std::vector<std::uint32_t> triangle_of_face, int threads);
+                  std::vector<std::uint32_t> triangle_of_face, int threads = 1);
   /// A mesh that is proven already, with the originals that cover its faces: `cover_of(t)` are faces that original t is
   /// proven to be near, `near` has an original near each face. `vertex_of_vertex` and `triangle_of_face` are numbers of
   /// what the caller started from. Samples are still to be set.
   DecimationState(OriginalOfDecimation original, ArrayMesh start, std::vector<std::uint32_t> vertex_of_vertex,
                   std::vector<std::uint32_t> triangle_of_face, std::vector<std::uint32_t> near,
-                  CoverAssignment cover_of, int threads);
+                  CoverAssignment cover_of, int threads = 1);
   /// Gives each vertex the planes of the faces that are around it now.
-  void reset_quadrics(int threads);
+  void reset_quadrics(int threads = 1);
   /// Takes samples for proposals of this tolerance. Where they lie does not depend on the threads.
   void set_samples(double for_tolerance, int threads = 1);
   /// Largest distance between samples on an edge of the original, in tolerances: with samples further apart, a face may

@@ -42,7 +42,7 @@ inline constexpr int shifts_of_split = cut_directions;
 /// `min_vertices`. The number depends on the mesh alone. Cuts of another `shift`, less than `shifts_of_split`, run in
 /// other directions, so that few vertices lie at seams of all of them. All vertices around one with
 /// many faces are of one region. O(n log n).
-[[nodiscard]] Split split(const DecimationState& state, int shift, std::size_t min_vertices, int threads);
+[[nodiscard]] Split split(const DecimationState& state, int shift, std::size_t min_vertices, int threads = 1);
 /// The split into a single region.
 [[nodiscard]] Split whole(const DecimationState& state);
 /// Takes over what was changed in the regions, in their order.

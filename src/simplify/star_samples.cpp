@@ -241,24 +241,29 @@ void StarSamples::sort_along_curve() {
 /// Lets one sample stand for two that lie near each other in one plane: the one that is farther from the mesh.
 void StarSamples::thin_out(std::span<const std::uint32_t> numbers) {
   const auto squared = [&](std::size_t i) { return offsets_[i / lanes].squared[i % lanes]; };
-  const auto are_alike = [&](std::size_t i, std::size_t j) {
-    return state_.samples.are_alike(ids_[i], ids_[j], state_.tolerance);
-  };
+  const auto give = [&](std::size_t i) { state_.samples.give_to(ids_[i], numbers[nearest(i)]); };
   sort_along_curve();
   const auto in_order = [&](std::size_t k) {
     return static_cast<std::size_t>(order_[k] & ((std::uint64_t{1} << index_bits) - 1));
   };
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    const std::size_t i = in_order(k), j = in_order(std::min(k + 1, order_.size() - 1));
-    if (i == j || !are_alike(i, j)) {
-      state_.samples.give_to(ids_[i], numbers[nearest(i)]);
+  const auto around = [&](std::size_t k) { return state_.samples.around(ids_[in_order(k)], state_.tolerance); };
+  Samples::Surroundings here = around(0);
+  std::size_t k = 0;
+  while (k + 1 < order_.size()) {
+    const std::size_t i = in_order(k), j = in_order(k + 1);
+    const Samples::Surroundings there = around(k + 1);
+    if (!here.are_alike(there)) {
+      give(i);
+      here = there, ++k;
       continue;
     }
     const std::size_t farther = squared(j) > squared(i) ? j : i;
-    state_.samples.give_to(ids_[farther], numbers[nearest(farther)]);
+    give(farther);
     state_.samples.go_with(ids_[i + j - farther], ids_[farther]);
-    ++k;
+    k += 2;
+    if (k < order_.size()) here = around(k);
   }
+  if (k < order_.size()) give(in_order(k));
 }
 
 }  // namespace meshbound
