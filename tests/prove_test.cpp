@@ -162,6 +162,32 @@ TEST(Proof, AsksForOriginalsOnceNoFaceIsTooFar) {
   EXPECT_EQ(proof.faces_tested, moved.triangles.size() + faces.size());
 }
 
+/// A vertex at the border moves inwards, in the plane: the faces around it are near, but leave a part uncovered.
+TEST(Proof, CoversAgainWhatAChangedFaceHadCovered) {
+  const TriangleMesh square = reference::unit_square(8);
+  Approximation it(square, square, 0.01);
+  ProofWorkers workers(it.state, 1);
+  Proof proof(it.state, workers);
+  proof.run({});
+  ASSERT_TRUE(proof.unproven().empty());
+  const std::uint64_t covered = proof.originals_tested;
+  ArrayMesh& mesh = it.state.mesh;
+  std::uint32_t at_border = 0;
+  while (mesh.position(at_border).x != 0 || mesh.position(at_border).y != 0.5) ++at_border;
+  std::vector<std::uint32_t> around;
+  mesh.for_each_corner(at_border, [&](Corner c) { return around.push_back(c / 3), true; });
+  mesh.move(at_border, {0.06, 0.5, 0});
+  proof.reopen(around);
+  proof.run({});
+  EXPECT_TRUE(proof.unproven().faces.empty());
+  EXPECT_FALSE(proof.unproven().originals.empty());
+  EXPECT_LT(proof.originals_tested, covered + covered / 4);  // the others stay covered
+  mesh.move(at_border, {0, 0.5, 0});
+  proof.reopen(around);
+  proof.run({});
+  EXPECT_TRUE(proof.unproven().empty());
+}
+
 /// Such coordinates would have larger rounding errors than the proof allows for.
 TEST(Proof, RefusesFacesFarAwayAndCoordinatesThatAreNoNumbers) {
   const TriangleMesh original = reference::unit_square(4);
