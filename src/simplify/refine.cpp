@@ -182,8 +182,7 @@ void Refiner::collapse_relaxed() {
     if (mesh.is_removed(edge / 3)) continue;  // flips renumber edges
     const std::uint32_t kept = mesh.start(edge);
     around_.clear();
-    for (const std::uint32_t v : {kept, mesh.end(edge)})
-      mesh.for_each_edge(v, [&](Corner e) { around_.push_back(e); });
+    for (const std::uint32_t v : {kept, mesh.end(edge)}) mesh.for_each_edge(v, [&](Corner e) { around_.push_back(e); });
     if (!relaxed_.run(*split_, *region_, edge)) continue;
     for (const Corner e : around_) queue.erase(e);
     mesh.for_each_edge(kept, [&](Corner e) { queue.put(e, edge_cost(state_, e, 1).cost); });
