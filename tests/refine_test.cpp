@@ -123,47 +123,51 @@ struct Snapshot {
   }
 };
 
-/// The middle of a roof is moved down its slope: an edge to the other side then runs below the ridge, there by 8/9 of
-/// its height. A ridge of three tolerances is too high for a walk: the nearest of the points on the edge is 0.8 of it
-/// away.
-TEST(LocalEdit, CountsEdgesWhereTheyAreFarthestFromTheOriginal) {
-  const double tolerance = 0.01;
-  for (const auto& [ridge, share] : {std::pair{1.5 * tolerance, 8.0 / 9}, std::pair{3 * tolerance, 0.8}}) {
+/// A roof with its ridge at x = 1/2, whose middle vertex is moved down its slope: an edge to the other side then runs
+/// below the ridge, there by 8/9 of its height.
+class MovedRoof {
+ public:
+  static constexpr double tolerance = 0.01;
+  explicit MovedRoof(double ridge) : state_(roof(ridge)), edit_(*state_) {
+    state_->grow_tolerance(tolerance);
+    state_->set_samples(tolerance);
+    all_ = whole(*state_);
+    edit_.enter(all_, all_.regions[0]);
+    std::uint32_t middle = 0;
+    while (state_->mesh.position(middle).x != 0.5 || state_->mesh.position(middle).y != 0.5) ++middle;
+    EXPECT_TRUE(edit_.gather_move(middle));
+    EXPECT_TRUE(edit_.place({0.1, 0.5, 0.2 * ridge}));
+  }
+  LocalEdit& edit() { return edit_; }
+
+ private:
+  static TriangleMesh roof(double ridge) {
     TriangleMesh roof = reference::unit_square(2);
     for (Eigen::Vector3d& p : roof.vertices) p.z() = 2 * ridge * (0.5 - std::abs(p.x() - 0.5));
-    test::StateOf state(roof);
-    state->grow_tolerance(tolerance);
-    state->set_samples(tolerance);
-    Split all = whole(*state);
-    LocalEdit edit(*state);
-    edit.enter(all, all.regions[0]);
-    std::uint32_t middle = 0;
-    while (state->mesh.position(middle).x != 0.5 || state->mesh.position(middle).y != 0.5) ++middle;
-    ASSERT_TRUE(edit.gather_move(middle));
-    ASSERT_TRUE(edit.place({0.1, 0.5, 0.2 * ridge}));
-    const double of_edges = edit.deviation().sum - edit.sampled_deviation().sum;
+    return roof;
+  }
+  test::StateOf state_;
+  LocalEdit edit_;
+  Split all_;
+};
+
+/// A ridge of three tolerances is too high for a walk: the nearest of the points on the edge is 0.8 of it away.
+TEST(LocalEdit, CountsEdgesWhereTheyAreFarthestFromTheOriginal) {
+  const double tolerance = MovedRoof::tolerance;
+  for (const auto& [ridge, share] : {std::pair{1.5 * tolerance, 8.0 / 9}, std::pair{3 * tolerance, 0.8}}) {
+    MovedRoof roof(ridge);
+    const double of_edges = roof.edit().deviation().sum - roof.edit().sampled_deviation().sum;
     EXPECT_GT(of_edges, std::pow(0.98 * share * ridge / tolerance, 6));
     EXPECT_LT(of_edges, 6 * std::pow(ridge / tolerance, 6));
   }
 }
 
 TEST(LocalEdit, LeavesEdgesOutOnceTheSumIsEnough) {
-  TriangleMesh roof = reference::unit_square(2);
-  for (Eigen::Vector3d& p : roof.vertices) p.z() = 0.03 * (0.5 - std::abs(p.x() - 0.5));
-  test::StateOf state(roof);
-  state->grow_tolerance(0.01);
-  state->set_samples(0.01);
-  Split all = whole(*state);
-  LocalEdit edit(*state);
-  edit.enter(all, all.regions[0]);
-  std::uint32_t middle = 0;
-  while (state->mesh.position(middle).x != 0.5 || state->mesh.position(middle).y != 0.5) ++middle;
-  ASSERT_TRUE(edit.gather_move(middle));
-  ASSERT_TRUE(edit.place({0.1, 0.5, 0.003}));
-  const double full = edit.deviation().sum;
-  EXPECT_EQ(edit.deviation(full).sum, full);
-  EXPECT_LT(edit.deviation(0).sum, full);
-  for (const double share : {0.9, 0.5, 0.1}) EXPECT_GE(edit.deviation(share * full).sum, share * full);
+  MovedRoof roof(1.5 * MovedRoof::tolerance);
+  const double full = roof.edit().deviation().sum;
+  EXPECT_EQ(roof.edit().deviation(full).sum, full);
+  EXPECT_LT(roof.edit().deviation(0).sum, full);
+  for (const double share : {0.9, 0.5, 0.1}) EXPECT_GE(roof.edit().deviation(share * full).sum, share * full);
 }
 
 TEST(RelaxedCollapse, LeavesNothingBehindWhereItFails) {
