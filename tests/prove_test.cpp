@@ -186,6 +186,10 @@ TEST(Proof, CoversAgainWhatAChangedFaceHadCovered) {
   proof.reopen(around);
   proof.run({});
   EXPECT_TRUE(proof.unproven().empty());
+  const std::uint64_t before = proof.originals_tested;
+  proof.reopen({0});
+  proof.run({});
+  EXPECT_LE(proof.originals_tested, before + 2);  // what was reopened before is covered
 }
 
 /// Such coordinates would have larger rounding errors than the proof allows for.
