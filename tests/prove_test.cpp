@@ -48,6 +48,7 @@ struct Approximation {
         for (const std::uint32_t v : original.triangles[t]) boxes[t].extend(original.vertices[v]);
       state.local.emplace(std::move(boxes), limits);
     }
+    state.starts_as_original = false;
     state.grow_tolerance(tolerance);
     state.set_samples(tolerance);
     std::fill(state.stamp.begin(), state.stamp.end(), 1);
