@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/position_table.h"
 #include "numeric/no_index.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
