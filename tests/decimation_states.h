@@ -20,7 +20,7 @@ class StateOf {
     std::vector<Vec3> positions;
     for (const std::uint32_t v : soup.vertex_of) positions.push_back(vertices_[v]);
     state_.emplace(original_of_decimation(vertices_, triangles_, tree_),
-                   ArrayMesh(std::move(positions), soup.faces, soup.twin), soup.vertex_of, soup.triangle_of, 1);
+                   ArrayMesh(std::move(positions), soup.faces, soup.twin), soup.vertex_of, soup.triangle_of);
   }
   StateOf(const StateOf&) = delete;
   StateOf& operator=(const StateOf&) = delete;

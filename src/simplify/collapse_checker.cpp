@@ -52,7 +52,7 @@ class CollapseChecker::Impl {
         vertices_(positions_of(framed_)),
         tree_(framed_),
         state_(original_of_decimation(vertices_, framed_.triangles, tree_), indexed_manifold(framed_),
-               numbers_below(framed_.vertices.size()), numbers_below(framed_.triangles.size()), 1),
+               numbers_below(framed_.vertices.size()), numbers_below(framed_.triangles.size())),
         split_(whole(state_)),
         proposer_(state_),
         workers_(state_, 1),

@@ -23,8 +23,8 @@
 namespace meshbound {
 
 /// Points of the original, each assigned to the face of the mesh that it was found nearest to: the vertices, and points
-/// on long edges. They guide decimation and prove nothing. A sample knows its place on a triangle of the original, as
-/// coordinates would take half as much memory again as everything else.
+/// on long edges. They guide decimation and prove nothing. A sample knows its place on a triangle of the original: with
+/// its coordinates it would be more than twice as large.
 ///
 /// When a face has more samples than it needs, every second one is attached to another sample nearby that represents
 /// both, and stays with that one's face from then on.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "numeric/sort_unique.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/repair.h"
 
@@ -79,8 +80,7 @@ bool ExceedCheck::exceeds(Region& region, Proposer& proposer, double tolerance, 
     const auto of_face = state_.cover.originals_of(face);
     affected.insert(affected.end(), of_face.begin(), of_face.end());
   }
-  std::sort(affected.begin(), affected.end());
-  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  sort_unique(affected);
   for (const std::uint32_t t : affected) {
     add(originals, original_triangle(state_, t));
     box.extend(box_of(original_triangle(state_, t)));

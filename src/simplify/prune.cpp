@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "numeric/no_index.h"
+#include "numeric/sort_unique.h"
 
 namespace meshbound {
 namespace {
@@ -50,8 +51,7 @@ std::vector<std::uint32_t> originals_of(const DecimationState& state, const Comp
     const auto of_face = state.cover.originals_of(f);
     originals.insert(originals.end(), of_face.begin(), of_face.end());
   }
-  std::sort(originals.begin(), originals.end());
-  originals.erase(std::unique(originals.begin(), originals.end()), originals.end());
+  sort_unique(originals);
   return originals;
 }
 

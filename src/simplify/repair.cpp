@@ -8,6 +8,7 @@
 #include <span>
 
 #include "numeric/no_index.h"
+#include "numeric/sort_unique.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/mesh/nearest_triangle.h"
 #include "simplify/normals/refuted_turns.h"
@@ -87,8 +88,7 @@ class Undoing {
         undo(number);
       }
     }
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    sort_unique(changed_);
     return std::move(changed_);
   }
 

@@ -3,6 +3,7 @@
 /// 1997, with planes weighted as CGAL's `GarlandHeckbert_plane_policies` weights them.
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "simplify/mesh/array_mesh.h"
 
