@@ -99,6 +99,26 @@ TEST(Queue, HasAllEdgesWhereARefusalEndsTheCollapses) {
   EXPECT_EQ(outcome.refused, 1u);
 }
 
+/// They are open still, and not refused: another cut comes to them.
+TEST(Queue, LeavesEdgesThatCostMoreAsTheyAre) {
+  test::StateOf sphere(datasets::icosphere(1, 3));
+  const double tolerance = 0.02;
+  set_tolerance(*sphere, tolerance);
+  RegionCollapses::Limits limits = no_limits();
+  limits.max_cost = static_cast<float>(0.5 * tolerance * tolerance);
+  const std::size_t vertices = sphere->mesh.face_count() / 2;
+  const Outcome outcome = collapsed(*sphere, nullptr, limits);
+  EXPECT_GT(outcome.tried, vertices / 20);
+  std::size_t left = 0;
+  for (Corner c = 0; c < 3 * sphere->mesh.face_count(); ++c) {
+    if (sphere->mesh.is_removed(c / 3) || sphere->mesh.edge(c) != c || !sphere->is_open(c)) continue;
+    ++left;
+    EXPECT_GT(edge_cost(*sphere, c, 1).cost, limits.max_cost);
+  }
+  EXPECT_GT(left, vertices / 10);
+  EXPECT_GT(collapsed(*sphere, nullptr, no_limits()).tried, 0u);
+}
+
 /// More of the tolerance helps where a distance was too large, and nowhere else.
 TEST(Proposer, TellsWhetherMoreOfTheToleranceMayHelp) {
   test::StateOf square(reference::unit_square(4));

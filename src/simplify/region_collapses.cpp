@@ -102,7 +102,7 @@ void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
 void RegionCollapses::collapse_all() {
   EdgeQueue queue(state_.index_in_queue);
   for (const Corner e : open_edges_) put(queue, e);
-  while (!queue.empty() && !must_stop()) {
+  while (!queue.empty() && queue.least_cost() <= limits_.max_cost && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_gone_) queue.erase(e);
     mesh().for_each_edge(kept(), [&](Corner e) {

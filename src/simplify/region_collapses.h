@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ class RegionCollapses {
     /// Asked when a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
     /// Empty: they continue.
     std::function<bool()> ends_at_refusal;
+    float max_cost = HUGE_VALF;  ///< `collapse_all` leaves edges that cost more as they are
   };
 
   /// All must outlive this. `prover` may be null.
