@@ -143,6 +143,48 @@ TEST(Proposer, TellsWhetherMoreOfTheToleranceMayHelp) {
   EXPECT_TRUE(was_near);
 }
 
+/// A vertex a little more than the tolerance above a plane: its faces, which are slanted, are within it of the samples.
+TEST(Proposer, AsksWhereTheVertexIsUnlessItLooksAtSamplesAlone) {
+  test::StateOf square(reference::unit_square(4));
+  set_tolerance(*square, tolerance_of_square);
+  const ArrayMesh& mesh = square->mesh;
+  Corner edge = 0;
+  while (mesh.is_border(mesh.start(edge)) || mesh.is_border(mesh.end(edge))) ++edge;
+  const Split split = whole(*square);
+  Proposer proposer(*square);
+  const Vec3 above = mesh.position(mesh.start(edge)) + Vec3{0, 0, 1.02 * tolerance_of_square};
+  proposer.enter(split, split.regions.front(), Proposer::Looks::AtSamples);
+  const auto at_samples = proposer.placement(edge, 0.999, above);
+  ASSERT_TRUE(at_samples);
+  EXPECT_EQ(at_samples->z, above.z);
+  proposer.enter(split, split.regions.front());
+  const auto around = proposer.placement(edge, 0.999, above);
+  EXPECT_TRUE(!around || around->z < tolerance_of_square);
+}
+
+/// The vertex of a bay lies within the faces that a border across the bay would leave.
+TEST(Proposer, AlwaysLooksAlongBorders) {
+  TriangleMesh mesh = reference::unit_square(4);
+  const auto bay = std::find(mesh.vertices.begin(), mesh.vertices.end(), Eigen::Vector3d(0.5, 0, 0));
+  ASSERT_NE(bay, mesh.vertices.end());
+  bay->y() = 0.22;
+  test::StateOf square(mesh);
+  set_tolerance(*square, tolerance_of_square);
+  square->line_limit = 1;
+  const ArrayMesh& faces = square->mesh;
+  const auto is_at = [&](std::uint32_t v, double x, double y) { return same_position(faces.position(v), {x, y, 0}); };
+  Corner edge = 0;
+  while (!is_at(faces.start(edge), 0.25, 0) || !is_at(faces.end(edge), 0.5, 0.22)) ++edge;
+  square->locked[faces.start(edge)] = 1;  // it is the one that stays
+  const Split split = whole(*square);
+  Proposer proposer(*square);
+  for (const auto looks : {Proposer::Looks::AtSamples, Proposer::Looks::Around}) {
+    proposer.enter(split, split.regions.front(), looks);
+    EXPECT_FALSE(proposer.placement(edge, 0.999, {}));
+    EXPECT_TRUE(proposer.refused_by_bound());
+  }
+}
+
 /// Counts the regions that it is asked for, and leaves them as they are.
 class CountingDriver : public CollapseDriver {
  public:

@@ -228,6 +228,7 @@ void Proposer::find_borders() {
 }
 
 bool Proposer::is_vertex_near(Vec3 point) {
+  if (!looks_around()) return true;
   if (!samples_.is_near_original(point, limit_)) found_.push_back({point, 0});
   return found_.empty();
 }
@@ -241,6 +242,7 @@ void Proposer::look_along(Vec3 point, Vec3 end, const PointsOnEdge& points) {
 /// A border that cuts across a bay of the original is far from it, though every sample is near a face; so is an edge
 /// that runs over a hollow.
 bool Proposer::are_edges_near(Vec3 point) {
+  if (!looks_around()) return true;
   const ArrayMesh& mesh = state_.mesh;
   const PointsOnEdge& on_edges = is_together_ ? points_on_edges_together : points_on_edges;
   for (const Vec3 end : borders_) look_along(point, end, points_on_borders);
@@ -457,8 +459,8 @@ void Proposer::make_final(Region& region) {
   });
 }
 
-void Proposer::enter(const Split& split, const Region& region) {
-  split_ = &split, region_ = region.id;
+void Proposer::enter(const Split& split, const Region& region, Looks looks) {
+  split_ = &split, region_ = region.id, looks_ = looks;
   if (turns_) turns_->enter(split.region_of_face, region.id);
 }
 

@@ -60,8 +60,13 @@ class Proposer {
   /// Where the collapse of an edge puts its vertex so that all samples around are within `share` of the tolerance: at
   /// `wanted`, or where its cost is least, or where the largest distance is smallest. Absent if no such point is found.
   [[nodiscard]] std::optional<Vec3> placement(Corner edge, double share, std::optional<Vec3> wanted);
+  /// What a placement is compared with the original by.
+  enum class Looks {
+    AtSamples,  ///< alone, but for borders: enough for cheap collapses, which are proven together
+    Around      ///< and at the vertex and its edges
+  };
   /// Selects the region in which changes are made. Both must outlive them.
-  void enter(const Split& split, const Region& region);
+  void enter(const Split& split, const Region& region, Looks looks = Looks::Around);
   /// Whether all vertices around an edge belong to the region. An edge with too many faces around it may count as
   /// outside: it can not be collapsed either.
   [[nodiscard]] bool is_inside(Corner edge) const;
@@ -118,6 +123,7 @@ class Proposer {
   /// thousand of those looked at would hold.
   [[nodiscard]] bool is_texture_far() const { return texture_deviation_ && is_far_beyond(*texture_deviation_); }
   void find_borders();
+  [[nodiscard]] bool looks_around() const { return looks_ == Looks::Around || !borders_.empty(); }
   [[nodiscard]] bool is_vertex_near(Vec3 point);
   void look_along(Vec3 point, Vec3 end, const PointsOnEdge& points);
   [[nodiscard]] bool are_edges_near(Vec3 point);
@@ -126,6 +132,7 @@ class Proposer {
   DecimationState& state_;
   const Split* split_ = nullptr;  ///< of the last edge
   std::uint32_t region_ = 0;
+  Looks looks_ = Looks::Around;
   StarSamples samples_;
   std::optional<TextureGuard> texture_;
   std::optional<TurnGuard> turns_;

@@ -15,7 +15,7 @@ RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Reg
       prover_(prover),
       limits_(std::move(limits)),
       clock_at_start_(region.clock) {
-  proposer_.enter(split, region);
+  proposer_.enter(split, region, limits_.max_cost < HUGE_VALF ? Proposer::Looks::AtSamples : Proposer::Looks::Around);
   for_each_edge([&](Corner e) {
     ++edge_count_;
     if (is_open(e)) open_edges_.push_back(e);

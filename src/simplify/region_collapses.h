@@ -22,7 +22,8 @@ class RegionCollapses {
     /// Asked when a collapse would break the bound, as far as samples or the proof tell; true ends the collapses.
     /// Empty: they continue.
     std::function<bool()> ends_at_refusal;
-    float max_cost = HUGE_VALF;  ///< `collapse_all` leaves edges that cost more as they are
+    /// `collapse_all` leaves edges that cost more as they are, and looks at the samples alone.
+    float max_cost = HUGE_VALF;
   };
 
   /// All must outlive this. `prover` may be null.
