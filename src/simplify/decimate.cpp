@@ -187,13 +187,15 @@ std::function<bool(std::size_t)> Run::must_stop() {
   };
 }
 
-/// Makes the first collapses, in cuts of several directions.
+/// Makes the first collapses, in cuts of several directions. Levels after the first begin with large faces everywhere:
+/// there a limit for the first cut would cost up to a tenth of the time.
 void Run::propose_together(bool is_first) {
-  const bool has_regions = !is_global() && state_.faces >= faces_of_vertex * 2 * min_vertices_at_first;
+  const bool is_fine = state_.tried_tolerance == 0;
+  const bool is_staged = is_fine && !is_global() && state_.faces >= faces_of_vertex * 2 * min_vertices_at_first;
   const double cheap = max_cost_at_first * state_.tolerance * state_.tolerance;
-  if (!has_regions || is_first) propose(0, share_together, has_regions ? static_cast<float>(cheap) : HUGE_VALF);
+  if (!is_staged || is_first) propose(0, share_together, is_staged ? static_cast<float>(cheap) : HUGE_VALF);
   propose(1, share_together);
-  if (has_regions) propose(2, share_together);
+  if (is_staged) propose(2, share_together);
 }
 
 /// Makes the collapses that samples find within this share of the tolerance, without proofs. Leaves edges that cost
