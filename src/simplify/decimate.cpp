@@ -36,7 +36,7 @@ constexpr std::size_t min_vertices_at_first = 2000, min_vertices_together = 1000
 /// The first cut of a mesh of several regions leaves edges that cost more, in squared tolerances, for the cuts that
 /// follow. Else its seams are as fine as the original between faces that are as large as they can be, and it takes long
 /// to collapse them. Without this and the third cut runs take 1.03 of the time at 0.1%, 1.15 at 1% (28 meshes of 20,000
-/// triangles and more) and 1.35 on a torus of 300,000. With 3, 20 and 30 they take as long as with 10.
+/// triangles and more) and 1.35 on a torus of 300,000. With 20 and 30 they take as long as with 10, with 3 longer.
 constexpr double max_cost_at_first = 10;
 
 /// A closed mesh has twice as many faces as vertices.
