@@ -93,7 +93,7 @@ bool RegionCollapses::refuses_unseen(Corner edge) { return refuses(edge, edge_co
 /// Most edges of a mesh that shrinks little never enter the queue.
 void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
   const EdgeCost cost = edge_cost(state_, edge, limits_.share);
-  if (refuses(edge, cost))
+  if (refuses(edge, cost) || cost.cost > limits_.max_cost)
     queue.erase(edge);
   else
     queue.put(edge, cost.cost);
@@ -102,7 +102,7 @@ void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
 void RegionCollapses::collapse_all() {
   EdgeQueue queue(state_.index_in_queue);
   for (const Corner e : open_edges_) put(queue, e);
-  while (!queue.empty() && queue.least_cost() <= limits_.max_cost && !must_stop()) {
+  while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;
     for (const Corner e : edges_gone_) queue.erase(e);
     mesh().for_each_edge(kept(), [&](Corner e) {

@@ -17,8 +17,6 @@ class EdgeQueue {
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
   [[nodiscard]] bool contains(Corner edge) const { return index_[edge] != no_index; }
-  /// What the cheapest edge costs; there must be one.
-  [[nodiscard]] float least_cost() const { return heap_.front().cost; }
   void put(Corner edge, float cost) {
     if (index_[edge] == no_index) {
       index_[edge] = static_cast<std::uint32_t>(heap_.size());
