@@ -173,14 +173,14 @@ void Run::in_regions(Split split, const Work& work) {
 std::function<bool(std::size_t)> Run::must_stop() {
   const bool tells = omp_get_thread_num() == 0 && goal_.progress;
   return [this, tells, edges = std::uint32_t{0}, known = std::size_t{0}](std::size_t removed) mutable {
-    removed_ += removed - known;
-    known = removed;
     if (has_ended() || error_.has_error()) return true;
     if (goal_.target_faces > 0 && state_.faces - removed <= goal_.target_faces) {
       ended_by_ = EndedBy::Target;
       return true;
     }
     if (edges++ % edges_between_looks != 0) return false;
+    removed_ += removed - known;
+    known = removed;
     if (goal_.stop.stopped()) note_stop();
     if (tells) goal_.progress(state_.faces - removed_);
     return has_ended();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "geometry/position_table.h"
@@ -39,14 +40,18 @@ Vec3 normal_of(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - 
 
 /// Between two triangles with these normals that run along their common edge in opposite directions.
 bool is_crease(Vec3 m, Vec3 n) {
-  return dot(m, n) < max_cosine_of_crease * std::sqrt(squared_length(m) * squared_length(n));
+  constexpr double max_squared_cosine = max_cosine_of_crease * max_cosine_of_crease;
+  const double product = dot(m, n);
+  return product < 0 || product * product < max_squared_cosine * (squared_length(m) * squared_length(n));
 }
 
 /// How many points between two ends leave no more than `spacing` between them, up to a limit; none where a coordinate
 /// is no number.
 int points_between(Vec3 p, Vec3 q, double spacing) {
-  const double count = std::floor(length(q - p) / spacing);
-  return count > 0 ? static_cast<int>(std::min(count, double{Samples::max_between})) : 0;
+  const double squared = squared_length(q - p);
+  int count = 0;
+  for (int k = 1; k <= Samples::max_between; ++k) count += squared >= k * k * (spacing * spacing) ? 1 : 0;
+  return count;
 }
 
 /// Which corner of a triangle has this position, as one of them does.
@@ -64,10 +69,15 @@ struct EdgeToSample {
   std::uint8_t points_between = 0;
 };
 
-/// By corner of the mesh; at all but one of an edge nothing.
-std::vector<EdgeToSample> edges_to_sample(const ArrayMesh& mesh, double spacing, int threads) {
+struct EdgesToSample {
+  std::vector<EdgeToSample> edges;         ///< by corner of the mesh; at all but one of an edge nothing
+  std::vector<std::size_t> points_before;  ///< how many points the edges before every `grain` faces have, and all
+};
+
+EdgesToSample edges_to_sample(const ArrayMesh& mesh, double spacing, int threads) {
   std::vector<Vec3> normals(mesh.face_count());
   std::vector<EdgeToSample> edges(3 * mesh.face_count());
+  std::vector<std::size_t> points(mesh.face_count() / grain + 2, 0);
   const auto look_at = [&](Corner c) {
     if (mesh.edge(c) != c) return;
     const Corner twin = mesh.twin(c);
@@ -80,10 +90,13 @@ std::vector<EdgeToSample> edges_to_sample(const ArrayMesh& mesh, double spacing,
       for (auto f = static_cast<std::uint32_t>(begin); f < end; ++f) normals[f] = normal_of(mesh.triangle(f));
     });
     for_each_range(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {
-      for (auto c = static_cast<Corner>(3 * begin); c < 3 * end; ++c) look_at(c);
+      std::size_t count = 0;
+      for (auto c = static_cast<Corner>(3 * begin); c < 3 * end; ++c) look_at(c), count += edges[c].points_between;
+      points[begin / grain + 1] = count;
     });
   });
-  return edges;
+  std::partial_sum(points.begin(), points.end(), points.begin());
+  return {std::move(edges), std::move(points)};
 }
 
 /// At the edge of original t to the one `across` it.
@@ -102,10 +115,10 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
                  const std::vector<std::uint32_t>& triangle_of_face, const std::vector<std::uint32_t>& vertex_of_vertex,
                  double spacing, int threads)
     : Samples(vertices, triangles, mesh.face_count()) {
-  const std::vector<EdgeToSample> edges = edges_to_sample(mesh, spacing, threads);
-  std::size_t count = vertices.size();
-  for (const EdgeToSample& edge : edges) count += edge.points_between;
-  samples_.reserve(count);
+  const EdgesToSample sampled = edges_to_sample(mesh, spacing, threads);
+  const auto& edges = sampled.edges;
+  const auto& points_before = sampled.points_before;
+  samples_.resize(vertices.size() + points_before.back());
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     const std::uint32_t t = triangle_of_face[f];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -116,23 +129,33 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
     }
   }
   for (Corner c = 0; c < edges.size(); ++c) {
-    if (edges[c].points_between == 0 && !edges[c].is_sharp) continue;
-    const std::uint32_t t = triangle_of_face[c / 3], p = mesh.start(c), q = mesh.end(c);
-    const std::uint32_t mark = edges[c].is_sharp ? at_edge : 0;
-    for (const std::uint32_t v : {p, q}) samples_[vertex_of_vertex[v]].triangle_and_mark |= mark;
-    const auto corner = [&](std::uint32_t v) { return corner_at(vertices, triangles[t], mesh.position(v)); };
-    add_between(corner(p), corner(q), edges[c].points_between, t | mark, [&](Vec3) { return c / 3; });
+    if (!edges[c].is_sharp) continue;
+    for (const std::uint32_t v : {mesh.start(c), mesh.end(c)})
+      samples_[vertex_of_vertex[v]].triangle_and_mark |= at_edge;
   }
+  const auto add_points = [&](Corner c, std::size_t first) {
+    const std::uint32_t t = triangle_of_face[c / 3], mark = edges[c].is_sharp ? at_edge : 0;
+    const auto corner = [&](std::uint32_t v) { return corner_at(vertices, triangles[t], mesh.position(v)); };
+    put_between(first, corner(mesh.start(c)), corner(mesh.end(c)), edges[c].points_between, t | mark,
+                [&](Vec3) { return c / 3; });
+  };
+  with_team(threads, [&] {
+    for_each_range(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {
+      std::size_t number = vertices.size() + points_before[begin / grain];
+      for (auto c = static_cast<Corner>(3 * begin); c < 3 * end; number += edges[c++].points_between)
+        if (edges[c].points_between > 0) add_points(c, number);
+    });
+  });
 }
 
 template <class FaceAt>
-void Samples::add_between(std::size_t from, std::size_t to, int count, std::uint32_t triangle_and_mark,
-                          const FaceAt& face_at) {
+void Samples::put_between(std::size_t first, std::size_t from, std::size_t to, int count,
+                          std::uint32_t triangle_and_mark, const FaceAt& face_at) {
   for (int k = 1; k <= count; ++k) {
-    const auto number = static_cast<std::uint32_t>(samples_.size());
-    const Place place{static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
-                      static_cast<std::uint8_t>(share_of(k, count))};
-    samples_.push_back({no_index, no_index, triangle_and_mark, place});
+    const auto number = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(k - 1);
+    samples_[number].triangle_and_mark = triangle_and_mark;
+    samples_[number].place = {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
+                              static_cast<std::uint8_t>(share_of(k, count))};
     give_to(number, face_at(at(number)));
   }
 }
@@ -159,8 +182,10 @@ Samples::Samples(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
       if (across != no_index && across < t) continue;
       const std::uint32_t mark = is_border_or_crease(vertices, triangles, t, across) ? at_edge : 0;
       samples_[v].triangle_and_mark |= mark, samples_[w].triangle_and_mark |= mark;
-      add_between(k, l, points_between(vertices[v], vertices[w], spacing), t | mark,
-                  [&](Vec3 p) { return nearest_face(t, p); });
+      const int count = points_between(vertices[v], vertices[w], spacing);
+      const std::size_t first = samples_.size();
+      samples_.resize(first + static_cast<std::size_t>(count));
+      put_between(first, k, l, count, t | mark, [&](Vec3 p) { return nearest_face(t, p); });
     }
   }
   std::uint32_t leader = no_index, followers = 0;
@@ -251,7 +276,11 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
                       triangle_of_face, CoverAssignment(original.triangles.size()), threads) {
   starts_as_original = true;
   cover.reserve_faces(faces);
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) cover.assign(source_triangle[f], std::span(&f, 1));
+  with_team(threads, [&] {
+    for_each_range(faces, grain, [&](std::size_t begin, std::size_t end) {
+      for (auto f = static_cast<std::uint32_t>(begin); f < end; ++f) cover.assign(source_triangle[f], std::span(&f, 1));
+    });
+  });
 }
 
 void DecimationState::lock(std::vector<std::uint8_t> vertices_locked) {

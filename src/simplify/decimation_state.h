@@ -122,9 +122,10 @@ class Samples {
     samples_[vertex].triangle_and_mark |= triangle;
     samples_[vertex].place.from = samples_[vertex].place.to = static_cast<std::uint8_t>(corner);
   }
-  /// Adds so many points between two corners of a triangle.
+  /// Puts so many points between two corners of a triangle, from number `first` on.
   template <class FaceAt>
-  void add_between(std::size_t from, std::size_t to, int count, std::uint32_t triangle_and_mark, const FaceAt& face_at);
+  void put_between(std::size_t first, std::size_t from, std::size_t to, int count, std::uint32_t triangle_and_mark,
+                   const FaceAt& face_at);
 
   static constexpr std::uint32_t goes_with = 0x80000000, at_edge = 0x80000000;
   std::span<const Vec3> vertices_;  ///< of the original, as its triangles

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/proof_workers.h"
 
+#include "numeric/tasks.h"
 #include "simplify/proof_worker.h"
 
 namespace meshbound {
 
-ProofWorkers::ProofWorkers(const DecimationState& state, int threads) {
-  for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<Worker>(state));
+ProofWorkers::ProofWorkers(const DecimationState& state, int threads) : workers_(static_cast<std::size_t>(threads)) {
+  with_team(threads, [&] {
+    for_each_task(workers_.size(), [&](std::size_t i) { workers_[i] = std::make_unique<Worker>(state); });
+  });
 }
 ProofWorkers::~ProofWorkers() = default;
 
