@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/point_triangle.h"
+#include "geometry/unit.h"
 #include "numeric/no_index.h"
 #include "simplify/repair.h"
 
@@ -52,7 +53,7 @@ bool LocalEdit::has_edge(std::uint32_t a, std::uint32_t b) const {
 }
 
 void LocalEdit::begin() {
-  taken_.clear(), numbers_.clear(), beside_.clear(), before_.clear(), corners_.clear();
+  taken_.clear(), numbers_.clear(), beside_.clear(), before_.clear(), corners_.clear(), below_edges_.clear();
   near_ = state_.nearest[edge_ / 3];
   samples_.begin(origin_);
 }
@@ -161,6 +162,7 @@ bool LocalEdit::place(Vec3 point) {
 bool LocalEdit::place_flipped() {
   const Vec3 a = corners_[0][0], b = corners_[0][1], c = corners_[0][2], d = corners_[1][2];
   corners_ = {{c, d, b}, {d, c, a}};
+  below_edges_.clear();
   set_faces();
   return std::all_of(before_.begin(), before_.end(),
                      [&](const GuardedFace& face) { return face.allows(corners_[0]) && face.allows(corners_[1]); });
@@ -189,20 +191,32 @@ std::uint32_t LocalEdit::original_near(Vec3 p, std::uint32_t hint) {
   return proximity_.nearby_triangle({p.x, p.y, p.z}, hint, state_.tolerance);
 }
 
-/// Where the edge from the vertex is farthest from the originals below: which one that is tells a walk; where that does
-/// not lead to the end, points all along stand for it. `near` is an original near the vertex.
-void LocalEdit::add_edge(Vec3 vertex, Vec3 end, std::uint32_t near, DeviationSums& sums) {
+/// Where the edge from the vertex is farthest from the originals that a walk passes below it. `near` is an original near
+/// the vertex.
+LocalEdit::BelowEdge LocalEdit::below_edge(Vec3 vertex, Vec3 end, std::uint32_t near) {
   const StarSamples::Walked walked = samples_.walk_below(vertex, end, near, max_passes);
-  if (walked.share == 1) {
-    if (!walked.farthest) return;
-    const Vec3 p = walked.farthest->point;
-    return add_point(p, walked.farthest->near, 1 - length(p - vertex) / length(end - vertex), sums);
+  if (walked.share < 1) return {};
+  if (!walked.farthest) return {true, 0, {}, {}};
+  const auto& [a, b, c] = state_.triangles[walked.farthest->near];
+  const Vec3 corner = state_.vertices[a];
+  const Vec3 normal = unit(cross(state_.vertices[b] - corner, state_.vertices[c] - corner));
+  if (squared_length(normal) == 0) return {};
+  return {true, 1 - length(walked.farthest->point - vertex) / length(end - vertex), corner, normal};
+}
+
+/// Adds the edge from the vertex, at the point where it was farthest from the original; where no walk led to its end,
+/// points all along stand for it.
+void LocalEdit::add_edge(Vec3 vertex, Vec3 end, const BelowEdge& below, DeviationSums& sums) {
+  const auto at = [&](double share) { return share * vertex + (1 - share) * end; };
+  if (below.is_known) {
+    const double height = dot(below.normal, at(below.share) - below.corner);
+    return sums.add((height / state_.tolerance) * below.normal, -below.share);
   }
+  std::uint32_t near = near_;
   for (int k = 1; k <= points_to_guide; ++k) {
     const double share = 1 - static_cast<double>(k) / (points_to_guide + 1);
-    const Vec3 p = share * vertex + (1 - share) * end;
-    near = original_near(p, near);
-    add_point(p, near, share, sums);
+    near = original_near(at(share), near);
+    add_point(at(share), near, share, sums);
   }
 }
 
@@ -217,9 +231,10 @@ DeviationSums LocalEdit::deviation(double enough) {
   const Vec3 vertex = corners_[0][0];
   near_ = original_near(vertex, near_);
   add_point(vertex, near_, 1, sums);
-  for (const Corners& c : changing_edges()) {
-    if (sums.sum >= enough) break;
-    add_edge(c[0], c[1], near_, sums);
+  const std::span<const Corners> edges = changing_edges();
+  for (std::size_t i = 0; i < edges.size() && sums.sum < enough; ++i) {
+    if (i == below_edges_.size()) below_edges_.push_back(below_edge(edges[i][0], edges[i][1], near_));
+    add_edge(edges[i][0], edges[i][1], below_edges_[i], sums);
   }
   return sums;
 }

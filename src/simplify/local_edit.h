@@ -72,7 +72,15 @@ class LocalEdit {
   void take_face(std::uint32_t face);
   void take_beside(Corner rim);
   void add_point(Vec3 p, std::uint32_t near, double share, DeviationSums& sums) const;
-  void add_edge(Vec3 vertex, Vec3 end, std::uint32_t near, DeviationSums& sums);
+  /// What an edge from the vertex is compared with, also while the vertex is moved about: a walk for each place takes
+  /// 1.1 of the time, and leaves as many faces (eight meshes at 0.1%).
+  struct BelowEdge {
+    bool is_known = false;  ///< a walk led below the edge to its end
+    double share = 0;       ///< of what the vertex moves, where the edge was farthest from the original
+    Vec3 corner, normal;    ///< the plane of the original there, `normal` of unit length; zero where none is needed
+  };
+  [[nodiscard]] BelowEdge below_edge(Vec3 vertex, Vec3 end, std::uint32_t near);
+  void add_edge(Vec3 vertex, Vec3 end, const BelowEdge& below, DeviationSums& sums);
   [[nodiscard]] std::uint32_t original_near(Vec3 p, std::uint32_t hint);
   [[nodiscard]] std::span<const Corners> changing_edges() const;
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
@@ -98,6 +106,7 @@ class LocalEdit {
   std::vector<GuardedFace> before_;                      ///< faces that stay
   std::vector<Corners> corners_;                         ///< of the faces that stay, as they would be
   std::vector<SampleFace> faces_;                        ///< `corners_` relative to the origin
+  std::vector<BelowEdge> below_edges_;                   ///< of the edges that change, as far as they are known
   std::uint32_t near_ = 0;                               ///< an original near the vertex that moves
 
   bool grouped_ = false;

@@ -22,10 +22,10 @@ namespace {
 /// Vertices of a region at least.
 constexpr std::size_t min_vertices_refined = 1000;
 
-/// A round that removes a smaller share of the faces is the last one, but for the first rounds: a few hundred faces may
-/// stay the same for one and fall again.
+/// A round that removes a smaller share of the faces is the last one, but for the first round. With three rounds at
+/// least `high` takes 1.17 of the time for 0.8% fewer faces (13 meshes at 0.1%).
 constexpr double min_gain_of_round = 0.025;
-constexpr int min_refine_rounds = 3, max_refine_rounds = 12;
+constexpr int min_refine_rounds = 2, max_refine_rounds = 12;
 
 /// From the second round on, a shaken vertex is moved this share of the way to the mean of its neighbours, plus a
 /// random offset of up to `jitter` times an edge. Without this the search ends in the next local minimum, with 5 to 8%

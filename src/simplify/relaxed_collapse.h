@@ -24,6 +24,7 @@ class RelaxedCollapse {
  private:
   [[nodiscard]] bool place_collapse(Corner edge);
   [[nodiscard]] bool make_room(std::uint32_t kept);
+  [[nodiscard]] bool make_more_room(std::uint32_t kept);
   void flip_around(std::uint32_t kept);
   double relax(std::uint32_t vertex, const DeviationSearch& search);
   double relax_around(std::uint32_t kept);
