@@ -123,26 +123,34 @@ struct Snapshot {
   }
 };
 
-/// A roof with its ridge at x = 1/2, whose middle vertex is moved down its slope: an edge to the other side then runs
-/// below the ridge, there by 8/9 of its height.
-class MovedRoof {
+/// A square with a ridge at x = 1/2, and the edits of it.
+class Roof {
  public:
   static constexpr double tolerance = 0.01;
-  explicit MovedRoof(double ridge) : state_(roof(ridge)), edit_(*state_) {
+  Roof(double ridge, int squares) : state_(roof(ridge, squares)), edit_(*state_) {
     state_->grow_tolerance(tolerance);
     state_->set_samples(tolerance);
     all_ = whole(*state_);
     edit_.enter(all_, all_.regions[0]);
-    std::uint32_t middle = 0;
-    while (state_->mesh.position(middle).x != 0.5 || state_->mesh.position(middle).y != 0.5) ++middle;
-    EXPECT_TRUE(edit_.gather_move(middle));
-    EXPECT_TRUE(edit_.place({0.1, 0.5, 0.2 * ridge}));
   }
   LocalEdit& edit() { return edit_; }
+  [[nodiscard]] double of_edges() { return edit_.deviation().sum - edit_.sampled_deviation().sum; }
+  [[nodiscard]] bool gather_move_of_middle() {
+    std::uint32_t middle = 0;
+    while (state_->mesh.position(middle).x != 0.5 || state_->mesh.position(middle).y != 0.5) ++middle;
+    return edit_.gather_move(middle);
+  }
+  [[nodiscard]] bool gather_flip_of_ridge() {
+    const ArrayMesh& mesh = state_->mesh;
+    const auto is_on_ridge = [&](std::uint32_t v) { return mesh.position(v).x == 0.5; };
+    for (Corner edge = 0; edge < 3 * mesh.face_count(); ++edge)
+      if (is_on_ridge(mesh.start(edge)) && is_on_ridge(mesh.end(edge)) && edit_.gather_flip(edge)) return true;
+    return false;
+  }
 
  private:
-  static TriangleMesh roof(double ridge) {
-    TriangleMesh roof = reference::unit_square(2);
+  static TriangleMesh roof(double ridge, int squares) {
+    TriangleMesh roof = reference::unit_square(squares);
     for (Eigen::Vector3d& p : roof.vertices) p.z() = 2 * ridge * (0.5 - std::abs(p.x() - 0.5));
     return roof;
   }
@@ -151,15 +159,42 @@ class MovedRoof {
   Split all_;
 };
 
+/// Its middle vertex is moved down a slope: an edge to the other side then runs below the ridge, there by 8/9 of its
+/// height.
+struct MovedRoof : Roof {
+  explicit MovedRoof(double ridge) : Roof(ridge, 2) {
+    EXPECT_TRUE(gather_move_of_middle());
+    EXPECT_TRUE(edit().place({0.1, 0.5, 0.2 * ridge}));
+  }
+};
+
 /// A ridge of three tolerances is too high for a walk: the nearest of the points on the edge is 0.8 of it away.
 TEST(LocalEdit, CountsEdgesWhereTheyAreFarthestFromTheOriginal) {
   const double tolerance = MovedRoof::tolerance;
   for (const auto& [ridge, share] : {std::pair{1.5 * tolerance, 8.0 / 9}, std::pair{3 * tolerance, 0.8}}) {
     MovedRoof roof(ridge);
-    const double of_edges = roof.edit().deviation().sum - roof.edit().sampled_deviation().sum;
-    EXPECT_GT(of_edges, std::pow(0.98 * share * ridge / tolerance, 6));
-    EXPECT_LT(of_edges, 6 * std::pow(ridge / tolerance, 6));
+    EXPECT_GT(roof.of_edges(), std::pow(0.98 * share * ridge / tolerance, 6));
+    EXPECT_LT(roof.of_edges(), 6 * std::pow(ridge / tolerance, 6));
   }
+}
+
+/// The point of an edge at the ridge moves by 5/9 of what the vertex does.
+TEST(LocalEdit, FollowsEdgesAtThatPointWhileTheVertexMoves) {
+  const double ridge = 1.5 * MovedRoof::tolerance, rise = 0.1;
+  MovedRoof roof(ridge);
+  const double before = roof.of_edges();
+  ASSERT_TRUE(roof.edit().place({0.1, 0.5, (0.2 + rise) * ridge}));
+  EXPECT_NEAR(roof.of_edges() / before, std::pow(1 - rise * (5.0 / 9) / (8.0 / 9), 6), 0.02);
+}
+
+/// Between faces of a grid of four squares a side, an edge along the ridge has nothing to be far from; flipped, it runs
+/// across and by half of the height of the ridge below.
+TEST(LocalEdit, LooksBelowTheEdgeThatAFlipMakes) {
+  Roof roof(3 * Roof::tolerance, 4);
+  ASSERT_TRUE(roof.gather_flip_of_ridge());
+  EXPECT_LT(roof.of_edges(), 1e-9);
+  ASSERT_TRUE(roof.edit().place_flipped());
+  EXPECT_NEAR(roof.of_edges(), std::pow(0.5 * 3, 6), 1);
 }
 
 TEST(LocalEdit, LeavesEdgesOutOnceTheSumIsEnough) {
@@ -195,6 +230,26 @@ TEST(RelaxedCollapse, LeavesNothingBehindWhereItFails) {
   EXPECT_GT(made, 0);
   EXPECT_EQ(all.regions[0].removed_faces, 2u * static_cast<std::size_t>(made));
   EXPECT_LE(distance_upper(c.mesh, fixture.result(), c.tolerance), c.tolerance);
+}
+
+/// A collapse that samples find near enough, but not its proof, may be made after all: others around it give it room.
+TEST(RelaxedCollapse, MakesMoreRoomWhereAProofFails) {
+  DecimationFixture fixture(datasets::terrain(1, 40, 3), 0.005);
+  decimate_plainly(fixture.state);
+  DecimationState& state = fixture.state;
+  Split all = whole(state);
+  LocalEdit edit(state);
+  edit.enter(all, all.regions[0]);
+  DecimationThreads workers(state, 1);
+  ChangeProver& prover = *workers.provers[0];
+  RelaxedCollapse relaxed(state, edit, prover);
+  int made_after_all = 0;
+  for (Corner edge = 0; edge < 3 * state.mesh.face_count(); ++edge) {
+    if (state.mesh.is_removed(edge / 3) || state.mesh.edge(edge) != edge) continue;
+    const std::uint64_t before = prover.unproven;
+    if (relaxed.run(all, all.regions[0], edge) && prover.unproven > before) ++made_after_all;
+  }
+  EXPECT_GT(made_after_all, 0);
 }
 
 /// Large enough for several regions, with a target so near that the first round reaches it.
