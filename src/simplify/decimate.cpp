@@ -39,6 +39,13 @@ constexpr std::size_t min_vertices_at_first = 2000, min_vertices_together = 1000
 /// triangles and more) and 1.35 on a torus of 300,000. With 20 and 30 they take as long as with 10, with 3 longer.
 constexpr double max_cost_at_first = 10;
 
+/// After two cuts, or three with such a limit, another follows one into more than a few regions that has removed a
+/// tenth of the faces: it collapses what is left at the seams. Without it tori take 1.35, 1.10 and 1.09 of the time
+/// (10M, 2M and 868,000 triangles at 0.1%). With two regions for a few, meshes of 20,000 to 270,000 take 1.01.
+constexpr int max_cuts = 8;
+constexpr std::size_t few_regions = 4;
+constexpr double min_gain_of_cut = 0.1;
+
 /// A closed mesh has twice as many faces as vertices.
 constexpr std::size_t faces_of_vertex = 2;
 
@@ -111,7 +118,7 @@ class Run {
   void try_the_others_again();
   void keep_what_has_no_face();
   void propose_together(bool is_first);
-  void propose(int shift, double share, float max_cost = HUGE_VALF);
+  std::size_t propose(int shift, double share, float max_cost = HUGE_VALF);
   [[nodiscard]] bool proves_later() const;
   std::size_t undo_strays();
   [[nodiscard]] std::size_t proposed() const;
@@ -194,22 +201,29 @@ void Run::propose_together(bool is_first) {
   const bool is_staged = is_fine && !is_global() && state_.faces >= faces_of_vertex * 2 * min_vertices_at_first;
   const double cheap = max_cost_at_first * state_.tolerance * state_.tolerance;
   if (!is_staged || is_first) propose(0, share_together, is_staged ? static_cast<float>(cheap) : HUGE_VALF);
-  propose(1, share_together);
-  if (is_staged) propose(2, share_together);
+  bool is_worth_another = true;
+  for (int cut = 1; cut < (is_staged ? 3 : 2) || (is_worth_another && cut < max_cuts); ++cut) {
+    const std::size_t before = state_.faces;
+    const std::size_t regions = propose(cut % 2 == 1 ? 1 : 2, share_together);
+    const auto gain = static_cast<double>(before - state_.faces);
+    is_worth_another = regions > few_regions && gain >= min_gain_of_cut * static_cast<double>(before);
+  }
 }
 
 /// Makes the collapses that samples find within this share of the tolerance, without proofs. Leaves edges that cost
-/// more than `max_cost`.
-void Run::propose(int shift, double share, float max_cost) {
-  if (has_ended() || (is_global() && shift > 0)) return;
+/// more than `max_cost`. Returns the number of regions.
+std::size_t Run::propose(int shift, double share, float max_cost) {
+  if (has_ended() || (is_global() && shift > 0)) return 0;
   const bool is_first = shift == 0 && share < 1;
   const std::size_t min_vertices = is_first ? min_vertices_at_first : min_vertices_together;
-  in_regions(is_worth_a_cut() ? split(state_, shift, min_vertices, threads_.count()) : whole(state_),
-             [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
-               RegionCollapses::Limits limits{share, must_stop(), nullptr, max_cost};
-               if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };
-               RegionCollapses(state_, split, region, proposer, nullptr, std::move(limits)).collapse_all();
-             });
+  Split cut = is_worth_a_cut() ? split(state_, shift, min_vertices, threads_.count()) : whole(state_);
+  const std::size_t regions = cut.regions.size();
+  in_regions(std::move(cut), [&](const Split& split, Region& region, Proposer& proposer, ChangeProver&) {
+    RegionCollapses::Limits limits{share, must_stop(), nullptr, max_cost};
+    if (goal_.on_exceed == OnExceed::Stop) limits.ends_at_refusal = [] { return true; };
+    RegionCollapses(state_, split, region, proposer, nullptr, std::move(limits)).collapse_all();
+  });
+  return regions;
 }
 
 /// Number of changes that are not proven yet.
