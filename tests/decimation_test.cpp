@@ -318,7 +318,8 @@ TEST_P(Decimation, LeavesLittleAtTheSeamsOfItsCuts) {
   EXPECT_LT(100 * result.counts.proven_alone, result.last().collapses_performed);
 }
 
-/// Where three cuts leave many regions, others follow: 33 of 160,000 collapses are proven one by one, 1,023 without them.
+/// Where three cuts leave many regions, others follow: 33 of 160,000 collapses are proven one by one, 1,023 without
+/// them.
 TEST(Decimation, CutsAgainWhereMuchIsLeftAtSeams) {
   const SimplifyResult result = simplify_with_bound(datasets::torus(1, 0.4, 400, 400), {.tolerance = 0.04});
   EXPECT_GT(result.last().collapses_performed, 159'000u);

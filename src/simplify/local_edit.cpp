@@ -191,8 +191,8 @@ std::uint32_t LocalEdit::original_near(Vec3 p, std::uint32_t hint) {
   return proximity_.nearby_triangle({p.x, p.y, p.z}, hint, state_.tolerance);
 }
 
-/// Where the edge from the vertex is farthest from the originals that a walk passes below it. `near` is an original near
-/// the vertex.
+/// Where the edge from the vertex is farthest from the originals that a walk passes below it. `near` is an original
+/// near the vertex.
 LocalEdit::BelowEdge LocalEdit::below_edge(Vec3 vertex, Vec3 end, std::uint32_t near) {
   const StarSamples::Walked walked = samples_.walk_below(vertex, end, near, max_passes);
   if (walked.share < 1) return {};
