@@ -141,7 +141,7 @@ class Run {
   DecimationThreads& threads_;
   StopToken stop_of_proof_;
   std::atomic<EndedBy> ended_by_{EndedBy::NothingFits};
-  std::atomic<std::size_t> removed_{0};  ///< faces, from all regions of a split
+  std::atomic<std::size_t> removed_{0};  ///< faces, from all regions of a split; told at every look
   FirstError error_;                     ///< of a region: the others end
   ExceedCheck exceed_check_{state_};
 };
