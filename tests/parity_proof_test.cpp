@@ -56,7 +56,7 @@ TEST(ParityProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
     for (const Vector3d& p : shape.mesh.vertices) vertices.push_back({p.x(), p.y(), p.z()});
     const auto neighbours = edge_neighbours(vertices, shape.mesh.triangles);
     const OriginalSoup soup{vertices, shape.mesh.triangles, neighbours};
-    ParityProof parity(shape.mesh.triangles.size());
+    ParityProof parity;
     const Bvh original(shape.mesh);
     std::mt19937 random(11);
     std::normal_distribution<double> noise(0, 0.5 * shape.tolerance);
@@ -187,7 +187,7 @@ TEST(SlabProof, NeverCoversAFaceThatTheEngineFindsTooFar) {
     SCOPED_TRACE(shape.name);
     const SlabScene scene(shape.mesh);
     const Bvh original(scene.mesh);
-    ParityProof grown(scene.mesh.triangles.size());
+    ParityProof grown;
     std::mt19937 random(12);
     std::normal_distribution<double> noise(0, 0.4 * shape.tolerance);
     int covered = 0, missed = 0;

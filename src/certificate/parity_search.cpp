@@ -25,7 +25,7 @@ ParitySearch::ParitySearch(const Bvh::Data& target, const std::vector<std::array
       tolerance_(goal.tolerance),
       slack_(goal.largest_slack()),
       magnitude_(magnitude),
-      patch_(target.triangle_count(), patch_limit) {}
+      patch_(patch_limit) {}
 
 /// False where the triangle is too thin, or the tolerance too small, for doubles to tell.
 bool ParitySearch::set_view(const std::array<Vec3, 3>& triangle, const Piece& piece) {

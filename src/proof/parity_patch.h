@@ -23,6 +23,7 @@
 
 #include "geometry/unit.h"
 #include "geometry/vec3.h"
+#include "numeric/marked_ids.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -150,9 +151,8 @@ enum class Passage { Clear, Across, Unclear };
 /// Grows the set P over a window. Not thread-safe.
 class ParityPatch {
  public:
-  /// For a soup of `triangle_count` triangles; P gets at most `max_triangles`.
-  ParityPatch(std::size_t triangle_count, std::size_t max_triangles)
-      : visited_(triangle_count, 0), max_triangles_(max_triangles) {}
+  /// P gets at most `max_triangles`.
+  explicit ParityPatch(std::size_t max_triangles) : max_triangles_(max_triangles) {}
 
   /// Grows P from `seed` over the edges that project onto the window. True when no edge of its boundary does, no
   /// triangle is too high and the parity is odd. `neighbour(t, k)` is the triangle across the edge of t from corner k,
@@ -161,9 +161,9 @@ class ParityPatch {
   /// the window. O(size of P).
   template <class Neighbour, class Sight>
   [[nodiscard]] bool covers(const Neighbour& neighbour, std::uint32_t seed, Sight&& sight) {
-    ++round_;
+    visited_.clear();
     triangles_.assign(1, seed);
-    visited_[seed] = round_;
+    visited_.insert(seed);
     bool odd = false;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const std::uint32_t t = triangles_[i];
@@ -171,11 +171,11 @@ class ParityPatch {
       for (std::size_t k = 0; k < 3; ++k) {
         if (sight.crosses_ray(k)) odd = !odd;
         const std::uint32_t next = neighbour(t, k);
-        if (next != no_index && visited_[next] == round_) continue;
+        if (next != no_index && visited_.contains(next)) continue;
         const Passage passage = sight.passage(k);
         if (passage == Passage::Clear) continue;
         if (passage == Passage::Unclear || next == no_index || triangles_.size() == max_triangles_) return false;
-        visited_[next] = round_;
+        visited_.insert(next);
         triangles_.push_back(next);
       }
     }
@@ -191,8 +191,8 @@ class ParityPatch {
   void clear() { triangles_.clear(); }
 
  private:
-  std::vector<std::uint32_t> triangles_, visited_;
-  std::uint32_t round_ = 0;
+  std::vector<std::uint32_t> triangles_;
+  MarkedIds visited_;
   std::size_t max_triangles_;
 };
 

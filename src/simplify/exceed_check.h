@@ -5,7 +5,7 @@
 
 #include "meshbound/distance.h"
 #include "simplify/decimation_state.h"
-#include "simplify/mesh/marked_ids.h"
+#include "numeric/marked_ids.h"
 #include "simplify/proof_workers.h"
 #include "simplify/propose.h"
 
@@ -22,7 +22,7 @@ namespace meshbound {
 class ExceedCheck {
  public:
   /// `state` must outlive this.
-  explicit ExceedCheck(DecimationState& state) : state_(state), is_changed_(state.mesh.face_count()) {}
+  explicit ExceedCheck(DecimationState& state) : state_(state) {}
 
   /// False only if the engine finds the mesh after the collapse that `proposer` refused last to be within `tolerance`
   /// of the original. The mesh is unchanged afterwards. O(n) with a small constant for n vertices.

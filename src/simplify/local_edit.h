@@ -9,7 +9,7 @@
 
 #include "meshbound/proximity.h"
 #include "simplify/decimation_state.h"
-#include "simplify/mesh/marked_ids.h"
+#include "numeric/marked_ids.h"
 #include "simplify/mesh/normal_guard.h"
 #include "simplify/propose.h"
 #include "simplify/regions.h"

@@ -16,7 +16,7 @@
 #include "simplify/cover/patch_cover.h"
 #include "simplify/cover/slab_proof.h"
 #include "simplify/mesh/face_box.h"
-#include "simplify/mesh/marked_ids.h"
+#include "numeric/marked_ids.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
 
@@ -32,14 +32,10 @@ class ProofWorkers::Worker {
         cover_(state.vertices, state.triangles),
         original_{state.vertices, state.triangles, state.neighbours},
         affected_members_(state.clustered.clusters.count(), 0),
-        patches_(state.mesh.face_count()),
-        original_patches_(state.triangles.size()),
         slab_proof_(original_, state.clustered.clusters, state.clustered.slabs),
         proximity_(state.tree),
         prepared_(MeshSoup{state.mesh}),
-        loops_(state.vertices, state.triangles, prepared_),
-        found_marks_(state.mesh.face_count()),
-        vertex_marks_(state.mesh.vertex_count()) {}
+        loops_(state.vertices, state.triangles, prepared_) {}
 
   /// Must be called where the mesh may have changed, before `cover` or `cover_anywhere`: what has been prepared of its
   /// faces is kept until then.

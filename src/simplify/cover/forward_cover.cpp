@@ -20,19 +20,24 @@ constexpr double held_edge_weight = 1e-3;
 /// Up to so many candidates are asked as fast all at once as one after another.
 constexpr int few_candidates = 16;
 
+/// Vertices whose masks are kept: those of the originals below a star, which follow one another. A power of two.
+constexpr std::size_t cached_vertices = 1024;
+
 FaceMask lowest(FaceMask mask) { return mask & (~mask + 1); }
 
 }  // namespace
 
 ForwardCover::ForwardCover(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
-    : vertices_(vertices), triangles_(triangles), cache_(vertices.size()) {}
+    : vertices_(vertices), triangles_(triangles), cache_(cached_vertices) {}
 
 void ForwardCover::begin(double tolerance) {
   candidates_.clear(tolerance);
   const double shortest = shortest_edge_share * tolerance;
   shortest_squared_edge_ = shortest * shortest;
   last_ = 0;
-  ++round_;
+  if (++round_ != 0) return;
+  cache_.assign(cached_vertices, {});  // of another round of that number
+  round_ = 1;
 }
 
 void ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
@@ -42,8 +47,8 @@ void ForwardCover::add(const std::array<Vec3, 3>& corners, std::uint32_t face) {
 }
 
 FaceMask ForwardCover::holding(std::uint32_t vertex, FaceMask allowed) {
-  CachedMask& cached = cache_[vertex];
-  if (cached.round != round_) cached = {round_, 0, 0};
+  CachedMask& cached = cache_[vertex % cached_vertices];
+  if (cached.round != round_ || cached.vertex != vertex) cached = {round_, vertex, 0, 0};
   if (const FaceMask missing = allowed & ~cached.known; missing != 0) {
     cached.mask |= candidates_.holding(vertices_[vertex], missing);
     cached.known |= missing;

@@ -75,7 +75,7 @@ class ForwardCover {
   [[nodiscard]] bool cut(const Piece& piece, FaceMask allowed, Asked asked);
 
   struct CachedMask {
-    std::uint32_t round = 0;
+    std::uint32_t round = 0, vertex = 0;
     FaceMask known = 0;  ///< candidates that have been asked
     FaceMask mask = 0;
   };
@@ -87,7 +87,7 @@ class ForwardCover {
   double shortest_squared_edge_ = 0;
   FaceMask last_ = 0;  ///< the candidate that has covered a triangle last
   std::uint32_t round_ = 0;
-  std::vector<CachedMask> cache_;
+  std::vector<CachedMask> cache_;  ///< by vertex, modulo their count
   std::vector<Piece> open_;
   std::optional<Vec3> lost_point_;
 };

@@ -12,7 +12,7 @@ constexpr std::size_t largest_patch = std::size_t{1} << 18;
 
 }  // namespace
 
-ParityProof::ParityProof(std::size_t triangle_count) : patch_(triangle_count, largest_patch) {}
+ParityProof::ParityProof() : patch_(largest_patch) {}
 
 void ParityProof::note_obstacle(const Window<3>& window, const Window<3>::Clipped& seen) {
   double min_share = HUGE_VAL;

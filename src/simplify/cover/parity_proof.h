@@ -17,8 +17,7 @@ namespace meshbound {
 /// `no_index` where there is none, or none that the proof may use. Not thread-safe.
 class ParityProof {
  public:
-  /// For soups of up to `triangle_count` triangles. O(triangle_count).
-  explicit ParityProof(std::size_t triangle_count);
+  ParityProof();
 
   /// True proves that `triangle` lies within `tolerance` of the soup (but for CandidateFaces::rounding_slack of the
   /// largest coordinate); false says nothing. P grows from `seed` over the edges that project onto the triangle.

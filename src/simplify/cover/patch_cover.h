@@ -23,9 +23,6 @@ class PatchCover {
     int cuts = 0;  ///< on the way down to it
   };
 
-  /// For meshes of up to `face_count` faces. O(face_count).
-  explicit PatchCover(std::size_t face_count) : parity_(face_count) {}
-
   /// Appends to `faces` those that cover parts of `whole`, and to `open` the parts that are left: together they are
   /// `whole`, but for the rounding of cut points. `mesh` is a soup as in `ParityProof`, and `likely` are faces of it
   /// that may lie above or below `whole`.

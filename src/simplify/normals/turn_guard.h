@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "simplify/kernel/kernels.h"
-#include "simplify/mesh/marked_ids.h"
+#include "numeric/marked_ids.h"
 #include "simplify/normals/face_turns.h"
 
 namespace meshbound {
