@@ -87,10 +87,17 @@ std::vector<Vec3> positions(const TriangleMesh& mesh) {
   return result;
 }
 
+TriangleMesh in_order(const TriangleMesh& mesh) {
+  const SpatialOrder order = spatial_order(mesh, {});
+  TriangleMesh ordered{{}, order.triangles};
+  for (const std::uint32_t v : order.vertex) ordered.vertices.push_back(mesh.vertices[v]);
+  return ordered;
+}
+
 /// A mesh in the order of a curve, with what a proof by slabs asks of it.
 struct SlabScene {
   explicit SlabScene(const TriangleMesh& unordered)
-      : mesh(spatial_order(unordered, {}).mesh),
+      : mesh(in_order(unordered)),
         vertices(positions(mesh)),
         neighbours(edge_neighbours(vertices, mesh.triangles)),
         soup{vertices, mesh.triangles, neighbours},

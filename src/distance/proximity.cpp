@@ -26,10 +26,19 @@ double power_of_two_from(double x) {
 }  // namespace
 
 struct Proximity::Impl {
-  explicit Impl(const Bvh& model)
-      : bvh(model), data(model.data()), map(data.frame), slot_of_triangle(data.triangle_count()) {
+  explicit Impl(const Bvh& model) : bvh(model), data(model.data()), map(data.frame) {
+    if (is_along_curve()) return;
+    slot_of_triangle.resize(data.triangle_count());
     for (std::uint32_t slot = 0; slot < data.triangle_count(); ++slot)
       slot_of_triangle[data.triangle_of_slot[slot]] = slot;
+  }
+
+  [[nodiscard]] bool is_along_curve() const {
+    std::uint32_t slot = 0;
+    return std::ranges::all_of(data.triangle_of_slot, [&](std::uint32_t triangle) { return triangle == slot++; });
+  }
+  [[nodiscard]] std::uint32_t slot_of(std::uint32_t triangle) const {
+    return slot_of_triangle.empty() ? triangle : slot_of_triangle[triangle];
   }
 
   /// A query point in the working frame; raises `magnitude` and `error` to cover it.
@@ -61,7 +70,7 @@ struct Proximity::Impl {
   const Bvh& bvh;
   const Bvh::Data& data;
   FrameMap map;
-  std::vector<std::uint32_t> slot_of_triangle;
+  std::vector<std::uint32_t> slot_of_triangle;  ///< empty where the mesh has the order of the slots
   std::unique_ptr<SearchKernel> kernel;
   Goal current;
 };
@@ -84,7 +93,7 @@ Verdict Proximity::triangle_within(const std::array<Eigen::Vector3d, 3>& triangl
     return check_one_sided_tolerance(single, impl_->bvh, tolerance, options).verdict;
   }
   SearchKernel& kernel = impl_->kernel_for(tolerance, magnitude, error);
-  std::uint32_t slot = impl_->slot_of_triangle[hint];
+  std::uint32_t slot = impl_->slot_of(hint);
   const Swept swept = kernel.sweep({p[0], p[1], p[2]}, slot, max_subdivisions);
   hint = impl_->data.triangle_of_slot[slot];
   if (swept == Swept::NotAtAll || swept == Swept::NotNear) {
@@ -112,7 +121,7 @@ double Proximity::upper_distance(const Eigen::Vector3d& point, std::uint32_t& hi
   // `enough`.
   const double accepted =
       std::max(0.0, impl_->map.working_length_down(enough) * (1 - 16 * unit_roundoff) - impl_->current.slack);
-  const Nearest nearest = kernel.nearest(p, impl_->slot_of_triangle[hint], accepted * accepted);
+  const Nearest nearest = kernel.nearest(p, impl_->slot_of(hint), accepted * accepted);
   hint = impl_->data.triangle_of_slot[nearest.slot];
   return impl_->map.length_up(impl_->current.proven_upper(nearest.squared, 0));
 }
@@ -123,7 +132,7 @@ std::uint32_t Proximity::nearby_triangle(const Eigen::Vector3d& point, std::uint
   if (!(magnitude <= max_magnitude)) return closest_point(impl_->bvh, point).point.triangle;
   SearchKernel& kernel = impl_->kernel_for(impl_->map.length_down(impl_->current.tolerance), magnitude, error);
   const double working_far = impl_->map.working_length_down(far);
-  Nearest found = kernel.nearby(p, impl_->slot_of_triangle[hint]);
+  Nearest found = kernel.nearby(p, impl_->slot_of(hint));
   if (found.squared > working_far * working_far) found = kernel.nearest(p, found.slot, 0);
   return impl_->data.triangle_of_slot[found.slot];
 }

@@ -26,17 +26,25 @@
 namespace meshbound {
 namespace {
 
-std::vector<Vec3> points_in_frame(const TriangleMesh& mesh, const WorkingFrame& frame) {
+std::vector<Vec3> points_in_frame(const std::vector<Eigen::Vector3d>& vertices, const WorkingFrame& frame) {
   std::vector<Vec3> points;
-  points.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3d& p : mesh.vertices) points.push_back(to_vec3(frame.to_frame(p)));
+  points.reserve(vertices.size());
+  for (const Eigen::Vector3d& p : vertices) points.push_back(to_vec3(frame.to_frame(p)));
   return points;
 }
 
-/// The triangles of a mesh with these points as its vertices.
-MeshView view_of(const std::vector<Vec3>& points, const TriangleMesh& mesh) {
+/// The vertices of a mesh in this order.
+std::vector<Vec3> points_in_frame(const std::vector<Eigen::Vector3d>& vertices, const std::vector<std::uint32_t>& order,
+                                  const WorkingFrame& frame) {
+  std::vector<Vec3> points;
+  points.reserve(order.size());
+  for (const std::uint32_t v : order) points.push_back(to_vec3(frame.to_frame(vertices[v])));
+  return points;
+}
+
+MeshView view_of(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   return {reinterpret_cast<const double*>(points.data()), points.size(), sizeof(Vec3),
-          reinterpret_cast<const std::uint32_t*>(mesh.triangles.data()), mesh.triangles.size()};
+          reinterpret_cast<const std::uint32_t*>(triangles.data()), triangles.size()};
 }
 
 /// What samples may reach of the texture tolerance: between them the texture moves further, and what moves too far is
@@ -70,14 +78,15 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
     : start_(start),
       start_vertices_(start != nullptr ? start->mesh.vertices.size() : original.vertices.size()),
       order_(spatial_order(original, {options.threads, stop})),
-      original_(order_.mesh),
+      original_(original),
       options_(options),
       frame_(used_bounding_box(original_)),
-      vertices_(points_in_frame(original_, frame_)),
-      start_points_(start != nullptr ? points_in_frame(start->mesh, frame_) : std::vector<Vec3>()),
+      vertices_(points_in_frame(original.vertices, order_.vertex, frame_)),
+      start_points_(start != nullptr ? points_in_frame(start->mesh.vertices, frame_) : std::vector<Vec3>()),
       at_start_point_(start_points(), first_of_start_),
-      tree_(view_of(vertices_, original_), BvhOptions{options.threads, stop}) {
-  for (const Eigen::Vector3d& p : original_.vertices) largest_ = std::max(largest_, p.cwiseAbs().maxCoeff());
+      tree_(view_of(vertices_, order_.triangles), BvhOptions{options.threads, stop}) {
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+    largest_ = std::max(largest_, in_original(v).cwiseAbs().maxCoeff());
   if (options.precision == Precision::Single && largest_ > std::numeric_limits<float>::max() / 2)
     throw InvalidInput("a coordinate is beyond the range of single precision: rescale the mesh, or keep doubles");
   stop.check();
@@ -128,7 +137,7 @@ ArrayMesh take_mesh(ManifoldSoup& soup, std::span<const Vec3> points) {
 
 void Decimation::make_state(const StopToken& stop) {
   check_texture(options_, order_.triangle.size());
-  std::vector<TriangleNeighbours> neighbours = edge_neighbours(tree_, vertices_, original_.triangles, threads());
+  std::vector<TriangleNeighbours> neighbours = edge_neighbours(tree_, vertices_, order_.triangles, threads());
   stop.check();
   ManifoldSoup soup;
   ArrayMesh mesh;
@@ -140,13 +149,13 @@ void Decimation::make_state(const StopToken& stop) {
           mesh = take_mesh(soup, start_points());
         },
         [&] {
-          clustered.emplace(OriginalSoup{vertices_, original_.triangles, neighbours});
+          clustered.emplace(OriginalSoup{vertices_, order_.triangles, neighbours});
         });
   });
   stop.check();
   dropped_triangles_ = soup.dropped_triangles;
   split_ = soup.split;
-  OriginalOfDecimation original{vertices_, original_.triangles, tree_, std::move(neighbours), *std::move(clustered)};
+  OriginalOfDecimation original{vertices_, order_.triangles, tree_, std::move(neighbours), *std::move(clustered)};
   if (start_ != nullptr)
     go_on_from_start(std::move(original), std::move(soup), std::move(mesh));
   else
@@ -161,9 +170,9 @@ void Decimation::make_state(const StopToken& stop) {
   state_->lock(locked());
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));
   if (!options_.face_tolerances.empty()) {
-    std::vector<Eigen::AlignedBox3d> boxes(original_.triangles.size());
+    std::vector<Eigen::AlignedBox3d> boxes(order_.triangles.size());
     for (std::size_t t = 0; t < boxes.size(); ++t)
-      for (const std::uint32_t v : original_.triangles[t]) boxes[t].extend(frame_.to_frame(original_.vertices[v]));
+      for (const std::uint32_t v : order_.triangles[t]) boxes[t].extend(frame_.to_frame(in_original(v)));
     state_->local.emplace(std::move(boxes), limits_in_frame());
   }
   threads_.emplace(*state_, threads());
@@ -178,7 +187,7 @@ std::vector<std::uint32_t> Decimation::index_of_caller_triangle() const {
 
 ManifoldSoup Decimation::soup_of_start(std::span<const TriangleNeighbours> neighbours) {
   std::vector<std::uint32_t> first = std::exchange(first_of_start_, {});
-  const MeshView soup = view_of(start_points(), start_mesh());
+  const MeshView soup = view_of(start_points(), start_triangles());
   if (start_ != nullptr) return manifold_soup(soup, std::move(first), {}, {});
   return manifold_soup(soup, std::move(first), neighbours, looks_of(options_, order_.triangle));
 }
@@ -301,7 +310,7 @@ bool Decimation::is_seam(Corner edge) const {
   const auto at = [&](Corner face, std::uint32_t vertex) {
     const std::uint32_t t = state_->source_triangle[face / 3];
     std::size_t k = 0;
-    while (k < 2 && !same_position(vertices_[original_.triangles[t][k]], mesh.position(vertex))) ++k;
+    while (k < 2 && !same_position(vertices_[order_.triangles[t][k]], mesh.position(vertex))) ++k;
     return options_.texture_coordinates[order_.triangle[t]][k];
   };
   const auto differ = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -333,9 +342,8 @@ void Decimation::set_texture() {
     if (!options_.materials.empty()) materials.push_back(options_.materials[t]);
   }
   const double tolerance = frame_.length_to_frame(options_.texture_tolerance);
-  state_->texture.emplace(Atlas(vertices_, original_.triangles, std::move(coordinates), std::move(materials)),
-                          state_->mesh, state_->lines, state_->source_triangle, vertices_, original_.triangles,
-                          tolerance);
+  state_->texture.emplace(Atlas(vertices_, order_.triangles, std::move(coordinates), std::move(materials)),
+                          state_->mesh, state_->lines, state_->source_triangle, vertices_, order_.triangles, tolerance);
   state_->texture->limit = share_of_texture_tolerance * tolerance;
   state_->reset_quadrics(threads());
 }
@@ -343,7 +351,7 @@ void Decimation::set_texture() {
 void Decimation::note_turned_faces() {
   const ArrayMesh& mesh = state_->mesh;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {  // one that is turned over keeps its first corner
-    const Vec3 second = vertices_[original_.triangles[state_->source_triangle[f]][1]];
+    const Vec3 second = vertices_[order_.triangles[state_->source_triangle[f]][1]];
     is_turned_over_.push_back(same_position(mesh.position(mesh.start(3 * f + 1)), second) ? 0 : 1);
   }
 }
@@ -404,7 +412,7 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
   if (options_.progress) {
     goal.progress = [&](std::size_t faces) {
       // Most runs end at a small share of the faces and spend their time on the way there.
-      options_.progress(1 - static_cast<double>(faces) / static_cast<double>(original_.triangles.size()));
+      options_.progress(1 - static_cast<double>(faces) / static_cast<double>(order_.triangles.size()));
     };
   }
   if (state_->samples.size() == 0) state_->set_samples(goal.tolerance, threads());
@@ -424,7 +432,8 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
 /// into the frame and back may round.
 Eigen::Vector3d Decimation::in_model(Vec3 p) const {
   const std::optional<std::uint32_t> start = first_at(p);
-  return as_written(start ? start_mesh().vertices[*start] : frame_.to_model({p.x, p.y, p.z}));
+  if (!start) return as_written(frame_.to_model({p.x, p.y, p.z}));
+  return as_written(start_ != nullptr ? start_->mesh.vertices[*start] : in_original(*start));
 }
 
 Eigen::Vector3d Decimation::as_written(const Eigen::Vector3d& point) const {
@@ -480,9 +489,9 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
   for (const auto& [source, t] : sorted(std::move(kept))) {
     Triangle corners{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = original_.triangles[t][i];
+      const std::uint32_t v = order_.triangles[t][i];
       corners[i] = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.push_back(as_written(original_.vertices[v]));  // two may have one place in the frame
+      mesh.vertices.push_back(as_written(in_original(v)));  // two may have one place in the frame
       into.source_vertex.push_back(order_.vertex[v]);
     }
     mesh.triangles.push_back(corners);

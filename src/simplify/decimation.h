@@ -17,7 +17,7 @@ namespace meshbound {
 /// One decimation under growing tolerances: the state in its working frame, and the maps into that frame and back.
 class Decimation {
  public:
-  /// `options` must outlive this. Throws `Stopped`.
+  /// `original` and `options` must outlive this. Throws `Stopped`.
   Decimation(const TriangleMesh& original, const SimplifyOptions& options, const StopToken& stop);
   /// Continues from `start`, which must outlive this. `SimplifyOptions::locked_vertices` are then by the vertices of
   /// `start`, and the sources of a result refer to `start` instead of the original. `start` has no lines and no
@@ -50,7 +50,13 @@ class Decimation {
   [[nodiscard]] ManifoldSoup soup_of_start(std::span<const TriangleNeighbours> neighbours);
   void start_as_original(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
   void go_on_from_start(OriginalOfDecimation original, ManifoldSoup soup, ArrayMesh mesh);
-  [[nodiscard]] const TriangleMesh& start_mesh() const { return start_ != nullptr ? start_->mesh : original_; }
+  [[nodiscard]] const std::vector<Triangle>& start_triangles() const {
+    return start_ != nullptr ? start_->mesh.triangles : order_.triangles;
+  }
+  /// A vertex of the original in model coordinates.
+  [[nodiscard]] const Eigen::Vector3d& in_original(std::uint32_t v) const {
+    return original_.vertices[order_.vertex[v]];
+  }
   [[nodiscard]] const std::vector<Vec3>& start_points() const { return start_ != nullptr ? start_points_ : vertices_; }
   [[nodiscard]] std::uint32_t caller_vertex(std::uint32_t v) const { return start_ != nullptr ? v : order_.vertex[v]; }
   [[nodiscard]] std::uint32_t caller_triangle(std::uint32_t t) const {
@@ -82,10 +88,10 @@ class Decimation {
   [[nodiscard]] Eigen::Vector3d as_written(const Eigen::Vector3d& point) const;
   [[nodiscard]] double rounding_of_output() const;
 
-  const ProvenMesh* start_;     ///< null: the original itself
-  std::size_t start_vertices_;  ///< that the caller knows
-  SpatialOrder order_;
-  const TriangleMesh& original_;  ///< `order_.mesh`: all indices here are its
+  const ProvenMesh* start_;       ///< null: the original itself
+  std::size_t start_vertices_;    ///< that the caller knows
+  SpatialOrder order_;            ///< of the original: all indices here are by it
+  const TriangleMesh& original_;  ///< as the caller has it
   const SimplifyOptions& options_;
   WorkingFrame frame_;
   double largest_ = 0;                         ///< coordinate of the model

@@ -10,11 +10,9 @@ SpatialOrder spatial_order(const TriangleMesh& mesh, const BvhOptions& options) 
   SpatialOrder order;
   order.triangle = triangles_along_curve(mesh, options);
   FirstUse number(mesh.vertices.size());
-  order.mesh.triangles.reserve(mesh.triangles.size());
-  for (const std::uint32_t t : order.triangle) order.mesh.triangles.push_back(number(mesh.triangles[t]));
+  order.triangles.reserve(mesh.triangles.size());
+  for (const std::uint32_t t : order.triangle) order.triangles.push_back(number(mesh.triangles[t]));
   order.vertex = number.used();
-  order.mesh.vertices.reserve(order.vertex.size());
-  for (const std::uint32_t v : order.vertex) order.mesh.vertices.push_back(mesh.vertices[v]);
   return order;
 }
 

@@ -9,12 +9,12 @@
 
 namespace meshbound {
 
-/// A mesh whose triangles and vertices follow a space-filling curve, so that what a collapse touches lies close
-/// together in memory (an eighth of the time of a decimation). Vertices that no triangle uses are left out.
+/// Triangles and vertices of a mesh along a space-filling curve, so that what a collapse touches lies close together in
+/// memory (an eighth of the time of a decimation). Vertices that no triangle uses are left out.
 struct SpatialOrder {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> triangle;  ///< by triangle of `mesh`: its index before
-  std::vector<std::uint32_t> vertex;    ///< by vertex of `mesh`: its index before
+  std::vector<Triangle> triangles;      ///< along the curve, by the new numbers of the vertices
+  std::vector<std::uint32_t> triangle;  ///< by new number: the index before
+  std::vector<std::uint32_t> vertex;    ///< by new number: the index before
 };
 
 /// Triangles in the order of the leaves of a `Bvh`, vertices as the corners of these come; the same for any number of
