@@ -306,8 +306,8 @@ void Run::prove_together() {
 
 /// Makes edges open again that were refused for a smaller share of the tolerance.
 void Run::try_the_others_again() {
-  for (std::size_t e = 0; e < state_.refused_at.size(); ++e)
-    if (state_.refused_at[e] != 0 && state_.deviation[e] <= hopeless_deviation) state_.refused_at[e] = 0;
+  for (Corner e = 0; e < state_.refused_at.size(); ++e)
+    if (state_.refused_at[e] != 0 && state_.notes.deviation(e) <= hopeless_deviation) state_.refused_at[e] = 0;
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
@@ -373,7 +373,7 @@ bool Run::renew_quadrics() {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (mesh.is_removed(f)) continue;
     for (Corner e = 3 * f; e < 3 * f + 3; ++e)
-      if (mesh.edge(e) == e && is_far_beyond(state_.deviation[e]) && is_refused_by_planes(state_, e))
+      if (mesh.edge(e) == e && is_far_beyond(state_.notes.deviation(e)) && is_refused_by_planes(state_, e))
         refused.push_back(e);
   }
   if (refused.empty()) return false;

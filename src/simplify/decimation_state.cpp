@@ -12,7 +12,6 @@
 #include "numeric/tasks.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/faults.h"
-#include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/face_box.h"
 
 namespace meshbound {
@@ -261,8 +260,7 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
       stamp(mesh.face_count(), 0),
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
-      deviation(3 * mesh.face_count(), 0),
-      index_in_queue(3 * mesh.face_count(), no_index),
+      notes(3 * mesh.face_count()),
       starts_as_original(false),
       cover(std::move(cover_of)),
       nearest(std::move(near)) {
@@ -304,10 +302,10 @@ void DecimationState::set_samples(double for_tolerance, int threads) {
 void DecimationState::grow_tolerance(double to) {
   if (to == tolerance) return;
   const auto scale = static_cast<float>(tolerance / to);
-  for (std::size_t e = 0; e < refused_at.size(); ++e) {
+  for (Corner e = 0; e < refused_at.size(); ++e) {
     if (refused_at[e] == 0) continue;
-    deviation[e] *= scale;
-    if (!is_far_beyond(deviation[e])) refused_at[e] = 0;
+    notes.set_deviation(e, scale * notes.deviation(e));
+    if (!is_far_beyond(notes.deviation(e))) refused_at[e] = 0;
   }
   tolerance = to;
   limit = provable(to);

@@ -15,6 +15,7 @@
 #include "simplify/cover/cover_assignment.h"
 #include "simplify/cover/local_tolerance.h"
 #include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/edge_notes.h"
 #include "simplify/mesh/feature_lines.h"
 #include "simplify/mesh/quadric.h"
 #include "simplify/normals/face_turns.h"
@@ -268,13 +269,12 @@ struct DecimationState {
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
   std::uint32_t clock = 0;                         ///< changes since the start
   std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  std::vector<float> deviation;                    ///< by edge that was refused: see `Proposer::deviation`; else 0
-  std::vector<std::uint32_t> index_in_queue;       ///< by edge, see `EdgeQueue`
+  EdgeNotes notes;                                 ///< deviations are those of `Proposer::deviation`
 
   /// Whether the edge was not refused, or something near has changed since that may help.
   [[nodiscard]] bool is_open(Corner corner) const {
     const Corner edge = mesh.edge(corner);
-    if (refused_at[edge] > 0 && is_far_beyond(deviation[edge])) return false;
+    if (refused_at[edge] > 0 && is_far_beyond(notes.deviation(edge))) return false;
     return std::max(touched[mesh.start(edge)], touched[mesh.end(edge)]) >= refused_at[edge];
   }
   /// Locks vertices, before any change.

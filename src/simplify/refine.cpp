@@ -173,7 +173,7 @@ void Refiner::shake(std::uint32_t vertex) {
 
 void Refiner::collapse_relaxed() {
   const ArrayMesh& mesh = state_.mesh;
-  EdgeQueue queue(state_.index_in_queue);
+  EdgeQueue queue(state_.notes);
   for_each_edge([&](Corner edge) {
     if (split_->owns(region_->id, mesh.end(edge))) queue.put(edge, edge_cost(state_, edge, 1).cost);
   });

@@ -43,7 +43,7 @@ bool RegionCollapses::make(Vec3 point) {
 
 void RegionCollapses::mark_refused(Corner edge, float deviation) {
   state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
-  state_.deviation[mesh().edge(edge)] = deviation;
+  state_.notes.set_deviation(mesh().edge(edge), deviation);
 }
 
 void RegionCollapses::note_edges_that_go() {
@@ -81,8 +81,12 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
 }
 
 /// Where a refusal ends the collapses, it must come at its turn.
+bool RegionCollapses::is_refused_by(const EdgeCost& cost) const {
+  return cost.refused_with && !limits_.ends_at_refusal;
+}
+
 bool RegionCollapses::refuses(Corner edge, const EdgeCost& cost) {
-  if (!cost.refused_with || limits_.ends_at_refusal) return false;
+  if (!is_refused_by(cost)) return false;
   ++proposer_.counts.refused;
   mark_refused(edge, *cost.refused_with);
   return true;
@@ -93,14 +97,13 @@ bool RegionCollapses::refuses_unseen(Corner edge) { return refuses(edge, edge_co
 /// Most edges of a mesh that shrinks little never enter the queue.
 void RegionCollapses::put(EdgeQueue& queue, Corner edge) {
   const EdgeCost cost = edge_cost(state_, edge, limits_.share);
-  if (refuses(edge, cost) || cost.cost > limits_.max_cost)
-    queue.erase(edge);
-  else
-    queue.put(edge, cost.cost);
+  if (!is_refused_by(cost) && !(cost.cost > limits_.max_cost)) return queue.put(edge, cost.cost);
+  queue.erase(edge);
+  (void)refuses(edge, cost);
 }
 
 void RegionCollapses::collapse_all() {
-  EdgeQueue queue(state_.index_in_queue);
+  EdgeQueue queue(state_.notes);
   for (const Corner e : open_edges_) put(queue, e);
   while (!queue.empty() && !must_stop()) {
     if (!collapse(queue.pop())) continue;

@@ -78,6 +78,7 @@ class RegionCollapses {
   void mark_refused(Corner edge, float deviation);
   void note_edges_that_go();
   bool refuses(Corner edge, const EdgeCost& cost);
+  [[nodiscard]] bool is_refused_by(const EdgeCost& cost) const;
   void put(EdgeQueue& queue, Corner edge);
 
   DecimationState& state_;

@@ -3,42 +3,41 @@
 #include <cstdint>
 #include <vector>
 
-#include "numeric/no_index.h"
 #include "simplify/mesh/array_mesh.h"
+#include "simplify/mesh/edge_notes.h"
 
 namespace meshbound {
 
 /// Edges by cost, the cheapest first, edges of equal cost by number: a heap that knows the index of each edge in it.
 class EdgeQueue {
  public:
-  /// `index` has the index of each edge that is in a queue and `no_index` for the others. Queues of different edges may
-  /// share it. It must outlive this.
-  explicit EdgeQueue(std::vector<std::uint32_t>& index) : index_(index) {}
+  /// `notes` keep the index of each edge that is in a queue. Queues of different edges may share them. They must outlive
+  /// this.
+  explicit EdgeQueue(EdgeNotes& notes) : notes_(notes) {}
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
-  [[nodiscard]] bool contains(Corner edge) const { return index_[edge] != no_index; }
   void put(Corner edge, float cost) {
-    if (index_[edge] == no_index) {
-      index_[edge] = static_cast<std::uint32_t>(heap_.size());
+    if (!notes_.is_queued(edge)) {
+      const auto last = static_cast<std::uint32_t>(heap_.size());
       heap_.push_back({cost, edge});
-      rise(index_[edge]);
+      rise(last);
       return;
     }
-    const std::uint32_t at = index_[edge];
+    const std::uint32_t at = notes_.index(edge);
     heap_[at].cost = cost;
     rise(at);
-    sink(index_[edge]);
+    sink(notes_.index(edge));
   }
   void erase(Corner edge) {
-    const std::uint32_t at = index_[edge];
-    if (at == no_index) return;
-    index_[edge] = no_index;
+    if (!notes_.is_queued(edge)) return;
+    const std::uint32_t at = notes_.index(edge);
+    notes_.leave_queue(edge);
     const Entry last = heap_.back();
     heap_.pop_back();
     if (at == heap_.size()) return;
     set(at, last);
     rise(at);
-    sink(index_[last.edge]);
+    sink(notes_.index(last.edge));
   }
   Corner pop() {
     const Corner edge = heap_.front().edge;
@@ -46,7 +45,7 @@ class EdgeQueue {
     return edge;
   }
   void clear() {
-    for (const Entry& entry : heap_) index_[entry.edge] = no_index;
+    for (const Entry& entry : heap_) notes_.leave_queue(entry.edge);
     heap_.clear();
   }
 
@@ -61,7 +60,7 @@ class EdgeQueue {
   };
   void set(std::uint32_t at, const Entry& entry) {
     heap_[at] = entry;
-    index_[entry.edge] = at;
+    notes_.set_index(entry.edge, at);
   }
   void rise(std::uint32_t at) {
     const Entry entry = heap_[at];
@@ -89,7 +88,7 @@ class EdgeQueue {
   }
 
   std::vector<Entry> heap_;
-  std::vector<std::uint32_t>& index_;  ///< by edge
+  EdgeNotes& notes_;
 };
 
 }  // namespace meshbound
