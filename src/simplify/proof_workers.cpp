@@ -24,14 +24,30 @@ bool ProofWorkers::cover_anywhere(std::span<const std::uint32_t> originals, cons
   return true;
 }
 
-FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
+template <class IsWanted>
+void FaceBoxes::take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (mesh.is_removed(f)) continue;
+    const Eigen::AlignedBox3d box = box_of(mesh.triangle(f));
+    if (!is_wanted(box)) continue;
     faces_.push_back(f);
-    boxes.push_back(box_of(mesh.triangle(f)));
+    boxes.push_back(box);
   }
   tree_.emplace(boxes);
+}
+
+FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
+  take_faces(mesh, [](const Eigen::AlignedBox3d&) { return true; });
+}
+
+FaceBoxes::FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted) {
+  std::vector<std::uint32_t> met;
+  take_faces(mesh, [&](const Eigen::AlignedBox3d& box) {
+    met.clear();
+    wanted.find(box, met);
+    return !met.empty();
+  });
 }
 
 void FaceBoxes::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {

@@ -13,15 +13,20 @@
 
 namespace meshbound {
 
-/// The boxes of all faces of a mesh at the time of construction, to find faces near something without samples.
+/// The boxes of faces of a mesh at the time of construction, to find faces near something without samples.
 class FaceBoxes {
  public:
-  /// O(n log n).
+  /// Of all faces. O(n log n).
   explicit FaceBoxes(const ArrayMesh& mesh);
+  /// Of the faces whose boxes meet one of these. Expected O(n log m) for m boxes, and O(k log k) for k such faces.
+  FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted);
   /// Appends the faces whose boxes meet `box`.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 
  private:
+  template <class IsWanted>
+  void take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted);
+
   std::vector<std::uint32_t> faces_;
   std::optional<BoxTree> tree_;
 };

@@ -81,10 +81,15 @@ void Proof::cover(const StopToken& stop) {
 /// Covers the originals that samples have not led to a cover.
 void Proof::cover_anywhere() {
   std::vector<std::uint32_t> lost;
-  for (const std::uint32_t at : open_originals_)
-    if (drafts_[at].empty()) lost.push_back(at);
+  std::vector<Eigen::AlignedBox3d> reaches;
+  for (const std::uint32_t at : open_originals_) {
+    if (!drafts_[at].empty()) continue;
+    lost.push_back(at);
+    const auto& [a, b, c] = state_.triangles[originals_[at]];
+    reaches.push_back(grown(box_of({state_.vertices[a], state_.vertices[b], state_.vertices[c]}), state_.tolerance));
+  }
   if (lost.empty()) return;
-  const FaceBoxes boxes(state_.mesh);
+  const FaceBoxes boxes(state_.mesh, BoxTree(reaches));
   for_each(lost.size(), 1, {}, [&](ProofWorkers::Worker& worker, std::size_t i) {
     drafts_[lost[i]].assign(worker.cover_anywhere(originals_[lost[i]], boxes));
   });

@@ -99,6 +99,7 @@ class Run : DecimationRun {
   Verdict verdict_ = Verdict::Undecided;
   /// Whether the time limit ended the run: OUT is then the best mesh proven by that time.
   [[nodiscard]] bool ended_by_time() const;
+  [[nodiscard]] bool bounds_appearance() const { return original_texture_ || options_.normal_tolerance; }
   /// Whether some output contains the JSON document, which needs the checksums of the files.
   [[nodiscard]] bool has_document() const {
     return !options_.common.json.empty() || !options_.deviation.report.empty();
@@ -266,6 +267,7 @@ void Run::make_level(std::size_t level) {
     result_ = {};
     result_.levels.push_back(std::move(made));
     scene_->describe(result_);
+    if (is_last && !bounds_appearance()) scene_.reset();  // nothing will be taken back: room for the measurement
   } else {
     result_ = options_.workers->decimate(*stored_original_, simplify_);
   }
@@ -307,7 +309,7 @@ void Run::set_requirements(GatedOutput& output) const {
 /// Whether the level that was made last moves the texture too far or turns faces too much. What is seen before it is
 /// written need not be written again.
 bool Run::looks_wrong(GatedOutput& output) {
-  if (!scene_ || !(original_texture_ || options_.normal_tolerance)) return false;
+  if (!scene_ || !bounds_appearance()) return false;
   watch_.lap();
   look_at(output, result_.last());
   report_.seconds.certify += watch_.lap();
