@@ -4,74 +4,87 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <utility>
 
+#include "numeric/no_index.h"
+
 namespace meshbound {
 
-/// A list of numbers in 16 bytes. Three at most need no memory of their own; more have room for the next power of two,
-/// so that the size says how much there is.
+/// A list of numbers below 2^31 in 8 bytes. Two at most need no memory of their own; for more there is a block of the
+/// next power of two, of words that are how many there are, and then the numbers.
 class IdList {
  public:
   IdList() = default;
-  IdList(IdList&& other) noexcept : size_(std::exchange(other.size_, 0)), few_(other.few_) {}
+  IdList(IdList&& other) noexcept : words_(std::exchange(other.words_, none)) {}
   IdList& operator=(IdList&& other) noexcept {
-    std::swap(size_, other.size_);
-    std::swap(few_, other.few_);
+    std::swap(words_, other.words_);
     return *this;
   }
   ~IdList() { free(); }
 
-  [[nodiscard]] bool empty() const { return size_ == 0; }
-  [[nodiscard]] std::span<const std::uint32_t> ids() const { return {begin(), size_}; }
+  [[nodiscard]] bool empty() const { return words_[0] == no_index; }
+  [[nodiscard]] std::span<const std::uint32_t> ids() const {
+    if (is_many()) return {block() + 1, *block()};
+    return {words_.data(), few_size()};
+  }
   /// `ids` must not be part of this list.
   void assign(std::span<const std::uint32_t> ids) {
-    resize(ids.size());
-    std::copy(ids.begin(), ids.end(), begin());
+    std::copy(ids.begin(), ids.end(), resize(ids.size()));
   }
   void add(std::uint32_t id) {
-    resize(std::size_t{size_} + 1);
-    begin()[size_ - 1] = id;
+    const std::size_t size = ids().size();
+    resize(size + 1)[size] = id;
   }
   template <class IsWanted>
   void keep_if(const IsWanted& is_wanted) {
-    const auto end = std::remove_if(begin(), begin() + size_, [&](std::uint32_t id) { return !is_wanted(id); });
-    resize(static_cast<std::size_t>(end - begin()));
+    const std::span<std::uint32_t> all(begin(), ids().size());
+    const auto end = std::remove_if(all.begin(), all.end(), [&](std::uint32_t id) { return !is_wanted(id); });
+    (void)resize(static_cast<std::size_t>(end - all.begin()));
   }
 
  private:
-  static constexpr std::size_t few = 3;
-  static std::size_t room_for(std::size_t size) { return size <= few ? few : std::bit_ceil(size); }
-  [[nodiscard]] bool is_many() const { return size_ > few; }
-  /// Where more than a few are: the address lies in `few_`.
-  [[nodiscard]] std::uint32_t* many() const {
-    std::uint32_t* list = nullptr;
-    std::memcpy(&list, few_.data(), sizeof(list));
-    return list;
+  static constexpr std::size_t few = 2;
+  static constexpr std::array<std::uint32_t, few> none{no_index, no_index};
+  static constexpr std::uint32_t many = 0x80000000;  ///< in the second word: both hold the address of a block
+  static constexpr int unused_bits = 2;              ///< of an address, 0 as it is a multiple of 8
+
+  /// Words of the block for so many; 0: there is none.
+  static std::size_t block_size(std::size_t size) { return size <= few ? 0 : std::bit_ceil(size + 1); }
+  [[nodiscard]] bool is_many() const { return words_[1] >= many && words_[1] != no_index; }
+  [[nodiscard]] std::size_t few_size() const {
+    return (words_[0] != no_index ? 1U : 0U) + (words_[1] != no_index ? 1U : 0U);
   }
-  [[nodiscard]] const std::uint32_t* begin() const { return is_many() ? many() : few_.data(); }
-  [[nodiscard]] std::uint32_t* begin() { return is_many() ? many() : few_.data(); }
+  [[nodiscard]] std::uint32_t* block() const {
+    const std::uint64_t number = std::uint64_t{words_[1] & ~many} << 32 | words_[0];
+    return reinterpret_cast<std::uint32_t*>(static_cast<std::uintptr_t>(number << unused_bits));
+  }
+  void set_block(const std::uint32_t* block) {
+    const std::uint64_t number = std::uint64_t{reinterpret_cast<std::uintptr_t>(block)} >> unused_bits;
+    words_ = {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32) | many};
+  }
+  [[nodiscard]] std::uint32_t* begin() { return is_many() ? block() + 1 : words_.data(); }
   void free() {
-    if (is_many()) delete[] many();
+    if (is_many()) delete[] block();
   }
-  /// Keeps the numbers that there is room for.
-  void resize(std::size_t size) {
-    if (room_for(size) != room_for(size_)) {
-      std::uint32_t* const list = size > few ? new std::uint32_t[room_for(size)] : nullptr;
-      std::array<std::uint32_t, few> kept{};
-      std::copy_n(std::as_const(*this).begin(), std::min<std::size_t>(size, size_),
-                  list != nullptr ? list : kept.data());
-      free();
-      if (list != nullptr) std::memcpy(kept.data(), &list, sizeof(list));
-      few_ = kept;
+  /// Keeps the numbers that there is room for, and returns the first.
+  std::uint32_t* resize(std::size_t size) {
+    const std::span<const std::uint32_t> before = ids();
+    const std::size_t kept = std::min(size, before.size()), needed = block_size(size);
+    if (needed != block_size(before.size())) {
+      IdList other;
+      if (needed > 0) other.set_block(new std::uint32_t[needed]);
+      std::copy_n(before.begin(), kept, other.begin());
+      std::swap(words_, other.words_);
     }
-    size_ = static_cast<std::uint32_t>(size);
+    if (needed > 0)
+      *block() = static_cast<std::uint32_t>(size);
+    else
+      std::fill(words_.begin() + static_cast<std::ptrdiff_t>(size), words_.end(), no_index);
+    return begin();
   }
 
-  std::uint32_t size_ = 0;
-  std::array<std::uint32_t, few> few_{};
-  static_assert(sizeof(std::uint32_t*) <= sizeof(few_));
+  std::array<std::uint32_t, few> words_ = none;
 };
 
 }  // namespace meshbound
