@@ -214,6 +214,7 @@ void EditLog::append(const EditLog& other) {
     edits.push_back(edit);
     edits.back().first_stamp += first;
   }
+  lines.insert(lines.end(), other.lines.begin(), other.lines.end());
   stamps.insert(stamps.end(), other.stamps.begin(), other.stamps.end());
   coordinates.insert(coordinates.end(), other.coordinates.begin(), other.coordinates.end());
 }

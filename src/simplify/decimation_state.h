@@ -146,7 +146,6 @@ struct Edit {
   bool was_locked = false;
   Corner edge = no_index;         ///< the edge collapsed or flipped; for a move, a corner of the vertex; none: undone
   Vec3 position;                  ///< of the start of the edge, before the change
-  FeatureLines::Before lines;     ///< before a collapse, at its edge
   std::uint32_t first_stamp = 0;  ///< index of its first face in `EditLog::stamps`
 };
 
@@ -157,13 +156,17 @@ struct EditLog {
   };
   std::uint32_t before = 0;
   std::vector<Edit> edits;
+  std::vector<FeatureLines::Before> lines;  ///< by edit: what was at its edge; empty without lines
   std::vector<Stamp> stamps;
   /// By stamp: the coordinates of the face before the change; empty without a texture.
   std::vector<CornerCoordinates> coordinates;
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
-  void clear() { edits.clear(), stamps.clear(), coordinates.clear(); }
-  void shrink_to_fit() { edits.shrink_to_fit(), stamps.shrink_to_fit(), coordinates.shrink_to_fit(); }
+  void clear() { edits.clear(), lines.clear(), stamps.clear(), coordinates.clear(); }
+  void shrink_to_fit() {
+    edits.shrink_to_fit(), lines.shrink_to_fit();
+    stamps.shrink_to_fit(), coordinates.shrink_to_fit();
+  }
   /// Adds the changes of another log after those here.
   void append(const EditLog& other);
   /// The faces that change `number` has touched.

@@ -25,8 +25,9 @@ bool ProofWorkers::cover_anywhere(std::span<const std::uint32_t> originals, cons
 }
 
 template <class IsWanted>
-void FaceBoxes::take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted) {
+void FaceBoxes::take_faces(const ArrayMesh& mesh, std::size_t likely, const IsWanted& is_wanted) {
   std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(likely);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (mesh.is_removed(f)) continue;
     const Eigen::AlignedBox3d box = box_of(mesh.triangle(f));
@@ -38,12 +39,14 @@ void FaceBoxes::take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted) {
 }
 
 FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
-  take_faces(mesh, [](const Eigen::AlignedBox3d&) { return true; });
+  std::size_t left = 0;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) left += mesh.is_removed(f) ? 0 : 1;
+  take_faces(mesh, left, [](const Eigen::AlignedBox3d&) { return true; });
 }
 
 FaceBoxes::FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted) {
   std::vector<std::uint32_t> met;
-  take_faces(mesh, [&](const Eigen::AlignedBox3d& box) {
+  take_faces(mesh, 0, [&](const Eigen::AlignedBox3d& box) {
     met.clear();
     wanted.find(box, met);
     return !met.empty();

@@ -25,7 +25,7 @@ class FaceBoxes {
 
  private:
   template <class IsWanted>
-  void take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted);
+  void take_faces(const ArrayMesh& mesh, std::size_t likely, const IsWanted& is_wanted);
 
   std::vector<std::uint32_t> faces_;
   std::optional<BoxTree> tree_;

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "numeric/no_index.h"
-#include "numeric/numbers_below.h"
 #include "numeric/tasks.h"
 #include "simplify/proof_worker.h"
 
@@ -24,7 +23,6 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
   for (std::uint32_t f = 0; f < state.stamp.size(); ++f)
     if (state.is_unproven(f) && !state.mesh.is_removed(f)) open_faces_.push_back(f);
   drafts_.resize(originals_.size());
-  open_originals_ = numbers_below(originals_.size());
 }
 
 bool Proof::is_stale(std::uint32_t original) const {
@@ -41,8 +39,8 @@ void Proof::run(const StopToken& stop) {
   if (!is_changed_.empty()) reopen_originals();
   cover(stop);
   cover_anywhere();
-  for (const std::uint32_t at : open_originals_)
-    if (drafts_[at].empty()) unproven_.originals.push_back(originals_[at]);
+  for (std::size_t i = 0; i < open_count(); ++i)
+    if (drafts_[open_original(i)].empty()) unproven_.originals.push_back(originals_[open_original(i)]);
 }
 
 /// Calls work(worker, i) for each i below `count`, on all threads; `at_once` of them are one task.
@@ -71,18 +69,19 @@ std::vector<std::uint32_t> Proof::find_far_faces(const StopToken& stop) {
 
 /// Covers the open originals by the faces that samples lead to.
 void Proof::cover(const StopToken& stop) {
-  for_each(open_originals_.size(), items_of_run, stop, [&](ProofWorkers::Worker& worker, std::size_t i) {
-    const std::uint32_t at = open_originals_[i];
+  for_each(open_count(), items_of_run, stop, [&](ProofWorkers::Worker& worker, std::size_t i) {
+    const std::uint32_t at = open_original(i);
     drafts_[at].assign(worker.cover(originals_[at]));
   });
-  originals_tested += open_originals_.size();
+  originals_tested += open_count();
 }
 
 /// Covers the originals that samples have not led to a cover.
 void Proof::cover_anywhere() {
   std::vector<std::uint32_t> lost;
   std::vector<Eigen::AlignedBox3d> reaches;
-  for (const std::uint32_t at : open_originals_) {
+  for (std::size_t i = 0; i < open_count(); ++i) {
+    const std::uint32_t at = open_original(i);
     if (!drafts_[at].empty()) continue;
     lost.push_back(at);
     const auto& [a, b, c] = state_.triangles[originals_[at]];
@@ -106,6 +105,7 @@ void Proof::reopen(const std::vector<std::uint32_t>& changed) {
 
 /// Opens the originals without a cover, and those whose new cover has a face that was changed again.
 void Proof::reopen_originals() {
+  has_all_open_ = false;
   open_originals_.clear();
   const auto is_changed = [&](std::uint32_t f) { return is_changed_[f] != 0; };
   for (std::uint32_t i = 0; i < originals_.size(); ++i) {

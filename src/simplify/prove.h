@@ -48,13 +48,18 @@ class Proof {
   void reopen_originals();
   void cover(const StopToken& stop);
   void cover_anywhere();
+  [[nodiscard]] std::size_t open_count() const { return has_all_open_ ? originals_.size() : open_originals_.size(); }
+  [[nodiscard]] std::uint32_t open_original(std::size_t i) const {
+    return has_all_open_ ? static_cast<std::uint32_t>(i) : open_originals_[i];
+  }
   [[nodiscard]] bool is_stale(std::uint32_t original) const;
 
   DecimationState& state_;
   ProofWorkers& workers_;
   std::vector<std::uint32_t> originals_;       ///< to be covered anew; none: not any more
   std::vector<IdList> drafts_;                 ///< by index in `originals_`: faces that cover it; empty if it is open
-  std::vector<std::uint32_t> open_originals_;  ///< indices in `originals_`
+  bool has_all_open_ = true;                   ///< all of `originals_` are open
+  std::vector<std::uint32_t> open_originals_;  ///< else: their indices there
   std::vector<std::uint32_t> open_faces_;
   std::vector<std::uint8_t> is_changed_;  ///< by face: it was reopened since originals were covered; empty: none was
   Unproven unproven_;

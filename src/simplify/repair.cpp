@@ -22,7 +22,7 @@ namespace {
 constexpr float smaller_share = 0.85F;
 
 /// The mesh and what belongs to its vertices, but for samples and stamps. Returns how many faces came back.
-std::size_t take_back(DecimationState& s, const Edit& edit) {
+std::size_t take_back(DecimationState& s, const EditLog& log, const Edit& edit) {
   std::size_t faces = 0;
   switch (edit.kind) {
     case Edit::Kind::Collapse: {
@@ -30,7 +30,8 @@ std::size_t take_back(DecimationState& s, const Edit& edit) {
       const std::uint32_t kept = s.mesh.start(edit.edge), gone = s.mesh.end(edit.edge);
       s.quadrics[kept] -= s.quadrics[gone];
       s.locked[kept] = edit.was_locked ? 1 : 0;
-      s.lines.undo_collapse(s.mesh, edit.edge, edit.lines);
+      if (!log.lines.empty())
+        s.lines.undo_collapse(s.mesh, edit.edge, log.lines[static_cast<std::size_t>(&edit - log.edits.data())]);
       faces = s.mesh.twin(edit.edge) == no_index ? 1 : 2;
       break;
     }
@@ -121,7 +122,7 @@ class Undoing {
     DecimationState& s = state_;
     Edit& edit = edit_of(number);
     gather_samples(number);
-    s.faces += take_back(s, edit);
+    s.faces += take_back(s, log_of(number), edit);
     for (const EditLog::Stamp& stamp : stamps_of(number)) {
       last_[stamp.face] = stamp.before;
       changed_.push_back(stamp.face);
@@ -220,8 +221,9 @@ void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner e
                std::span<const std::uint32_t> faces) {
   EditLog& log = region.log;
   const std::uint32_t number = log.last_number() + 1, at = state.mesh.start(edge);
-  log.edits.push_back({kind, state.locked[at] != 0, edge, state.mesh.position(at), state.lines.before(state.mesh, edge),
-                       static_cast<std::uint32_t>(log.stamps.size())});
+  log.edits.push_back(
+      {kind, state.locked[at] != 0, edge, state.mesh.position(at), static_cast<std::uint32_t>(log.stamps.size())});
+  if (!state.lines.empty()) log.lines.push_back(state.lines.before(state.mesh, edge));
   for (const std::uint32_t face : faces) {
     log.stamps.push_back({face, state.stamp[face]});
     state.stamp[face] = number;
@@ -231,14 +233,15 @@ void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner e
 
 void undo_last(DecimationState& state, Region& region) {
   EditLog& log = region.log;
-  const Edit edit = log.edits.back();
-  region.removed_faces -= take_back(state, edit);
+  const Edit& edit = log.edits.back();
+  region.removed_faces -= take_back(state, log, edit);
   for (std::size_t i = edit.first_stamp; i < log.stamps.size(); ++i)
     state.stamp[log.stamps[i].face] = log.stamps[i].before;
   restore_coordinates(state, log, edit.first_stamp, log.stamps.size());
   log.stamps.resize(edit.first_stamp);
   if (state.texture) log.coordinates.resize(edit.first_stamp);
   log.edits.pop_back();
+  if (!log.lines.empty()) log.lines.pop_back();
 }
 
 namespace {
