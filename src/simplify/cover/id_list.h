@@ -25,8 +25,9 @@ class IdList {
 
   [[nodiscard]] bool empty() const { return words_[0] == no_index; }
   [[nodiscard]] std::span<const std::uint32_t> ids() const {
-    if (is_many()) return {block() + 1, *block()};
-    return {words_.data(), few_size()};
+    if (words_[1] == no_index) return {words_.data(), empty() ? 0U : 1U};
+    if (words_[1] < many) return {words_.data(), 2};
+    return {block() + 1, *block()};
   }
   /// `ids` must not be part of this list.
   void assign(std::span<const std::uint32_t> ids) {
@@ -52,9 +53,6 @@ class IdList {
   /// Words of the block for so many; 0: there is none.
   static std::size_t block_size(std::size_t size) { return size <= few ? 0 : std::bit_ceil(size + 1); }
   [[nodiscard]] bool is_many() const { return words_[1] >= many && words_[1] != no_index; }
-  [[nodiscard]] std::size_t few_size() const {
-    return (words_[0] != no_index ? 1U : 0U) + (words_[1] != no_index ? 1U : 0U);
-  }
   [[nodiscard]] std::uint32_t* block() const {
     const std::uint64_t number = std::uint64_t{words_[1] & ~many} << 32 | words_[0];
     return reinterpret_cast<std::uint32_t*>(static_cast<std::uintptr_t>(number << unused_bits));
