@@ -323,7 +323,7 @@ struct PatchResult {
     const OriginalSoup soup{vertices, mesh.triangles, neighbours};
     std::vector<std::uint32_t> all(mesh.triangles.size());
     std::iota(all.begin(), all.end(), 0U);
-    PatchCover patches(all.size());
+    PatchCover patches;
     if (seed)
       patches.cover(
           soup, {corners, 0}, tolerance, 2, [&](const std::array<Vec3, 3>&) { return *seed; }, open);

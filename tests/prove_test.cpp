@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
@@ -256,6 +257,27 @@ TEST(Proof, AsksNothingOfFacesWhoseVerticesAreAllLocked) {
   proof.run({});
   EXPECT_TRUE(proof.unproven().empty());
   EXPECT_EQ(proof.faces_tested, 1U);
+}
+
+/// Near what is lost, all faces are found that lie there, and few others.
+TEST(FaceBoxes, AreThoseOfTheFacesThatAreWanted) {
+  const Approximation it(reference::unit_square(1), reference::unit_square(20), 0.04);
+  const std::vector<Eigen::AlignedBox3d> wanted = {{Eigen::Vector3d(-9, -9, 0), Eigen::Vector3d(-0.6, -0.6, 0)},
+                                                   {Eigen::Vector3d(0.6, 0.6, 0), Eigen::Vector3d(9, 9, 0)}};
+  const FaceBoxes all(it.state.mesh), some(it.state.mesh, BoxTree(wanted));
+  std::set<std::uint32_t> near;
+  for (const Eigen::AlignedBox3d& box : wanted) {
+    std::vector<std::uint32_t> of_all, of_some;
+    all.find(box, of_all);
+    some.find(box, of_some);
+    EXPECT_TRUE(std::ranges::is_permutation(of_all, of_some));
+    near.insert(of_all.begin(), of_all.end());
+  }
+  std::vector<std::uint32_t> anywhere;
+  some.find({Eigen::Vector3d(-9, -9, -9), Eigen::Vector3d(9, 9, 9)}, anywhere);
+  EXPECT_EQ(std::set<std::uint32_t>(anywhere.begin(), anywhere.end()), near);
+  EXPECT_GT(near.size(), 10U);
+  EXPECT_LT(near.size(), it.state.faces / 2);
 }
 
 /// Workers keep what they have prepared of faces: not beyond the place where these were.
