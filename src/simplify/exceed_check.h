@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "meshbound/distance.h"
-#include "simplify/decimation_state.h"
 #include "numeric/marked_ids.h"
+#include "simplify/decimation_state.h"
 #include "simplify/proof_workers.h"
 #include "simplify/propose.h"
 

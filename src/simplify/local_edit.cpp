@@ -33,9 +33,7 @@ constexpr double low_deviation = 1e-6, min_flip_gain = 0.05;
 }  // namespace
 
 LocalEdit::LocalEdit(DecimationState& state)
-    : state_(state),
-      samples_(state, originals_of_ring),
-      proximity_(state.tree) {}
+    : state_(state), samples_(state, originals_of_ring), proximity_(state.tree) {}
 
 void LocalEdit::enter(const Split& split, Region& region) {
   split_ = &split;

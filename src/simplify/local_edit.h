@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "meshbound/proximity.h"
-#include "simplify/decimation_state.h"
 #include "numeric/marked_ids.h"
+#include "simplify/decimation_state.h"
 #include "simplify/mesh/normal_guard.h"
 #include "simplify/propose.h"
 #include "simplify/regions.h"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "meshbound/proximity.h"
+#include "numeric/marked_ids.h"
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
 #include "simplify/cover/forward_cover.h"
@@ -16,7 +17,6 @@
 #include "simplify/cover/patch_cover.h"
 #include "simplify/cover/slab_proof.h"
 #include "simplify/mesh/face_box.h"
-#include "numeric/marked_ids.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
 

@@ -30,9 +30,7 @@ class IdList {
     return {block() + 1, *block()};
   }
   /// `ids` must not be part of this list.
-  void assign(std::span<const std::uint32_t> ids) {
-    std::copy(ids.begin(), ids.end(), resize(ids.size()));
-  }
+  void assign(std::span<const std::uint32_t> ids) { std::copy(ids.begin(), ids.end(), resize(ids.size())); }
   void add(std::uint32_t id) {
     const std::size_t size = ids().size();
     resize(size + 1)[size] = id;

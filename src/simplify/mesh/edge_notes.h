@@ -9,8 +9,8 @@
 
 namespace meshbound {
 
-/// One word for each edge: its index in an `EdgeQueue`, or, while it is in none, the deviation with which it was refused
-/// last. An edge that leaves a queue has none until it is refused.
+/// One word for each edge: its index in an `EdgeQueue`, or, while it is in none, the deviation with which it was
+/// refused last. An edge that leaves a queue has none until it is refused.
 class EdgeNotes {
  public:
   explicit EdgeNotes(std::size_t edges) : words_(edges, 0) {}
@@ -22,9 +22,7 @@ class EdgeNotes {
   void leave_queue(Corner edge) { words_[edge] = 0; }
 
   /// 0 where there is none.
-  [[nodiscard]] float deviation(Corner edge) const {
-    return is_queued(edge) ? 0 : std::bit_cast<float>(words_[edge]);
-  }
+  [[nodiscard]] float deviation(Corner edge) const { return is_queued(edge) ? 0 : std::bit_cast<float>(words_[edge]); }
   /// Of an edge that is not queued.
   void set_deviation(Corner edge, float deviation) {
     words_[edge] = deviation > 0 ? std::bit_cast<std::uint32_t>(deviation) : 0;  // not even the sign of a NaN

@@ -11,8 +11,8 @@ namespace meshbound {
 /// Edges by cost, the cheapest first, edges of equal cost by number: a heap that knows the index of each edge in it.
 class EdgeQueue {
  public:
-  /// `notes` keep the index of each edge that is in a queue. Queues of different edges may share them. They must outlive
-  /// this.
+  /// `notes` keep the index of each edge that is in a queue. Queues of different edges may share them. They must
+  /// outlive this.
   explicit EdgeQueue(EdgeNotes& notes) : notes_(notes) {}
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }

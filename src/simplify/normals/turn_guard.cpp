@@ -52,8 +52,7 @@ void TurnGuard::Compared::set_nearest(std::size_t i, std::size_t face) {
 
 double TurnGuard::Compared::squared(std::size_t i) const { return distances[i / lanes].squared[i % lanes]; }
 
-TurnGuard::TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh)
-    : turns_(turns), mesh_(mesh) {}
+TurnGuard::TurnGuard(const FaceTurns& turns, const ArrayMesh& mesh) : turns_(turns), mesh_(mesh) {}
 
 void TurnGuard::add(std::uint32_t sample, Compared& to) const {
   to.samples.push_back(sample);

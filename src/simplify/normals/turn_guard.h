@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "simplify/kernel/kernels.h"
 #include "numeric/marked_ids.h"
+#include "simplify/kernel/kernels.h"
 #include "simplify/normals/face_turns.h"
 
 namespace meshbound {
