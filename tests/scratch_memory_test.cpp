@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "bvh/bvh_data.h"
 #include "meshbound/bvh.h"
 #include "meshbound/proximity.h"
 #include "numeric/marked_ids.h"
