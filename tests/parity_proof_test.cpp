@@ -26,7 +26,7 @@
 #include "simplify/cover/slab_tree.h"
 #include "simplify/kernel/kernels.h"
 #include "simplify/mesh/face_box.h"
-#include "simplify/mesh/spatial_order.h"
+#include "spatially_ordered.h"
 
 namespace meshbound {
 namespace parity_proof_test {
@@ -87,17 +87,10 @@ std::vector<Vec3> positions(const TriangleMesh& mesh) {
   return result;
 }
 
-TriangleMesh in_order(const TriangleMesh& mesh) {
-  const SpatialOrder order = spatial_order(mesh, {});
-  TriangleMesh ordered{{}, order.triangles};
-  for (const std::uint32_t v : order.vertex) ordered.vertices.push_back(mesh.vertices[v]);
-  return ordered;
-}
-
 /// A mesh in the order of a curve, with what a proof by slabs asks of it.
 struct SlabScene {
   explicit SlabScene(const TriangleMesh& unordered)
-      : mesh(in_order(unordered)),
+      : mesh(test::spatially_ordered(unordered)),
         vertices(positions(mesh)),
         neighbours(edge_neighbours(vertices, mesh.triangles)),
         soup{vertices, mesh.triangles, neighbours},

@@ -17,7 +17,7 @@
 #include "simplify/cover/forward_cover.h"
 #include "simplify/mesh/edge_notes.h"
 #include "simplify/mesh/edge_queue.h"
-#include "simplify/mesh/spatial_order.h"
+#include "spatially_ordered.h"
 
 namespace meshbound {
 namespace scratch_memory_test {
@@ -113,9 +113,7 @@ TEST(Proximity, IsTheSameWhateverTheOrderOfTheMesh) {
   std::mt19937 random(1);
   std::ranges::shuffle(mesh.triangles, random);
   const SpatialOrder order = spatial_order(mesh, {});
-  TriangleMesh ordered{mesh.vertices, {}};
-  for (const std::uint32_t t : order.triangle) ordered.triangles.push_back(mesh.triangles[t]);
-  const Bvh tree(mesh), tree_in_order(ordered);
+  const Bvh tree(mesh), tree_in_order(test::spatially_ordered(mesh));
   ASSERT_TRUE(std::ranges::is_sorted(tree_in_order.data().triangle_of_slot));
   ASSERT_FALSE(std::ranges::is_sorted(tree.data().triangle_of_slot));
   Proximity proximity(tree), in_order(tree_in_order);

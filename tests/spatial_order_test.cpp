@@ -10,6 +10,7 @@
 
 #include "bvh/bvh_data.h"
 #include "reference/small_meshes.h"
+#include "spatially_ordered.h"
 
 namespace spatial_order_test {
 
@@ -27,12 +28,6 @@ TriangleMesh shuffled_sphere(int levels) {
   for (Triangle& corners : mesh.triangles)
     for (std::uint32_t& v : corners) v += 5;
   return mesh;
-}
-
-TriangleMesh in_order(const TriangleMesh& mesh, const SpatialOrder& order) {
-  TriangleMesh ordered{{}, order.triangles};
-  for (const std::uint32_t v : order.vertex) ordered.vertices.push_back(mesh.vertices[v]);
-  return ordered;
 }
 
 Eigen::Vector3d centroid(const TriangleMesh& mesh, std::size_t t) {
@@ -63,7 +58,7 @@ TEST(SpatialOrder, HasEveryTriangleAndUsedVertexOnce) {
 
 TEST(SpatialOrder, BringsNeighboursTogether) {
   const TriangleMesh before = shuffled_sphere(4);
-  EXPECT_LT(way(in_order(before, spatial_order(before, {1}))), 0.1 * way(before));
+  EXPECT_LT(way(meshbound::test::spatially_ordered(before)), 0.1 * way(before));
 }
 
 TEST(SpatialOrder, IsThatOfTheTree) {

@@ -12,7 +12,7 @@ namespace meshbound {
 /// half full.
 class MarkedIds {
  public:
-  MarkedIds() : entries_(least_room) {}
+  MarkedIds() : entries_(entries_at_first) {}
 
   void clear() {
     count_ = 0;
@@ -31,7 +31,8 @@ class MarkedIds {
   [[nodiscard]] bool contains(std::uint32_t id) const { return entries_[find(id)] == mark(id); }
 
  private:
-  static constexpr std::size_t least_room = 256;  ///< a power of two; the faces around a star are about a hundred
+  /// Entries at first, a power of two: enough for a hundred faces around a collapse.
+  static constexpr std::size_t entries_at_first = 256;
 
   [[nodiscard]] std::uint64_t mark(std::uint32_t id) const { return std::uint64_t{round_} << 32 | id; }
   /// Where the number is, or else may be put: an entry of an earlier round is free.

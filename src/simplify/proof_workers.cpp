@@ -25,30 +25,24 @@ bool ProofWorkers::cover_anywhere(std::span<const std::uint32_t> originals, cons
 }
 
 template <class IsWanted>
-void FaceBoxes::take_faces(const ArrayMesh& mesh, std::size_t likely, const IsWanted& is_wanted) {
+void FaceBoxes::take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted) {
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f)
+    if (!mesh.is_removed(f) && is_wanted(f)) faces_.push_back(f);
   std::vector<Eigen::AlignedBox3d> boxes;
-  boxes.reserve(likely);
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.is_removed(f)) continue;
-    const Eigen::AlignedBox3d box = box_of(mesh.triangle(f));
-    if (!is_wanted(box)) continue;
-    faces_.push_back(f);
-    boxes.push_back(box);
-  }
+  boxes.reserve(faces_.size());
+  for (const std::uint32_t f : faces_) boxes.push_back(box_of(mesh.triangle(f)));
   tree_.emplace(boxes);
 }
 
 FaceBoxes::FaceBoxes(const ArrayMesh& mesh) {
-  std::size_t left = 0;
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) left += mesh.is_removed(f) ? 0 : 1;
-  take_faces(mesh, left, [](const Eigen::AlignedBox3d&) { return true; });
+  take_faces(mesh, [](std::uint32_t) { return true; });
 }
 
 FaceBoxes::FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted) {
   std::vector<std::uint32_t> met;
-  take_faces(mesh, 0, [&](const Eigen::AlignedBox3d& box) {
+  take_faces(mesh, [&](std::uint32_t face) {
     met.clear();
-    wanted.find(box, met);
+    wanted.find(box_of(mesh.triangle(face)), met);
     return !met.empty();
   });
 }

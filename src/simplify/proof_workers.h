@@ -16,16 +16,17 @@ namespace meshbound {
 /// The boxes of faces of a mesh at the time of construction, to find faces near something without samples.
 class FaceBoxes {
  public:
-  /// Of all faces. O(n log n).
+  /// Takes the boxes of all faces. O(n log n).
   explicit FaceBoxes(const ArrayMesh& mesh);
-  /// Of the faces whose boxes meet one of these. Expected O(n log m) for m boxes, and O(k log k) for k such faces.
+  /// Takes the boxes of the faces that meet one of these boxes. Expected O(n log m) for m boxes, and O(k log k) for k
+  /// such faces.
   FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted);
   /// Appends the faces whose boxes meet `box`.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 
  private:
   template <class IsWanted>
-  void take_faces(const ArrayMesh& mesh, std::size_t likely, const IsWanted& is_wanted);
+  void take_faces(const ArrayMesh& mesh, const IsWanted& is_wanted);
 
   std::vector<std::uint32_t> faces_;
   std::optional<BoxTree> tree_;

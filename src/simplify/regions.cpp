@@ -128,7 +128,7 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
   }
   std::uint32_t number = state.last_number();
   for (std::uint32_t r = 0; r < count; ++r) {
-    split.regions.push_back({r, EditLog{number, {}, {}, {}}, {}, 0, state.clock, {}});
+    split.regions.push_back({r, EditLog{number, {}, {}, {}, {}}, {}, 0, state.clock, {}});
     number += faces[r];
   }
 }

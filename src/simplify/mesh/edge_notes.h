@@ -16,14 +16,14 @@ class EdgeNotes {
   explicit EdgeNotes(std::size_t edges) : words_(edges, 0) {}
 
   [[nodiscard]] bool is_queued(Corner edge) const { return (words_[edge] & queued) != 0; }
-  /// Of an edge that is queued; 31 bits.
+  /// The index of a queued edge, below 2^31.
   [[nodiscard]] std::uint32_t index(Corner edge) const { return words_[edge] & ~queued; }
   void set_index(Corner edge, std::uint32_t index) { words_[edge] = queued | index; }
   void leave_queue(Corner edge) { words_[edge] = 0; }
 
   /// 0 where there is none.
   [[nodiscard]] float deviation(Corner edge) const { return is_queued(edge) ? 0 : std::bit_cast<float>(words_[edge]); }
-  /// Of an edge that is not queued.
+  /// Notes the deviation with which an edge was refused. It must not be in a queue.
   void set_deviation(Corner edge, float deviation) {
     words_[edge] = deviation > 0 ? std::bit_cast<std::uint32_t>(deviation) : 0;  // not even the sign of a NaN
   }
