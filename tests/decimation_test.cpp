@@ -326,16 +326,21 @@ TEST(Decimation, CutsAgainWhereMuchIsLeftAtSeams) {
   EXPECT_LT(1000 * result.counts.proven_alone, result.last().collapses_performed);
 }
 
-/// A placement that leaves a point of the original, or of an edge, too far away is tried again with that point: 1,894
-/// and 1,900 faces are left, 1,909 and 1,915 without the points that proofs find, 2,068 and 2,044 without those of
-/// edges. Without a look at edges a thousand proofs fail.
+/// A placement that leaves a point of the original, or of an edge, too far away is tried again with that point: of eight
+/// terrains 15,024 and 15,049 faces are left, 15,131 and 15,134 without the points that proofs find. Of the fifth alone
+/// 2,068 and 2,044 instead of 1,901 and 1,915 are left without those of edges, and a thousand proofs fail without a look
+/// at edges.
 TEST_P(Decimation, PlacesVerticesByWhatProofsHaveFound) {
-  const TriangleMesh terrain = datasets::terrain(1, 60, 5);
-  const SimplifyResult result = simplify_with_bound(terrain, options(0.002));
-  EXPECT_TRUE(holds(terrain, result.last()));
-  EXPECT_GT(result.counts.unproven, 10U);
-  EXPECT_LT(result.counts.unproven, 100U);
-  EXPECT_LT(result.last().faces(), 1905U);
+  std::size_t faces = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const TriangleMesh terrain = datasets::terrain(1, 60, seed);
+    const SimplifyResult result = simplify_with_bound(terrain, options(0.002));
+    EXPECT_TRUE(holds(terrain, result.last())) << seed;
+    EXPECT_GT(result.counts.unproven, 10U) << seed;
+    EXPECT_LT(result.counts.unproven, 100U) << seed;
+    faces += result.last().faces();
+  }
+  EXPECT_LT(faces, 15'090U);
 }
 
 /// The originals of a cap reach from its middle to its rim, across tens of faces: 182 faces are left if they are

@@ -25,7 +25,7 @@ struct Unfolded {
     ArrayMesh& mesh = state->mesh;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
       if (const Vec3 p = mesh.position(v); is_fold(p.x)) mesh.move(v, {0.74, p.y, 0.04 * height});
-    std::fill(state->stamp.begin(), state->stamp.end(), 1);
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) state->last_changes.set(v, 1);
     faces.resize(mesh.face_count());
     std::iota(faces.begin(), faces.end(), 0);
   }
@@ -63,7 +63,7 @@ TEST(StrayFaces, AreUnproven) {
   Unfolded it(2 * tolerance);
   const std::vector<std::uint32_t> strays = it.strays();
   ASSERT_FALSE(strays.empty());
-  it.state->stamp[strays.front()] = 0;
+  it.state->is_fixed[strays.front()] = 1;
   EXPECT_EQ(it.strays(), std::vector<std::uint32_t>(strays.begin() + 1, strays.end()));
   it.faces = {strays.back()};
   EXPECT_EQ(it.strays(), it.faces);

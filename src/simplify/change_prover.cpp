@@ -9,18 +9,20 @@
 namespace meshbound {
 
 bool ChangeProver::is_near(std::uint32_t face) {
-  if (state_.mesh.is_removed(face) || !state_.is_unproven(face)) return true;
+  if (state_.mesh.is_removed(face) || state_.is_fixed[face] != 0) return true;
   ++faces_tested;
   return workers_.of_thread(thread_).is_near(face, state_.nearest[face]);
 }
 
-bool ChangeProver::prove(const Split& split, Region& region) {
+bool ChangeProver::are_near(std::span<const std::uint32_t> faces) {
+  return std::all_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return is_near(f); });
+}
+
+bool ChangeProver::prove(const Split& split, Region& region, std::span<const std::uint32_t> changed) {
   ProofWorkers::Worker& worker = workers_.of_thread(thread_);
-  const auto stamps = region.log.stamps_of(region.log.last_number());
-  const bool is_covered = worker.cover_change(stamps, split, region.id);
+  const bool is_covered = worker.cover_change(changed, split, region.id);
   originals_tested += worker.affected();
-  const auto is_near_original = [&](const EditLog::Stamp& stamp) { return is_near(stamp.face); };
-  if (is_covered && std::all_of(stamps.begin(), stamps.end(), is_near_original)) return true;
+  if (is_covered && are_near(changed)) return true;
   ++unproven;
   undo_last(state_, region);
   return false;
@@ -33,26 +35,22 @@ const std::optional<Vec3>& ChangeProver::lost_point() const { return workers_.of
 void ChangeProver::accept(Region& region) {
   ++proven;
   workers_.of_thread(thread_).assign_covers(state_.cover);
-  for (const EditLog::Stamp& stamp : region.log.stamps_of(region.log.last_number())) state_.stamp[stamp.face] = 0;
+  for (const Edit& edit : region.log.edits)
+    for (const std::uint32_t v : {state_.mesh.start(edit.edge), state_.mesh.end(edit.edge)})
+      state_.last_changes.set(v, 0);
   if (state_.proven_changes) region.proven.append(region.log);
   region.log.clear();
 }
 
-bool ChangeProver::prove_group(const Split& split, Region& region) {
+bool ChangeProver::prove_group(const Split& split, Region& region, std::span<const std::uint32_t> changed) {
   ProofWorkers::Worker& worker = workers_.of_thread(thread_);
-  changed_.clear();
-  for (const EditLog::Stamp& stamp : region.log.stamps)
-    if (stamp.before == 0) changed_.push_back(stamp.face);
-  const bool is_covered = worker.cover_group(changed_, split, region.id);
+  const bool is_covered = worker.cover_group(changed, split, region.id);
   originals_tested += worker.affected();
-  if (!is_covered || !std::all_of(changed_.begin(), changed_.end(), [&](std::uint32_t f) { return is_near(f); })) {
+  if (!is_covered || !are_near(changed)) {
     ++unproven;
     return false;
   }
-  ++proven;
-  worker.assign_covers(state_.cover);
-  for (const std::uint32_t face : changed_) state_.stamp[face] = 0;
-  region.log.clear();
+  accept(region);
   return true;
 }
 

@@ -159,7 +159,7 @@ bool CollapseChecker::Impl::prove(Vec3 point, const Question& question) {
     undo_last(state_, region());
     return false;
   }
-  if (!prover_.prove(split_, region())) return false;
+  if (!prover_.prove(split_, region(), proposer_.changed_faces())) return false;
   admitted_ = Question{question.u, question.v, in_model};
   return true;
 }

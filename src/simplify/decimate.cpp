@@ -271,7 +271,7 @@ bool Run::proves_later() const {
 /// much has been built on them. Returns how many changes were undone.
 std::size_t Run::undo_strays() {
   std::size_t undone = 0;
-  std::vector<std::uint32_t> changed = numbers_below(state_.stamp.size());
+  std::vector<std::uint32_t> changed = numbers_below(state_.mesh.face_count());
   try {
     for (;;) {
       const Unproven strays{{}, stray_faces(state_, changed, threads_, goal_.stop)};

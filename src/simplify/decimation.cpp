@@ -165,7 +165,7 @@ void Decimation::make_state(const StopToken& stop) {
   if (has_lines()) set_lines();
   if (!options_.texture_coordinates.empty()) set_texture();
   if (options_.normal_tolerance) set_turns();
-  if (keeps_sides()) state_->proven_changes.emplace(state_->mesh.face_count());
+  if (keeps_sides()) state_->proven_changes.emplace(state_->mesh.vertex_count());
   state_->keeps_positions = options_.placements == CollapsePlacements::Subset;
   state_->lock(locked());
   locked_vertices_ = static_cast<std::size_t>(std::count(state_->locked.begin(), state_->locked.end(), 1));

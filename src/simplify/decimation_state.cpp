@@ -209,28 +209,31 @@ Samples::Surroundings Samples::around(std::uint32_t sample, double tolerance) co
 }
 
 void EditLog::append(const EditLog& other) {
-  const auto first = static_cast<std::uint32_t>(stamps.size());
-  for (const Edit& edit : other.edits) {
-    edits.push_back(edit);
-    edits.back().first_stamp += first;
-  }
+  edits.insert(edits.end(), other.edits.begin(), other.edits.end());
   lines.insert(lines.end(), other.lines.begin(), other.lines.end());
-  stamps.insert(stamps.end(), other.stamps.begin(), other.stamps.end());
-  coordinates.insert(coordinates.end(), other.coordinates.begin(), other.coordinates.end());
+  for (const std::size_t end : other.textures_end) textures_end.push_back(textures.size() + end);
+  textures.insert(textures.end(), other.textures.begin(), other.textures.end());
 }
 
-void ProvenChanges::add(const EditLog& proven) {
+void note(LastChanges& last, const ArrayMesh& mesh, Edit& edit, std::uint32_t number) {
+  if (edit.kind == Edit::Kind::Flip) return;
+  edit.before[0] = last.set(mesh.start(edit.edge), number);
+  if (edit.kind == Edit::Kind::Collapse) edit.before[1] = last.set(mesh.end(edit.edge), number);
+}
+
+void take_back(LastChanges& last, const ArrayMesh& mesh, const Edit& edit) {
+  if (edit.kind == Edit::Kind::Flip) return;
+  last.set(mesh.start(edit.edge), edit.before[0]);
+  if (edit.kind == Edit::Kind::Collapse) last.set(mesh.end(edit.edge), edit.before[1]);
+}
+
+void ProvenChanges::add(const ArrayMesh& mesh, const EditLog& proven) {
   EditLog& log = logs.front();
   std::uint32_t number = log.last_number();
-  std::size_t stamp = log.stamps.size();
   log.append(proven);
-  for (const Edit& edit : proven.edits) {
+  for (Edit& edit : std::span(log.edits).last(proven.edits.size())) {
     ++number;
-    for (const std::size_t end = stamp + log.stamps_of(number).size(); stamp < end; ++stamp) {
-      if (edit.edge == no_index) continue;
-      EditLog::Stamp& of_face = log.stamps[stamp];
-      of_face.before = std::exchange(last[of_face.face], number);
-    }
+    if (edit.edge != no_index) note(last, mesh, edit, number);
   }
 }
 
@@ -258,7 +261,7 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
       is_fixed(mesh.face_count(), 0),
       quadrics(vertex_quadrics(mesh, PlaneWeights::Equal, threads)),
       share(mesh.vertex_count(), 1),
-      stamp(mesh.face_count(), 0),
+      last_changes(mesh.vertex_count()),
       touched(mesh.vertex_count(), 0),
       refused_at(3 * mesh.face_count(), 0),
       notes(3 * mesh.face_count()),

@@ -17,6 +17,7 @@
 #include "simplify/mesh/array_mesh.h"
 #include "simplify/mesh/edge_notes.h"
 #include "simplify/mesh/feature_lines.h"
+#include "simplify/mesh/last_changes.h"
 #include "simplify/mesh/quadric.h"
 #include "simplify/normals/face_turns.h"
 #include "simplify/texture/texture_map.h"
@@ -144,47 +145,54 @@ inline bool is_far_beyond(float deviation) { return deviation > far_beyond; }
 struct Edit {
   enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
   bool was_locked = false;
-  Corner edge = no_index;         ///< the edge collapsed or flipped; for a move, a corner of the vertex; none: undone
-  Vec3 position;                  ///< of the start of the edge, before the change
-  std::uint32_t first_stamp = 0;  ///< index of its first face in `EditLog::stamps`
+  Corner edge = no_index;  ///< the edge collapsed or flipped; for a move, a corner of the vertex; none: undone
+  Vec3 position;           ///< of the start of the edge, before the change
+  /// The last changes before of the vertices that it changes: the start of the edge, and the end of one collapsed.
+  std::array<std::uint32_t, 2> before{};
 };
 
 /// The changes of a region in their order. The first one has the number `before` + 1.
 struct EditLog {
-  struct Stamp {
-    std::uint32_t face, before;  ///< the number of the change that touched the face before, 0 for none
+  /// What a face had before a change.
+  struct FaceTexture {
+    std::uint32_t face;
+    CornerCoordinates coordinates;
   };
   std::uint32_t before = 0;
   std::vector<Edit> edits;
   std::vector<FeatureLines::Before> lines;  ///< by edit: what was at its edge; empty without lines
-  std::vector<Stamp> stamps;
-  /// By stamp: the coordinates of the face before the change; empty without a texture.
-  std::vector<CornerCoordinates> coordinates;
+  std::vector<FaceTexture> textures;        ///< of the faces that each edit changes; empty without a texture
+  std::vector<std::size_t> textures_end;    ///< by edit: where its last one ends; empty without a texture
 
   [[nodiscard]] std::uint32_t last_number() const { return before + static_cast<std::uint32_t>(edits.size()); }
-  void clear() { edits.clear(), lines.clear(), stamps.clear(), coordinates.clear(); }
+  void clear() { edits.clear(), lines.clear(), textures.clear(), textures_end.clear(); }
   void shrink_to_fit() {
     edits.shrink_to_fit(), lines.shrink_to_fit();
-    stamps.shrink_to_fit(), coordinates.shrink_to_fit();
+    textures.shrink_to_fit(), textures_end.shrink_to_fit();
   }
   /// Adds the changes of another log after those here.
   void append(const EditLog& other);
-  /// The faces that change `number` has touched.
-  [[nodiscard]] std::span<const Stamp> stamps_of(std::uint32_t number) const {
-    const std::size_t k = number - before - 1, begin = edits[k].first_stamp;
-    const std::size_t end = k + 1 < edits.size() ? edits[k + 1].first_stamp : stamps.size();
-    return std::span(stamps).subspan(begin, end - begin);
+  [[nodiscard]] std::span<const FaceTexture> textures_of(std::size_t edit) const {
+    if (textures_end.empty()) return {};
+    const std::size_t begin = edit == 0 ? 0 : textures_end[edit - 1];
+    return std::span(textures).subspan(begin, textures_end[edit] - begin);
   }
 };
 
+/// Makes a collapse or a move, which is still to be made, the last change of its vertices. A flip changes no vertex: it is
+/// proven by itself or with the changes around it, and undone by `undo_last` only.
+void note(LastChanges& last, const ArrayMesh& mesh, Edit& edit, std::uint32_t number);
+/// Once it has been undone: what they had before.
+void take_back(LastChanges& last, const ArrayMesh& mesh, const Edit& edit);
+
 /// Changes that are proven, kept so that some of them can be taken back all the same.
 struct ProvenChanges {
-  explicit ProvenChanges(std::size_t faces) : last(faces, 0), logs(1) {}
-  /// Takes over changes that have been proven, in their order.
-  void add(const EditLog& proven);
+  explicit ProvenChanges(std::size_t vertices) : last(vertices), logs(1) {}
+  /// Takes over changes of the mesh that have been proven, in their order.
+  void add(const ArrayMesh& mesh, const EditLog& proven);
 
-  std::vector<std::uint32_t> last;  ///< by face: the number of the last of these changes that touched it, or 0
-  std::vector<EditLog> logs;        ///< one
+  LastChanges last;           ///< of these changes
+  std::vector<EditLog> logs;  ///< one
 };
 
 /// A part of the mesh that one thread changes, see `Split`.
@@ -212,7 +220,7 @@ struct OriginalOfDecimation {
 /// A mesh under decimation and everything known about it.
 ///
 ///
-/// `mesh` is proven to be within the tolerance of the original, both ways, except for faces with a stamp: these were
+/// `mesh` is proven to be within the tolerance of the original, both ways, except for faces whose vertices have
 /// changed since the last proof, and `logs` can undo the changes. All coordinates are those of the working frame.
 struct DecimationState {
   /// A mesh that is the original, triangle by triangle: `triangle_of_face` says which, and `vertex_of_vertex` which
@@ -266,7 +274,7 @@ struct DecimationState {
   std::optional<TextureMap> texture;  ///< set if the texture must not move too far
   std::optional<FaceTurns> turns;     ///< set if faces must not turn too much
 
-  std::vector<std::uint32_t> stamp;             ///< by face: the number of the last change since the last proof, or 0
+  LastChanges last_changes;                     ///< since the last proof
   std::vector<EditLog> logs;                    ///< since the last proof, their numbers ascending
   std::optional<ProvenChanges> proven_changes;  ///< set if changes may have to be taken back once they are proven
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
@@ -282,8 +290,11 @@ struct DecimationState {
   }
   /// Locks vertices, before any change.
   void lock(std::vector<std::uint8_t> vertices_locked);
-  /// Whether a change that is not proven may have altered the face.
-  [[nodiscard]] bool is_unproven(std::uint32_t face) const { return stamp[face] != 0 && is_fixed[face] == 0; }
+  /// Whether a change that is not proven may have altered the face, or it is removed.
+  [[nodiscard]] bool is_unproven(std::uint32_t face) const {
+    if (is_fixed[face] != 0) return false;
+    return mesh.is_removed(face) || last_changes.of_face(mesh, face) != 0;
+  }
   [[nodiscard]] bool is_refuted(std::uint32_t vertex) const { return !refuted.empty() && refuted[vertex] != 0; }
   /// Sets a larger tolerance: all proofs hold for it as well, and what was refused may fit now. A smaller one is not
   /// allowed.

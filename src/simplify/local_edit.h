@@ -58,12 +58,16 @@ class LocalEdit {
   void make();
   /// Assigns the samples to their nearest faces, once the change is final.
   void assign_samples();
+  /// The faces that the change has altered or removed.
+  [[nodiscard]] std::span<const std::uint32_t> changed_faces() const { return taken_; }
 
   /// Starts a group: a collapse, gathered and placed, together with changes around it that make room for it. Their
   /// samples are assigned at once, and they are kept or undone together.
   void begin_group();
   /// As `fits`, for all faces of the group.
   [[nodiscard]] bool group_fits(double share);
+  /// The faces that its changes have altered or removed.
+  [[nodiscard]] std::span<const std::uint32_t> group() const { return group_; }
   void keep_group();
   void undo_group();
 

@@ -114,11 +114,11 @@ class ProofWorkers::Worker {
 
   /// Covers of the originals that relied on these faces, which have just been changed, by index below `affected()`.
   /// False where one was not found.
-  bool cover_change(std::span<const EditLog::Stamp> changed, const Split& split, std::uint32_t region) {
+  bool cover_change(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
     forget_faces();
     meets_seam_ = false;
     lost_point_.reset();
-    find_affected(changed, [](const EditLog::Stamp& stamp) { return stamp.face; });
+    find_affected(changed);
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     if (!split.region_of.empty()) {
       for (const std::uint32_t t : affected_)
@@ -129,17 +129,17 @@ class ProofWorkers::Worker {
     if (state_.local) {
       for (const std::uint32_t t : affected_)
         for (const std::uint32_t v : state_.triangles[t]) box.extend(to_eigen(state_.vertices[v]));
-      for (const EditLog::Stamp& stamp : changed)
-        if (!state_.mesh.is_removed(stamp.face)) box.extend(box_of(state_.mesh.triangle(stamp.face)));
+      for (const std::uint32_t face : changed)
+        if (!state_.mesh.is_removed(face)) box.extend(box_of(state_.mesh.triangle(face)));
     }
     const double limit = state_.local ? state_.limit_in(box) : state_.limit;
     if (!(limit > 0)) return false;
     cover_.begin(limit);
     found_marks_.clear();
     found_.clear();
-    for (const EditLog::Stamp& stamp : changed) {
-      found_marks_.insert(stamp.face);
-      if (!state_.mesh.is_removed(stamp.face)) enter_face(stamp.face);
+    for (const std::uint32_t face : changed) {
+      found_marks_.insert(face);
+      if (!state_.mesh.is_removed(face)) enter_face(face);
     }
     const FaceMask added = ForwardCover::first(cover_.size());
     const std::size_t added_count = found_.size();
@@ -182,7 +182,7 @@ class ProofWorkers::Worker {
   /// As `cover_change` for many faces: each original has candidates of its own, the faces around it.
   bool cover_group(std::span<const std::uint32_t> changed, const Split& split, std::uint32_t region) {
     forget_faces();
-    find_affected(changed, [](std::uint32_t face) { return face; });
+    find_affected(changed);
     const auto owned = [&](std::uint32_t face) { return split.owns_face(region, face); };
     begin_covers();
     for (std::size_t i = 0; i < affected_.size(); ++i) {
@@ -195,11 +195,9 @@ class ProofWorkers::Worker {
 
  private:
   /// Finds the originals that rely on these faces, cluster by cluster.
-  template <class Items, class FaceOf>
-  void find_affected(const Items& changed, const FaceOf& face_of) {
+  void find_affected(std::span<const std::uint32_t> changed) {
     affected_clusters_.clear();
-    for (const auto& item : changed) {
-      const std::uint32_t face = face_of(item);
+    for (const std::uint32_t face : changed) {
       if (state_.is_fixed[face] != 0) continue;
       for (const std::uint32_t t : state_.cover.originals_of(face)) {
         OriginalClusters::Members& members = affected_members_[OriginalClusters::cluster_of(t)];

@@ -86,6 +86,8 @@ class Proposer {
   /// Once this collapse is final: gives the samples to the faces that it leaves, and opens the edges around it again.
   void make_final(Region& region);
   [[nodiscard]] const EdgeStar& star() const { return star_; }
+  /// The faces that the last collapse has altered or removed.
+  [[nodiscard]] std::span<const std::uint32_t> changed_faces() const { return taken_; }
   /// Whether a long edge of a face of the mesh is seen to be too far from the original: where collapses are proven
   /// together, only its middle was looked at. To be asked where no thread changes the mesh.
   [[nodiscard]] bool has_stray_edge(std::uint32_t face);

@@ -20,7 +20,7 @@ constexpr std::size_t items_of_run = 64;
 Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), workers_(workers) {
   for (std::uint32_t t = 0; t < state.triangles.size(); ++t)
     if (is_stale(t)) originals_.push_back(t);
-  for (std::uint32_t f = 0; f < state.stamp.size(); ++f)
+  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f)
     if (state.is_unproven(f) && !state.mesh.is_removed(f)) open_faces_.push_back(f);
   drafts_.resize(originals_.size());
 }
@@ -129,10 +129,10 @@ void Proof::commit() {
     drafts_[count++] = std::move(drafts_[i]);
   }
   if (state_.proven_changes)
-    for (const EditLog& log : state_.logs) state_.proven_changes->add(log);
+    for (const EditLog& log : state_.logs) state_.proven_changes->add(state_.mesh, log);
   state_.logs.clear();  // room for the covers
   state_.cover.assign(std::span(originals_).first(count), [&](std::size_t i) { return drafts_[i].ids(); });
-  std::fill(state_.stamp.begin(), state_.stamp.end(), 0);
+  state_.last_changes.clear();
 }
 
 }  // namespace meshbound

@@ -101,7 +101,7 @@ class Refiner {
   bool make() {
     if (!edit_.fits(1)) return false;
     edit_.make();
-    if (!prover_.prove_or_undo(*split_, *region_)) return false;
+    if (!prover_.prove_or_undo(*split_, *region_, edit_.changed_faces())) return false;
     edit_.assign_samples();
     return true;
   }

@@ -36,7 +36,7 @@ bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[m
 
 bool RegionCollapses::make(Vec3 point) {
   proposer_.collapse(region_, point);
-  if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_)) return false;
+  if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_, proposer_.changed_faces())) return false;
   proposer_.make_final(region_);
   return true;
 }

@@ -162,7 +162,7 @@ void merge(DecimationState& state, Split split) {
     state.faces -= region.removed_faces;
     state.clock = std::max(state.clock, region.clock);
     if (!region.log.edits.empty()) state.logs.push_back(std::move(region.log));
-    if (state.proven_changes) state.proven_changes->add(region.proven);
+    if (state.proven_changes) state.proven_changes->add(state.mesh, region.proven);
   }
 }
 

@@ -39,7 +39,7 @@ bool RelaxedCollapse::run(const Split& split, Region& region, Corner edge) {
   edit_.begin_group();
   edit_.make();
   edit_.assign_samples();
-  const auto is_proven = [&] { return edit_.group_fits(1) && prover_.prove_group(split, region); };
+  const auto is_proven = [&] { return edit_.group_fits(1) && prover_.prove_group(split, region, edit_.group()); };
   const bool holds = make_room(kept) && (is_proven() || (make_more_room(kept) && is_proven()));
   if (holds)
     edit_.keep_group();

@@ -21,17 +21,17 @@ namespace {
 /// Samples may reach this share of what they could before where a proof has failed.
 constexpr float smaller_share = 0.85F;
 
-/// The mesh and what belongs to its vertices, but for samples and stamps. Returns how many faces came back.
+/// The mesh and what belongs to its vertices and lines. Returns how many faces came back.
 std::size_t take_back(DecimationState& s, const EditLog& log, const Edit& edit) {
   std::size_t faces = 0;
+  const auto k = static_cast<std::size_t>(&edit - log.edits.data());
   switch (edit.kind) {
     case Edit::Kind::Collapse: {
       s.mesh.undo_collapse(edit.edge);
       const std::uint32_t kept = s.mesh.start(edit.edge), gone = s.mesh.end(edit.edge);
       s.quadrics[kept] -= s.quadrics[gone];
       s.locked[kept] = edit.was_locked ? 1 : 0;
-      if (!log.lines.empty())
-        s.lines.undo_collapse(s.mesh, edit.edge, log.lines[static_cast<std::size_t>(&edit - log.edits.data())]);
+      if (!log.lines.empty()) s.lines.undo_collapse(s.mesh, edit.edge, log.lines[k]);
       faces = s.mesh.twin(edit.edge) == no_index ? 1 : 2;
       break;
     }
@@ -42,28 +42,23 @@ std::size_t take_back(DecimationState& s, const EditLog& log, const Edit& edit) 
       break;
   }
   s.mesh.move(s.mesh.start(edit.edge), edit.position);
+  for (const EditLog::FaceTexture& before : log.textures_of(k)) s.texture->restore(before.face, before.coordinates);
   return faces;
 }
 
-/// Restores the texture coordinates that the faces had before they got these stamps.
-void restore_coordinates(DecimationState& s, const EditLog& log, std::size_t first, std::size_t end) {
-  if (!s.texture) return;
-  for (std::size_t i = first; i < end; ++i) s.texture->restore(log.stamps[i].face, log.coordinates[i]);
-}
-
-/// Undoes changes, the last one first, together with everything built on them.
+/// Undoes collapses, the last one first, together with everything built on them.
 class Undoing {
  public:
   /// Unproven changes.
-  explicit Undoing(DecimationState& state) : Undoing(state, state.stamp, state.logs) {}
-  /// `last` has the number of the last change of each face, 0 for none, `logs` the changes.
-  Undoing(DecimationState& state, std::vector<std::uint32_t>& last, std::vector<EditLog>& logs)
+  explicit Undoing(DecimationState& state) : Undoing(state, state.last_changes, state.logs) {}
+  /// `logs` has the changes, `last` the last of them.
+  Undoing(DecimationState& state, LastChanges& last, std::vector<EditLog>& logs)
       : state_(state), last_(last), logs_(logs) {}
 
   /// Marks the last change of a face to be undone, and to be tried again with a smaller share of the tolerance. False
   /// if there is none.
   bool blame(std::uint32_t face) {
-    const std::uint32_t number = last_[face];
+    const std::uint32_t number = last_.of_face(state_.mesh, face);
     if (number == 0) return false;
     wanted_.push(number);
     at_fault_.push_back(number);
@@ -75,10 +70,14 @@ class Undoing {
     for (const std::uint32_t number : at_fault_) edges.push_back(edit_of(number).edge);
     return edges;
   }
-  void want(std::uint32_t number) {
-    if (number != 0) wanted_.push(number);
+  void want_all() {
+    for (const EditLog& log : logs_)
+      for (std::uint32_t k = 0; k < log.edits.size(); ++k) wanted_.push(log.before + k + 1);
   }
   [[nodiscard]] std::size_t undone() const { return undone_; }
+  /// The vertices of the changes that were undone.
+  [[nodiscard]] const std::vector<std::uint32_t>& vertices() const { return vertices_; }
+  /// The faces that this changes, ascending.
   std::vector<std::uint32_t> run() {
     std::sort(at_fault_.begin(), at_fault_.end());
     while (!wanted_.empty()) {
@@ -103,77 +102,87 @@ class Undoing {
     EditLog& log = log_of(number);
     return log.edits[number - log.before - 1];
   }
-  [[nodiscard]] std::span<const EditLog::Stamp> stamps_of(std::uint32_t number) const {
-    return log_of(number).stamps_of(number);
-  }
 
-  /// Whether no later change has touched its faces; asks for those that have.
+  /// Whether no later change has touched the faces around the vertex that the collapse kept; asks for those that have.
   bool is_on_top(std::uint32_t number) {
+    const ArrayMesh& mesh = state_.mesh;
+    const std::uint32_t kept = mesh.start(edit_of(number).edge);
     bool on_top = true;
-    for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      if (last_[stamp.face] == number) continue;
-      wanted_.push(last_[stamp.face]);
+    const auto look_at = [&](std::uint32_t vertex) {
+      const std::uint32_t last = last_.of_vertex(vertex);
+      if (last <= number) return;
+      wanted_.push(last);
       on_top = false;
-    }
+    };
+    look_at(kept);
+    if (!on_top) return false;  // it may be gone
+    mesh.for_each_corner(kept, [&](Corner c) {
+      look_at(mesh.end(c));
+      if (mesh.twin(previous_corner(c)) == no_index) look_at(mesh.apex(c));
+      return true;
+    });
     return on_top;
   }
 
   void undo(std::uint32_t number) {
     DecimationState& s = state_;
     Edit& edit = edit_of(number);
-    gather_samples(number);
+    gather_samples(s.mesh.start(edit.edge));
     s.faces += take_back(s, log_of(number), edit);
-    for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      last_[stamp.face] = stamp.before;
-      changed_.push_back(stamp.face);
-    }
-    give_samples(number);
-    restore_appearance(number);
+    take_back(last_, s.mesh, edit);
+    find_faces(edit.edge);
+    changed_.insert(changed_.end(), faces_.begin(), faces_.end());
+    for (const std::uint32_t v : {s.mesh.start(edit.edge), s.mesh.end(edit.edge)}) vertices_.push_back(v);
+    give_samples();
+    if (s.texture) give_back_samples(*s.texture, s.mesh, faces_);
+    if (s.turns) s.turns->give_back(s.mesh, faces_);
     if (std::binary_search(at_fault_.begin(), at_fault_.end(), number)) lower_share(edit.edge);
     edit.edge = no_index;
     ++undone_;
+  }
+  /// Those around the ends of an edge.
+  void find_faces(Corner edge) {
+    const ArrayMesh& mesh = state_.mesh;
+    const Corner twin = mesh.twin(edge);
+    const std::uint32_t face = edge / 3, across = twin == no_index ? face : twin / 3;
+    faces_.clear();
+    for (const std::uint32_t v : {mesh.start(edge), mesh.end(edge)}) {
+      mesh.for_each_corner(v, [&](Corner c) {
+        if (c / 3 != face && c / 3 != across) faces_.push_back(c / 3);
+        return true;
+      });
+    }
+    faces_.push_back(face);
+    if (across != face) faces_.push_back(across);
   }
   void lower_share(Corner edge) {
     float &at_start = state_.share[state_.mesh.start(edge)], &at_end = state_.share[state_.mesh.end(edge)];
     at_start = at_end = smaller_share * std::min(at_start, at_end);
   }
 
-  void gather_samples(std::uint32_t number) {
+  /// Those of the faces around a vertex.
+  void gather_samples(std::uint32_t vertex) {
     samples_.clear();
-    for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      for (std::uint32_t s = state_.samples.first(stamp.face); s != no_index; s = state_.samples.following(s))
+    state_.mesh.for_each_corner(vertex, [&](Corner c) {
+      for (std::uint32_t s = state_.samples.first(c / 3); s != no_index; s = state_.samples.following(s))
         samples_.push_back(s);
-      state_.samples.clear(stamp.face);
-    }
+      state_.samples.clear(c / 3);
+      return true;
+    });
   }
-  void give_samples(std::uint32_t number) {
+  void give_samples() {
     nearest_.clear();
-    faces_.clear();
-    for (const EditLog::Stamp& stamp : stamps_of(number)) {
-      if (state_.mesh.is_removed(stamp.face)) continue;
-      nearest_.add(state_.mesh.triangle(stamp.face));
-      faces_.push_back(stamp.face);
-    }
+    for (const std::uint32_t face : faces_) nearest_.add(state_.mesh.triangle(face));
     for (const std::uint32_t s : samples_) state_.samples.give_to(s, faces_[nearest_(state_.samples.at(s))]);
   }
 
-  void restore_appearance(std::uint32_t number) {
-    const EditLog& log = log_of(number);
-    const std::span<const EditLog::Stamp> stamps = stamps_of(number);
-    const auto first = static_cast<std::size_t>(stamps.data() - log.stamps.data());
-    restore_coordinates(state_, log, first, first + stamps.size());
-    faces_.clear();
-    for (const EditLog::Stamp& stamp : stamps) faces_.push_back(stamp.face);
-    if (state_.texture) give_back_samples(*state_.texture, state_.mesh, faces_);
-    if (state_.turns) state_.turns->give_back(state_.mesh, faces_);
-  }
-
   DecimationState& state_;
-  std::vector<std::uint32_t>& last_;
+  LastChanges& last_;
   std::vector<EditLog>& logs_;
   std::priority_queue<std::uint32_t> wanted_;
   std::size_t undone_ = 0;
-  std::vector<std::uint32_t> at_fault_, changed_, samples_, faces_;
+  std::vector<std::uint32_t> at_fault_, changed_, vertices_;
+  std::vector<std::uint32_t> faces_, samples_;  ///< around the change that is being undone
   NearestTriangle nearest_;
 };
 
@@ -220,28 +229,25 @@ class NearestFaces {
 void note_edit(DecimationState& state, Region& region, Edit::Kind kind, Corner edge,
                std::span<const std::uint32_t> faces) {
   EditLog& log = region.log;
-  const std::uint32_t number = log.last_number() + 1, at = state.mesh.start(edge);
-  log.edits.push_back(
-      {kind, state.locked[at] != 0, edge, state.mesh.position(at), static_cast<std::uint32_t>(log.stamps.size())});
+  const std::uint32_t at = state.mesh.start(edge);
+  log.edits.push_back({kind, state.locked[at] != 0, edge, state.mesh.position(at), {}});
+  note(state.last_changes, state.mesh, log.edits.back(), log.last_number());
   if (!state.lines.empty()) log.lines.push_back(state.lines.before(state.mesh, edge));
-  for (const std::uint32_t face : faces) {
-    log.stamps.push_back({face, state.stamp[face]});
-    state.stamp[face] = number;
-    if (state.texture) log.coordinates.push_back(state.texture->of(face));
-  }
+  if (!state.texture) return;
+  for (const std::uint32_t face : faces) log.textures.push_back({face, state.texture->of(face)});
+  log.textures_end.push_back(log.textures.size());
 }
 
 void undo_last(DecimationState& state, Region& region) {
   EditLog& log = region.log;
   const Edit& edit = log.edits.back();
   region.removed_faces -= take_back(state, log, edit);
-  for (std::size_t i = edit.first_stamp; i < log.stamps.size(); ++i)
-    state.stamp[log.stamps[i].face] = log.stamps[i].before;
-  restore_coordinates(state, log, edit.first_stamp, log.stamps.size());
-  log.stamps.resize(edit.first_stamp);
-  if (state.texture) log.coordinates.resize(edit.first_stamp);
+  take_back(state.last_changes, state.mesh, edit);
   log.edits.pop_back();
   if (!log.lines.empty()) log.lines.pop_back();
+  if (log.textures_end.empty()) return;
+  log.textures_end.pop_back();
+  log.textures.resize(log.textures_end.empty() ? 0 : log.textures_end.back());
 }
 
 namespace {
@@ -276,13 +282,13 @@ Repair undo_blamed(DecimationState& state, Undoing& undoing) {
   return {changed, undoing.undone()};
 }
 
-/// Faces with this stamp are unproven, and no log has their changes.
+/// The last change of vertices whose faces are unproven, while no log has the change.
 constexpr std::uint32_t taken_back = no_index;
 
 /// Undoes proven changes; the faces that this changes are unproven then.
 Repair undo_proven(DecimationState& state, Undoing& undoing) {
   Repair repair = undo_blamed(state, undoing);
-  for (const std::uint32_t f : repair.faces) state.stamp[f] = taken_back;
+  for (const std::uint32_t v : undoing.vertices()) state.last_changes.set(v, taken_back);
   return repair;
 }
 
@@ -297,8 +303,7 @@ Repair repair(DecimationState& state, const Unproven& unproven) {
 Repair repair_proven(DecimationState& state, const Unproven& unproven) {
   ProvenChanges& changes = *state.proven_changes;
   Undoing undoing(state, changes.last, changes.logs);
-  if (!blame(undoing, state, unproven))
-    for (std::uint32_t f = 0; f < changes.last.size(); ++f) undoing.want(changes.last[f]);
+  if (!blame(undoing, state, unproven)) undoing.want_all();
   return undo_proven(state, undoing);
 }
 
@@ -347,8 +352,7 @@ std::size_t undo_refuted(DecimationState& state, std::span<const Refuted> refute
 
 void undo_all(DecimationState& state) {
   Undoing undoing(state);
-  for (const EditLog& log : state.logs)
-    for (const EditLog::Stamp& stamp : log.stamps) undoing.want(state.stamp[stamp.face]);
+  undoing.want_all();
   (void)undoing.run();
   state.logs.clear();
 }
