@@ -21,7 +21,6 @@
 #include "simplify/mesh/face_box.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify/propose.h"
-#include "simplify/region_collapses.h"
 #include "simplify/repair.h"
 
 namespace meshbound {
@@ -259,35 +258,6 @@ TEST(Proof, AsksNothingOfFacesWhoseVerticesAreAllLocked) {
   proof.run({});
   EXPECT_TRUE(proof.unproven().empty());
   EXPECT_EQ(proof.faces_tested, 1U);
-}
-
-/// Every change gives back the lines that it has found, not those of another one.
-TEST(Repair, GivesTheLinesBackThatEachChangeHasFound) {
-  test::StateOf state(datasets::terrain(1, 20, 3));
-  state->lines = FeatureLines(state->mesh, std::vector<std::uint8_t>(3 * state->mesh.face_count(), 0));  // the border
-  state->grow_tolerance(0.05);
-  state->set_samples(0.05);
-  const auto lines = [&] {
-    std::vector<std::uint32_t> all;
-    for (std::uint32_t v = 0; v < state->mesh.vertex_count(); ++v)
-      all.push_back(state->mesh.is_vertex(v) ? state->lines.at(v) : 0);
-    for (Corner c = 0; c < 3 * state->mesh.face_count(); ++c)
-      all.push_back(!state->mesh.is_removed(c / 3) && state->lines.is_line(state->mesh, c) ? 1 : 0);
-    return all;
-  };
-  const std::vector<std::uint32_t> before = lines();
-  const std::size_t faces = state->faces;
-  Proposer proposer(*state);
-  Split split = whole(*state);
-  RegionCollapses(*state, split, split.regions.front(), proposer, nullptr,
-                  {1, [](std::size_t) { return false; }, nullptr})
-      .collapse_all();
-  merge(*state, std::move(split));
-  EXPECT_LT(state->faces, faces / 4);
-  EXPECT_NE(lines(), before);
-  undo_all(*state);
-  EXPECT_EQ(state->faces, faces);
-  EXPECT_EQ(lines(), before);
 }
 
 /// Near what is lost, all faces are found that lie there, and few others.
