@@ -194,8 +194,8 @@ TEST(RegionMesh, IsThatOfTheArrayMeshWholeAndInRegions) {
 
 /// Closes all edges of a mesh but the given ones.
 void leave_open(DecimationState& state, std::span<const Corner> edges) {
-  std::fill(state.refused_at.begin(), state.refused_at.end(), state.clock + 1);
-  for (const Corner e : edges) state.refused_at[state.mesh.edge(e)] = 0;
+  state.notes.refuse_all();
+  for (const Corner e : edges) state.notes.open(state.mesh.edge(e));
 }
 
 /// Vertices within so many edges of the ends of an edge.

@@ -61,6 +61,7 @@ TEST(ExceedCheck, SaysWhatTheWholeMeshSays) {
       (here ? exceeds : holds) += 1;
       return false;
     };
+    limits.made = [&](std::uint32_t kept) { check.note_change(kept); };
     RegionCollapses(state, split, region, proposer, &prover, std::move(limits)).collapse_all();
     EXPECT_LT(fixture.result().triangles.size(), shape.mesh.triangles.size()) << shape.name;
   }

@@ -200,11 +200,9 @@ TEST(Regions, AreNotCutWhereFewEdgesAreOpen) {
     test::StateOf torus(datasets::torus(1, 0.3, 120, 60));
     set_tolerance(*torus, 0.01);
     torus->tried_tolerance = 0.01;  // together
-    for (Corner e = 0; e < torus->refused_at.size(); ++e) torus->notes.set_deviation(e, 2 * far_beyond);
-    std::fill(torus->refused_at.begin(), torus->refused_at.end(), 1);
-    for (Corner e = 0; e < torus->refused_at.size(); e += static_cast<Corner>(every)) {
-      torus->refused_at[torus->mesh.edge(e)] = 0;
-    }
+    for (Corner e = 0; e < torus->notes.size(); ++e) torus->notes.refuse(e, 2 * far_beyond);
+    for (Corner e = 0; e < torus->notes.size(); e += static_cast<Corner>(every))
+      torus->notes.open(torus->mesh.edge(e));
     const CountingDriver driver;
     DecimationThreads threads(*torus, 1);
     DecimationGoal goal;

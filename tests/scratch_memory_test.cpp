@@ -63,7 +63,7 @@ TEST(ForwardCover, KeepsVerticesApartThatShareAPlace) {
 TEST(EdgeQueue, GivesTheCheapestFirstAndSharesItsNotesWithDeviations) {
   constexpr Corner edges = 300;
   EdgeNotes notes(edges);
-  for (Corner e = 0; e < edges; e += 2) notes.set_deviation(e, 1 + static_cast<float>(e));
+  for (Corner e = 0; e < edges; e += 2) notes.refuse(e, 1 + static_cast<float>(e));
   std::mt19937 random(2);
   EdgeQueue queue(notes);
   std::map<Corner, float> expected;
@@ -85,7 +85,7 @@ TEST(EdgeQueue, GivesTheCheapestFirstAndSharesItsNotesWithDeviations) {
     const auto least =
         std::ranges::min_element(expected, {}, [](const auto& item) { return std::pair(item.second, item.first); });
     ASSERT_EQ(queue.pop(), least->first);
-    notes.set_deviation(least->first, 7);
+    notes.refuse(least->first, 7);
     expected.erase(least);
   }
   EXPECT_TRUE(expected.empty());
@@ -95,15 +95,15 @@ TEST(EdgeQueue, GivesTheCheapestFirstAndSharesItsNotesWithDeviations) {
 TEST(EdgeNotes, TakeWhateverADeviationIs) {
   EdgeNotes notes(1);
   const float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-  for (const float deviation : {0.0F, 1e-40F, 1.25F, infinite}) {
-    notes.set_deviation(0, deviation);
-    EXPECT_EQ(notes.deviation(0), deviation);
+  for (const float deviation : {1e-40F, 1.25F, infinite, 0.0F, -0.0F, nan, -nan}) {
+    notes.refuse(0, deviation);
+    EXPECT_EQ(notes.deviation(0), deviation > 0 ? deviation : std::numeric_limits<float>::denorm_min());
     EXPECT_FALSE(notes.is_queued(0));
-  }
-  for (const float deviation : {-0.0F, nan, -nan}) {
-    notes.set_deviation(0, deviation);
-    EXPECT_EQ(notes.deviation(0), 0);
-    EXPECT_FALSE(notes.is_queued(0));
+    EXPECT_TRUE(notes.is_refused(0));
+    notes.reopen(0);
+    EXPECT_EQ(notes.is_refused(0), deviation == infinite);
+    notes.open(0);
+    EXPECT_FALSE(notes.is_refused(0));
   }
 }
 

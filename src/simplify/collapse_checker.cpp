@@ -193,8 +193,7 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
   take_back();
   const Corner edge = corner_between(u, v);
   const Question question{u, v, wanted};
-  std::uint32_t& refused_at = state_.refused_at[state_.mesh.edge(edge)];
-  if (std::max(state_.touched[u], state_.touched[v]) < refused_at) {
+  if (!state_.is_open(edge)) {
     ++counts.repeated;
     refused_ = question;
     return std::nullopt;
@@ -204,7 +203,7 @@ std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::ui
     for (; point; point = proposer_.next_placement(prover_.lost_point(), *point))
       if (prove(*point, question)) return admitted_->point;
   }
-  refused_at = region().clock + 1;
+  state_.refuse(edge, 0);
   refused_ = question;
   ++counts.refused;
   return std::nullopt;

@@ -104,7 +104,7 @@ class Run {
     const bool is_high = goal_.effort == Effort::High && goal_.on_exceed == OnExceed::Skip && !state_.proven_changes;
     if (!has_ended() && renew_quadrics()) prove_one_by_one();
     if (is_high) {
-      std::fill(state_.refused_at.begin(), state_.refused_at.end(), 0);
+      state_.notes.open_all();
       prove_one_by_one();
       refine();
     }
@@ -306,8 +306,8 @@ void Run::prove_together() {
 
 /// Makes edges open again that were refused for a smaller share of the tolerance.
 void Run::try_the_others_again() {
-  for (Corner e = 0; e < state_.refused_at.size(); ++e)
-    if (state_.refused_at[e] != 0 && state_.notes.deviation(e) <= hopeless_deviation) state_.refused_at[e] = 0;
+  for (Corner e = 0; e < state_.notes.size(); ++e)
+    if (state_.notes.deviation(e) <= hopeless_deviation) state_.notes.open(e);
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
 }
 
@@ -354,6 +354,7 @@ void Run::collapse_and_prove(Split regions) {
         if (goal_.stop.stopped()) note_stop();
         return true;
       };
+      limits.made = [&](std::uint32_t kept) { exceed_check_.note_change(kept); };
     }
     RegionCollapses collapses(state_, split, region, proposer, &prover, std::move(limits));
     if (collapses.open_edges().empty()) return;
@@ -381,7 +382,7 @@ bool Run::renew_quadrics() {
   std::size_t open = 0;
   for (const Corner e : refused) {
     if (is_refused_by_planes(state_, e)) continue;
-    state_.refused_at[e] = 0;
+    state_.notes.open(e);
     ++open;
   }
   return static_cast<double>(open) > min_gain_of_pass * static_cast<double>(state_.faces);
@@ -416,8 +417,7 @@ EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationT
 }
 
 bool take_back(DecimationState& state, std::span<const Refuted> refuted, DecimationThreads& threads) {
-  std::fill(state.refused_at.begin(), state.refused_at.end(),
-            state.clock + 1);  // only what this changes is tried again
+  state.refuse_all();  // only what this changes is tried again
   std::size_t restored = undo_refuted(state, refuted);
   Proof proof(state, threads.workers);
   restored += prove_or_undo(state, proof, repair_proven, [] { return StopToken(); });

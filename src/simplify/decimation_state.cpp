@@ -262,9 +262,8 @@ DecimationState::DecimationState(OriginalOfDecimation original, ArrayMesh start,
       quadrics(vertex_quadrics(mesh, PlaneWeights::Equal, threads)),
       share(mesh.vertex_count(), 1),
       last_changes(mesh.vertex_count()),
-      touched(mesh.vertex_count(), 0),
-      refused_at(3 * mesh.face_count(), 0),
       notes(3 * mesh.face_count()),
+      has_refused(mesh.vertex_count(), 0),
       starts_as_original(false),
       cover(std::move(cover_of)),
       nearest(std::move(near)) {
@@ -303,13 +302,18 @@ void DecimationState::set_samples(double for_tolerance, int threads) {
                                : Samples(vertices, triangles, mesh, neighbours, cover, for_tolerance);
 }
 
+void DecimationState::refuse_all() {
+  notes.refuse_all();
+  std::fill(has_refused.begin(), has_refused.end(), 1);
+}
+
 void DecimationState::grow_tolerance(double to) {
   if (to == tolerance) return;
   const auto scale = static_cast<float>(tolerance / to);
-  for (Corner e = 0; e < refused_at.size(); ++e) {
-    if (refused_at[e] == 0) continue;
-    notes.set_deviation(e, scale * notes.deviation(e));
-    if (!is_far_beyond(notes.deviation(e))) refused_at[e] = 0;
+  for (Corner e = 0; e < notes.size(); ++e) {
+    if (!notes.is_refused(e)) continue;
+    notes.refuse(e, scale * notes.deviation(e));
+    notes.reopen(e);
   }
   tolerance = to;
   limit = provable(to);

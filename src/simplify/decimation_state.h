@@ -136,11 +136,6 @@ class Samples {
   std::vector<std::uint32_t> first_;
 };
 
-/// Whether an edge that was refused with this deviation, in tolerances, needs other ends: beyond hardly any is accepted
-/// after a change around it.
-inline constexpr float far_beyond = 1.25F;
-inline bool is_far_beyond(float deviation) { return deviation > far_beyond; }
-
 /// A change of the mesh, with what is needed to undo it.
 struct Edit {
   enum class Kind : std::uint8_t { Collapse, Move, Flip } kind = Kind::Collapse;
@@ -179,8 +174,8 @@ struct EditLog {
   }
 };
 
-/// Makes a collapse or a move, which is still to be made, the last change of its vertices. A flip changes no vertex: it is
-/// proven by itself or with the changes around it, and undone by `undo_last` only.
+/// Makes a collapse or a move, which is still to be made, the last change of its vertices. A flip changes no vertex: it
+/// is proven by itself or with the changes around it, and undone by `undo_last` only.
 void note(LastChanges& last, const ArrayMesh& mesh, Edit& edit, std::uint32_t number);
 /// Once it has been undone: what they had before.
 void take_back(LastChanges& last, const ArrayMesh& mesh, const Edit& edit);
@@ -201,8 +196,9 @@ struct Region {
   EditLog log;     ///< unproven changes
   EditLog proven;  ///< changes proven one by one, if these are kept
   std::size_t removed_faces = 0;
-  std::uint32_t clock = 0;
   std::vector<std::uint32_t> vertices;  ///< of the region; empty where it is the whole mesh
+  /// Vertices that something has changed around, and that have edges to vertices of other regions.
+  std::vector<std::uint32_t> changed_at_seams;
 };
 
 /// The original of a decimation. What it refers to must outlive it.
@@ -218,7 +214,6 @@ struct OriginalOfDecimation {
                                                           const std::vector<Triangle>& triangles, const Bvh& tree);
 
 /// A mesh under decimation and everything known about it.
-///
 ///
 /// `mesh` is proven to be within the tolerance of the original, both ways, except for faces whose vertices have
 /// changed since the last proof, and `logs` can undo the changes. All coordinates are those of the working frame.
@@ -278,16 +273,20 @@ struct DecimationState {
   std::vector<EditLog> logs;                    ///< since the last proof, their numbers ascending
   std::optional<ProvenChanges> proven_changes;  ///< set if changes may have to be taken back once they are proven
   [[nodiscard]] std::uint32_t last_number() const { return logs.empty() ? 0 : logs.back().last_number(); }
-  std::uint32_t clock = 0;                         ///< changes since the start
-  std::vector<std::uint32_t> touched, refused_at;  ///< by vertex and edge: clock of the last change or refusal
-  EdgeNotes notes;                                 ///< deviations are those of `Proposer::deviation`
+  EdgeNotes notes;  ///< deviations are those of `Proposer::deviation`
 
-  /// Whether the edge was not refused, or something near has changed since that may help.
-  [[nodiscard]] bool is_open(Corner corner) const {
+  /// By vertex: whether edges there may be refused that a change around it opens again.
+  std::vector<std::uint8_t> has_refused;
+
+  /// Notes that an edge was refused; until something near changes, it is not worth another try.
+  void refuse(Corner corner, float deviation) {
     const Corner edge = mesh.edge(corner);
-    if (refused_at[edge] > 0 && is_far_beyond(notes.deviation(edge))) return false;
-    return std::max(touched[mesh.start(edge)], touched[mesh.end(edge)]) >= refused_at[edge];
+    notes.refuse(edge, deviation);
+    if (!is_far_beyond(deviation)) has_refused[mesh.start(edge)] = has_refused[mesh.end(edge)] = 1;
   }
+  void refuse_all();
+  /// Whether the edge was not refused, or something near has changed since that may help.
+  [[nodiscard]] bool is_open(Corner corner) const { return !notes.is_refused(mesh.edge(corner)); }
   /// Locks vertices, before any change.
   void lock(std::vector<std::uint8_t> vertices_locked);
   /// Whether a change that is not proven may have altered the face, or it is removed.

@@ -35,21 +35,18 @@ bool is_within(const TriangleMesh& from, const Bvh& to, double tolerance, const 
 
 }  // namespace
 
-/// Lists the faces around vertices that were touched since the boxes were made.
-void ExceedCheck::find_changed(const Region& region) {
-  const ArrayMesh& mesh = state_.mesh;
-  is_changed_.clear();
-  changed_.clear();
-  for (std::uint32_t v = 0; boxes_ && v < mesh.vertex_count(); ++v) {
-    if (state_.touched[v] <= made_at_ || !mesh.is_vertex(v)) continue;
-    mesh.for_each_corner(v, [&](Corner c) {
-      if (is_changed_.insert(c / 3)) changed_.push_back(c / 3);
-      return true;
-    });
-  }
-  if (boxes_ && changed_.size() * faces_per_change <= mesh.face_count()) return;
-  boxes_.emplace(mesh);
-  made_at_ = region.clock;
+void ExceedCheck::note_change(std::uint32_t kept) {
+  if (!boxes_) return;
+  state_.mesh.for_each_corner(kept, [&](Corner c) {
+    if (is_changed_.insert(c / 3)) changed_.push_back(c / 3);
+    return true;
+  });
+}
+
+/// Where there are none, or too many faces have changed since.
+void ExceedCheck::make_boxes() {
+  if (boxes_ && changed_.size() * faces_per_change <= state_.mesh.face_count()) return;
+  boxes_.emplace(state_.mesh);
   is_changed_.clear();
   changed_.clear();
 }
@@ -67,7 +64,7 @@ std::vector<std::uint32_t> ExceedCheck::faces_near(const Eigen::AlignedBox3d& bo
 }
 
 bool ExceedCheck::exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options) {
-  find_changed(region);
+  make_boxes();
   proposer.collapse(region, proposer.refused_placement());
   TriangleMesh originals, new_faces, faces;
   Eigen::AlignedBox3d box;

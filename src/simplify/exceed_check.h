@@ -14,27 +14,28 @@ namespace meshbound {
 /// Decides by the distance engine whether a refused collapse would really break the bound, for `OnExceed::Stop`: its
 /// proof may fail although the bound would hold, with the help of faces that are far away along the surface.
 ///
-///
 /// The state is proven except for that collapse, so only what the collapse touches is compared: the originals that
 /// relied on its faces with all faces within the tolerance of their box, which are found by boxes, and its new faces
-/// with the original. The boxes are those of an earlier mesh; faces around vertices touched since then are tested one
-/// by one, and the boxes are built again when these become too many.
+/// with the original. The boxes are those of an earlier mesh; faces that have changed since then are tested one by one,
+/// and the boxes are built again when these become too many.
 class ExceedCheck {
  public:
   /// `state` must outlive this.
   explicit ExceedCheck(DecimationState& state) : state_(state) {}
 
   /// False only if the engine finds the mesh after the collapse that `proposer` refused last to be within `tolerance`
-  /// of the original. The mesh is unchanged afterwards. O(n) with a small constant for n vertices.
+  /// of the original. The mesh is unchanged afterwards. Expected O(log n), O(n log n) where the boxes are built again.
   [[nodiscard]] bool exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options);
 
+  /// To be told of every collapse that is made: the vertex that it has kept.
+  void note_change(std::uint32_t kept);
+
  private:
-  void find_changed(const Region& region);
+  void make_boxes();
   [[nodiscard]] std::vector<std::uint32_t> faces_near(const Eigen::AlignedBox3d& box, double tolerance);
 
   DecimationState& state_;
   std::optional<FaceBoxes> boxes_;
-  std::uint32_t made_at_ = 0;  ///< clock of the region when the boxes were made
   std::vector<std::uint32_t> changed_, found_;
   MarkedIds is_changed_;
 };

@@ -279,11 +279,10 @@ void LocalEdit::assign_samples() {
 }
 
 void LocalEdit::touch(std::span<const std::uint32_t> faces) {
-  ++region_->clock;
   for (const std::uint32_t face : faces) {
     if (state_.mesh.is_removed(face)) continue;
-    for (const std::uint32_t v : state_.mesh.corners(face)) state_.touched[v] = region_->clock;
-    for (Corner c = 3 * face; c < 3 * face + 3; ++c) state_.refused_at[state_.mesh.edge(c)] = 0;
+    for (Corner c = 3 * face; c < 3 * face + 3; ++c) state_.notes.open(state_.mesh.edge(c));
+    for (const std::uint32_t v : state_.mesh.corners(face)) reopen_around(state_, *split_, *region_, v);
   }
 }
 

@@ -450,11 +450,10 @@ void Proposer::make_final(Region& region) {
   if (texture_) texture_->give_samples(*s.texture);
   if (turns_) turns_->give_samples(*s.turns);
   s.share[kept] = std::min(s.share[kept], s.share[gone]);
-  ++region.clock;
-  s.touched[kept] = region.clock;
   s.mesh.for_each_corner(kept, [&](Corner c) {
-    s.touched[s.mesh.end(c)] = s.touched[s.mesh.apex(c)] = region.clock;
-    s.refused_at[s.mesh.edge(c)] = s.refused_at[s.mesh.edge(previous_corner(c))] = 0;
+    s.notes.open(s.mesh.edge(c)), s.notes.open(s.mesh.edge(previous_corner(c)));
+    reopen_around(s, *split_, region, s.mesh.end(c));
+    if (s.mesh.twin(previous_corner(c)) == no_index) reopen_around(s, *split_, region, s.mesh.apex(c));
     return true;
   });
 }

@@ -13,8 +13,7 @@ RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Reg
       region_(region),
       proposer_(proposer),
       prover_(prover),
-      limits_(std::move(limits)),
-      clock_at_start_(region.clock) {
+      limits_(std::move(limits)) {
   proposer_.enter(split, region, limits_.max_cost < HUGE_VALF ? Proposer::Looks::AtSamples : Proposer::Looks::Around);
   for_each_edge([&](Corner e) {
     ++edge_count_;
@@ -32,18 +31,16 @@ bool RegionCollapses::owns_face(std::uint32_t face) const { return split_.owns_f
 
 bool RegionCollapses::is_open(Corner edge) const { return is_owned(edge) && state_.is_open(edge); }
 
-bool RegionCollapses::is_refused(Corner edge) const { return state_.refused_at[mesh().edge(edge)] > clock_at_start_; }
-
 bool RegionCollapses::make(Vec3 point) {
   proposer_.collapse(region_, point);
   if (prover_ != nullptr && !prover_->prove_or_undo(split_, region_, proposer_.changed_faces())) return false;
   proposer_.make_final(region_);
+  if (limits_.made) limits_.made(kept());
   return true;
 }
 
 void RegionCollapses::mark_refused(Corner edge, float deviation) {
-  state_.refused_at[mesh().edge(edge)] = region_.clock + 1;
-  state_.notes.set_deviation(mesh().edge(edge), deviation);
+  state_.refuse(edge, deviation);
 }
 
 void RegionCollapses::note_edges_that_go() {

@@ -24,6 +24,7 @@ class RegionCollapses {
     std::function<bool()> ends_at_refusal;
     /// `collapse_all` leaves edges that cost more as they are, and looks at the samples alone.
     float max_cost = HUGE_VALF;
+    std::function<void(std::uint32_t kept)> made = {};  ///< told of each collapse: the vertex that it has kept
   };
 
   /// All must outlive this. `prover` may be null.
@@ -37,8 +38,8 @@ class RegionCollapses {
   [[nodiscard]] bool owns_face(std::uint32_t face) const;
   /// Whether both ends of the edge belong to the region, and it was not refused as it is now.
   [[nodiscard]] bool is_open(Corner edge) const;
-  /// Whether the edge was refused in this run, and its star is still the same.
-  [[nodiscard]] bool is_refused(Corner edge) const;
+  /// Whether the edge was refused, and nothing near has changed since that may help.
+  [[nodiscard]] bool is_refused(Corner edge) const { return !state_.is_open(edge); }
   /// Calls `visit(edge)` for each edge that begins in the region.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
@@ -87,7 +88,6 @@ class RegionCollapses {
   Proposer& proposer_;
   ChangeProver* prover_;
   Limits limits_;
-  std::uint32_t clock_at_start_;
   bool ended_ = false;
   std::size_t edge_count_ = 0;
   std::vector<Corner> open_edges_;

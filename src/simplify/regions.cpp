@@ -128,7 +128,7 @@ void make_regions(const DecimationState& state, Split& split, std::uint32_t coun
   }
   std::uint32_t number = state.last_number();
   for (std::uint32_t r = 0; r < count; ++r) {
-    split.regions.push_back({r, EditLog{number, {}, {}, {}, {}}, {}, 0, state.clock, {}});
+    split.regions.push_back({r, EditLog{number, {}, {}, {}, {}}, {}, 0, {}, {}});
     number += faces[r];
   }
 }
@@ -157,10 +157,24 @@ Split whole(const DecimationState& state) {
   return result;
 }
 
+void reopen_around(DecimationState& state, const Split& split, Region& region, std::uint32_t vertex) {
+  if (state.has_refused[vertex] == 0) return;
+  state.has_refused[vertex] = 0;
+  bool is_at_seam = false;
+  state.mesh.for_each_edge(vertex, [&](Corner e) {
+    if (split.owns(region.id, state.mesh.start(e)) && split.owns(region.id, state.mesh.end(e)))
+      state.notes.reopen(e);
+    else
+      is_at_seam = true;
+  });
+  if (is_at_seam) region.changed_at_seams.push_back(vertex);
+}
+
 void merge(DecimationState& state, Split split) {
   for (Region& region : split.regions) {
     state.faces -= region.removed_faces;
-    state.clock = std::max(state.clock, region.clock);
+    for (const std::uint32_t v : region.changed_at_seams)
+      state.mesh.for_each_edge(v, [&](Corner e) { state.notes.reopen(e); });
     if (!region.log.edits.empty()) state.logs.push_back(std::move(region.log));
     if (state.proven_changes) state.proven_changes->add(state.mesh, region.proven);
   }

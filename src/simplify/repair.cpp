@@ -273,11 +273,11 @@ bool blame(Undoing& undoing, const DecimationState& state, const Unproven& unpro
 /// Undoes what was blamed. What lies around may be tried again.
 Repair undo_blamed(DecimationState& state, Undoing& undoing) {
   const std::vector<std::uint32_t> changed = undoing.run();
-  ++state.clock;
   for (const std::uint32_t f : changed) {
-    for (const std::uint32_t v : state.mesh.corners(f)) state.touched[v] = state.clock;
     if (state.mesh.is_removed(f)) continue;
-    for (Corner c = 3 * f; c < 3 * f + 3; ++c) state.refused_at[state.mesh.edge(c)] = 0;
+    for (Corner c = 3 * f; c < 3 * f + 3; ++c) state.notes.open(state.mesh.edge(c));
+    for (const std::uint32_t v : state.mesh.corners(f))
+      state.mesh.for_each_edge(v, [&](Corner e) { state.notes.reopen(e); });
   }
   return {changed, undoing.undone()};
 }
