@@ -121,6 +121,39 @@ TEST(Split, NumbersOfChangesOfRegionsNeverMeet) {
     EXPECT_LE(parts.regions[r].log.before + faces[r], parts.regions[r + 1].log.before);
 }
 
+/// What a change may help is open at once within the region, and across a seam once the regions are merged.
+TEST(Merge, OpensRefusedEdgesAcrossTheSeamsWhereSomethingHasChanged) {
+  test::StateOf state(datasets::icosphere(1, 6));
+  const ArrayMesh& mesh = state->mesh;
+  Split parts = split(*state, 0, min_vertices);
+  const auto edges_at = [&](std::uint32_t vertex, bool across) {
+    std::vector<Corner> edges;
+    mesh.for_each_edge(vertex, [&](Corner e) {
+      if ((parts.region_of[mesh.start(e)] != parts.region_of[mesh.end(e)]) == across) edges.push_back(e);
+    });
+    return edges;
+  };
+  std::uint32_t vertex = 0;
+  while (edges_at(vertex, true).empty() || edges_at(vertex, false).size() < 2) ++vertex;
+  const std::vector<Corner> inside = edges_at(vertex, false), across = edges_at(vertex, true);
+  const auto is_open = [&](Corner e) { return state->is_open(e); };
+  state->refuse_all();
+  state->refuse(inside.front(), 2 * far_beyond);
+  state->refuse(across.front(), 2 * far_beyond);
+  reopen_around(*state, parts, parts.regions[parts.region_of[vertex]], vertex);
+  EXPECT_FALSE(is_open(inside.front()));
+  EXPECT_TRUE(std::all_of(inside.begin() + 1, inside.end(), is_open));
+  EXPECT_TRUE(std::none_of(across.begin(), across.end(), is_open));
+  merge(*state, std::move(parts));
+  EXPECT_FALSE(is_open(inside.front()));
+  EXPECT_FALSE(is_open(across.front()));
+  EXPECT_TRUE(std::all_of(across.begin() + 1, across.end(), is_open));
+  Split all = whole(*state);
+  state->refuse(inside.back(), 0);
+  reopen_around(*state, all, all.regions.front(), vertex);
+  EXPECT_TRUE(is_open(inside.back()));
+}
+
 TEST(Merge, CountsTheFacesThatAreGoneAndKeepsTheLogsInTheirOrder) {
   test::StateOf state(datasets::icosphere(1, 6));
   Split parts = split(*state, 0, min_vertices);
