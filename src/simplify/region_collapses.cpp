@@ -8,12 +8,7 @@ namespace meshbound {
 
 RegionCollapses::RegionCollapses(DecimationState& state, const Split& split, Region& region, Proposer& proposer,
                                  ChangeProver* prover, Limits limits)
-    : state_(state),
-      split_(split),
-      region_(region),
-      proposer_(proposer),
-      prover_(prover),
-      limits_(std::move(limits)) {
+    : state_(state), split_(split), region_(region), proposer_(proposer), prover_(prover), limits_(std::move(limits)) {
   proposer_.enter(split, region, limits_.max_cost < HUGE_VALF ? Proposer::Looks::AtSamples : Proposer::Looks::Around);
   for_each_edge([&](Corner e) {
     ++edge_count_;
@@ -39,9 +34,7 @@ bool RegionCollapses::make(Vec3 point) {
   return true;
 }
 
-void RegionCollapses::mark_refused(Corner edge, float deviation) {
-  state_.refuse(edge, deviation);
-}
+void RegionCollapses::mark_refused(Corner edge, float deviation) { state_.refuse(edge, deviation); }
 
 void RegionCollapses::note_edges_that_go() {
   edges_gone_.clear();
