@@ -326,10 +326,10 @@ TEST(Decimation, CutsAgainWhereMuchIsLeftAtSeams) {
   EXPECT_LT(1000 * result.counts.proven_alone, result.last().collapses_performed);
 }
 
-/// A placement that leaves a point of the original, or of an edge, too far away is tried again with that point: of eight
-/// terrains 15,024 and 15,049 faces are left, 15,131 and 15,134 without the points that proofs find. Of the fifth alone
-/// 2,068 and 2,044 instead of 1,901 and 1,915 are left without those of edges, and a thousand proofs fail without a look
-/// at edges.
+/// A placement that leaves a point of the original, or of an edge, too far away is tried again with that point: of
+/// eight terrains 15,024 and 15,049 faces are left, 15,131 and 15,134 without the points that proofs find. Of the fifth
+/// alone 2,068 and 2,044 instead of 1,901 and 1,915 are left without those of edges, and a thousand proofs fail without
+/// a look at edges.
 TEST_P(Decimation, PlacesVerticesByWhatProofsHaveFound) {
   std::size_t faces = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {

@@ -201,8 +201,7 @@ TEST(Regions, AreNotCutWhereFewEdgesAreOpen) {
     set_tolerance(*torus, 0.01);
     torus->tried_tolerance = 0.01;  // together
     for (Corner e = 0; e < torus->notes.size(); ++e) torus->notes.refuse(e, 2 * far_beyond);
-    for (Corner e = 0; e < torus->notes.size(); e += static_cast<Corner>(every))
-      torus->notes.open(torus->mesh.edge(e));
+    for (Corner e = 0; e < torus->notes.size(); e += static_cast<Corner>(every)) torus->notes.open(torus->mesh.edge(e));
     const CountingDriver driver;
     DecimationThreads threads(*torus, 1);
     DecimationGoal goal;
