@@ -34,8 +34,6 @@ bool RegionCollapses::make(Vec3 point) {
   return true;
 }
 
-void RegionCollapses::mark_refused(Corner edge, float deviation) { state_.refuse(edge, deviation); }
-
 void RegionCollapses::note_edges_that_go() {
   edges_gone_.clear();
   for (const std::uint32_t face : proposer_.star().removed)
@@ -65,7 +63,7 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
     if (make(*point)) return true;
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
-  mark_refused(edge, point_found ? 0 : proposer_.deviation());
+  state_.refuse(edge, point_found ? 0 : proposer_.deviation());
   if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
   return false;
 }
@@ -78,7 +76,7 @@ bool RegionCollapses::is_refused_by(const EdgeCost& cost) const {
 bool RegionCollapses::refuses(Corner edge, const EdgeCost& cost) {
   if (!is_refused_by(cost)) return false;
   ++proposer_.counts.refused;
-  mark_refused(edge, *cost.refused_with);
+  state_.refuse(edge, *cost.refused_with);
   return true;
 }
 

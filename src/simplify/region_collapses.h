@@ -76,7 +76,6 @@ class RegionCollapses {
   [[nodiscard]] bool is_owned(Corner edge) const;
   [[nodiscard]] bool shares_covers(Corner edge) const;
   [[nodiscard]] bool make(Vec3 point);
-  void mark_refused(Corner edge, float deviation);
   void note_edges_that_go();
   bool refuses(Corner edge, const EdgeCost& cost);
   [[nodiscard]] bool is_refused_by(const EdgeCost& cost) const;

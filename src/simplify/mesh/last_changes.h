@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "numeric/no_index.h"
 #include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
