@@ -194,7 +194,7 @@ TEST(RegionMesh, IsThatOfTheArrayMeshWholeAndInRegions) {
 
 /// Closes all edges of a mesh but the given ones.
 void leave_open(DecimationState& state, std::span<const Corner> edges) {
-  state.notes.refuse_all();
+  state.refuse_all();
   for (const Corner e : edges) state.notes.open(state.mesh.edge(e));
 }
 

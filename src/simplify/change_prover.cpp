@@ -35,6 +35,7 @@ const std::optional<Vec3>& ChangeProver::lost_point() const { return workers_.of
 void ChangeProver::accept(Region& region) {
   ++proven;
   workers_.of_thread(thread_).assign_covers(state_.cover);
+  // All else was proven before, so vertices that these changes have left alone have no number either.
   for (const Edit& edit : region.log.edits)
     for (const std::uint32_t v : {state_.mesh.start(edit.edge), state_.mesh.end(edit.edge)})
       state_.last_changes.set(v, 0);

@@ -285,6 +285,10 @@ struct DecimationState {
     if (!is_far_beyond(deviation)) has_refused[mesh.start(edge)] = has_refused[mesh.end(edge)] = 1;
   }
   void refuse_all();
+  /// Opens the edges at a vertex that something has changed around, but for those refused far beyond the tolerance.
+  void reopen_at(std::uint32_t vertex) {
+    mesh.for_each_edge(vertex, [&](Corner e) { notes.reopen(e); });
+  }
   /// Whether the edge was not refused, or something near has changed since that may help.
   [[nodiscard]] bool is_open(Corner corner) const { return !notes.is_refused(mesh.edge(corner)); }
   /// Locks vertices, before any change.

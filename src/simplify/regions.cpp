@@ -173,8 +173,7 @@ void reopen_around(DecimationState& state, const Split& split, Region& region, s
 void merge(DecimationState& state, Split split) {
   for (Region& region : split.regions) {
     state.faces -= region.removed_faces;
-    for (const std::uint32_t v : region.changed_at_seams)
-      state.mesh.for_each_edge(v, [&](Corner e) { state.notes.reopen(e); });
+    for (const std::uint32_t v : region.changed_at_seams) state.reopen_at(v);
     if (!region.log.edits.empty()) state.logs.push_back(std::move(region.log));
     if (state.proven_changes) state.proven_changes->add(state.mesh, region.proven);
   }

@@ -45,8 +45,7 @@ inline constexpr int shifts_of_split = cut_directions;
 [[nodiscard]] Split split(const DecimationState& state, int shift, std::size_t min_vertices, int threads = 1);
 /// The split into a single region.
 [[nodiscard]] Split whole(const DecimationState& state);
-/// Opens the edges around a vertex of the region that something has changed around, but for those refused far beyond
-/// the tolerance. Those that lead to other regions are opened by `merge`.
+/// As `DecimationState::reopen_at` for a vertex of the region, but leaves edges that lead to other regions to `merge`.
 void reopen_around(DecimationState& state, const Split& split, Region& region, std::uint32_t vertex);
 /// Takes over what was changed in the regions, in their order.
 void merge(DecimationState& state, Split split);

@@ -276,8 +276,7 @@ Repair undo_blamed(DecimationState& state, Undoing& undoing) {
   for (const std::uint32_t f : changed) {
     if (state.mesh.is_removed(f)) continue;
     for (Corner c = 3 * f; c < 3 * f + 3; ++c) state.notes.open(state.mesh.edge(c));
-    for (const std::uint32_t v : state.mesh.corners(f))
-      state.mesh.for_each_edge(v, [&](Corner e) { state.notes.reopen(e); });
+    for (const std::uint32_t v : state.mesh.corners(f)) state.reopen_at(v);
   }
   return {changed, undoing.undone()};
 }
