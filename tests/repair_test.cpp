@@ -48,6 +48,27 @@ TEST(Repair, GivesTheLinesBackThatEachChangeHasFound) {
   EXPECT_EQ(lines(), before);
 }
 
+TEST(EditLog, KeepsTheTexturesOfEachChangeWhenItIsAppended) {
+  const auto log_of = [](std::vector<std::vector<std::uint32_t>> faces_of_edits) {
+    EditLog log;
+    for (const auto& faces : faces_of_edits) {
+      log.edits.emplace_back();
+      for (const std::uint32_t f : faces) log.textures.push_back({f, {}});
+      log.textures_end.push_back(log.textures.size());
+    }
+    return log;
+  };
+  EditLog log = log_of({{1, 2}, {}, {3}});
+  log.append(log_of({{4}, {5, 6, 7}}));
+  const std::vector<std::vector<std::uint32_t>> expected = {{1, 2}, {}, {3}, {4}, {5, 6, 7}};
+  ASSERT_EQ(log.edits.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    std::vector<std::uint32_t> faces;
+    for (const EditLog::FaceTexture& before : log.textures_of(k)) faces.push_back(before.face);
+    EXPECT_EQ(faces, expected[k]) << k;
+  }
+}
+
 /// Collapses of a mesh, and by number the faces that each has altered or removed.
 struct Collapsed {
   explicit Collapsed(const TriangleMesh& original) : state(original) {
