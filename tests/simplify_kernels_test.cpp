@@ -8,6 +8,7 @@
 #include <cstring>
 #include <random>
 #include <set>
+#include <span>
 
 #include "simplify/cover/candidate_faces.h"
 #include "simplify/cover/cover_assignment.h"
@@ -32,31 +33,86 @@ TEST(SamplePoints, ChangePlaces) {
   }
 }
 
-TEST(SampleKernel, IsTheSameOnEveryProcessor) {
+std::vector<SampleFace> three_faces() {
+  return {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
+          SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+}
+
+/// Every third lies in the plane of the first of `three_faces`.
+SamplePoints random_points(int count) {
   SamplePoints points;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (int i = 0; i < 40; ++i) points.add({unit(random), unit(random), unit(random)});
-  const std::vector<SampleFace> triangles = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
-                                             SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
-                                             SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
-  ASSERT_EQ(points.blocks.size(), 5U);
-  std::vector<SampleOffsets> portable(5), fastest(5);
-  portable_simplify_kernels().samples.offsets(points.blocks, triangles, portable);
-  simplify_kernels().samples.offsets(points.blocks, triangles, fastest);
-  EXPECT_TRUE(portable == fastest);
-  std::vector<SampleDistances> portable_distances(5), fastest_distances(5);
-  portable_simplify_kernels().samples.distances(points.blocks, triangles, portable_distances);
-  simplify_kernels().samples.distances(points.blocks, triangles, fastest_distances);
-  EXPECT_TRUE(portable_distances == fastest_distances);
-  DeviationSums one, two;
-  portable_simplify_kernels().samples.add_deviations(points, triangles, 2, one);
-  simplify_kernels().samples.add_deviations(points, triangles, 2, two);
-  EXPECT_EQ(one.sum, two.sum);
-  EXPECT_EQ(one.worst_squared, two.worst_squared);
-  EXPECT_GT(one.worst_squared, 0);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(one.gradient[k], two.gradient[k]);
-  for (int k = 0; k < 6; ++k) EXPECT_EQ(one.curvature[k], two.curvature[k]);
+  for (int i = 0; i < count; ++i) points.add({unit(random), unit(random), i % 3 == 0 ? 0 : unit(random)});
+  return points;
+}
+
+/// An even and an odd number of blocks, of which vectors of AVX-512 take two.
+constexpr std::array points_of_test = {32, 36};
+
+TEST(SampleKernel, IsTheSameOnEveryProcessor) {
+  const std::vector<SampleFace> faces = three_faces();
+  for (const int count : points_of_test) {
+    const SamplePoints points = random_points(count);
+    const std::size_t blocks = points.blocks.size();
+    const SampleKernel portable = all_simplify_kernels().front().samples;
+    std::vector<SampleOffsets> offsets(blocks);
+    std::vector<SampleDistances> distances(blocks);
+    DeviationSums sums;
+    portable.offsets(points.blocks, faces, offsets);
+    portable.distances(points.blocks, faces, distances);
+    portable.add_deviations(points, faces, 2, sums);
+    EXPECT_GT(sums.worst_squared, 0);
+    for (const SimplifyKernels& kernels : all_simplify_kernels()) {
+      std::vector<SampleOffsets> same_offsets(blocks);
+      kernels.samples.offsets(points.blocks, faces, same_offsets);
+      EXPECT_TRUE(same_offsets == offsets);
+      std::vector<SampleDistances> same_distances(blocks);
+      kernels.samples.distances(points.blocks, faces, same_distances);
+      EXPECT_TRUE(same_distances == distances);
+      DeviationSums same;
+      kernels.samples.add_deviations(points, faces, 2, same);
+      EXPECT_EQ(same.sum, sums.sum);
+      EXPECT_EQ(same.worst_squared, sums.worst_squared);
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(same.gradient[k], sums.gradient[k]);
+      for (int k = 0; k < 6; ++k) EXPECT_EQ(same.curvature[k], sums.curvature[k]);
+    }
+  }
+}
+
+/// What is beyond the last block of an odd number is left as it is.
+TEST(SampleKernel, WritesNothingBeyondTheLastBlock) {
+  const std::vector<SampleFace> faces = three_faces();
+  const SamplePoints points = random_points(20);
+  ASSERT_EQ(points.blocks.size(), 3U);
+  for (const SimplifyKernels& kernels : all_simplify_kernels()) {
+    std::vector<SampleOffsets> offsets(4);
+    std::vector<SampleDistances> distances(4);
+    offsets.back().squared[0] = distances.back().squared[0] = -1;
+    kernels.samples.offsets(points.blocks, faces, std::span(offsets).first(3));
+    kernels.samples.distances(points.blocks, faces, std::span(distances).first(3));
+    EXPECT_EQ(offsets.back().squared[0], -1);
+    EXPECT_EQ(distances.back().squared[0], -1);
+  }
+}
+
+/// The sums of all points, by the formula of `DeviationSums`.
+TEST(SampleKernel, SumsUpDeviations) {
+  const std::vector<SampleFace> faces = three_faces();
+  const SamplePoints points = random_points(36);
+  std::vector<SampleOffsets> offsets(points.blocks.size());
+  simplify_kernels().samples.offsets(points.blocks, faces, offsets);
+  DeviationSums expected;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SampleOffsets& at = offsets[i / 8];
+    expected.add(2.0 * Vec3{at.x[i % 8], at.y[i % 8], at.z[i % 8]}, at.share[i % 8]);
+  }
+  DeviationSums sums;
+  simplify_kernels().samples.add_deviations(points, faces, 2, sums);
+  EXPECT_NEAR(sums.sum, expected.sum, 1e-5 * expected.sum);
+  EXPECT_NEAR(sums.worst_squared, expected.worst_squared, 1e-5 * expected.worst_squared);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(sums.gradient[k], expected.gradient[k], 1e-5 * expected.sum);
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(sums.curvature[k], expected.curvature[k], 1e-4 * expected.sum);
 }
 
 TEST(SampleKernel, GivesTheDistancesOfOffsets) {
@@ -104,53 +160,74 @@ TEST(SampleKernel, LooksAtSharedSidesOfAFanOnce) {
 }
 
 TEST(DeviationKernel, IsTheSameOnEveryProcessor) {
-  SamplePoints points;
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  for (int i = 0; i < 40; ++i) points.add({unit(random), unit(random), i % 4 == 0 ? 0 : unit(random)});
-  const std::vector<SampleFace> faces = {SampleFace({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
-                                         SampleFace({0, 0, 0}, {0, 1, 0}, {-1, -1, 0.2}),
-                                         SampleFace({0, 0, 0}, {1, 1, 1}, {1, 1, 1})};
-  const DeviationKernel one = portable_simplify_kernels().deviations, two = simplify_kernels().deviations;
-  LinearDeviations a, b;
-  std::vector<SampleOffsets> offsets(points.blocks.size());
-  portable_simplify_kernels().samples.offsets(points.blocks, faces, offsets);
-  one.linearise(points, faces, offsets, 2, a);
-  two.linearise(points, faces, offsets, 2, b);
-  EXPECT_EQ(a.blocks.size(), 5U);
-  EXPECT_TRUE(a.blocks == b.blocks);
+  const std::vector<SampleFace> faces = three_faces();
   const DeviationKernel::Move move = {0.1F, 0.2F, -0.1F}, step = {0.3F, -0.1F, 0.2F};
-  const WeightedSums sums = one.weighted_sums(a, move, 0.3F, 3), same = two.weighted_sums(a, move, 0.3F, 3);
-  EXPECT_GT(sums.square, 0);
-  EXPECT_EQ(sums.weight, same.weight);
-  EXPECT_EQ(sums.square, same.square);
-  EXPECT_EQ(sums.right, same.right);
-  EXPECT_EQ(sums.matrix, same.matrix);
   const std::array<float, DeviationKernel::shares> shares = {0, 0.2F, 0.5F, 1};
-  const auto largest = one.largest_along(a, move, step, shares);
-  EXPECT_EQ(largest, two.largest_along(a, move, step, shares));
+  for (const int count : points_of_test) {
+    const SamplePoints points = random_points(count);
+    const SimplifyKernels portable = all_simplify_kernels().front();
+    std::vector<SampleOffsets> offsets(points.blocks.size());
+    portable.samples.offsets(points.blocks, faces, offsets);
+    LinearDeviations deviations;
+    portable.deviations.linearise(points, faces, offsets, 2, deviations);
+    const WeightedSums sums = portable.deviations.weighted_sums(deviations, move, 0.3F, 3);
+    EXPECT_GT(sums.square, 0);
+    const auto largest = portable.deviations.largest_along(deviations, move, step, shares);
+    for (const SimplifyKernels& kernels : all_simplify_kernels()) {
+      LinearDeviations same_deviations;
+      kernels.deviations.linearise(points, faces, offsets, 2, same_deviations);
+      EXPECT_TRUE(same_deviations.blocks == deviations.blocks);
+      const WeightedSums same = kernels.deviations.weighted_sums(deviations, move, 0.3F, 3);
+      EXPECT_EQ(same.weight, sums.weight);
+      EXPECT_EQ(same.square, sums.square);
+      EXPECT_EQ(same.right, sums.right);
+      EXPECT_EQ(same.matrix, sums.matrix);
+      EXPECT_EQ(kernels.deviations.largest_along(deviations, move, step, shares), largest);
+    }
+  }
+}
+
+/// Deviations of points and what they become by moves, in plain arithmetic.
+TEST(DeviationKernel, SumsUpAndFindsTheLargest) {
+  const DeviationKernel kernel = simplify_kernels().deviations;
+  const DeviationKernel::Move move = {0.1F, 0.2F, -0.1F}, step = {0.3F, -0.1F, 0.2F};
+  const std::array<float, DeviationKernel::shares> shares = {0, 0.2F, 0.5F, 1};
+  LinearDeviations deviations;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  for (int i = 0; i < 5; ++i) deviations.add(unit(random), unit(random), unit(random), unit(random));
+  const auto after = [&](const LinearDeviations::Block& block, float share) {
+    return block.deviation[0] - block.x[0] * (move[0] + share * step[0]) - block.y[0] * (move[1] + share * step[1]) -
+           block.z[0] * (move[2] + share * step[2]);
+  };
+  const auto largest = kernel.largest_along(deviations, move, step, shares);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     float expected = 0;
-    for (const LinearDeviations::Block& block : a.blocks) {
-      for (std::size_t i = 0; i < 8; ++i)
-        expected = std::max(expected, std::abs(block.deviation[i] - block.x[i] * (move[0] + shares[k] * step[0]) -
-                                               block.y[i] * (move[1] + shares[k] * step[1]) -
-                                               block.z[i] * (move[2] + shares[k] * step[2])));
-    }
+    for (const LinearDeviations::Block& block : deviations.blocks)
+      expected = std::max(expected, std::abs(after(block, shares[k])));
     EXPECT_NEAR(largest[k], expected, 1e-5);
   }
+  const WeightedSums sums = kernel.weighted_sums(deviations, move, 0.5F, 2);  // weights of (h / 2)^6
+  double weight = 0, right = 0, mixed = 0;
+  for (const LinearDeviations::Block& block : deviations.blocks) {
+    const double h = after(block, 0), w = std::pow(h / 2, 6);
+    weight += w, right += w * h * block.y[0], mixed += w * block.x[0] * block.z[0];
+  }
+  EXPECT_NEAR(sums.weight, weight, 1e-5 * weight);
+  EXPECT_NEAR(sums.right[1], right, 1e-5 * weight);
+  EXPECT_NEAR(sums.matrix[5], mixed, 1e-5 * weight);
 }
 
 /// Numbers below the smallest normal one make every later operation slow.
 TEST(DeviationKernel, LeavesOutWeightsThatNoSumWouldShow) {
-  for (const DeviationKernel& kernel : {portable_simplify_kernels().deviations, simplify_kernels().deviations}) {
+  for (const SimplifyKernels& kernels : all_simplify_kernels()) {
     for (int doublings = 1; doublings <= 5; ++doublings) {
       const double exponent = (2 << doublings) - 2;  // of the weight |h|^(p - 2)
       for (const double weight : {-59.9, -60.1}) {
         LinearDeviations deviations;
         deviations.add(1, 1, 0, 0);
         deviations.add(static_cast<float>(std::exp2(weight / exponent)), 0, 1, 0);
-        const WeightedSums sums = kernel.weighted_sums(deviations, {}, 1, doublings);
+        const WeightedSums sums = kernels.deviations.weighted_sums(deviations, {}, 1, doublings);
         EXPECT_EQ(sums.matrix[0], 1);
         if (weight > -60)
           EXPECT_NEAR(std::log2(sums.matrix[1]), weight, 0.01) << doublings;
@@ -312,7 +389,7 @@ TEST(ForwardCover, HoldsAClusterByOneFaceOrNot) {
 }
 
 TEST(PlaneKernel, IsTheSameOnEveryProcessor) {
-  const PlaneKernel portable = portable_simplify_kernels().planes, fastest = simplify_kernels().planes;
+  const PlaneKernel portable = all_simplify_kernels().front().planes, fastest = simplify_kernels().planes;
   if (portable.test == fastest.test) GTEST_SKIP() << "this processor has no AVX2";
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -346,7 +423,7 @@ TEST(PlaneKernel, IsTheSameOnEveryProcessor) {
 }
 
 TEST(SlabKernel, IsTheSameOnEveryProcessor) {
-  const SlabKernel portable = portable_simplify_kernels().slabs, fastest = simplify_kernels().slabs;
+  const SlabKernel portable = all_simplify_kernels().front().slabs, fastest = simplify_kernels().slabs;
   if (portable.look == fastest.look) GTEST_SKIP() << "this processor has no AVX2";
   std::mt19937 random(8);
   std::uniform_real_distribution<double> unit(-1, 1);

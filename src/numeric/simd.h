@@ -74,6 +74,10 @@ inline Float8 square_root(Float8 a) {
 #endif
 }
 
+/// The lanes of both, in a vector that is twice as wide.
+template <class Wide>
+Wide join(Float8 low, Float8 high);
+
 #if defined(__AVX512F__)
 using Double8 = double __attribute__((vector_size(64)));
 using Float16 = float __attribute__((vector_size(64)));
@@ -84,6 +88,12 @@ inline Double8 minimum(Double8 a, Double8 b) { return _mm512_min_pd(a, b); }
 inline Float16 maximum(Float16 a, Float16 b) { return _mm512_max_ps(a, b); }
 inline Float16 minimum(Float16 a, Float16 b) { return _mm512_min_ps(a, b); }
 inline Float16 square_root(Float16 a) { return _mm512_sqrt_ps(a); }
+template <>
+inline Float16 join(Float8 low, Float8 high) {
+  return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+}
+inline Float8 low_half(Float16 a) { return _mm512_castps512_ps256(a); }
+inline Float8 high_half(Float16 a) { return _mm512_extractf32x8_ps(a, 1); }
 
 using Doubles = Double8;
 using Floats = Float16;

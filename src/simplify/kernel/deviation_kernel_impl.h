@@ -3,6 +3,7 @@
 #pragma once
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "simplify/kernel/deviation_kernel.h"
 #include "simplify/kernel/sample_kernel_impl.h"
@@ -43,56 +44,74 @@ inline void linearise(const SamplePoints& points, std::span<const SampleFace> fa
   }
 }
 
-inline float sum_of_lanes(Float8 eight) {
-  float sum = 0;
-  for (int k = 0; k < 8; ++k) sum += eight[k];
-  return sum;
-}
-
 /// Weights below 2^-60 of the largest one are left out: sums in single precision would lose them, and arithmetic with
 /// numbers below 2^-126 takes some hundred times as long. By doublings k, the square whose power 2^k - 1 is 2^-60.
 constexpr float min_squares[] = {1, 0x1p-60F, 0x1p-20F, 0.002629F, 0x1p-4F, 0.2614F};
 
-inline WeightedSums weighted_sums(const LinearDeviations& deviations, const DeviationKernel::Move& move, float scale,
-                                  int doublings) {
-  Float8 weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
-  const Float8 min_square = broadcast8(min_squares[doublings]);
-  for (const LinearDeviations::Block& block : deviations.blocks) {
-    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
-    const Float8 h = load8(block.deviation) - x * move[0] - y * move[1] - z * move[2];
-    Float8 power = (h * scale) * (h * scale);
-    power = power < min_square ? Float8{} : power;
-    Float8 w = power;  // to the power of 2^k - 1 after k rounds
+/// Deviations of one block or of two after a move, with their slopes.
+template <class Lanes>
+struct MovedLanes {
+  Lanes x, y, z, deviation;
+
+  MovedLanes(std::span<const LinearDeviations::Block> blocks, std::size_t i, const DeviationKernel::Move& move)
+      : x(load<Lanes>(blocks, i, &LinearDeviations::Block::x)),
+        y(load<Lanes>(blocks, i, &LinearDeviations::Block::y)),
+        z(load<Lanes>(blocks, i, &LinearDeviations::Block::z)),
+        deviation(load<Lanes>(blocks, i, &LinearDeviations::Block::deviation) - x * move[0] - y * move[1] -
+                  z * move[2]) {}
+};
+
+/// The sums of `WeightedSums`, by lane.
+template <class Lanes>
+struct WeightedLanes {
+  Lanes weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+
+  /// The weight of a deviation h is (scale h)^2 to the power of 2^doublings - 1.
+  void add(const MovedLanes<Lanes>& moved, float scale, int doublings) {
+    const auto& [x, y, z, h] = moved;
+    Lanes power = (h * scale) * (h * scale);
+    power = power < broadcast<Lanes>(min_squares[doublings]) ? Lanes{} : power;
+    Lanes w = power;  // to the power of 2^k - 1 after k rounds
     for (int k = 1; k < doublings; ++k) power = power * power, w = w * power;
-    const Float8 wx = w * x, wy = w * y, wz = w * z;
+    const Lanes wx = w * x, wy = w * y, wz = w * z;
     weight += w, square += w * h * h;
     rx += wx * h, ry += wy * h, rz += wz * h;
     xx += wx * x, yy += wy * y, zz += wz * z;
     xy += wx * y, yz += wy * z, zx += wz * x;
   }
-  return {sum_of_lanes(weight),
-          sum_of_lanes(square),
-          {sum_of_lanes(rx), sum_of_lanes(ry), sum_of_lanes(rz)},
-          {sum_of_lanes(xx), sum_of_lanes(yy), sum_of_lanes(zz), sum_of_lanes(xy), sum_of_lanes(yz), sum_of_lanes(zx)}};
+};
+
+inline WeightedSums weighted_sums(const LinearDeviations& deviations, const DeviationKernel::Move& move, float scale,
+                                  int doublings) {
+  using L = WeightedLanes<Floats>;
+  const EvenAndOdd<WeightedLanes> lanes(deviations.blocks.size(), [&](L& into, std::size_t i) {
+    into.add(MovedLanes<Floats>(deviations.blocks, i, move), scale, doublings);
+  });
+  const auto sum = [&](Floats L::*of) {
+    float all = 0;
+    for (int k = 0; k < 8; ++k) all += lanes.of(of)[k];
+    return all;
+  };
+  return {sum(&L::weight),
+          sum(&L::square),
+          {sum(&L::rx), sum(&L::ry), sum(&L::rz)},
+          {sum(&L::xx), sum(&L::yy), sum(&L::zz), sum(&L::xy), sum(&L::yz), sum(&L::zx)}};
 }
 
 inline std::array<float, DeviationKernel::shares> largest_along(
     const LinearDeviations& deviations, const DeviationKernel::Move& move, const DeviationKernel::Move& step,
     const std::array<float, DeviationKernel::shares>& share) {
-  Float8 largest[DeviationKernel::shares] = {};
-  for (const LinearDeviations::Block& block : deviations.blocks) {
-    const Float8 x = load8(block.x), y = load8(block.y), z = load8(block.z);
-    const Float8 h = load8(block.deviation) - x * move[0] - y * move[1] - z * move[2];
-    const Float8 change = x * step[0] + y * step[1] + z * step[2];
+  Floats largest[DeviationKernel::shares] = {};
+  for (std::size_t i = 0; i < deviations.blocks.size(); i += blocks_of<Floats>) {
+    const MovedLanes<Floats> at(deviations.blocks, i, move);
+    const Floats change = at.x * step[0] + at.y * step[1] + at.z * step[2];
     for (std::size_t k = 0; k < DeviationKernel::shares; ++k) {
-      const Float8 after = h - change * share[k];
-      largest[k] = maximum(largest[k], maximum(after, -after));
+      const Floats after = at.deviation - change * share[k];
+      largest[k] = maximum(maximum(after, -after), largest[k]);  // what is no number counts for nothing
     }
   }
   std::array<float, DeviationKernel::shares> result = {};
-  for (std::size_t k = 0; k < DeviationKernel::shares; ++k) {
-    for (int lane = 0; lane < 8; ++lane) result[k] = largest[k][lane] > result[k] ? largest[k][lane] : result[k];
-  }
+  for (std::size_t k = 0; k < DeviationKernel::shares; ++k) result[k] = largest_lane(largest[k]);
   return result;
 }
 

@@ -5,13 +5,21 @@
 
 namespace meshbound {
 
+SimplifyKernels portable_simplify_kernels();
 SimplifyKernels avx2_simplify_kernels();
+void use_avx512(SimplifyKernels& kernels);
 
-SimplifyKernels simplify_kernels() {
+std::vector<SimplifyKernels> all_simplify_kernels() {
+  std::vector<SimplifyKernels> kernels{portable_simplify_kernels()};
 #if defined(MESHBOUND_HAS_AVX2)
-  if (uses_avx2()) return avx2_simplify_kernels();
+  if (uses_avx2()) kernels.push_back(avx2_simplify_kernels());
 #endif
-  return portable_simplify_kernels();
+#if defined(MESHBOUND_HAS_AVX512)
+  if (uses_avx512()) use_avx512(kernels.emplace_back(kernels.back()));
+#endif
+  return kernels;
 }
+
+SimplifyKernels simplify_kernels() { return all_simplify_kernels().back(); }
 
 }  // namespace meshbound

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <vector>
+
 #include "simplify/kernel/deviation_kernel.h"
 #include "simplify/kernel/plane_kernel.h"
 #include "simplify/kernel/sample_kernel.h"
@@ -16,8 +18,8 @@ struct SimplifyKernels {
   SlabKernel slabs;
 };
 
-/// The fastest implementation that this machine runs, and the one that any machine runs.
-[[nodiscard]] SimplifyKernels simplify_kernels();
-[[nodiscard]] SimplifyKernels portable_simplify_kernels();
+/// All that this machine runs, the portable ones first and the fastest ones last.
+[[nodiscard]] std::vector<SimplifyKernels> all_simplify_kernels();
+[[nodiscard]] SimplifyKernels simplify_kernels();  ///< the fastest ones
 
 }  // namespace meshbound

@@ -12,17 +12,48 @@ inline namespace MESHBOUND_ISA {
 inline Float8 load8(const float (&lanes)[8]) { return *reinterpret_cast<const Float8*>(lanes); }
 inline void store8(float (&lanes)[8], Float8 values) { *reinterpret_cast<Float8*>(lanes) = values; }
 
-inline Float8 clamped(Float8 x, Float8 max) { return minimum(maximum(x, Float8{}), max); }
+/// How many blocks of eight these lanes reach over, one or two.
+template <class Lanes>
+constexpr std::size_t blocks_of = sizeof(Lanes) / sizeof(Float8);
+
+/// The eight of block i and, where the lanes reach over two, those of the next one; zeros where there is none.
+template <class Lanes, class Block>
+inline Lanes load(std::span<const Block> blocks, std::size_t i, const float (Block::*eight)[8]) {
+  if constexpr (blocks_of<Lanes> == 1)
+    return load8(blocks[i].*eight);
+  else
+    return join<Lanes>(load8(blocks[i].*eight), i + 1 < blocks.size() ? load8(blocks[i + 1].*eight) : Float8{});
+}
+template <class Lanes, class Block>
+inline void store(std::span<Block> blocks, std::size_t i, float (Block::*eight)[8], Lanes values) {
+  if constexpr (blocks_of<Lanes> == 1) {
+    store8(blocks[i].*eight, values);
+  } else {
+    store8(blocks[i].*eight, low_half(values));
+    if (i + 1 < blocks.size()) store8(blocks[i + 1].*eight, high_half(values));
+  }
+}
+
+template <class Lanes>
+inline Lanes broadcast(float x) {
+  return x - Lanes{};  // not +, for -0
+}
+
+template <class Lanes>
+inline Lanes clamped(Lanes x, Lanes max) {
+  return minimum(maximum(x, Lanes{}), max);
+}
 
 /// Offsets from closest points, by lane, and the share that corner a has of these.
-struct Offset8 {
-  Float8 x, y, z, share, squared;
+template <class Lanes>
+struct OffsetLanes {
+  Lanes x, y, z, share, squared;
 
-  Offset8(Float8 ox, Float8 oy, Float8 oz, Float8 share_of_corner)
+  OffsetLanes(Lanes ox, Lanes oy, Lanes oz, Lanes share_of_corner)
       : x(ox), y(oy), z(oz), share(share_of_corner), squared(ox * ox + oy * oy + oz * oz) {}
-  [[nodiscard]] Offset8 or_nearer(const Offset8& other) const {
-    const Mask8 nearer = other.squared < squared;
-    Offset8 result = *this;
+  [[nodiscard]] OffsetLanes or_nearer(const OffsetLanes& other) const {
+    const auto nearer = other.squared < squared;
+    OffsetLanes result = *this;
     result.x = nearer ? other.x : x;
     result.y = nearer ? other.y : y;
     result.z = nearer ? other.z : z;
@@ -33,12 +64,13 @@ struct Offset8 {
 };
 
 /// The least of the squared lengths of offsets, by lane.
-struct LeastSquared8 {
-  Float8 squared;
+template <class Lanes>
+struct LeastSquaredLanes {
+  Lanes squared;
 
-  explicit LeastSquared8(const Offset8& offset) : squared(offset.squared) {}
-  [[nodiscard]] LeastSquared8 or_nearer(const Offset8& other) const {
-    LeastSquared8 result = *this;
+  explicit LeastSquaredLanes(const OffsetLanes<Lanes>& offset) : squared(offset.squared) {}
+  [[nodiscard]] LeastSquaredLanes or_nearer(const OffsetLanes<Lanes>& other) const {
+    LeastSquaredLanes result = *this;
     result.squared = minimum(other.squared, squared);
     return result;
   }
@@ -47,96 +79,141 @@ struct LeastSquared8 {
 /// What `Nearest` keeps of the offset from the closest point of a face. For any w the nearest point of the line through
 /// w on ac and parallel to ab is found first: with the best w, that is the closest point unless it lies on ac or bc. A
 /// shared side ac is left to the other face.
-template <class Nearest>
-inline Nearest nearest_on(const SampleFace& f, Float8 x, Float8 y, Float8 z) {
-  const Float8 one = broadcast8(1);
-  const Float8 px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
-  const Float8 on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
-  const Float8 on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
-  const Float8 w = clamped((f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area, one);
-  const Float8 v = clamped((on_ab - w * f.ab_ac) * f.by_ab, one - w);
-  const Offset8 inside(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
-                       one - v - w);
-  const Float8 along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
-  const Offset8 from_bc(px - back * f.ab.x - along * f.ac.x, py - back * f.ab.y - along * f.ac.y,
-                        pz - back * f.ab.z - along * f.ac.z, Float8{});
+template <class Nearest, class Lanes>
+inline Nearest nearest_on(const SampleFace& f, Lanes x, Lanes y, Lanes z) {
+  const Lanes one = broadcast<Lanes>(1);
+  const Lanes px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
+  const Lanes on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
+  const Lanes on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
+  const Lanes w = clamped((f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area, one);
+  const Lanes v = clamped((on_ab - w * f.ab_ac) * f.by_ab, one - w);
+  const OffsetLanes inside(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
+                           one - v - w);
+  const Lanes along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
+  const OffsetLanes from_bc(px - back * f.ab.x - along * f.ac.x, py - back * f.ab.y - along * f.ac.y,
+                            pz - back * f.ab.z - along * f.ac.z, Lanes{});
   if (f.shares_ac) return Nearest(inside).or_nearer(from_bc);
-  const Float8 on = clamped(on_ac * f.by_ac, one);
-  const Offset8 from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
+  const Lanes on = clamped(on_ac * f.by_ac, one);
+  const OffsetLanes from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
   return Nearest(inside).or_nearer(from_ac).or_nearer(from_bc);
 }
 
 /// The offset from the nearest face so far, and which one it is.
-struct Closest8 {
-  Offset8 offset{Float8{}, Float8{}, broadcast8(HUGE_VALF), Float8{}};
-  Float8 face{};
+template <class Lanes>
+struct Closest {
+  OffsetLanes<Lanes> offset{Lanes{}, Lanes{}, broadcast<Lanes>(HUGE_VALF), Lanes{}};
+  Lanes face{};
 
-  void offer(const Offset8& other, Float8 index) {
-    face = other.squared < offset.squared ? index : face;
+  void offer(const OffsetLanes<Lanes>& other, float index) {
+    face = other.squared < offset.squared ? broadcast<Lanes>(index) : face;
     offset = offset.or_nearer(other);
   }
 };
 
-inline Closest8 closest_of(const SamplePoints::Block& points, std::span<const SampleFace> faces) {
-  Closest8 at;
-  const Float8 x = load8(points.x), y = load8(points.y), z = load8(points.z);
+template <class Lanes>
+inline Closest<Lanes> closest_of(std::span<const SamplePoints::Block> points, std::size_t i,
+                                 std::span<const SampleFace> faces) {
+  using Block = SamplePoints::Block;
+  Closest<Lanes> at;
+  const Lanes x = load<Lanes>(points, i, &Block::x), y = load<Lanes>(points, i, &Block::y),
+              z = load<Lanes>(points, i, &Block::z);
   for (std::size_t k = 0; k < faces.size(); ++k)
-    at.offer(nearest_on<Offset8>(faces[k], x, y, z), broadcast8(static_cast<float>(k)));
+    at.offer(nearest_on<OffsetLanes<Lanes>>(faces[k], x, y, z), static_cast<float>(k));
   return at;
 }
 
 inline void offsets(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
                     std::span<SampleOffsets> offsets) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto [at, face] = closest_of(points[i], faces);
-    store8(offsets[i].x, at.x);
-    store8(offsets[i].y, at.y);
-    store8(offsets[i].z, at.z);
-    store8(offsets[i].squared, at.squared);
-    store8(offsets[i].share, at.share);
-    store8(offsets[i].face, face);
+  for (std::size_t i = 0; i < points.size(); i += blocks_of<Floats>) {
+    const auto [at, face] = closest_of<Floats>(points, i, faces);
+    store(offsets, i, &SampleOffsets::x, at.x);
+    store(offsets, i, &SampleOffsets::y, at.y);
+    store(offsets, i, &SampleOffsets::z, at.z);
+    store(offsets, i, &SampleOffsets::squared, at.squared);
+    store(offsets, i, &SampleOffsets::share, at.share);
+    store(offsets, i, &SampleOffsets::face, face);
   }
 }
 
 inline void distances(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
                       std::span<SampleDistances> distances) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Float8 x = load8(points[i].x), y = load8(points[i].y), z = load8(points[i].z);
-    Float8 least = broadcast8(HUGE_VALF), face{};
+  using Block = SamplePoints::Block;
+  for (std::size_t i = 0; i < points.size(); i += blocks_of<Floats>) {
+    const Floats x = load<Floats>(points, i, &Block::x), y = load<Floats>(points, i, &Block::y),
+                 z = load<Floats>(points, i, &Block::z);
+    Floats least = broadcast_floats(HUGE_VALF), face{};
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      const Float8 squared = nearest_on<LeastSquared8>(faces[k], x, y, z).squared;
-      face = squared < least ? broadcast8(static_cast<float>(k)) : face;
+      const Floats squared = nearest_on<LeastSquaredLanes<Floats>>(faces[k], x, y, z).squared;
+      face = squared < least ? broadcast_floats(static_cast<float>(k)) : face;
       least = minimum(squared, least);
     }
-    store8(distances[i].squared, least);
-    store8(distances[i].face, face);
+    store(distances, i, &SampleDistances::squared, least);
+    store(distances, i, &SampleDistances::face, face);
   }
 }
 
+/// Sums over the even blocks and over the odd ones: a vector that is wide enough has both side by side.
+template <template <class> class Sums>
+class EvenAndOdd {
+ public:
+  /// `add(sums, i)` adds block i, and the next one where vectors are wide.
+  template <class Add>
+  EvenAndOdd(std::size_t blocks, const Add& add) {
+    for (std::size_t i = 0; i < blocks; i += 2) add(even_, i);
+    for (std::size_t i = 1; blocks_of<Floats> == 1 && i < blocks; i += 2) add(odd_, i);
+  }
+  /// One of the sums, by eight lanes, over all blocks.
+  [[nodiscard]] Float8 of(Floats Sums<Floats>::*sum) const {
+    if constexpr (blocks_of<Floats> == 1)
+      return even_.*sum + odd_.*sum;
+    else
+      return low_half(even_.*sum) + high_half(even_.*sum);
+  }
+
+ private:
+  Sums<Floats> even_, odd_;
+};
+
+/// The sums of `DeviationSums`, by lane.
+template <class Lanes>
+struct DeviationLanes {
+  Lanes sum{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+
+  /// Offsets in tolerances, of which corner a has these shares, and their squared lengths times the weights, 0 or 1.
+  void add(Lanes x, Lanes y, Lanes z, Lanes share, Lanes square, Lanes weight) {
+    const Lanes fourth = weight * square * square;
+    const Lanes first = share * fourth, second = share * share * square;
+    sum += fourth * square;
+    gx += first * x, gy += first * y, gz += first * z;
+    xx += second * x * x, yy += second * y * y, zz += second * z * z;
+    xy += second * x * y, yz += second * y * z, zx += second * z * x;
+  }
+};
+
 inline void add_deviations(const SamplePoints& points, std::span<const SampleFace> faces, float by_tolerance,
                            DeviationSums& sums) {
-  Float8 sum{}, worst{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
-  for (const SamplePoints::Block& block : points.blocks) {
-    const Offset8 at = closest_of(block, faces).offset;
-    const Float8 weight = load8(block.weight);
-    const Float8 square = weight * at.squared * (by_tolerance * by_tolerance);
-    const Float8 ox = at.x * by_tolerance, oy = at.y * by_tolerance, oz = at.z * by_tolerance;
-    const Float8 fourth = weight * square * square;
-    const Float8 first = at.share * fourth, second = at.share * at.share * square;
-    sum += fourth * square;
-    worst = maximum(worst, square);
-    gx += first * ox, gy += first * oy, gz += first * oz;
-    xx += second * ox * ox, yy += second * oy * oy, zz += second * oz * oz;
-    xy += second * ox * oy, yz += second * oy * oz, zx += second * oz * ox;
-  }
-  for (int k = 0; k < 8; ++k) {
-    sums.sum += double{sum[k]};
-    sums.worst_squared = std::fmax(sums.worst_squared, double{worst[k]});
-    sums.gradient[0] -= 6 * double{gx[k]}, sums.gradient[1] -= 6 * double{gy[k]}, sums.gradient[2] -= 6 * double{gz[k]};
-    sums.curvature[0] += 30 * double{xx[k]}, sums.curvature[1] += 30 * double{yy[k]};
-    sums.curvature[2] += 30 * double{zz[k]}, sums.curvature[3] += 30 * double{xy[k]};
-    sums.curvature[4] += 30 * double{yz[k]}, sums.curvature[5] += 30 * double{zx[k]};
-  }
+  const std::span<const SamplePoints::Block> blocks = points.blocks;
+  Floats worst{};
+  using L = DeviationLanes<Floats>;
+  const EvenAndOdd<DeviationLanes> lanes(blocks.size(), [&](L& into, std::size_t i) {
+    const OffsetLanes<Floats> at = closest_of<Floats>(blocks, i, faces).offset;
+    const Floats weight = load<Floats>(blocks, i, &SamplePoints::Block::weight);
+    const Floats square = weight * at.squared * (by_tolerance * by_tolerance);
+    worst = maximum(square, worst);
+    into.add(at.x * by_tolerance, at.y * by_tolerance, at.z * by_tolerance, at.share, square, weight);
+  });
+  const auto sum_of = [&](Floats L::*of) {
+    double sum = 0;
+    for (int k = 0; k < 8; ++k) sum += double{lanes.of(of)[k]};
+    return sum;
+  };
+  sums.sum += sum_of(&L::sum);
+  sums.worst_squared = std::fmax(sums.worst_squared, double{largest_lane(worst)});
+  sums.gradient[0] -= 6 * sum_of(&L::gx), sums.gradient[1] -= 6 * sum_of(&L::gy),
+      sums.gradient[2] -= 6 * sum_of(&L::gz);
+  sums.curvature[0] += 30 * sum_of(&L::xx), sums.curvature[1] += 30 * sum_of(&L::yy);
+  sums.curvature[2] += 30 * sum_of(&L::zz), sums.curvature[3] += 30 * sum_of(&L::xy);
+  sums.curvature[4] += 30 * sum_of(&L::yz), sums.curvature[5] += 30 * sum_of(&L::zx);
 }
 
 }  // namespace MESHBOUND_ISA
