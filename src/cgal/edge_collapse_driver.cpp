@@ -39,7 +39,7 @@ struct Run {
   RegionCollapses& collapses;
   RegionMesh& region;
   CollapseCost cost;
-  bool collects = true;  ///< no edge has been popped yet
+  bool collects = true;  ///< CGAL is about to put edges into its queue: at the start, and after each collapse
   std::uint32_t asked = 0;
 
   [[nodiscard]] Placement best_placement(const Profile& profile) const {
@@ -47,8 +47,14 @@ struct Run {
     return meshbound::best_placement(quadrics[region.vertex[profile.v0()]], quadrics[region.vertex[profile.v1()]],
                                      to_vec3(profile.p0()), to_vec3(profile.p1()));
   }
-  [[nodiscard]] Corner corner_of(const Profile& profile) const {
-    return corner_between(collapses.mesh(), region.vertex[profile.v0()], region.vertex[profile.v1()]);
+  [[nodiscard]] Corner corner_of(Vertex a, Vertex b) const {
+    return corner_between(collapses.mesh(), region.vertex[a], region.vertex[b]);
+  }
+  /// Whether a collapse of the edge may be tried: it is open, and CGAL has all that is around it.
+  [[nodiscard]] bool may_collapse(Vertex a, Vertex b) const {
+    if (region.is_inner[a] == 0 || region.is_inner[b] == 0) return false;
+    const Corner corner = corner_of(a, b);
+    return corner != no_index && collapses.is_open(corner);
   }
   /// Absent if the planes refuse the edge: CGAL passes over edges without a cost before it looks at what is around
   /// them.
@@ -58,7 +64,7 @@ struct Run {
     sum += state.quadrics[region.vertex[profile.v1()]];
     const double squared_distances = sum.at(to_vec3(placement));
     if (squared_distances > sum.planes() * state.limit * state.limit) {  // else it is near its planes
-      const Corner corner = corner_of(profile);
+      const Corner corner = corner_of(profile.v0(), profile.v1());
       if (corner != no_index && collapses.refuses_unseen(corner)) return {};
     }
     return squared_distances;
@@ -97,17 +103,13 @@ struct Stop {
   }
 };
 
-/// CGAL's last question before it collapses an edge: here the array mesh makes and proves the collapse. CGAL asks again
-/// for all edges around the vertices of a collapse; an edge that was refused is tried again only if a face at one of
-/// its ends has changed, and one that leads beyond what CGAL has of the region waits.
+/// CGAL's last question before it collapses an edge: here the array mesh makes and proves the collapse.
 struct Filter {
   Run* run;
 
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
-    const std::vector<std::uint8_t>& is_inner = run->region.is_inner;
-    if (is_inner[profile.v0()] == 0 || is_inner[profile.v1()] == 0) return {};
-    const Corner corner = run->corner_of(profile);
-    if (corner == no_index || run->collapses.is_refused(corner)) return {};
+    if (!run->may_collapse(profile.v0(), profile.v1())) return {};
+    const Corner corner = run->corner_of(profile.v0(), profile.v1());
     // Without a wish the core takes the placement of the quadrics, which is what they gave here.
     std::optional<Vec3> wanted;
     if (run->cost != CollapseCost::GarlandHeckbert) wanted = to_vec3(*placement);
@@ -128,10 +130,13 @@ struct Visitor : SMS::Edge_collapse_visitor_base<SurfaceMesh> {
     const std::uint32_t vertex = run->collapses.kept();
     run->region.vertex[kept] = vertex;
     run->region.mesh.point(kept) = to_point(run->collapses.mesh().position(vertex));
+    run->collects = true;
   }
 };
 
-/// Skips edges that were refused before, as long as nothing near them changes.
+/// After each collapse CGAL puts all edges around the neighbours of its vertex into its queue. Those that may not be
+/// collapsed as they are stay out: one that was refused is open again only if a face at one of its ends has changed,
+/// and one that leads beyond what CGAL has of the region waits.
 struct Constraint {
   using key_type = Edge;
   using value_type = bool;
@@ -139,7 +144,10 @@ struct Constraint {
   using category = boost::readable_property_map_tag;
 
   const Run* run;
-  friend bool get(const Constraint& map, Edge edge) { return map.run->collects && map.run->region.is_open[edge] == 0; }
+  friend bool get(const Constraint& map, Edge edge) {
+    const SurfaceMesh& mesh = map.run->region.mesh;
+    return map.run->collects && !map.run->may_collapse(mesh.vertex(edge, 0), mesh.vertex(edge, 1));
+  }
 };
 
 }  // namespace

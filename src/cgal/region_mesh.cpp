@@ -115,9 +115,7 @@ class Builder {
           rim_.push_back(c);
         else
           halfedge_of(twin) = mesh_.opposite(h);
-        const bool is_open = collapses_.is_open(c);
-        into_.is_open.push_back(is_open ? 1 : 0);
-        if (is_open && mesh_.point(start) == mesh_.point(end)) into_.has_edge_of_no_length = true;
+        if (collapses_.is_open(c) && mesh_.point(start) == mesh_.point(end)) into_.has_edge_of_no_length = true;
         for (const Vertex v : {start, end})
           into_.max_edges_of_vertex = std::max<std::size_t>(into_.max_edges_of_vertex, ++edges_at[v]);
       }

@@ -25,7 +25,6 @@ struct RegionMesh {
   SurfaceMesh mesh;
   std::vector<std::uint32_t> vertex;   ///< by vertex of `mesh`: vertex of the array mesh
   std::vector<std::uint8_t> is_inner;  ///< by vertex of `mesh`: all of its faces that belong to the region are taken
-  std::vector<std::uint8_t> is_open;   ///< by edge of `mesh`, at the start: see `RegionCollapses::is_open`
   std::size_t max_edges_of_vertex = 0;
   bool has_edge_of_no_length = false;  ///< among the open edges
 };

@@ -38,8 +38,6 @@ class RegionCollapses {
   [[nodiscard]] bool owns_face(std::uint32_t face) const;
   /// Whether both ends of the edge belong to the region, and it was not refused as it is now.
   [[nodiscard]] bool is_open(Corner edge) const;
-  /// Whether the edge was refused, and nothing near has changed since that may help.
-  [[nodiscard]] bool is_refused(Corner edge) const { return !state_.is_open(edge); }
   /// Calls `visit(edge)` for each edge that begins in the region.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
