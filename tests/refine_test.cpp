@@ -256,13 +256,16 @@ TEST(RelaxedCollapse, LeavesNothingBehindWhereItFails) {
 }
 
 /// A collapse that samples find near enough, but not its proof, may be made after all: others around it give it room.
+/// That is rare, and whether one terrain has such a collapse changes with the samples.
 TEST(RelaxedCollapse, MakesMoreRoomWhereAProofFails) {
-  Relaxing relaxing(datasets::terrain(1, 40, 3), 0.005);
   int made_after_all = 0;
-  relaxing.for_each_edge([&](Corner edge) {
-    const std::uint64_t before = relaxing.prover().unproven;
-    if (relaxing.run(edge) && relaxing.prover().unproven > before) ++made_after_all;
-  });
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Relaxing relaxing(datasets::terrain(1, 40, seed), 0.002);
+    relaxing.for_each_edge([&](Corner edge) {
+      const std::uint64_t before = relaxing.prover().unproven;
+      if (relaxing.run(edge) && relaxing.prover().unproven > before) ++made_after_all;
+    });
+  }
   EXPECT_GT(made_after_all, 0);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "datasets/analytic_meshes.h"
 #include "decimation_states.h"
+#include "simplify/mesh/face_box.h"
 #include "simplify/propose.h"
 #include "simplify/region_collapses.h"
 #include "simplify/regions.h"
@@ -120,6 +122,18 @@ struct Collapsed {
       ASSERT_EQ(state->is_unproven(f), last[f] != 0) << "face " << f;
     }
   }
+  /// Samples in the lists of faces, each once; only those that others stand for are in none.
+  [[nodiscard]] std::set<std::uint32_t> listed_samples() const {
+    std::set<std::uint32_t> listed;
+    for (std::uint32_t f = 0; f < state->mesh.face_count(); ++f) {
+      for (std::uint32_t s = state->samples.first(f); s != no_index; s = state->samples.following(s)) {
+        EXPECT_FALSE(state->mesh.is_removed(f));
+        EXPECT_EQ(state->samples.face_of(s), f);
+        EXPECT_TRUE(listed.insert(s).second) << "sample " << s;
+      }
+    }
+    return listed;
+  }
   test::StateOf state;
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_of;
 };
@@ -131,6 +145,7 @@ TEST(Repair, UndoesAChangeWithThoseThatHaveTouchedItsFacesLater) {
     Collapsed it(original);
     it.expect_known();
     const std::size_t faces = it.state->mesh.face_count(), collapses = it.faces_of.size();
+    const std::size_t samples = it.listed_samples().size();
     std::mt19937 random(5);
     std::size_t rounds = 0;
     for (; !it.faces_of.empty(); ++rounds) {
@@ -148,7 +163,42 @@ TEST(Repair, UndoesAChangeWithThoseThatHaveTouchedItsFacesLater) {
     }
     EXPECT_LT(rounds, collapses);
     EXPECT_EQ(it.state->faces, faces);
+    const std::size_t left = it.listed_samples().size();
+    EXPECT_LE(left, samples);
+    EXPECT_GT(left, samples / 2) << "of many samples around a change, one may stand for two";
   }
+}
+
+/// Each sample comes to the nearest of the faces around the change that is undone.
+TEST(Repair, GivesSamplesToTheNearestFaces) {
+  test::StateOf state(datasets::terrain(1, 20, 3));
+  state->grow_tolerance(0.05);
+  state->set_samples(0.05);
+  Split split = whole(*state);
+  Region& region = split.regions.front();
+  Proposer proposer(*state);
+  proposer.enter(split, region);
+  Corner edge = 0;
+  std::optional<Vec3> point;
+  for (; !point; ++edge) point = proposer.placement(edge, 1, std::nullopt);
+  proposer.collapse(region, *point);
+  proposer.make_final(region);
+  const auto span = proposer.changed_faces();
+  const std::vector<std::uint32_t> faces(span.begin(), span.end());
+  merge(*state, std::move(split));
+  ASSERT_EQ(repair(*state, {{}, {faces.front()}}).changes, 1U);
+  const auto squared_from = [&](std::uint32_t face, std::uint32_t sample) {
+    return squared_distance(state->mesh.triangle(face), state->samples.at(sample));
+  };
+  std::size_t count = 0;
+  for (const std::uint32_t f : faces) {
+    for (std::uint32_t s = state->samples.first(f); s != no_index; s = state->samples.following(s), ++count) {
+      double least = HUGE_VAL;
+      for (const std::uint32_t other : faces) least = std::min(least, squared_from(other, s));
+      EXPECT_NEAR(squared_from(f, s), least, 1e-12) << "they lie on faces, to single precision";
+    }
+  }
+  EXPECT_GT(count, faces.size());
 }
 
 }  // namespace repair_test

@@ -10,8 +10,8 @@
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
 #include "simplify/mesh/face_box.h"
-#include "simplify/mesh/nearest_triangle.h"
 #include "simplify/normals/refuted_turns.h"
+#include "simplify/star_samples.h"
 #include "simplify/texture/refuted_texture.h"
 #include "simplify/texture/texture_guard.h"
 
@@ -53,7 +53,7 @@ class Undoing {
   explicit Undoing(DecimationState& state) : Undoing(state, state.last_changes, state.logs) {}
   /// `logs` has the changes, `last` the last of them.
   Undoing(DecimationState& state, LastChanges& last, std::vector<EditLog>& logs)
-      : state_(state), last_(last), logs_(logs) {}
+      : state_(state), last_(last), logs_(logs), samples_(state) {}
 
   /// Marks the last change of a face to be undone, and to be tried again with a smaller share of the tolerance. False
   /// if there is none.
@@ -160,20 +160,28 @@ class Undoing {
     at_start = at_end = smaller_share * std::min(at_start, at_end);
   }
 
-  /// Those of the faces around a vertex.
+  /// Takes those of the faces around a vertex away from these.
   void gather_samples(std::uint32_t vertex) {
-    samples_.clear();
+    faces_.clear();
     state_.mesh.for_each_corner(vertex, [&](Corner c) {
-      for (std::uint32_t s = state_.samples.first(c / 3); s != no_index; s = state_.samples.following(s))
-        samples_.push_back(s);
-      state_.samples.clear(c / 3);
+      faces_.push_back(c / 3);
       return true;
     });
+    origin_ = state_.mesh.position(vertex);
+    samples_.begin(origin_);
+    samples_.add_faces(faces_);
+    for (const std::uint32_t face : faces_) state_.samples.clear(face);
   }
+  /// Gives each of them to the nearest of the faces.
   void give_samples() {
-    nearest_.clear();
-    for (const std::uint32_t face : faces_) nearest_.add(state_.mesh.triangle(face));
-    for (const std::uint32_t s : samples_) state_.samples.give_to(s, faces_[nearest_(state_.samples.at(s))]);
+    sample_faces_.clear();
+    for (const std::uint32_t face : faces_) {
+      const auto [a, b, c] = state_.mesh.triangle(face);
+      sample_faces_.emplace_back(a - origin_, b - origin_, c - origin_);
+    }
+    samples_.compare(sample_faces_);
+    (void)samples_.hold({}, HUGE_VAL);
+    samples_.give(faces_);
   }
 
   DecimationState& state_;
@@ -182,8 +190,10 @@ class Undoing {
   std::priority_queue<std::uint32_t> wanted_;
   std::size_t undone_ = 0;
   std::vector<std::uint32_t> at_fault_, changed_, vertices_;
-  std::vector<std::uint32_t> faces_, samples_;  ///< around the change that is being undone
-  NearestTriangle nearest_;
+  std::vector<std::uint32_t> faces_;  ///< around the change that is being undone
+  Vec3 origin_;                       ///< a point there
+  StarSamples samples_;
+  std::vector<SampleFace> sample_faces_;
 };
 
 /// The face nearest to a vertex of the original.
