@@ -108,29 +108,32 @@ class Cutter {
   std::uint32_t count_ = 0;  ///< of regions
 };
 
-void assign_faces(const DecimationState& state, Split& split) {
-  split.region_of_face.assign(state.mesh.face_count(), no_index);
-  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f) {
-    if (state.mesh.is_removed(f)) continue;
-    const auto [a, b, c] = state.mesh.corners(f);
-    const std::uint32_t region = split.region_of[a];
-    if (split.region_of[b] == region && split.region_of[c] == region) split.region_of_face[f] = region;
-  }
-}
+/// Faces that one thread takes at a time.
+constexpr std::size_t faces_at_once = 16384;
 
-/// The numbers of changes of a region follow those of the regions before: there are fewer than faces.
-void make_regions(const DecimationState& state, Split& split, std::uint32_t count) {
-  std::vector<std::uint32_t> faces(count, 0);
-  for (std::uint32_t f = 0; f < state.mesh.face_count(); ++f) {
-    if (state.mesh.is_removed(f)) continue;
-    const std::uint32_t r = split.region_of.empty() ? 0 : split.region_of[state.mesh.vertex(3 * f)];
-    ++faces[r];
-  }
-  std::uint32_t number = state.last_number();
-  for (std::uint32_t r = 0; r < count; ++r) {
-    split.regions.push_back({r, EditLog{number, {}, {}, {}, {}}, {}, 0, {}, {}});
-    number += faces[r];
-  }
+/// Gives faces to the region of all their vertices. Returns how many have their first vertex in each region.
+std::vector<std::uint32_t> assign_faces(const DecimationState& state, Split& split, std::uint32_t regions,
+                                        int threads) {
+  const ArrayMesh& mesh = state.mesh;
+  split.region_of_face.resize(mesh.face_count());
+  std::vector<std::vector<std::uint32_t>> counts(mesh.face_count() / faces_at_once + 1);
+  const auto assign = [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> count(regions, 0);
+    for (auto f = static_cast<std::uint32_t>(begin); f < end; ++f) {
+      split.region_of_face[f] = no_index;
+      if (mesh.is_removed(f)) continue;
+      const auto [a, b, c] = mesh.corners(f);
+      const std::uint32_t region = split.region_of[a];
+      ++count[region];
+      if (split.region_of[b] == region && split.region_of[c] == region) split.region_of_face[f] = region;
+    }
+    counts[begin / faces_at_once] = std::move(count);
+  };
+  with_team(threads, [&] { for_each_range(mesh.face_count(), faces_at_once, assign); });
+  std::vector<std::uint32_t> faces(regions, 0);
+  for (const std::vector<std::uint32_t>& count : counts)
+    for (std::uint32_t r = 0; r < count.size(); ++r) faces[r] += count[r];
+  return faces;
 }
 
 }  // namespace
@@ -145,15 +148,17 @@ Split split(const DecimationState& state, int shift, std::size_t min_vertices, i
   auto vertices = cutter.run(shift == 0 ? count : count + 1, threads);
   count = static_cast<std::uint32_t>(vertices.size());
   if (count == 1) return whole(state);
-  assign_faces(state, result);
-  make_regions(state, result, count);
-  for (std::uint32_t r = 0; r < count; ++r) result.regions[r].vertices = std::move(vertices[r]);
+  const std::vector<std::uint32_t> faces = assign_faces(state, result, count, threads);
+  // The numbers of changes of a region follow those of the regions before: there are fewer than faces.
+  std::uint32_t number = state.last_number();
+  for (std::uint32_t r = 0; r < count; number += faces[r++])
+    result.regions.push_back({r, EditLog{number, {}, {}, {}, {}}, {}, 0, std::move(vertices[r]), {}});
   return result;
 }
 
 Split whole(const DecimationState& state) {
   Split result;
-  make_regions(state, result, 1);
+  result.regions.push_back({0, EditLog{state.last_number(), {}, {}, {}, {}}, {}, 0, {}, {}});
   return result;
 }
 
