@@ -13,6 +13,7 @@
 #include "meshbound/bvh.h"
 #include "meshbound/proximity.h"
 #include "numeric/marked_ids.h"
+#include "numeric/sort_keys.h"
 #include "reference/small_meshes.h"
 #include "simplify/cover/forward_cover.h"
 #include "simplify/mesh/edge_notes.h"
@@ -21,6 +22,22 @@
 
 namespace meshbound {
 namespace scratch_memory_test {
+
+/// Keys that differ in their highest bits, in their lowest ones only, or not at all, and none.
+TEST(SortKeys, SortsAsTheStandardLibraryDoes) {
+  std::mt19937_64 random(6);
+  std::vector<std::uint64_t> scratch{3, 1, 2};
+  for (const std::size_t count : {0U, 1U, 2U, 97U, 3000U}) {
+    for (const int shift : {0, 20, 55, 63}) {
+      std::vector<std::uint64_t> keys(count);
+      for (std::uint64_t& key : keys) key = random() >> shift;
+      std::vector<std::uint64_t> expected = keys;
+      std::sort(expected.begin(), expected.end());
+      sort_keys(keys, scratch);
+      EXPECT_EQ(keys, expected) << count << " keys, shifted by " << shift;
+    }
+  }
+}
 
 /// Few numbers and many, next to each other and far apart: multiples of a power of two would share their low bits.
 TEST(MarkedIds, AreASetThatIsEmptiedAgainAndAgain) {

@@ -7,6 +7,7 @@
 
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
+#include "numeric/sort_keys.h"
 #include "simplify/mesh/face_box.h"
 
 namespace meshbound {
@@ -235,7 +236,7 @@ void StarSamples::sort_along_curve() {
     build_kernels_.hilbert_indices(cells, curve_bits, places);
     for (std::size_t i = 0; i < count; ++i) order_.push_back(places[i] << index_bits | (begin + i));
   }
-  std::sort(order_.begin(), order_.end());
+  sort_keys(order_, scratch_);
 }
 
 /// Lets one sample stand for two that lie near each other in one plane: the one that is farther from the mesh.

@@ -98,6 +98,7 @@ class StarSamples {
   std::vector<SampleOffsets> offsets_;                          ///< of the points from the changed faces
   std::vector<std::pair<std::size_t, std::uint32_t>> outside_;  ///< points that only a face beside is near
   std::vector<std::uint64_t> order_;  ///< places along a curve, in the lower bits the points there
+  std::vector<std::uint64_t> scratch_;
 };
 
 }  // namespace meshbound
