@@ -22,9 +22,8 @@ inline void sort_keys(std::vector<std::uint64_t>& keys, std::vector<std::uint64_
   scratch.resize(keys.size());
   for (const std::uint64_t key : keys) scratch[end[part(key)]++] = key;
   keys.swap(scratch);
-  auto first = keys.begin();
-  for (const std::uint32_t stop : end) {
-    const auto last = keys.begin() + stop;
+  for (auto first = keys.begin(); first != keys.end();) {
+    const auto last = keys.begin() + end[part(*first)];
     std::sort(first, last);
     first = last;
   }
