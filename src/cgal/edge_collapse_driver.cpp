@@ -50,11 +50,11 @@ struct Run {
   [[nodiscard]] Corner corner_of(Vertex a, Vertex b) const {
     return corner_between(collapses.mesh(), region.vertex[a], region.vertex[b]);
   }
-  /// Whether a collapse of the edge may be tried: it is open, and CGAL has all that is around it.
-  [[nodiscard]] bool may_collapse(Vertex a, Vertex b) const {
-    if (region.is_inner[a] == 0 || region.is_inner[b] == 0) return false;
+  /// The corner of an edge whose collapse may be tried, as it is open and CGAL has all that is around it; or none.
+  [[nodiscard]] Corner open_corner(Vertex a, Vertex b) const {
+    if (region.is_inner[a] == 0 || region.is_inner[b] == 0) return no_index;
     const Corner corner = corner_of(a, b);
-    return corner != no_index && collapses.is_open(corner);
+    return corner != no_index && collapses.is_open(corner) ? corner : no_index;
   }
   /// Absent if the planes refuse the edge: CGAL passes over edges without a cost before it looks at what is around
   /// them.
@@ -108,8 +108,8 @@ struct Filter {
   Run* run;
 
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
-    if (!run->may_collapse(profile.v0(), profile.v1())) return {};
-    const Corner corner = run->corner_of(profile.v0(), profile.v1());
+    const Corner corner = run->open_corner(profile.v0(), profile.v1());
+    if (corner == no_index) return {};
     // Without a wish the core takes the placement of the quadrics, which is what they gave here.
     std::optional<Vec3> wanted;
     if (run->cost != CollapseCost::GarlandHeckbert) wanted = to_vec3(*placement);
@@ -146,7 +146,7 @@ struct Constraint {
   const Run* run;
   friend bool get(const Constraint& map, Edge edge) {
     const SurfaceMesh& mesh = map.run->region.mesh;
-    return map.run->collects && !map.run->may_collapse(mesh.vertex(edge, 0), mesh.vertex(edge, 1));
+    return map.run->collects && map.run->open_corner(mesh.vertex(edge, 0), mesh.vertex(edge, 1)) == no_index;
   }
 };
 
