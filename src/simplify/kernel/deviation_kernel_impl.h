@@ -49,31 +49,29 @@ inline void linearise(const SamplePoints& points, std::span<const SampleFace> fa
 constexpr float min_squares[] = {1, 0x1p-60F, 0x1p-20F, 0.002629F, 0x1p-4F, 0.2614F};
 
 /// Deviations of one block or of two after a move, with their slopes.
-template <class Lanes>
 struct MovedLanes {
-  Lanes x, y, z, deviation;
+  Floats x, y, z, deviation;
 
   MovedLanes(std::span<const LinearDeviations::Block> blocks, std::size_t i, const DeviationKernel::Move& move)
-      : x(load<Lanes>(blocks, i, &LinearDeviations::Block::x)),
-        y(load<Lanes>(blocks, i, &LinearDeviations::Block::y)),
-        z(load<Lanes>(blocks, i, &LinearDeviations::Block::z)),
-        deviation(load<Lanes>(blocks, i, &LinearDeviations::Block::deviation) - x * move[0] - y * move[1] -
+      : x(load<Floats>(blocks, i, &LinearDeviations::Block::x)),
+        y(load<Floats>(blocks, i, &LinearDeviations::Block::y)),
+        z(load<Floats>(blocks, i, &LinearDeviations::Block::z)),
+        deviation(load<Floats>(blocks, i, &LinearDeviations::Block::deviation) - x * move[0] - y * move[1] -
                   z * move[2]) {}
 };
 
 /// The sums of `WeightedSums`, by lane.
-template <class Lanes>
 struct WeightedLanes {
-  Lanes weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+  Floats weight{}, square{}, rx{}, ry{}, rz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
 
   /// The weight of a deviation h is (scale h)^2 to the power of 2^doublings - 1.
-  void add(const MovedLanes<Lanes>& moved, float scale, int doublings) {
+  void add(const MovedLanes& moved, float scale, int doublings) {
     const auto& [x, y, z, h] = moved;
-    Lanes power = (h * scale) * (h * scale);
-    power = power < broadcast<Lanes>(min_squares[doublings]) ? Lanes{} : power;
-    Lanes w = power;  // to the power of 2^k - 1 after k rounds
+    Floats power = (h * scale) * (h * scale);
+    power = power < broadcast_floats(min_squares[doublings]) ? Floats{} : power;
+    Floats w = power;  // to the power of 2^k - 1 after k rounds
     for (int k = 1; k < doublings; ++k) power = power * power, w = w * power;
-    const Lanes wx = w * x, wy = w * y, wz = w * z;
+    const Floats wx = w * x, wy = w * y, wz = w * z;
     weight += w, square += w * h * h;
     rx += wx * h, ry += wy * h, rz += wz * h;
     xx += wx * x, yy += wy * y, zz += wz * z;
@@ -83,9 +81,9 @@ struct WeightedLanes {
 
 inline WeightedSums weighted_sums(const LinearDeviations& deviations, const DeviationKernel::Move& move, float scale,
                                   int doublings) {
-  using L = WeightedLanes<Floats>;
+  using L = WeightedLanes;
   const EvenAndOdd<WeightedLanes> lanes(deviations.blocks.size(), [&](L& into, std::size_t i) {
-    into.add(MovedLanes<Floats>(deviations.blocks, i, move), scale, doublings);
+    into.add(MovedLanes(deviations.blocks, i, move), scale, doublings);
   });
   const auto sum = [&](Floats L::*of) {
     float all = 0;
@@ -103,7 +101,7 @@ inline std::array<float, DeviationKernel::shares> largest_along(
     const std::array<float, DeviationKernel::shares>& share) {
   Floats largest[DeviationKernel::shares] = {};
   for (std::size_t i = 0; i < deviations.blocks.size(); i += blocks_of<Floats>) {
-    const MovedLanes<Floats> at(deviations.blocks, i, move);
+    const MovedLanes at(deviations.blocks, i, move);
     const Floats change = at.x * step[0] + at.y * step[1] + at.z * step[2];
     for (std::size_t k = 0; k < DeviationKernel::shares; ++k) {
       const Floats after = at.deviation - change * share[k];

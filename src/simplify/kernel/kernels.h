@@ -18,7 +18,7 @@ struct SimplifyKernels {
   SlabKernel slabs;
 };
 
-/// All that this machine runs, the portable ones first and the fastest ones last.
+/// All that this machine runs, the fastest ones first and the portable ones last.
 [[nodiscard]] std::vector<SimplifyKernels> all_simplify_kernels();
 [[nodiscard]] SimplifyKernels simplify_kernels();  ///< the fastest ones
 

@@ -34,25 +34,16 @@ inline void store(std::span<Block> blocks, std::size_t i, float (Block::*eight)[
   }
 }
 
-template <class Lanes>
-inline Lanes broadcast(float x) {
-  return x - Lanes{};  // not +, for -0
-}
-
-template <class Lanes>
-inline Lanes clamped(Lanes x, Lanes max) {
-  return minimum(maximum(x, Lanes{}), max);
-}
+inline Floats clamped(Floats x, Floats max) { return minimum(maximum(x, Floats{}), max); }
 
 /// Offsets from closest points, by lane, and the share that corner a has of these.
-template <class Lanes>
 struct OffsetLanes {
-  Lanes x, y, z, share, squared;
+  Floats x, y, z, share, squared;
 
-  OffsetLanes(Lanes ox, Lanes oy, Lanes oz, Lanes share_of_corner)
+  OffsetLanes(Floats ox, Floats oy, Floats oz, Floats share_of_corner)
       : x(ox), y(oy), z(oz), share(share_of_corner), squared(ox * ox + oy * oy + oz * oz) {}
   [[nodiscard]] OffsetLanes or_nearer(const OffsetLanes& other) const {
-    const auto nearer = other.squared < squared;
+    const FloatsMask nearer = other.squared < squared;
     OffsetLanes result = *this;
     result.x = nearer ? other.x : x;
     result.y = nearer ? other.y : y;
@@ -64,12 +55,11 @@ struct OffsetLanes {
 };
 
 /// The least of the squared lengths of offsets, by lane.
-template <class Lanes>
 struct LeastSquaredLanes {
-  Lanes squared;
+  Floats squared;
 
-  explicit LeastSquaredLanes(const OffsetLanes<Lanes>& offset) : squared(offset.squared) {}
-  [[nodiscard]] LeastSquaredLanes or_nearer(const OffsetLanes<Lanes>& other) const {
+  explicit LeastSquaredLanes(const OffsetLanes& offset) : squared(offset.squared) {}
+  [[nodiscard]] LeastSquaredLanes or_nearer(const OffsetLanes& other) const {
     LeastSquaredLanes result = *this;
     result.squared = minimum(other.squared, squared);
     return result;
@@ -79,53 +69,51 @@ struct LeastSquaredLanes {
 /// What `Nearest` keeps of the offset from the closest point of a face. For any w the nearest point of the line through
 /// w on ac and parallel to ab is found first: with the best w, that is the closest point unless it lies on ac or bc. A
 /// shared side ac is left to the other face.
-template <class Nearest, class Lanes>
-inline Nearest nearest_on(const SampleFace& f, Lanes x, Lanes y, Lanes z) {
-  const Lanes one = broadcast<Lanes>(1);
-  const Lanes px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
-  const Lanes on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
-  const Lanes on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
-  const Lanes w = clamped((f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area, one);
-  const Lanes v = clamped((on_ab - w * f.ab_ac) * f.by_ab, one - w);
+template <class Nearest>
+inline Nearest nearest_on(const SampleFace& f, Floats x, Floats y, Floats z) {
+  const Floats one = broadcast_floats(1);
+  const Floats px = x - f.a.x, py = y - f.a.y, pz = z - f.a.z;
+  const Floats on_ab = px * f.ab.x + py * f.ab.y + pz * f.ab.z;
+  const Floats on_ac = px * f.ac.x + py * f.ac.y + pz * f.ac.z;
+  const Floats w = clamped((f.ab_ab * on_ac - f.ab_ac * on_ab) * f.by_area, one);
+  const Floats v = clamped((on_ab - w * f.ab_ac) * f.by_ab, one - w);
   const OffsetLanes inside(px - v * f.ab.x - w * f.ac.x, py - v * f.ab.y - w * f.ac.y, pz - v * f.ab.z - w * f.ac.z,
                            one - v - w);
-  const Lanes along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
+  const Floats along = clamped((on_ac - on_ab - f.ab_ac + f.ab_ab) * f.by_bc, one), back = one - along;
   const OffsetLanes from_bc(px - back * f.ab.x - along * f.ac.x, py - back * f.ab.y - along * f.ac.y,
-                            pz - back * f.ab.z - along * f.ac.z, Lanes{});
+                            pz - back * f.ab.z - along * f.ac.z, Floats{});
   if (f.shares_ac) return Nearest(inside).or_nearer(from_bc);
-  const Lanes on = clamped(on_ac * f.by_ac, one);
+  const Floats on = clamped(on_ac * f.by_ac, one);
   const OffsetLanes from_ac(px - on * f.ac.x, py - on * f.ac.y, pz - on * f.ac.z, one - on);
   return Nearest(inside).or_nearer(from_ac).or_nearer(from_bc);
 }
 
 /// The offset from the nearest face so far, and which one it is.
-template <class Lanes>
 struct Closest {
-  OffsetLanes<Lanes> offset{Lanes{}, Lanes{}, broadcast<Lanes>(HUGE_VALF), Lanes{}};
-  Lanes face{};
+  OffsetLanes offset{Floats{}, Floats{}, broadcast_floats(HUGE_VALF), Floats{}};
+  Floats face{};
 
-  void offer(const OffsetLanes<Lanes>& other, float index) {
-    face = other.squared < offset.squared ? broadcast<Lanes>(index) : face;
+  void offer(const OffsetLanes& other, float index) {
+    face = other.squared < offset.squared ? broadcast_floats(index) : face;
     offset = offset.or_nearer(other);
   }
 };
 
-template <class Lanes>
-inline Closest<Lanes> closest_of(std::span<const SamplePoints::Block> points, std::size_t i,
-                                 std::span<const SampleFace> faces) {
+inline Closest closest_of(std::span<const SamplePoints::Block> points, std::size_t i,
+                          std::span<const SampleFace> faces) {
   using Block = SamplePoints::Block;
-  Closest<Lanes> at;
-  const Lanes x = load<Lanes>(points, i, &Block::x), y = load<Lanes>(points, i, &Block::y),
-              z = load<Lanes>(points, i, &Block::z);
+  Closest at;
+  const Floats x = load<Floats>(points, i, &Block::x), y = load<Floats>(points, i, &Block::y),
+               z = load<Floats>(points, i, &Block::z);
   for (std::size_t k = 0; k < faces.size(); ++k)
-    at.offer(nearest_on<OffsetLanes<Lanes>>(faces[k], x, y, z), static_cast<float>(k));
+    at.offer(nearest_on<OffsetLanes>(faces[k], x, y, z), static_cast<float>(k));
   return at;
 }
 
 inline void offsets(std::span<const SamplePoints::Block> points, std::span<const SampleFace> faces,
                     std::span<SampleOffsets> offsets) {
   for (std::size_t i = 0; i < points.size(); i += blocks_of<Floats>) {
-    const auto [at, face] = closest_of<Floats>(points, i, faces);
+    const auto [at, face] = closest_of(points, i, faces);
     store(offsets, i, &SampleOffsets::x, at.x);
     store(offsets, i, &SampleOffsets::y, at.y);
     store(offsets, i, &SampleOffsets::z, at.z);
@@ -143,7 +131,7 @@ inline void distances(std::span<const SamplePoints::Block> points, std::span<con
                  z = load<Floats>(points, i, &Block::z);
     Floats least = broadcast_floats(HUGE_VALF), face{};
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      const Floats squared = nearest_on<LeastSquaredLanes<Floats>>(faces[k], x, y, z).squared;
+      const Floats squared = nearest_on<LeastSquaredLanes>(faces[k], x, y, z).squared;
       face = squared < least ? broadcast_floats(static_cast<float>(k)) : face;
       least = minimum(squared, least);
     }
@@ -153,7 +141,7 @@ inline void distances(std::span<const SamplePoints::Block> points, std::span<con
 }
 
 /// Sums over the even blocks and over the odd ones: a vector that is wide enough has both side by side.
-template <template <class> class Sums>
+template <class Sums>
 class EvenAndOdd {
  public:
   /// `add(sums, i)` adds block i, and the next one where vectors are wide.
@@ -163,7 +151,7 @@ class EvenAndOdd {
     for (std::size_t i = 1; blocks_of<Floats> == 1 && i < blocks; i += 2) add(odd_, i);
   }
   /// One of the sums, by eight lanes, over all blocks.
-  [[nodiscard]] Float8 of(Floats Sums<Floats>::*sum) const {
+  [[nodiscard]] Float8 of(Floats Sums::*sum) const {
     if constexpr (blocks_of<Floats> == 1)
       return even_.*sum + odd_.*sum;
     else
@@ -171,18 +159,17 @@ class EvenAndOdd {
   }
 
  private:
-  Sums<Floats> even_, odd_;
+  Sums even_, odd_;
 };
 
 /// The sums of `DeviationSums`, by lane.
-template <class Lanes>
 struct DeviationLanes {
-  Lanes sum{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+  Floats sum{}, gx{}, gy{}, gz{}, xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
 
   /// Offsets in tolerances, of which corner a has these shares, and their squared lengths times the weights, 0 or 1.
-  void add(Lanes x, Lanes y, Lanes z, Lanes share, Lanes square, Lanes weight) {
-    const Lanes fourth = weight * square * square;
-    const Lanes first = share * fourth, second = share * share * square;
+  void add(Floats x, Floats y, Floats z, Floats share, Floats square, Floats weight) {
+    const Floats fourth = weight * square * square;
+    const Floats first = share * fourth, second = share * share * square;
     sum += fourth * square;
     gx += first * x, gy += first * y, gz += first * z;
     xx += second * x * x, yy += second * y * y, zz += second * z * z;
@@ -194,9 +181,9 @@ inline void add_deviations(const SamplePoints& points, std::span<const SampleFac
                            DeviationSums& sums) {
   const std::span<const SamplePoints::Block> blocks = points.blocks;
   Floats worst{};
-  using L = DeviationLanes<Floats>;
+  using L = DeviationLanes;
   const EvenAndOdd<DeviationLanes> lanes(blocks.size(), [&](L& into, std::size_t i) {
-    const OffsetLanes<Floats> at = closest_of<Floats>(blocks, i, faces).offset;
+    const OffsetLanes at = closest_of(blocks, i, faces).offset;
     const Floats weight = load<Floats>(blocks, i, &SamplePoints::Block::weight);
     const Floats square = weight * at.squared * (by_tolerance * by_tolerance);
     worst = maximum(square, worst);
