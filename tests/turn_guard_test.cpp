@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <random>
 
 #include "simplify/mesh/face_box.h"
@@ -140,6 +142,55 @@ TEST(TurnGuard, LooksAtSamplesOfTheFacesAround) {
     EXPECT_EQ(holds(guard, lower, star, {3 + 1.0 / 3, 1 + 2.0 / 3, 0.5}), degrees > 90);
     EXPECT_TRUE(holds(guard, lower, star, {2, 2, -0.3}));
   }
+}
+
+/// Whether each sample of the star, the middles of its faces, turns by at most so much, looked at one by one. The first
+/// that turns more; absent if none does, or if it is not clear which face is nearest to one.
+struct SlowGuard {
+  std::optional<std::size_t> refused;
+  bool is_clear = true;
+};
+
+SlowGuard slow_guard(const ArrayMesh& mesh, const EdgeStar& star, Vec3 point, double degrees) {
+  std::vector<Corners> faces;
+  for (const Corner c : star.moved) faces.push_back({point, mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))});
+  std::vector<std::uint32_t> numbers = star.removed;
+  for (const Corner c : star.moved) numbers.push_back(c / 3);
+  SlowGuard result;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Corners own = mesh.triangle(numbers[i]);
+    const Vec3 middle = (1.0 / 3) * (own[0] + own[1] + own[2]);
+    const std::size_t nearest = first_of_nearest(faces, middle);
+    const double squared = squared_distance(faces[nearest], middle);
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      if (k != nearest && squared_distance(faces[k], middle) <= 1.01 * squared + 1e-6) result.is_clear = false;
+    const Vec3 normal = cross(faces[nearest][1] - faces[nearest][0], faces[nearest][2] - faces[nearest][0]);
+    if (!result.refused && normal.z < std::cos(degrees * M_PI / 180) * length(normal)) result.refused = i;
+  }
+  return result;
+}
+
+/// The samples are compared in blocks of eight.
+TEST(TurnGuard, LooksAtEachSampleOfTheStar) {
+  const ArrayMesh mesh = flat_square();
+  const EdgeStar star = star_of(mesh);
+  ASSERT_EQ(star.moved.size() + star.removed.size(), 10U);
+  const FaceTurns turns = turns_of(mesh, 30);
+  std::mt19937 random(1);
+  int held = 0, refused_first = 0, refused_last = 0;
+  for (int run = 0; run < 2000; ++run) {
+    const Vec3 point = Vec3{1.5, 2, 0} + random_point(random);
+    const SlowGuard expected = slow_guard(mesh, star, point, 30);
+    if (!expected.is_clear) continue;
+    TurnGuard guard(turns, mesh);
+    begin(guard, mesh, star);
+    const std::vector<SampleFace> faces = faces_of(mesh, star, mesh.position(star.kept), point);
+    ASSERT_EQ(guard.holds_inside(point, faces), !expected.refused) << run;
+    ++(!expected.refused ? held : *expected.refused < 8 ? refused_first : refused_last);
+  }
+  EXPECT_GT(held, 10);
+  EXPECT_GT(refused_first, 10);
+  EXPECT_GT(refused_last, 10);
 }
 
 /// Without a face nearer than the own one, none counts.

@@ -30,6 +30,9 @@ constexpr double far_rival = 16;
 
 constexpr std::size_t lanes = 8;
 
+/// Blocks of samples that are compared before it is asked which of them hold: the widest vectors take two.
+constexpr std::size_t blocks_at_once = 2;
+
 }  // namespace
 
 void TurnGuard::Compared::clear() {
@@ -199,9 +202,10 @@ std::optional<std::size_t> TurnGuard::first_refused(Compared& compared, std::spa
                                                     const Holds& holds) {
   const std::span<const SamplePoints::Block> blocks = compared.points.blocks;
   compared.distances.resize(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    kernel_.distances(blocks.subspan(b, 1), faces, std::span(compared.distances).subspan(b, 1));
-    for (std::size_t i = lanes * b; i < std::min(lanes * (b + 1), compared.samples.size()); ++i)
+  for (std::size_t b = 0; b < blocks.size(); b += blocks_at_once) {
+    const std::size_t count = std::min(blocks_at_once, blocks.size() - b);
+    kernel_.distances(blocks.subspan(b, count), faces, std::span(compared.distances).subspan(b, count));
+    for (std::size_t i = lanes * b; i < std::min(lanes * (b + count), compared.samples.size()); ++i)
       if (!holds(i)) return i;
   }
   return std::nullopt;
