@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reference/point_triangle_cases.h"
+#include "texture/chart_edges.h"
 
 namespace meshbound {
 namespace covering_test {
@@ -23,8 +24,12 @@ constexpr ExactUnits units{-6, 0};
 
 /// The triangle (0,0), (1,0), (0,1), and others as its candidates.
 struct Case {
-  explicit Case(std::vector<TexturedTriangle> by) : triangles(std::move(by)) {
-    for (const TexturedTriangle& t : triangles) charts.push_back(chart_triangle(t, units));
+  explicit Case(std::vector<TexturedTriangle> by, bool is_linked = true) : triangles(std::move(by)) {
+    for (const TexturedTriangle& t : triangles) {
+      charts.push_back(chart_triangle(t, units));
+      charts.back().number = static_cast<std::uint32_t>(charts.size() - 1);
+    }
+    if (is_linked) link_across_edges(charts);
     overlay.begin(a);
     for (const ChartTriangle& t : charts) overlay.add(t);
     all.resize(overlay.candidates());
@@ -100,6 +105,18 @@ TEST(Covering, ByTwoSheets) {
   EXPECT_FALSE(is_covered(triangles));
 }
 
+/// Edges between two triangles cancel only where both are among the candidates that are asked about.
+TEST(Covering, OfSomeOfTheCandidates) {
+  Case test(fan());
+  const std::vector<std::uint32_t> two = {0, 2};
+  EXPECT_TRUE(Covering().is_complete(test.overlay, test.all));
+  EXPECT_FALSE(Covering().is_complete(test.overlay, two));
+  const auto pieces = Covering().uncovered(test.overlay, two);
+  ASSERT_TRUE(pieces);
+  ASSERT_EQ(pieces->size(), 1u);
+  EXPECT_NEAR(test.overlay.share(pieces->front()).value, 0.375, 1e-12);
+}
+
 TEST(Covering, LeavesNothingOfAFan) {
   EXPECT_EQ(uncovered_share(fan()), 0);
   EXPECT_EQ(uncovered_share({in_texture({-1, -1}, far_right, far_up)}), 0);
@@ -130,6 +147,30 @@ std::vector<TexturedTriangle> random_triangles(reference::Random& random) {
     if (random.below(4) == 0) triangles.push_back(t);
   }
   return triangles;
+}
+
+/// It does not matter what is known of the triangles across edges.
+TEST(Covering, IsTheSameForTrianglesThatAreNotLinked) {
+  reference::Random random(11);
+  Covering covering;
+  int linked = 0, complete = 0;
+  for (int run = 0; run < 500; ++run) {
+    std::vector<TexturedTriangle> triangles = random_triangles(random);
+    if (run % 2 == 0) {  // often covered
+      triangles.resize(std::min<std::size_t>(triangles.size(), 1));
+      for (const TexturedTriangle& t : fan()) triangles.push_back(t);
+    }
+    Case with(triangles), without(triangles, false);
+    for (const ChartTriangle& t : with.charts) linked += t.across[0] != nullptr ? 1 : 0;
+    const bool is_complete = covering.is_complete(with.overlay, with.all);
+    complete += is_complete ? 1 : 0;
+    ASSERT_EQ(is_complete, covering.is_complete(without.overlay, without.all)) << run;
+    const auto left = covering.uncovered(with.overlay, with.all), also = covering.uncovered(without.overlay, with.all);
+    ASSERT_EQ(left.has_value(), also.has_value()) << run;
+    ASSERT_EQ(left ? left->size() : 0, also ? also->size() : 0) << run;
+  }
+  EXPECT_GT(linked, 100);
+  EXPECT_GT(complete, 20);
 }
 
 /// A point is in a piece that is left just where it is in no candidate, for points on no line of the grid.

@@ -4,26 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numeric/simd.h"
+#include "texture/chart_edges.h"
+
 namespace meshbound {
 namespace {
 
-/// Whether no edge of `a` seems to have all of `b` beyond it in the texture. Rounding may decide.
-bool seems_to_overlap(const ChartTriangle& a, const ChartTriangle& b) {
-  const auto& uv = a.source->coordinates;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector2d &from = uv[k], way = uv[(k + 1) % 3] - from;
-    double inmost = 0;  // the largest area on the side of `a`
-    for (const Eigen::Vector2d& p : b.source->coordinates) {
-      const double area = way.x() * (p.y() - from.y()) - way.y() * (p.x() - from.x());
-      inmost = std::max(inmost, a.turned ? -area : area);
-    }
-    if (inmost == 0) return false;
+/// A triangle in the texture in single precision, counter-clockwise, from an origin near it. Lane k stands for a corner
+/// and the edge from there to the next one; the last lane for the first again.
+struct Outline {
+  Outline(const ChartTriangle& t, const Eigen::Vector2d& origin) {
+    const auto& uv = t.source->coordinates;
+    const auto at = [&](std::size_t k) -> Eigen::Vector2f { return (uv[k] - origin).cast<float>(); };
+    const Eigen::Vector2f a = at(0), b = at(t.turned ? 2 : 1), c = at(t.turned ? 1 : 2);
+    u = Float4{a.x(), b.x(), c.x(), a.x()};
+    v = Float4{a.y(), b.y(), c.y(), a.y()};
+    along_u = Float4{b.x(), c.x(), a.x(), b.x()} - u;
+    along_v = Float4{b.y(), c.y(), a.y(), b.y()} - v;
   }
-  return true;
-}
+  Float4 u, v, along_u, along_v;
+};
 
-bool seem_to_share_area(const ChartTriangle& a, const ChartTriangle& b) {
-  return b.chart == Chart::Area && seems_to_overlap(a, b) && seems_to_overlap(b, a);
+/// Whether each edge of `a` seems to have some corner of `b` on its inner side. Rounding may decide.
+bool seems_to_overlap(const Outline& a, const Outline& b) {
+  const auto is_inside = [&](int corner) { return a.along_u * (b.v[corner] - a.v) > a.along_v * (b.u[corner] - a.u); };
+  const auto has_inside = is_inside(0) | is_inside(1) | is_inside(2);
+  return (has_inside[0] & has_inside[1] & has_inside[2]) != 0;
 }
 
 /// Between two boxes, as computed. Without branches: which way they go cannot be foretold.
@@ -78,7 +84,12 @@ Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
 }
 
 Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
-  for (const TexturedTriangle& t : mesh.triangles) triangles_.push_back(chart_triangle(t, units_));
+  triangles_.reserve(mesh.triangles.size());
+  for (const TexturedTriangle& t : mesh.triangles) {
+    triangles_.push_back(chart_triangle(t, units_));
+    triangles_.back().number = static_cast<std::uint32_t>(triangles_.size() - 1);
+  }
+  link_across_edges(triangles_);
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_in_texture(t)), places_.push_back(place_of(t));
   tree_.emplace(boxes);
@@ -97,17 +108,25 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.indices.clear();
   tree_->find(box_in_texture(*a.source), found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
+  const Eigen::Vector2d& origin = a.source->coordinates[0];
+  const Outline outline(a, origin);
+  const auto seems_to_share_area = [&](const ChartTriangle& b) {
+    if (b.chart != Chart::Area) return false;
+    const Outline of_b(b, origin);
+    return seems_to_overlap(outline, of_b) && seems_to_overlap(of_b, outline);
+  };
   found.is_near.clear();
-  for (const std::uint32_t b : found.indices) {
-    const bool is_near = squared_distance(places_[b], place) <= reach * reach;
+  for (const std::uint32_t i : found.indices) {
+    const ChartTriangle& b = triangles_[i];
+    const bool is_near = squared_distance(places_[i], place) <= reach * reach && seems_to_share_area(b);
     found.is_near.push_back(is_near ? 1 : 0);
     if (!is_near || a.chart != Chart::Area) continue;
-    const std::optional<double> upper = upper_at_equal_corners(*a.source, *triangles_[b].source);
-    if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&triangles_[b], *upper};
+    const std::optional<double> upper = upper_at_equal_corners(*a.source, *b.source);
+    if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&b, *upper};
   }
   for (std::size_t k = 0; k < found.indices.size(); ++k) {
     const ChartTriangle& b = triangles_[found.indices[k]];
-    const bool is_near = found.copy ? found.copy->triangle == &b : found.is_near[k] != 0 && seem_to_share_area(a, b);
+    const bool is_near = found.copy ? found.copy->triangle == &b : found.is_near[k] != 0;
     (is_near ? found.near : found.others).push_back(&b);
   }
 }

@@ -23,14 +23,11 @@ bool is_beyond(const ChartTriangle& t, std::size_t k, const Eigen::Vector2d& p) 
   return sign_is_known(doubled_area(from, to, p), sign) && (t.turned ? sign >= 0 : sign <= 0);
 }
 
-/// By corner of another triangle: a bit for each edge of `t` that it is known to lie on or beyond. A segment between
-/// two corners with a bit in common has no point inside `t`.
-std::array<unsigned, 3> edges_before_corners(const ChartTriangle& t, const ChartTriangle& other) {
-  std::array<unsigned, 3> before{};
-  for (std::size_t corner = 0; corner < 3; ++corner)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (is_beyond(t, k, other.source->coordinates[corner])) before[corner] |= 1U << k;
-  return before;
+/// Whether a segment is known to have no point inside a triangle, as it lies on one of its edges or beyond it.
+bool is_outside(const ChartTriangle& t, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (is_beyond(t, k, from) && is_beyond(t, k, to)) return true;
+  return false;
 }
 
 /// Inner points of a piece, by the weights of its first corners against 1 for the others, to be tried in turn: a point
@@ -100,16 +97,21 @@ constexpr std::size_t max_open_edges = 64;
 
 }  // namespace
 
-/// Adds the edges of a candidate that may run through the inside of A.
+/// Whether an edge runs between two of the candidates, one on each side of it.
+bool Covering::cancels(const Overlay& overlay, const ChartTriangle* across) const {
+  if (across == nullptr) return false;
+  const auto candidate = overlay.number_of(*across);
+  return candidate && is_counted_[*candidate] != 0;
+}
+
+/// Adds the edges of a candidate that may run through the inside of A, but those that are known to cancel.
 void Covering::add_edges(Overlay& overlay, std::uint32_t candidate) {
   const ChartTriangle& b = overlay.candidate(candidate);
   const auto lines = overlay.lines_of(candidate);
-  std::optional<std::array<unsigned, 3>> before;
   for (std::uint32_t k = 0; k < 3; ++k) {  // line k lies opposite to corner k
-    if (overlay.is_on_one_side(lines[k], overlay.whole())) continue;
-    if (!before) before = edges_before_corners(overlay.triangle(), b);
-    if (((*before)[(k + 1) % 3] & (*before)[(k + 2) % 3]) != 0) continue;
+    if (cancels(overlay, b.across[k]) || overlay.is_on_one_side(lines[k], overlay.whole())) continue;
     const Eigen::Vector2d *from = &b.source->coordinates[(k + 1) % 3], *to = &b.source->coordinates[(k + 2) % 3];
+    if (is_outside(overlay.triangle(), *from, *to)) continue;
     const bool is_forth = is_before(*from, *to);
     if (!is_forth) std::swap(from, to);
     edges_.push_back({from, to, is_forth != b.turned ? 1 : -1, candidate, k});
@@ -135,6 +137,8 @@ void Covering::drop_edges_that_cancel() {
 
 void Covering::find_open_edges(Overlay& overlay, Candidates candidates) {
   edges_.clear();
+  is_counted_.assign(overlay.candidates(), 0);
+  for (const std::uint32_t c : candidates) is_counted_[c] = 1;
   for (const std::uint32_t c : candidates) add_edges(overlay, c);
   drop_edges_that_cancel();
 }

@@ -37,10 +37,12 @@ class Covering {
     std::uint32_t candidate, number;   ///< its candidate, and its number there
   };
   void find_open_edges(Overlay& overlay, Candidates candidates);
+  [[nodiscard]] bool cancels(const Overlay& overlay, const ChartTriangle* across) const;
   void add_edges(Overlay& overlay, std::uint32_t candidate);
   void drop_edges_that_cancel();
   void cut(Overlay& overlay, const Edge& edge);
 
+  std::vector<std::uint8_t> is_counted_;  ///< by candidate of the overlay
   std::vector<Edge> edges_;
   std::vector<Overlay::Polygon> pieces_, halves_;
 };

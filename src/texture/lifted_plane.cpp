@@ -12,18 +12,19 @@ LiftedPlane::LiftedPlane(const TexturedTriangle& triangle)
     : from_(triangle.coordinates[0]), at_(triangle.corners[0]), error_(0) {
   const auto& uv = triangle.coordinates;
   const Approximate by_area = Approximate{1, 0} / doubled_area(uv[0], uv[1], uv[2]);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const auto with = [&](std::size_t k, Eigen::Index replaced) {
-      Eigen::Vector2d point = uv[k];
-      point[replaced] = triangle.corners[k][axis];
-      return point;
-    };
-    for (const Eigen::Index replaced : {0, 1}) {
-      const Approximate way = doubled_area(with(0, replaced), with(1, replaced), with(2, replaced)) * by_area;
-      way_[static_cast<std::size_t>(replaced)][axis] = way.value;
-      error_ = std::max(error_, std::isnan(way.error) ? HUGE_VAL : way.error);
-    }
-  }
+  const Eigen::Vector2d to_1 = uv[1] - from_, to_2 = uv[2] - from_;
+  const Eigen::Array3d way_1 = triangle.corners[1] - at_, way_2 = triangle.corners[2] - at_;
+  const auto set = [&](Eigen::Vector3d& way, const Eigen::Array3d& left, const Eigen::Array3d& right) {
+    const Eigen::Array3d area = left - right;
+    const Eigen::Array3d area_error = (left.abs() + right.abs()) * (8 * unit_roundoff) + Approximate::tiny;
+    const Eigen::Array3d value = area * by_area.value;
+    const Eigen::Array3d error = area.abs() * by_area.error + area_error * (std::fabs(by_area.value) + by_area.error) +
+                                 (value.abs() * unit_roundoff + Approximate::tiny);
+    way = value;
+    error_ = std::max(error_, std::isnan(error.sum()) ? HUGE_VAL : error.maxCoeff() * Approximate::grown);
+  };
+  set(way_[0], way_1 * to_2.y(), way_2 * to_1.y());
+  set(way_[1], way_2 * to_1.x(), way_1 * to_2.x());
 }
 
 /// The errors of the derivatives are at least 9 u of the largest one: an area has 8 u, and u is rounded with its

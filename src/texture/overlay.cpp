@@ -90,7 +90,8 @@ bool is_end(const Ends& ends, const Eigen::Vector2d& at) {
 }  // namespace
 
 ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits& units) {
-  ChartTriangle result{&triangle, Chart::Area, false, {0, 1, 2}, {}};
+  ChartTriangle result;
+  result.source = &triangle;
   const auto& uv = triangle.coordinates;
   int turn = 0;
   if (!sign_is_known(doubled_area(uv[0], uv[1], uv[2]), turn)) {
@@ -112,13 +113,14 @@ ChartTriangle chart_triangle(const TexturedTriangle& triangle, const ExactUnits&
 void Overlay::begin(const ChartTriangle& a) {
   a_ = &a;
   lines_.clear();
+  exact_.clear();
   candidates_.clear();
   spanning_.clear();
   for (std::size_t i = 0; i < 3; ++i) {
     LineData line;
     line.at[i] = {1, 0};
     if (a.chart == Chart::Area) line.ends = edge_of(a, i);
-    lines_.push_back(std::move(line));
+    lines_.push_back(line);
   }
   whole_.resize(3);
   for (Line i = 0; i < 3; ++i) {
@@ -129,10 +131,10 @@ void Overlay::begin(const ChartTriangle& a) {
 }
 
 void Overlay::add(const ChartTriangle& b) {
-  Candidate candidate{&b, {}, static_cast<std::uint8_t>(b.chart == Chart::Area ? 3 : 4), {}};
-  for (std::uint32_t number = 0; number < candidate.line_count; ++number) {
-    candidate.lines[number] = static_cast<Line>(lines_.size());
-    LineData line;
+  const auto first = static_cast<Line>(lines_.size());
+  const std::uint32_t line_count = b.chart == Chart::Area ? 3 : 4;
+  for (std::uint32_t number = 0; number < line_count; ++number) {
+    LineData& line = lines_.emplace_back();
     line.candidate = candidates();
     line.number = number;
     if (b.chart == Chart::Area) line.ends = edge_of(b, number);
@@ -143,25 +145,36 @@ void Overlay::add(const ChartTriangle& b) {
       is_beyond = is_beyond && line.at[i].value < -line.at[i].error;
     }
     if (is_beyond) {
-      lines_.resize(candidate.lines[0]);
+      lines_.resize(first);
       return;
     }
-    lines_.push_back(std::move(line));
   }
   if (a_->chart != Chart::Area || b.chart == Chart::Area) spanning_.push_back(candidates());
-  candidates_.push_back(candidate);
+  if (b.number >= candidate_of_.size()) candidate_of_.resize(b.number + 1, 0);
+  candidate_of_[b.number] = candidates();
+  Candidate& candidate = candidates_.emplace_back();
+  candidate.triangle = &b;
+  candidate.lines = {first, first + 1, first + 2, first + 3};
+  candidate.line_count = static_cast<std::uint8_t>(line_count);
+}
+
+std::optional<std::uint32_t> Overlay::number_of(const ChartTriangle& b) const {
+  if (b.number >= candidate_of_.size()) return std::nullopt;
+  const std::uint32_t candidate = candidate_of_[b.number];
+  return candidate < candidates() && candidates_[candidate].triangle == &b ? std::optional(candidate) : std::nullopt;
 }
 
 Overlay::Line Overlay::add_level(std::size_t corner, std::int64_t numerator) {
   constexpr std::int64_t one = std::int64_t{1} << 40;
   LineData line;
-  line.exact = std::make_unique<ExactWeights>();
+  ExactWeights& weights = exact_.emplace_back();
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t value = (i == corner ? one : 0) - numerator;
     line.at[i] = {static_cast<double>(value), 0};
-    (*line.exact)[i] = static_cast<long>(value);
+    weights[i] = static_cast<long>(value);
   }
-  lines_.push_back(std::move(line));
+  line.exact = &weights;
+  lines_.push_back(line);
   return static_cast<Line>(lines_.size() - 1);
 }
 
@@ -184,16 +197,17 @@ Overlay::Node Overlay::given(const std::array<double, 3>& weights) {
 
 const Overlay::ExactWeights& Overlay::exact(Line line) {
   LineData& data = lines_[line];
-  if (!data.exact && line < 3) {
-    data.exact = std::make_unique<ExactWeights>();
-    (*data.exact)[line] = 1;
-  } else if (!data.exact) {
-    const ChartTriangle& b = *candidates_[data.candidate].triangle;
-    const auto points = texture_points<mpz_class>(b, units_), at = texture_points<mpz_class>(*a_, units_);
-    data.exact = std::make_unique<ExactWeights>();
-    for (std::size_t i = 0; i < 3; ++i) (*data.exact)[i] = line_at(b, points, data.number, at[i]);
+  if (data.exact != nullptr) return *data.exact;
+  ExactWeights& weights = exact_.emplace_back();
+  data.exact = &weights;
+  if (line < 3) {
+    weights[line] = 1;
+    return weights;
   }
-  return *data.exact;
+  const ChartTriangle& b = *candidates_[data.candidate].triangle;
+  const auto points = texture_points<mpz_class>(b, units_), at = texture_points<mpz_class>(*a_, units_);
+  for (std::size_t i = 0; i < 3; ++i) weights[i] = line_at(b, points, data.number, at[i]);
+  return weights;
 }
 
 Overlay::ExactWeights Overlay::exact(const Node& node) {

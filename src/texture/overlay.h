@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,6 +46,10 @@ struct ChartTriangle {
   bool turned = false;                            ///< the coordinates go round clockwise
   std::array<std::uint8_t, 3> along = {0, 1, 2};  ///< of a segment: its first, middle and last corner in the texture
   LiftedPlane plane;                              ///< set where it has an area
+  std::uint32_t number = 0;                       ///< in its mesh
+  /// By edge, each opposite to a corner: the triangle on the other side of it in the texture, if all of the mesh has
+  /// only these two with that edge; else null.
+  std::array<const ChartTriangle*, 3> across{};
 };
 
 /// Units, as exponents of 2, that all texture coordinates and all positions are multiples of.
@@ -94,6 +98,9 @@ class Overlay {
   [[nodiscard]] const ChartTriangle& triangle() const { return *a_; }
   [[nodiscard]] std::uint32_t candidates() const { return static_cast<std::uint32_t>(candidates_.size()); }
   [[nodiscard]] const ChartTriangle& candidate(std::uint32_t c) const { return *candidates_[c].triangle; }
+  /// The number of a candidate; absent if the triangle is none, or if another one has the same number in its mesh.
+  /// O(1).
+  [[nodiscard]] std::optional<std::uint32_t> number_of(const ChartTriangle& b) const;
   /// The candidates that can cover more of A than a line or a point, in ascending order; valid until one is added.
   [[nodiscard]] std::span<const std::uint32_t> spanning() const { return spanning_; }
 
@@ -144,14 +151,14 @@ class Overlay {
     std::uint32_t number = 0;       ///< its number among the lines of the candidate
     /// The texture coordinates at its ends if it is an edge of a triangle with an area in the texture; else null.
     std::array<const Eigen::Vector2d*, 2> ends{};
-    std::unique_ptr<ExactWeights> exact;  ///< `at` in integers, once asked for
+    const ExactWeights* exact = nullptr;  ///< `at` in integers, once asked for
   };
   /// By axis and corner of A: the vector from the candidate, continued as a plane, to A at equal texture coordinates.
   using Offsets = std::array<std::array<Approximate, 3>, 3>;
   struct Candidate {
-    const ChartTriangle* triangle;
-    std::array<Line, 4> lines;
-    std::uint8_t line_count;
+    const ChartTriangle* triangle = nullptr;
+    std::array<Line, 4> lines{};
+    std::uint8_t line_count = 0;
     std::optional<Offsets> offsets;  ///< once asked for
   };
 
@@ -173,8 +180,10 @@ class Overlay {
   ExactUnits units_;
   const ChartTriangle* a_ = nullptr;
   std::vector<LineData> lines_;
+  std::deque<ExactWeights> exact_;  ///< of lines
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> spanning_;
+  std::vector<std::uint32_t> candidate_of_;  ///< by number of a triangle: valid where the candidate is that triangle
   Polygon whole_, clipped_;
   std::vector<int> sides_;  ///< by corner of a polygon
 };

@@ -53,9 +53,11 @@ Number cross(const TexturePoint<Number>& p, const TexturePoint<Number>& q) {
 [[nodiscard]] inline Approximate doubled_area(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                               const Eigen::Vector2d& p) {
   const Eigen::Vector2d way = to - from, there = p - from;
-  const bool is_zero = (way.x() == 0 || there.y() == 0) && (way.y() == 0 || there.x() == 0);
-  if (is_zero) return {};
   const double left = way.x() * there.y(), right = way.y() * there.x();
+  const auto is_zero = [&] {  // not by underflow
+    return (way.x() == 0 || there.y() == 0) && (way.y() == 0 || there.x() == 0);
+  };
+  if (left == 0 && right == 0 && is_zero()) return {};
   return {left - right, (std::fabs(left) + std::fabs(right)) * (8 * unit_roundoff) + Approximate::tiny};
 }
 

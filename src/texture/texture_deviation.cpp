@@ -78,6 +78,7 @@ class Direction {
   struct Workspace {
     explicit Workspace(const ExactUnits& units) : overlay(units) {}
     Overlay overlay;
+    Covering covering;
     ChartCandidates candidates;
   };
 
@@ -128,7 +129,8 @@ class Direction {
       }
       overlay_near(i, work);
       pairs_[i] = work.overlay.candidates();
-      if (const auto upper = upper_of_complete_cover(work.overlay, goal_.precision, least)) upper_[i] = *upper;
+      if (const auto upper = upper_of_complete_cover(work.overlay, work.covering, goal_.precision, least))
+        upper_[i] = *upper;
     });
   }
 
@@ -199,7 +201,7 @@ class Direction {
       if (!is_open(triangles[k])) return;
       find_candidates(triangles[k], work);
       overlay_near(triangles[k], work);
-      found[k] = deviation_by_pieces(work.overlay, work.candidates.others, goal);
+      found[k] = deviation_by_pieces(work.overlay, work.covering, work.candidates.others, goal);
       pairs_[triangles[k]] += work.overlay.candidates();
       const bool may_be_shown = found[k].bounds.lower >= goal_.lower || exceeds(found[k]);
       if (found[k].far && may_be_shown)
@@ -233,7 +235,7 @@ class Direction {
     const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
-    const TriangleDeviation found = deviation_by_pieces(work.overlay, work.candidates.others, goal);
+    const TriangleDeviation found = deviation_by_pieces(work.overlay, work.covering, work.candidates.others, goal);
     if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
   }
 

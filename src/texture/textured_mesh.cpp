@@ -52,6 +52,7 @@ TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attri
   const CornerAttribute& uv = attributes.texture_coordinates;
   const std::vector<std::uint32_t> material = materials.of(attributes.materials, mesh.triangles.size());
   TexturedMesh result;
+  result.triangles.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     TexturedTriangle triangle;
     bool is_textured = true;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "texture/covering.h"
-
 namespace meshbound {
 namespace {
 
@@ -86,8 +84,9 @@ bool covers_all(Overlay& overlay, std::uint32_t candidate) {
 
 class PieceSearch {
  public:
-  PieceSearch(Overlay& overlay, std::span<const ChartTriangle* const> others, const DeviationGoal& goal)
-      : overlay_(overlay), others_(others), likely_(overlay.candidates()), goal_(goal) {}
+  PieceSearch(Overlay& overlay, Covering& covering, std::span<const ChartTriangle* const> others,
+              const DeviationGoal& goal)
+      : overlay_(overlay), covering_(covering), others_(others), likely_(overlay.candidates()), goal_(goal) {}
 
   /// Starts with the whole triangle. Every point of a candidate that covers some area of A lies in a piece that a
   /// candidate covers, or on its border. What no candidate covers is left; all other candidates matter only where they
@@ -115,7 +114,7 @@ class PieceSearch {
     double upper = -1;
     for (const std::uint32_t c : candidates)
       (overlay_.is_within(c, upper) || is_within_limit(c, upper) ? near : rest).push_back(c);
-    auto uncovered = near.empty() ? std::nullopt : Covering().uncovered(overlay_, near);
+    auto uncovered = near.empty() ? std::nullopt : covering_.uncovered(overlay_, near);
     if (!uncovered) return search(Piece{overlay_.whole(), {}, candidates});
     ++result_.pieces;
     accept(upper);
@@ -329,6 +328,7 @@ class PieceSearch {
   }
 
   Overlay& overlay_;
+  Covering& covering_;
   std::span<const ChartTriangle* const> others_;  ///< candidates that the overlay does not hold yet
   std::uint32_t likely_;                          ///< candidates that it held from the start
   std::vector<std::uint32_t> unlikely_;           ///< the others that may cover some area of A
@@ -343,11 +343,11 @@ class PieceSearch {
 
 }  // namespace
 
-std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision, double least) {
+std::optional<double> upper_of_complete_cover(Overlay& overlay, Covering& covering, double precision, double least) {
   if (overlay.triangle().chart != Chart::Area) return std::nullopt;
   for (const std::uint32_t c : overlay.spanning())
     if (covers_all(overlay, c)) return std::max(least, upper_at_corners(overlay, overlay.whole(), c, precision));
-  if (!Covering().is_complete(overlay, overlay.spanning())) return std::nullopt;
+  if (!covering.is_complete(overlay, overlay.spanning())) return std::nullopt;
   double upper = least;
   Polygon covered;
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
@@ -358,9 +358,9 @@ std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision
   return upper;
 }
 
-TriangleDeviation deviation_by_pieces(Overlay& overlay, std::span<const ChartTriangle* const> others,
-                                      const DeviationGoal& goal) {
-  return PieceSearch(overlay, others, goal).run();
+TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering,
+                                      std::span<const ChartTriangle* const> others, const DeviationGoal& goal) {
+  return PieceSearch(overlay, covering, others, goal).run();
 }
 
 }  // namespace meshbound

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "texture/covering.h"
 #include "texture/overlay.h"
 
 namespace meshbound {
@@ -37,11 +38,13 @@ struct DeviationGoal {
 
 /// An upper bound over all of A, that of the farthest candidate, but not below `least`. Absent unless the candidates
 /// are known to cover all of A. O(candidates log candidates).
-[[nodiscard]] std::optional<double> upper_of_complete_cover(Overlay& overlay, double precision, double least);
+[[nodiscard]] std::optional<double> upper_of_complete_cover(Overlay& overlay, Covering& covering, double precision,
+                                                            double least);
 
 /// Bounds the deviation to the goal by branch and bound over pieces of A. The overlay holds the likely candidates;
 /// `others` are all further triangles that may have texture coordinates of A, and join it where those do not suffice.
-[[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, std::span<const ChartTriangle* const> others,
+[[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering,
+                                                    std::span<const ChartTriangle* const> others,
                                                     const DeviationGoal& goal);
 
 }  // namespace meshbound

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Triangles that share an edge in the texture, found by the ends of it.
+#include "texture/chart_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "reference/point_triangle_cases.h"
+
+namespace meshbound {
+namespace chart_edges_test {
+
+constexpr ExactUnits units{-6, 0};
+
+/// Triangles of a mesh, linked.
+struct Case {
+  explicit Case(std::vector<TexturedTriangle> of) : triangles(std::move(of)) {
+    for (const TexturedTriangle& t : triangles) {
+      charts.push_back(chart_triangle(t, units));
+      charts.back().number = static_cast<std::uint32_t>(charts.size() - 1);
+    }
+    link_across_edges(charts);
+  }
+  /// The number of the triangle across an edge; -1 if there is none.
+  [[nodiscard]] int across(std::size_t triangle, std::size_t corner) const {
+    const ChartTriangle* other = charts[triangle].across[corner];
+    return other == nullptr ? -1 : static_cast<int>(other - charts.data());
+  }
+  std::vector<TexturedTriangle> triangles;
+  std::vector<ChartTriangle> charts;
+};
+
+TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                            std::uint32_t material = 0) {
+  TexturedTriangle t;
+  for (Eigen::Vector3d& corner : t.corners) corner.setZero();
+  t.coordinates = {a, b, c};
+  t.material = material;
+  return t;
+}
+
+const Eigen::Vector2d low(0, 0), right(1, 0), up(0, 1), both(1, 1);
+
+TEST(ChartEdges, JoinTwoTriangles) {
+  const Case square({in_texture(low, right, up), in_texture(right, both, up)});
+  EXPECT_EQ(square.across(0, 0), 1);
+  EXPECT_EQ(square.across(1, 1), 0);
+  for (const auto& [t, k] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 0), std::pair(1, 2)})
+    EXPECT_EQ(square.across(static_cast<std::size_t>(t), static_cast<std::size_t>(k)), -1);
+}
+
+/// Which way round their corners go does not matter, nor the sign of a zero.
+TEST(ChartEdges, JoinMirroredTriangles) {
+  const Case square({in_texture(low, right, both), in_texture(up, both, {-0.0, -0.0})});
+  EXPECT_EQ(square.across(0, 1), 1);
+  EXPECT_EQ(square.across(1, 0), 0);
+}
+
+TEST(ChartEdges, DoNotJoinWhatLiesOnOneSide) {
+  const Case fold({in_texture(low, right, up), in_texture(low, right, both)});
+  for (std::size_t t = 0; t < 2; ++t)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(fold.across(t, k), -1) << t << k;
+}
+
+TEST(ChartEdges, DoNotJoinMoreThanTwo) {
+  for (const TexturedTriangle& third : {in_texture(right, both, up), in_texture(low, right, up)}) {
+    const Case three({in_texture(low, right, up), in_texture(right, both, up), third});
+    for (std::size_t t = 0; t < 3; ++t)
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(three.across(t, k), -1) << t << k;
+  }
+}
+
+TEST(ChartEdges, DoNotJoinMaterials) {
+  const Case square({in_texture(low, right, up), in_texture(right, both, up, 1)});
+  EXPECT_EQ(square.across(0, 0), -1);
+  EXPECT_EQ(square.across(1, 1), -1);
+}
+
+TEST(ChartEdges, LeaveTrianglesWithoutArea) {
+  const Case flat({in_texture(low, right, up), in_texture(right, {0.5, 0.5}, up)});
+  EXPECT_EQ(flat.across(0, 0), -1);
+}
+
+/// As found by comparing each edge with all others, on a coarse grid where edges are often shared.
+TEST(ChartEdges, AreThoseOfAllPairs) {
+  reference::Random random(3);
+  const auto point = [&] { return Eigen::Vector2d(random.below(4) / 4.0, random.below(4) / 4.0); };
+  int joined = 0;
+  for (int run = 0; run < 1000; ++run) {
+    std::vector<TexturedTriangle> triangles;
+    for (int k = 0; k < 12; ++k)
+      triangles.push_back(in_texture(point(), point(), point(), static_cast<std::uint32_t>(random.below(2))));
+    const Case test(triangles);
+    using Key = std::tuple<std::uint32_t, double, double, double, double>;
+    std::map<Key, std::vector<std::pair<std::size_t, bool>>> users;  // each with the side that it is on
+    const auto ends_of = [&](std::size_t t, std::size_t k) {
+      const auto& uv = triangles[t].coordinates;
+      auto ends = std::pair(uv[(k + 1) % 3], uv[(k + 2) % 3]);
+      const bool is_turned = test.charts[t].turned;
+      const bool is_back = std::tie(ends.second.x(), ends.second.y()) < std::tie(ends.first.x(), ends.first.y());
+      if (is_back) std::swap(ends.first, ends.second);
+      return std::pair(Key(triangles[t].material, ends.first.x(), ends.first.y(), ends.second.x(), ends.second.y()),
+                       is_back != is_turned);
+    };
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t k = 0; test.charts[t].chart == Chart::Area && k < 3; ++k) {
+        const auto [key, side] = ends_of(t, k);
+        users[key].emplace_back(t, side);
+      }
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        int expected = -1;
+        if (test.charts[t].chart == Chart::Area) {
+          const auto& all = users[ends_of(t, k).first];
+          if (all.size() == 2 && all[0].second != all[1].second)
+            expected = static_cast<int>(all[0].first == t ? all[1].first : all[0].first);
+        }
+        ASSERT_EQ(test.across(t, k), expected) << run;
+        joined += expected >= 0 ? 1 : 0;
+      }
+  }
+  EXPECT_GT(joined, 500);
+}
+
+}  // namespace chart_edges_test
+}  // namespace meshbound
