@@ -62,7 +62,7 @@ std::vector<Case> cases() {
   return {{"sphere", datasets::icosphere(1, 3), 0.01},
           {"torus", datasets::torus(2, 0.7, 40, 20), 0.02},
           {"open terrain", datasets::terrain(1, 20, 3), 0.01},
-          {"gear", datasets::gear(1, 0.4, 8, 8, 2), 0.01}};
+          {"gear", datasets::gear(1, 0.4, 8, 8, 2), 0.005}};
 }
 
 TEST(Refine, LeavesFewerFacesWithinTheTolerance) {

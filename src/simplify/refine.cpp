@@ -31,10 +31,8 @@ constexpr int min_refine_rounds = 2, max_refine_rounds = 12;
 /// random offset of up to `jitter` times an edge. Without this the search ends in the next local minimum, with 5 to 8%
 /// more faces.
 constexpr double way_to_middle = 0.2, jitter = 0.3;
-/// Attempts with a shorter way each, where a shake breaks the bound.
-constexpr int max_shakes = 3;
-constexpr double shorter_way = 0.4;
-/// Attempts along a random edge, for vertices of creases, where nearly every other way breaks the bound.
+/// Attempts along a random edge where a shake breaks the bound, as nearly every other way does at creases. With one or
+/// two shorter ways tried before, a round takes 1.05 and 1.09 of the time for 0.1% fewer faces (13 meshes at 0.1%).
 constexpr int max_slides = 2;
 constexpr double max_slide = 0.4;
 
@@ -42,8 +40,9 @@ constexpr double max_slide = 0.4;
 /// but not every one has room for the next collapse.
 constexpr double share_of_random_flips = 0.1;
 
-/// A move that lowers the deviation by a smaller share is not worth its proof.
-constexpr double min_move_gain = 0.02;
+/// A move that lowers the deviation by a smaller share is not worth its proof: with 0.02 three rounds take 1.05 of the
+/// time and leave as many faces, with 0.2 they take 0.96 and leave 0.3% more (13 meshes at 0.1%).
+constexpr double min_move_gain = 0.1;
 
 /// Refines one region after another. One for each thread.
 class Refiner {
@@ -163,8 +162,7 @@ void Refiner::shake(std::uint32_t vertex) {
   const double x = uniform(), y = uniform(), z = uniform();
   Vec3 way = way_to_middle * (middle - p) + jitter * mean_edge * Vec3{x, y, z};
   way = way - dot(way, normal) * normal;
-  for (int attempt = 0; attempt < max_shakes; ++attempt, way = shorter_way * way)
-    if (edit_.place(p + way) && make()) return;
+  if (edit_.place(p + way) && make()) return;
   for (int attempt = 0; attempt < max_slides; ++attempt) {
     const Vec3 end = edit_.faces()[random_() % degree][1];
     if (edit_.place(p + max_slide * std::abs(uniform()) * (end - p)) && make()) return;

@@ -10,8 +10,9 @@ namespace {
 
 /// Largest sampled distances in tolerances, squared, beyond which an attempt is given up: with the placement of least
 /// cost, where the vertex itself is best, after the first sweep over its neighbours, and after each further one. Of the
-/// attempts that end in a proof, some 1 in 70, over nine tenths are below these (seven meshes at 0.1%).
-constexpr double hopeless_placement = 1.5 * 1.5, hopeless_vertex = 1.35 * 1.35, hopeless_first_sweep = 1.6,
+/// attempts that end in a proof, some 1 in 70, over nine tenths are below these (seven meshes at 0.1%). With 1.35 after
+/// the first sweep 0.6% more faces are left in 0.99 of the time, with 1.6 as many in 1.01 (13 meshes at 0.1%).
+constexpr double hopeless_placement = 1.5 * 1.5, hopeless_vertex = 1.35 * 1.35, hopeless_first_sweep = 1.45,
                  hopeless_sweep = 1.1 * 1.1;
 
 /// Sweeps over the neighbours and the vertex itself.
