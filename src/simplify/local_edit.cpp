@@ -268,14 +268,14 @@ void LocalEdit::make() {
 }
 
 void LocalEdit::assign_samples() {
-  // The faces of a group share no samples with others, so that these can be given back.
-  if (grouped_) {
-    samples_.compare(faces_);
-    (void)samples_.hold({}, HUGE_VAL);
-  }
   for (const std::uint32_t face : taken_) state_.samples.clear(face);
-  samples_.give(numbers_);
-  if (!grouped_) touch(numbers_);
+  if (grouped_) {  // its faces share no samples with others, so that these can be given back
+    samples_.compare(faces_);
+    samples_.give_to_nearest(numbers_);
+  } else {
+    samples_.give(numbers_);
+    touch(numbers_);
+  }
 }
 
 void LocalEdit::touch(std::span<const std::uint32_t> faces) {

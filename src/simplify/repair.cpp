@@ -180,8 +180,7 @@ class Undoing {
       sample_faces_.emplace_back(a - origin_, b - origin_, c - origin_);
     }
     samples_.compare(sample_faces_);
-    (void)samples_.hold({}, HUGE_VAL);
-    samples_.give(faces_);
+    samples_.give_to_nearest(faces_);
   }
 
   DecimationState& state_;

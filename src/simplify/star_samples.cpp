@@ -213,6 +213,11 @@ void StarSamples::give(std::span<const std::uint32_t> numbers) {
   }
 }
 
+void StarSamples::give_to_nearest(std::span<const std::uint32_t> numbers) {
+  (void)hold({}, HUGE_VAL);
+  give(numbers);
+}
+
 /// The indices of samples in the order of a space-filling curve through their box: neighbours in it lie near each
 /// other.
 void StarSamples::sort_along_curve() {

@@ -69,6 +69,8 @@ class StarSamples {
   /// Assigns each sample to the face that `hold` found nearest to it. `numbers` are those of the changed faces; the
   /// lists of the faces whose samples were added must have been cleared.
   void give(std::span<const std::uint32_t> numbers);
+  /// As `give`, without `hold`: to the nearest of the changed faces, however far it is.
+  void give_to_nearest(std::span<const std::uint32_t> numbers);
 
  private:
   [[nodiscard]] std::optional<double> stray_beyond(Vec3 vertex, Vec3 end, const Walked& walked, int points,
