@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -78,6 +79,20 @@ TEST(Split, CutsElsewhereWhereItIsShifted) {
     }
     EXPECT_GT(at_a_seam_of_one, 0u);
     EXPECT_LT(20 * at_seams_of_both, at_a_seam_of_one);
+  }
+}
+
+/// Each of two threads takes the next region once it has done one.
+TEST(Split, KeepsTwoThreadsAtWork) {
+  const test::StateOf state(datasets::icosphere(1, 6));
+  for (const std::size_t regions : {2, 4, 8}) {
+    for (int shift = 0; shift < shifts_of_split; ++shift) {
+      const Split parts = split(*state, shift, state->mesh.vertex_count() / (2 * regions) + 1);
+      EXPECT_GE(parts.regions.size(), regions / 2);
+      std::array<std::size_t, 2> done{};  // by thread, vertices
+      for (const std::size_t vertices : sizes(parts)) *std::ranges::min_element(done) += vertices;
+      EXPECT_LE(9 * std::ranges::max(done), 5 * state->mesh.vertex_count()) << regions << ", " << shift;
+    }
   }
 }
 

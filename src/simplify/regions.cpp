@@ -19,6 +19,11 @@ constexpr std::uint32_t max_regions = 1024;
 /// Where the first cut of a shifted split runs; all others halve.
 constexpr double shifted_cut = 1.0 / 3;
 
+/// A shifted split has one region more, as its first cut takes a third off; instead of three thirds, which keep one of
+/// two threads waiting, it has two thirds and two sixths. With three thirds runs on two threads take 1.015 of the time,
+/// on one thread 1.01 (28 meshes of 20,000 triangles and more at 0.1%).
+std::uint32_t regions_of_shifted(std::uint32_t count) { return count == 2 ? 4 : count + 1; }
+
 class Cutter {
  public:
   Cutter(const DecimationState& state, Split& into, int shift) : state_(state), into_(into), shift_(shift) {
@@ -145,7 +150,7 @@ Split split(const DecimationState& state, int shift, std::size_t min_vertices, i
   while (count < max_regions && cutter.vertices() >= 2 * std::size_t{count} * min_vertices) count *= 2;
   if (count == 1) return whole(state);
   result.region_of.assign(state.mesh.vertex_count(), no_index);
-  auto vertices = cutter.run(shift == 0 ? count : count + 1, threads);
+  auto vertices = cutter.run(shift == 0 ? count : regions_of_shifted(count), threads);
   count = static_cast<std::uint32_t>(vertices.size());
   if (count == 1) return whole(state);
   const std::vector<std::uint32_t> faces = assign_faces(state, result, count, threads);
