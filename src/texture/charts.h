@@ -32,7 +32,7 @@ struct ChartCandidates {
   std::vector<const ChartTriangle*> others;
   std::optional<ChartCopy> copy;       ///< the nearest one, if one is within reach
   std::vector<std::uint32_t> indices;  ///< of the triangles above in their mesh
-  std::vector<std::uint8_t> is_near;   ///< by index: within reach of it in space
+  std::vector<std::uint8_t> is_near;   ///< by index: one of those, were there no `copy`
 };
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
