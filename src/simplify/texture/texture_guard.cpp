@@ -337,22 +337,13 @@ bool TextureGuard::are_near(std::size_t count) {
   return match(count, reach * reach) && improve(count);
 }
 
-/// Whether the few samples leave any hope. Leaves the coordinate where it is.
-bool TextureGuard::may_hold() {
-  if (!is_free_) return are_near(few_samples);
-  const Eigen::Vector2d coordinate = faces_[0].coordinates[0];
-  const bool may_hold = are_near(few_samples);
-  move_to(coordinate);
-  return may_hold;
-}
-
 bool TextureGuard::holds(Vec3 point) {
   accepted_ = false;
   exceeding_squared_ = 0;
   const bool is_bare = std::all_of(faces_.begin(), faces_.end(), [](const Face& f) { return f.chart == no_index; });
   if (is_bare) return true;
   if (!set_faces(point) || is_turned_over()) return false;
-  if (has_many() && !may_hold()) return false;
+  if (has_many() && !are_near(few_samples)) return false;
   if (!are_near(samples_.size())) return false;
   if (!are_uncovered_free() || !are_borders_free() || !are_faces_near()) return false;
   accepted_ = true;

@@ -86,7 +86,6 @@ class TextureGuard {
   void put_few_first();
   [[nodiscard]] bool has_many() const;
   [[nodiscard]] bool are_near(std::size_t count);
-  [[nodiscard]] bool may_hold();
   [[nodiscard]] bool match(std::size_t count, double max_squared);
   [[nodiscard]] bool match_inside(const TextureMap::Sample& sample, std::uint32_t number, Match& match) const;
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
