@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Triangles that share an edge in the texture, found by the ends of it.
+// Triangles that share an edge in space and in the texture.
 #include "texture/chart_edges.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -34,11 +35,12 @@ struct Case {
   std::vector<ChartTriangle> charts;
 };
 
+/// Its place in space is that in the texture, at a height.
 TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-                            std::uint32_t material = 0) {
+                            std::uint32_t material = 0, double height = 0) {
   TexturedTriangle t;
-  for (Eigen::Vector3d& corner : t.corners) corner.setZero();
   t.coordinates = {a, b, c};
+  for (std::size_t k = 0; k < 3; ++k) t.corners[k] = {t.coordinates[k].x(), t.coordinates[k].y(), height};
   t.material = material;
   return t;
 }
@@ -80,6 +82,75 @@ TEST(ChartEdges, DoNotJoinMaterials) {
   EXPECT_EQ(square.across(1, 1), -1);
 }
 
+/// Two sheets with the same texture, as where a chart serves both sides of a model: each has its own edges.
+TEST(ChartEdges, JoinWithinEachSheet) {
+  const Case sheets({in_texture(low, right, up), in_texture(right, both, up), in_texture(low, right, up, 0, 1),
+                     in_texture(up, both, right, 0, 1)});
+  EXPECT_EQ(sheets.across(0, 0), 1);
+  EXPECT_EQ(sheets.across(1, 1), 0);
+  EXPECT_EQ(sheets.across(2, 0), 3);
+  EXPECT_EQ(sheets.across(3, 1), 2);
+}
+
+TEST(ChartEdges, DoNotJoinAcrossASeam) {
+  std::vector<TexturedTriangle> triangles = {in_texture(low, right, up), in_texture(right, both, up)};
+  for (Eigen::Vector2d& uv : triangles[1].coordinates) uv.x() += 2;
+  EXPECT_EQ(Case(triangles).across(0, 0), -1);
+}
+
+/// The edge between them is a seam, though another edge of the neighbour has the same ends in the texture.
+TEST(ChartEdges, DoNotJoinOtherEdgesThanTheCommonOne) {
+  std::vector<TexturedTriangle> triangles = {in_texture(low, right, up), in_texture(right, both, up)};
+  triangles[1].coordinates = {up, right, both};  // the edge from both to up, in space, has them
+  const Case test(triangles);
+  for (std::size_t t = 0; t < 2; ++t)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test.across(t, k), -1) << t << k;
+}
+
+/// Edges come in pairs, whatever lies where: a covering counts on that.
+TEST(ChartEdges, AreMutual) {
+  reference::Random random(8);
+  const auto number = [&] { return random.below(3) / 2.0; };
+  int joined = 0;
+  for (int run = 0; run < 2000; ++run) {
+    std::vector<TexturedTriangle> triangles;
+    for (int k = 0; k < 8; ++k) {
+      TexturedTriangle& t = triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        t.corners[i] = {number(), number(), 0};
+        t.coordinates[i] = random.below(4) == 0 ? Eigen::Vector2d(number(), number()) : t.corners[i].head<2>();
+      }
+    }
+    const Case test(triangles);
+    using Ends = std::array<Eigen::Vector2d, 2>;
+    const auto ends_of = [&](std::size_t t, std::size_t k) {  // with the triangle on the left
+      const auto& uv = triangles[t].coordinates;
+      const Ends ends = {uv[(k + 1) % 3], uv[(k + 2) % 3]};
+      return test.charts[t].turned ? Ends{ends[1], ends[0]} : ends;
+    };
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int other = test.across(t, k);
+        if (other < 0) continue;
+        ++joined;
+        const Ends ends = ends_of(t, k), back = {ends[1], ends[0]};
+        int partners = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+          const auto o = static_cast<std::size_t>(other);
+          if (test.across(o, j) == static_cast<int>(t) && ends_of(o, j) == back) ++partners;
+        }
+        ASSERT_EQ(partners, 1) << run;
+      }
+  }
+  EXPECT_GT(joined, 200);
+}
+
+/// The edge is the same in the texture only.
+TEST(ChartEdges, DoNotJoinWhatIsApartInSpace) {
+  const Case square({in_texture(low, right, up), in_texture(right, both, up, 0, 1)});
+  EXPECT_EQ(square.across(0, 0), -1);
+}
+
 TEST(ChartEdges, LeaveTrianglesWithoutArea) {
   const Case flat({in_texture(low, right, up), in_texture(right, {0.5, 0.5}, up)});
   EXPECT_EQ(flat.across(0, 0), -1);
@@ -92,8 +163,11 @@ TEST(ChartEdges, AreThoseOfAllPairs) {
   int joined = 0;
   for (int run = 0; run < 1000; ++run) {
     std::vector<TexturedTriangle> triangles;
-    for (int k = 0; k < 12; ++k)
-      triangles.push_back(in_texture(point(), point(), point(), static_cast<std::uint32_t>(random.below(2))));
+    for (int k = 0; k < 12; ++k) {
+      const int material = random.below(2);
+      triangles.push_back(
+          in_texture(point(), point(), point(), static_cast<std::uint32_t>(material), static_cast<double>(material)));
+    }
     const Case test(triangles);
     using Key = std::tuple<std::uint32_t, double, double, double, double>;
     std::map<Key, std::vector<std::pair<std::size_t, bool>>> users;  // each with the side that it is on

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "texture/overlay_numbers.h"
+#include "texture/chart_sides.h"
 
 namespace meshbound {
 namespace {
@@ -14,25 +14,6 @@ namespace {
 bool is_before(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
   return std::tie(p.x(), p.y()) < std::tie(q.x(), q.y());
 }
-
-/// Whether a coordinate is known to lie on an edge of a triangle or beyond it; edge k is opposite to corner k.
-bool is_beyond(const ChartTriangle& t, std::size_t k, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d &from = t.source->coordinates[(k + 1) % 3], &to = t.source->coordinates[(k + 2) % 3];
-  if (p == from || p == to) return true;
-  int sign = 0;
-  return sign_is_known(doubled_area(from, to, p), sign) && (t.turned ? sign >= 0 : sign <= 0);
-}
-
-/// Whether a segment is known to have no point inside a triangle, as it lies on one of its edges or beyond it.
-bool is_outside(const ChartTriangle& t, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (is_beyond(t, k, from) && is_beyond(t, k, to)) return true;
-  return false;
-}
-
-/// Inner points of a piece, by the weights of its first corners against 1 for the others, to be tried in turn: a point
-/// on an edge of a candidate decides nothing.
-constexpr std::array<std::array<double, 3>, 3> weights_of_corners = {{{1, 1, 1}, {3, 2, 1}, {1, 3, 5}}};
 
 Overlay::Node inner_point(const Overlay::Polygon& piece, const std::array<double, 3>& weights_of_first) {
   std::array<double, 3> weights{};
@@ -75,7 +56,7 @@ std::optional<bool> is_in_some(Overlay& overlay, Covering::Candidates candidates
 /// Whether the candidates cover the inside of a piece that no open edge runs through; else they cover no area of it.
 /// Absent where no point decides that.
 std::optional<bool> is_covered(Overlay& overlay, Covering::Candidates candidates, const Overlay::Polygon& piece) {
-  for (const std::array<double, 3>& weights : weights_of_corners) {
+  for (const std::array<double, 3>& weights : weights_of_inner_points) {
     const Overlay::Node point = inner_point(piece, weights);
     if (!is_inside(overlay, piece, point)) continue;
     if (const auto is_in = is_in_some(overlay, candidates, point)) return is_in;
@@ -157,11 +138,6 @@ void Covering::cut(Overlay& overlay, const Edge& edge) {
     for (const bool flip : {false, true}) overlay.clip(piece, line, flip, halves_.emplace_back());
   }
   std::swap(pieces_, halves_);
-}
-
-bool Covering::is_complete(Overlay& overlay, Candidates candidates) {
-  find_open_edges(overlay, candidates);
-  return edges_.empty() && is_covered(overlay, candidates, overlay.whole()).value_or(false);
 }
 
 std::optional<std::vector<Overlay::Polygon>> Covering::uncovered(Overlay& overlay, Candidates candidates) {

@@ -23,9 +23,6 @@ class Covering {
  public:
   using Candidates = std::span<const std::uint32_t>;
 
-  /// True only if the candidates cover all of A; false also where that cannot be decided. Expected O(candidates log
-  /// candidates).
-  [[nodiscard]] bool is_complete(Overlay& overlay, Candidates candidates);
   /// Convex pieces of A, without common area: all that the candidates leave uncovered but lines and points. Absent
   /// where that cannot be decided. Expected O(candidates (open edges + log candidates)).
   [[nodiscard]] std::optional<std::vector<Overlay::Polygon>> uncovered(Overlay& overlay, Candidates candidates);

@@ -6,6 +6,14 @@
 #include "texture/overlay_numbers.h"
 
 namespace meshbound {
+namespace {
+
+/// Squares of coordinates of an offset that is not shorter do not underflow so far that its length is off by more than
+/// `Approximate::grown` has room for.
+constexpr double least_distance = 0x1p-300;
+
+}  // namespace
+
 /// The derivative of a coordinate of the position by v is the area of the triangle with that coordinate in place of v,
 /// over the area in the texture; by u it is that with the coordinate in place of u.
 LiftedPlane::LiftedPlane(const TexturedTriangle& triangle)
@@ -35,11 +43,24 @@ LiftedPlane::LiftedPlane(const TexturedTriangle& triangle)
 bool LiftedPlane::is_within(const TexturedTriangle& triangle, double limit) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d step = triangle.coordinates[k] - from_;
-    const Eigen::Vector3d offset = triangle.corners[k] - at_ - (step.x() * way_[0] + step.y() * way_[1]);
-    const double distance = std::max(offset.norm(), 0x1p-300), error = 6 * (step.cwiseAbs().sum() * error_);
-    if (!((distance + error) * Approximate::grown <= limit)) return false;  // also where something is not a number
+    const double distance = std::max((triangle.corners[k] - at_ - way(step)).norm(), least_distance);
+    if (!((distance + error(step)) * Approximate::grown <= limit)) return false;  // also where it is not a number
   }
   return true;
+}
+
+/// As above, with a way on each plane: the derivatives are off by as much, 1 of the 6 parts of `error` on each axis.
+/// The ways round by 3 u and sums by 2 u of what they add up, and the offset of the corners, itself no longer than both
+/// ways and the distance together, by 3 u: 8 u of the ways on each axis, less than another part, and 3 u of the
+/// distance. On three axes two parts are less than 4.
+Approximate distance_at(const LiftedPlane& p, const LiftedPlane& q, const Eigen::Vector2d& at) {
+  const Eigen::Vector2d step_p = at - p.from_, step_q = at - q.from_;
+  const Eigen::Vector3d offset = (p.at_ - q.at_) + p.way(step_p) - q.way(step_q);
+  return {std::max(offset.norm(), least_distance), p.error(step_p) + q.error(step_q)};
+}
+
+double LiftedPlane::most_way() const {
+  return (way_[0].cwiseAbs().sum() + way_[1].cwiseAbs().sum() + 6 * error_) * Approximate::grown;
 }
 
 }  // namespace meshbound

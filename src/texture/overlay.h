@@ -30,14 +30,25 @@ class LiftedPlane {
   /// coordinates. The offset is linear in the texture coordinate, so its length over the triangle is largest at one of
   /// them. O(1).
   [[nodiscard]] bool is_within(const TexturedTriangle& triangle, double limit) const;
+  friend Approximate distance_at(const LiftedPlane& p, const LiftedPlane& q, const Eigen::Vector2d& at);
+  /// An upper bound of the way on the plane for a step of 1 on both axes of the texture.
+  [[nodiscard]] double most_way() const;
 
  private:
+  [[nodiscard]] Eigen::Vector3d way(const Eigen::Vector2d& step) const {
+    return step.x() * way_[0] + step.y() * way_[1];
+  }
+  [[nodiscard]] double error(const Eigen::Vector2d& step) const { return 6 * (step.cwiseAbs().sum() * error_); }
+
   Eigen::Vector2d from_ = Eigen::Vector2d::Zero();  ///< texture coordinate of a corner
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();    ///< its position
   /// Derivatives of the position by u and v.
   std::array<Eigen::Vector3d, 2> way_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   double error_ = HUGE_VAL;  ///< of any coordinate of a derivative; infinite: nothing is known
 };
+
+/// The distance between the points of two planes with a texture coordinate; 2^-300 stands for all that is less.
+[[nodiscard]] Approximate distance_at(const LiftedPlane& p, const LiftedPlane& q, const Eigen::Vector2d& at);
 
 /// A triangle with what is known of its texture coordinates from the start.
 struct ChartTriangle {
@@ -47,8 +58,8 @@ struct ChartTriangle {
   std::array<std::uint8_t, 3> along = {0, 1, 2};  ///< of a segment: its first, middle and last corner in the texture
   LiftedPlane plane;                              ///< set where it has an area
   std::uint32_t number = 0;                       ///< in its mesh
-  /// By edge, each opposite to a corner: the triangle on the other side of it in the texture, if all of the mesh has
-  /// only these two with that edge; else null.
+  /// By edge, each opposite to a corner: a triangle on the other side of it in the texture, which has this one across
+  /// the same edge; null where none is known.
   std::array<const ChartTriangle*, 3> across{};
 };
 
@@ -132,10 +143,6 @@ class Overlay {
   [[nodiscard]] Bounds rough_distance(std::uint32_t candidate, const Node& node);
   /// `distance`, where `rough` is what `rough_distance` says of the point.
   [[nodiscard]] Bounds refined(const Bounds& rough, std::uint32_t candidate, const Node& node, double precision);
-  /// Whether a quick look shows that no point of A is farther than `limit` from the point of the candidate with its
-  /// texture coordinate. Both must have an area in the texture. What both cover lies within the corners of either.
-  /// O(1).
-  [[nodiscard]] bool is_within(std::uint32_t candidate, double limit) const;
   /// The point and that nearest point, rounded to doubles.
   [[nodiscard]] TextureWitness witness(std::uint32_t candidate, const Node& node);
   /// The area of the polygon as a share of that of A.

@@ -107,11 +107,6 @@ Bounds Overlay::refined(const Bounds& rough, std::uint32_t candidate, const Node
   return rough.upper - rough.lower <= precision ? rough : exact_distance(candidates_[candidate], node);
 }
 
-bool Overlay::is_within(std::uint32_t candidate, double limit) const {
-  const ChartTriangle& b = *candidates_[candidate].triangle;
-  return b.plane.is_within(*a_->source, limit) || a_->plane.is_within(*b.source, limit);
-}
-
 /// A corner p of A, less the point of the candidate's plane with its texture coordinate: that is corner 0 plus
 /// the shares of the lines 1 and 2 in twice the area of the candidate times the ways to its other corners.
 Overlay::Offsets Overlay::offsets_at_corners(const Candidate& candidate) const {

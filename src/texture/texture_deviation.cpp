@@ -13,6 +13,7 @@
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
 #include "texture/charts.h"
+#include "texture/near_cover.h"
 #include "texture/surface_area.h"
 #include "texture/texture_comparison.h"
 #include "texture/triangle_deviation.h"
@@ -79,6 +80,7 @@ class Direction {
     explicit Workspace(const ExactUnits& units) : overlay(units) {}
     Overlay overlay;
     Covering covering;
+    NearCover near_cover;
     ChartCandidates candidates;
   };
 
@@ -103,6 +105,11 @@ class Direction {
     return options_.tolerance && found.bounds.upper > *options_.tolerance;
   }
 
+  /// What is far below the lower bound of all is not told apart.
+  [[nodiscard]] double least() const {
+    return far_below * std::min(goal_.lower, options_.tolerance.value_or(HUGE_VAL));
+  }
+
   template <class Work>
   void for_triangles(std::size_t count, std::size_t at_once, const Work& work) {
     with_team(static_cast<int>(workspaces_.size()), [&] {
@@ -114,10 +121,8 @@ class Direction {
     });
   }
 
-  /// Many triangles are covered by few near ones: an upper bound, and no uncovered area. What is far below the lower
-  /// bound of all is not told apart.
+  /// Many triangles are covered by few near ones: an upper bound, and no uncovered area.
   void look_at_near(const std::vector<std::size_t>& triangles) {
-    const double least = far_below * std::min(goal_.lower, options_.tolerance.value_or(HUGE_VAL));
     for_triangles(triangles.size(), grain, [&](std::size_t k, Workspace& work) {
       const std::size_t i = triangles[k];
       if (a_.triangles()[i].chart != Chart::Area) return;
@@ -127,9 +132,8 @@ class Direction {
         pairs_[i] = 1;
         return;
       }
-      overlay_near(i, work);
-      pairs_[i] = work.overlay.candidates();
-      if (const auto upper = upper_of_complete_cover(work.overlay, work.covering, goal_.precision, least))
+      pairs_[i] = static_cast<std::uint32_t>(work.candidates.near.size());
+      if (const auto upper = work.near_cover.upper(a_.triangles()[i], work.candidates.near, least(), goal_.precision))
         upper_[i] = *upper;
     });
   }
@@ -193,6 +197,7 @@ class Direction {
     std::vector<std::optional<TextureWitness>> witnesses(triangles.size());
     DeviationGoal goal = goal_;
     goal.error_bound = error_bound;
+    goal.least = least();
     if (options_.tolerance) {
       goal.lower = std::min(goal.lower, *options_.tolerance - goal.error_bound);
       goal.silent = *options_.tolerance;

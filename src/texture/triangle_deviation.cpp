@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "texture/pair_bound.h"
+
 namespace meshbound {
 namespace {
 
@@ -64,24 +66,6 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
   result.far = FarPoint{node, candidate};
 }
 
-/// The largest distance to the candidate over a polygon that it covers; -1 where that is empty.
-double upper_at_corners(Overlay& overlay, const Polygon& covered, std::uint32_t candidate, double precision) {
-  double upper = -1;
-  for (const auto& corner : covered) {
-    const Bounds rough = overlay.rough_distance(candidate, corner.node);
-    if (rough.upper <= upper) continue;
-    upper = std::max(upper, overlay.refined(rough, candidate, corner.node, precision).upper);
-  }
-  return upper;
-}
-
-/// Whether a candidate covers all of A.
-bool covers_all(Overlay& overlay, std::uint32_t candidate) {
-  const Polygon& whole = overlay.whole();
-  return std::all_of(whole.begin(), whole.end(),
-                     [&](const auto& corner) { return overlay.covers(candidate, corner.node); });
-}
-
 class PieceSearch {
  public:
   PieceSearch(Overlay& overlay, Covering& covering, std::span<const ChartTriangle* const> others,
@@ -111,24 +95,19 @@ class PieceSearch {
   void search_beside_near_ones() {
     const std::vector<std::uint32_t> candidates = spanning_from(0);
     std::vector<std::uint32_t> near, rest;
-    double upper = -1;
-    for (const std::uint32_t c : candidates)
-      (overlay_.is_within(c, upper) || is_within_limit(c, upper) ? near : rest).push_back(c);
+    double upper = goal_.least;
+    for (const std::uint32_t c : candidates) {
+      const double bound = upper_of_pair(overlay_.triangle(), overlay_.candidate(c), upper, goal_.precision);
+      const bool is_near = bound <= limit();
+      (is_near ? near : rest).push_back(c);
+      if (is_near) upper = bound;
+    }
     auto uncovered = near.empty() ? std::nullopt : covering_.uncovered(overlay_, near);
     if (!uncovered) return search(Piece{overlay_.whole(), {}, candidates});
     ++result_.pieces;
     accept(upper);
     for (const std::uint32_t c : near) is_bounded_[c] = 1;
     for (Polygon& polygon : *uncovered) search(Piece{std::move(polygon), {}, rest});
-  }
-
-  /// Whether what the candidate covers is within the limit; then `upper` is raised to its bound.
-  bool is_within_limit(std::uint32_t candidate, double& upper) {
-    overlay_.clip(overlay_.whole(), candidate, covered_);
-    const double bound = upper_at_corners(overlay_, covered_, candidate, goal_.precision);
-    if (bound > limit()) return false;
-    upper = std::max(upper, bound);
-    return true;
   }
 
   /// The candidates from `first` on that can cover more of A than a line or a point.
@@ -342,21 +321,6 @@ class PieceSearch {
 };
 
 }  // namespace
-
-std::optional<double> upper_of_complete_cover(Overlay& overlay, Covering& covering, double precision, double least) {
-  if (overlay.triangle().chart != Chart::Area) return std::nullopt;
-  for (const std::uint32_t c : overlay.spanning())
-    if (covers_all(overlay, c)) return std::max(least, upper_at_corners(overlay, overlay.whole(), c, precision));
-  if (!covering.is_complete(overlay, overlay.spanning())) return std::nullopt;
-  double upper = least;
-  Polygon covered;
-  for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
-    if (overlay.is_within(c, upper)) continue;
-    overlay.clip(overlay.whole(), c, covered);
-    upper = std::max(upper, upper_at_corners(overlay, covered, c, precision));
-  }
-  return upper;
-}
 
 TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering,
                                       std::span<const ChartTriangle* const> others, const DeviationGoal& goal) {

@@ -30,16 +30,12 @@ struct TriangleDeviation {
 /// The limits of a search, and how precise its result has to be; lengths in model units.
 struct DeviationGoal {
   double lower = 0;        ///< a lower bound for the whole mesh that is known already: smaller deviations do not matter
+  double least = 0;        ///< upper bounds below it are not told apart
   double error_bound = 0;  ///< an upper bound that exceeds the lower bound by no more than this suffices
   double precision = 0;    ///< of a single distance
   double silent = HUGE_VAL;  ///< a larger upper bound comes with a far point
   std::uint64_t max_pieces = 0;
 };
-
-/// An upper bound over all of A, that of the farthest candidate, but not below `least`. Absent unless the candidates
-/// are known to cover all of A. O(candidates log candidates).
-[[nodiscard]] std::optional<double> upper_of_complete_cover(Overlay& overlay, Covering& covering, double precision,
-                                                            double least);
 
 /// Bounds the deviation to the goal by branch and bound over pieces of A. The overlay holds the likely candidates;
 /// `others` are all further triangles that may have texture coordinates of A, and join it where those do not suffice.

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// Triangles that cover another one in the texture, and how far they are from it, as doubles know it: against integers.
+#include "texture/near_cover.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "reference/point_triangle_cases.h"
+#include "texture/chart_edges.h"
+#include "texture/covering.h"
+#include "texture/pair_bound.h"
+
+namespace meshbound {
+namespace near_cover_test {
+
+/// Its place in space is that in the texture, at a height.
+TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                            double height = 0) {
+  return {{{{a.x(), a.y(), height}, {b.x(), b.y(), height}, {c.x(), c.y(), height}}}, {a, b, c}};
+}
+
+/// All coordinates here are multiples of 2^-70.
+constexpr ExactUnits units{-70, -70};
+
+const Eigen::Vector2d low(0, 0), right(1, 0), up(0, 1), inside(0.25, 0.375), far_right(2, -0.5), far_up(-0.5, 2);
+
+/// A triangle, and others as its candidates.
+struct Case {
+  Case(const TexturedTriangle& of, std::vector<TexturedTriangle> by) : whole(of), triangles(std::move(by)) {
+    for (const TexturedTriangle& t : triangles) {
+      charts.push_back(chart_triangle(t, units));
+      charts.back().number = static_cast<std::uint32_t>(charts.size() - 1);
+    }
+    link_across_edges(charts);
+    for (const ChartTriangle& t : charts)
+      if (t.chart == Chart::Area) candidates.push_back(&t);
+  }
+  [[nodiscard]] bool is_complete() const { return NearCover().is_complete(a, candidates); }
+  [[nodiscard]] std::optional<double> upper(double least = 0, double precision = 1e-9) const {
+    return NearCover().upper(a, candidates, least, precision);
+  }
+  TexturedTriangle whole;
+  ChartTriangle a = chart_triangle(whole, units);
+  std::vector<TexturedTriangle> triangles;
+  std::vector<ChartTriangle> charts;
+  std::vector<const ChartTriangle*> candidates;
+};
+
+bool is_covered(const std::vector<TexturedTriangle>& by) { return Case(in_texture(low, right, up), by).is_complete(); }
+
+std::vector<TexturedTriangle> fan(double height = 0) {
+  return {in_texture(low, right, inside, height), in_texture(right, up, inside, height),
+          in_texture(up, low, inside, height)};
+}
+
+TEST(NearCover, IsThatOfATriangleByItself) { EXPECT_TRUE(is_covered({in_texture(low, right, up)})); }
+
+TEST(NearCover, IsThatOfAPartOfOne) {
+  EXPECT_TRUE(is_covered({in_texture({-1, -1}, far_right, far_up)}));
+  EXPECT_FALSE(is_covered({in_texture(low, {0.5, 0}, up)}));
+  EXPECT_FALSE(is_covered({in_texture(right, {2, 0}, up)}));  // beside it
+  EXPECT_FALSE(is_covered({}));
+}
+
+TEST(NearCover, IsThatByAFan) {
+  std::vector<TexturedTriangle> triangles = fan();
+  EXPECT_TRUE(is_covered(triangles));
+  triangles.push_back(in_texture({1, 1}, {2, 1}, {1, 2}));          // beside it
+  triangles.push_back(in_texture({-1, 0.5}, {0.5, -1}, {-1, -1}));  // before its first corner
+  EXPECT_TRUE(is_covered(triangles));
+  triangles.erase(triangles.begin() + 1);
+  EXPECT_FALSE(is_covered(triangles));
+}
+
+/// The neighbour across an edge counts only where it is a candidate as well.
+TEST(NearCover, IsNotThatByTwoOfAFan) {
+  Case test(in_texture(low, right, up), fan());
+  ASSERT_TRUE(test.is_complete());
+  for (int k = 0; k < 3; ++k) {
+    std::rotate(test.candidates.begin(), test.candidates.begin() + 1, test.candidates.end());
+    EXPECT_FALSE(NearCover().is_complete(test.a, NearCover::Candidates(test.candidates).first(2))) << k;
+  }
+}
+
+/// Which way round corners go does not matter: charts may be mirrored.
+TEST(NearCover, IsThatByAFanOfBothOrientations) {
+  std::vector<TexturedTriangle> triangles = fan();
+  std::swap(triangles[1].coordinates[0], triangles[1].coordinates[1]);
+  std::swap(triangles[1].corners[0], triangles[1].corners[1]);
+  EXPECT_TRUE(is_covered(triangles));
+}
+
+/// Where two triangles lie on the same side of their common edge, nothing is on the other side.
+TEST(NearCover, IsNotThatOfAFold) {
+  EXPECT_FALSE(is_covered({in_texture(low, {0.5, 0}, up), in_texture(low, up, {0.5, 0})}));
+  EXPECT_FALSE(is_covered({in_texture({0.5, 0}, up, low), in_texture({0.5, 0}, up, {-1, 0})}));
+}
+
+/// Two sheets of it: twice the number everywhere.
+TEST(NearCover, IsThatByTwoSheets) {
+  std::vector<TexturedTriangle> triangles = fan();
+  for (const TexturedTriangle& t : fan(1)) triangles.push_back(t);
+  EXPECT_TRUE(is_covered(triangles));
+  triangles.erase(triangles.begin());  // a hole in one of them: it is covered still, which is not known
+  EXPECT_FALSE(is_covered(triangles));
+}
+
+/// The middle of the triangle lies on edges of its candidates.
+TEST(NearCover, IsKnownWhereAPointLiesOnAnEdge) {
+  const Eigen::Vector2d middle(1, 1), a(0, 0), b(3, 0), c(0, 3);
+  const Case test(in_texture(a, b, c), {in_texture(a, b, middle), in_texture(b, c, middle), in_texture(c, a, middle)});
+  EXPECT_TRUE(test.is_complete());
+}
+
+TEST(NearCover, TakesTheFarthestCandidate) {
+  std::vector<TexturedTriangle> triangles = fan(0.5);
+  for (TexturedTriangle& t : triangles) t.corners[2].z() = 0.75;  // the common corner of the fan
+  const Case test(in_texture(low, right, up), triangles);
+  ASSERT_TRUE(test.upper());
+  EXPECT_NEAR(*test.upper(), 0.75, 1e-12);
+  EXPECT_GE(*test.upper(), 0.75);
+  EXPECT_EQ(test.upper(2), 2);
+  EXPECT_EQ(test.upper(0, 0), std::nullopt);  // no distance is known to within 0
+}
+
+/// Another candidate is farther, but the first one has all of the triangle.
+TEST(NearCover, TakesTheCandidateThatCoversAll) {
+  const Case test(in_texture(low, right, up), {in_texture(low, {0.5, 0}, up, 5), in_texture(low, right, up, 1)});
+  ASSERT_TRUE(test.upper());
+  EXPECT_NEAR(*test.upper(), 1, 1e-12);
+}
+
+/// What both triangles have is the corner of one of them: the planes are much farther apart elsewhere.
+TEST(PairBound, LooksNoFartherThanBothGo) {
+  TexturedTriangle a = in_texture(low, right, up), b = in_texture({0.75, 0}, {3, 0}, {0.75, 3});
+  b.corners[1].z() = b.corners[2].z() = 9;  // 4 a unit of length from the first corner on
+  const double upper = upper_of_pair(chart_triangle(a, units), chart_triangle(b, units), 0, 1e-9);
+  EXPECT_GE(upper, 1);
+  EXPECT_NEAR(upper, 1, 1e-12);
+}
+
+TEST(PairBound, IsTheLeastWhereNothingIsShared) {
+  const TexturedTriangle a = in_texture(low, right, up), b = in_texture({2, 0}, {3, 0}, {2, 1}, 7);
+  EXPECT_EQ(upper_of_pair(chart_triangle(a, units), chart_triangle(b, units), 0.25, 1e-9), 0.25);
+}
+
+/// Kinds of coordinates that are hard on doubles.
+enum class Kind { Grid, Rounded, Thin, Large };
+
+double number(reference::Random& random, Kind kind) {
+  const int x = random.below(17) - 8;
+  if (kind == Kind::Grid) return x / 8.0;
+  if (kind == Kind::Rounded) return x / 24.0;
+  if (kind == Kind::Large) return 1000 + x / 24.0;
+  return x / 24.0 + 0x1p-40 * random.below(3);
+}
+
+TexturedTriangle random_triangle(reference::Random& random, Kind kind) {
+  TexturedTriangle t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    t.coordinates[k] = {number(random, kind), number(random, kind)};
+    if (kind == Kind::Thin) t.coordinates[k].y() = t.coordinates[k].x() / 3 + 0x1p-20 * random.below(9);
+    t.corners[k] = {t.coordinates[k].x(), t.coordinates[k].y(), random.below(9) / 8.0};
+  }
+  return t;
+}
+
+/// The largest exact distance over what both triangles cover; -1 where that is empty.
+double largest_distance(const ChartTriangle& a, const ChartTriangle& b) {
+  Overlay overlay(units);
+  overlay.begin(a);
+  overlay.add(b);
+  if (overlay.candidates() == 0) return -1;
+  Overlay::Polygon covered;
+  overlay.clip(overlay.whole(), 0, covered);
+  double largest = -1;
+  for (const auto& corner : covered) largest = std::max(largest, overlay.distance(0, corner.node, 0).lower);
+  return largest;
+}
+
+TEST(PairBound, IsNeverBelowTheTruth) {
+  reference::Random random(5);
+  int known = 0, tight = 0, shared = 0;
+  for (int run = 0; run < 8000; ++run) {
+    const Kind kind = static_cast<Kind>(run % 4);
+    TexturedTriangle a = random_triangle(random, kind), b = random_triangle(random, kind);
+    if (random.below(3) == 0) b.coordinates[0] = a.coordinates[1];
+    if (random.below(6) == 0) b.coordinates[1] = a.coordinates[2];
+    const ChartTriangle of_a = chart_triangle(a, units), of_b = chart_triangle(b, units);
+    if (of_a.chart != Chart::Area || of_b.chart != Chart::Area) continue;
+    const double precision = kind == Kind::Thin ? 2 : 1e-6;
+    const double truth = largest_distance(of_a, of_b), upper = upper_of_pair(of_a, of_b, 0, precision);
+    ASSERT_GE(upper, truth) << run;
+    if (truth > 0) {
+      ++shared;
+      ASSERT_GE(upper_of_pair(of_a, of_b, 0.75 * truth, precision), truth) << run;
+      if (kind != Kind::Thin) EXPECT_EQ(upper_of_pair(of_a, of_b, 3 * upper, precision), 3 * upper) << run;
+    }
+    if (upper < HUGE_VAL) ++known;
+    if (upper <= std::max(truth, 0.0) + 1e-6) ++tight;
+  }
+  EXPECT_GT(shared, 3000);
+  EXPECT_GT(known, 5000);
+  EXPECT_GT(tight, 5000);
+}
+
+/// Triangles of a grid with moved vertices: they cover what lies inside.
+std::vector<TexturedTriangle> random_grid(reference::Random& random) {
+  constexpr int size = 4;
+  Eigen::Vector2d uv[size + 1][size + 1];
+  double height[size + 1][size + 1];
+  for (int i = 0; i <= size; ++i)
+    for (int j = 0; j <= size; ++j) {
+      uv[i][j] = {i + random.below(7) / 20.0, j + random.below(7) / 20.0};
+      height[i][j] = random.below(9) / 8.0;
+    }
+  std::vector<TexturedTriangle> triangles;
+  const auto add = [&](std::array<std::pair<int, int>, 3> at) {
+    TexturedTriangle& t = triangles.emplace_back();
+    if (random.below(2) == 0) std::swap(at[0], at[1]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [i, j] = at[k];
+      t.coordinates[k] = uv[i][j];
+      t.corners[k] = {uv[i][j].x(), uv[i][j].y(), height[i][j]};
+    }
+  };
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) {
+      if (random.below(40) == 0) continue;  // a hole
+      add({{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
+      add({{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
+    }
+  return triangles;
+}
+
+/// Against the exact covering, and the largest of the exact distances.
+TEST(NearCover, AgreesWithIntegers) {
+  reference::Random random(9);
+  int complete = 0, missed = 0, open = 0;
+  for (int run = 0; run < 600; ++run) {
+    const auto point = [&] { return Eigen::Vector2d(0.4 + random.below(14) / 4.0, 0.4 + random.below(14) / 4.0); };
+    const Case test(in_texture(point(), point(), point()), random_grid(random));
+    if (test.a.chart != Chart::Area) continue;
+    Overlay overlay(units);
+    overlay.begin(test.a);
+    for (const ChartTriangle* b : test.candidates) overlay.add(*b);
+    const auto left = Covering().uncovered(overlay, overlay.spanning());
+    const bool is_covered = left && left->empty();
+    if (!is_covered) {
+      ++open;
+      ASSERT_FALSE(test.is_complete()) << run;
+      continue;
+    }
+    const auto upper = test.upper();
+    if (!upper) {
+      ++missed;
+      continue;
+    }
+    ++complete;
+    double truth = 0;
+    for (const ChartTriangle* b : test.candidates) truth = std::max(truth, largest_distance(test.a, *b));
+    ASSERT_GE(*upper, truth) << run;
+    EXPECT_LE(*upper, truth + 1e-9) << run;
+  }
+  EXPECT_GT(complete, 200);
+  EXPECT_GT(open, 50);
+  EXPECT_LT(missed, 10);
+}
+
+}  // namespace near_cover_test
+}  // namespace meshbound
