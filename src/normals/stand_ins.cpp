@@ -56,6 +56,10 @@ SurfacePoint middle_of(const MeshView& mesh, std::size_t face) {
 }
 
 StandIns::StandIns(const MeshView& b, double tie, int threads) : tie_(tie) {
+  mesh_.vertices.reserve(3 * b.triangle_count());
+  mesh_.triangles.reserve(b.triangle_count());
+  normals_.reserve(b.triangle_count());
+  source_.reserve(b.triangle_count());
   for (std::size_t t = 0; t < b.triangle_count(); ++t) {
     const Corners corners = corners_of(b, t);
     const auto normal = normal_of(corners);

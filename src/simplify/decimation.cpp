@@ -337,6 +337,7 @@ void Decimation::set_turns() {
 void Decimation::set_texture() {
   std::vector<CornerCoordinates> coordinates;
   std::vector<std::uint32_t> materials;
+  coordinates.reserve(order_.triangle.size());
   for (const std::uint32_t t : order_.triangle) {
     coordinates.push_back(options_.texture_coordinates[t]);
     if (!options_.materials.empty()) materials.push_back(options_.materials[t]);

@@ -13,6 +13,8 @@ class SampleLists {
  public:
   explicit SampleLists(std::size_t faces) : first_(faces, no_index) {}
 
+  /// Makes room for so many samples.
+  void reserve(std::size_t samples) { following_.reserve(samples); }
   /// Adds the sample with the next number, from 0 on.
   void add(std::uint32_t face) {
     following_.push_back(no_index);

@@ -107,6 +107,7 @@ TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& 
                        const std::vector<std::uint32_t>& triangle_of_face, const std::vector<Vec3>& vertices,
                        const std::vector<Triangle>& triangles, double spacing)
     : lists(start.face_count()), atlas_(std::move(atlas)), coordinates_(3 * start.face_count()) {
+  material_.reserve(start.face_count());
   for (std::uint32_t f = 0; f < start.face_count(); ++f) {
     const std::uint32_t t = triangle_of_face[f];
     material_.push_back(atlas_.material(t));
@@ -167,14 +168,22 @@ void TextureMap::take_vertices(const ArrayMesh& start, const FeatureLines& lines
 }
 
 void TextureMap::take_edges(const ArrayMesh& start, const FeatureLines& lines, double spacing) {
-  for (Corner c = 0; c < 3 * start.face_count(); ++c) {
-    const bool is_line = lines.is_line(start, c);
-    if ((start.edge(c) != c && !is_line) || chart_[c / 3] == no_index) continue;
+  const auto count_on = [&](Corner c) {
+    if ((start.edge(c) != c && !lines.is_line(start, c)) || chart_[c / 3] == no_index) return 0.0;
+    const double length = meshbound::length(start.position(start.end(c)) - start.position(start.start(c)));
+    const double count = std::floor(length / spacing);
+    return count >= 1 ? std::min(count, max_between) : 0;  // 0 also where it is not a number
+  };
+  std::vector<std::uint8_t> counts(3 * start.face_count());
+  std::size_t all = samples_.size();
+  for (Corner c = 0; c < counts.size(); ++c) all += counts[c] = static_cast<std::uint8_t>(count_on(c));
+  samples_.reserve(all);
+  lists.reserve(all);
+  for (Corner c = 0; c < counts.size(); ++c) {
     const Vec3 p = start.position(start.start(c)), q = start.position(start.end(c));
-    const double count = std::min(std::floor(length(q - p) / spacing), max_between);
-    for (int k = 1; k <= count; ++k) {
-      const double share = k / (count + 1);
-      add_sample(c / 3, p + share * (q - p), at(c) + share * (at(next_corner(c)) - at(c)), is_line);
+    for (int k = 1; k <= counts[c]; ++k) {
+      const double share = k / (counts[c] + 1.0);
+      add_sample(c / 3, p + share * (q - p), at(c) + share * (at(next_corner(c)) - at(c)), lines.is_line(start, c));
     }
   }
 }
