@@ -135,7 +135,7 @@ TEST_P(Faults, TooLittleMemoryEndsItInOneLine) {
   prepare(100);
   int out_of_memory = 0, done = 0;
   // From what little the image of the largest tool fits into to enough for every tool.
-  for (const int megabytes : {9, 10, 11, 12, 13, 14, 16, 18, 20, 22, 25, 28, 32, 400}) {
+  for (const int megabytes : {11, 12, 13, 14, 16, 18, 20, 22, 25, 28, 32, 400}) {
     SCOPED_TRACE(std::to_string(megabytes) + " MiB");
     for (const std::string& name : names())
       if (!before_.contains(name)) fs::remove_all(folder_ / name);

@@ -198,7 +198,9 @@ TEST(PairBound, IsNeverBelowTheTruth) {
     if (truth > 0) {
       ++shared;
       ASSERT_GE(upper_of_pair(of_a, of_b, 0.75 * truth, precision), truth) << run;
-      if (kind != Kind::Thin) EXPECT_EQ(upper_of_pair(of_a, of_b, 3 * upper, precision), 3 * upper) << run;
+      if (kind != Kind::Thin) {
+        EXPECT_EQ(upper_of_pair(of_a, of_b, 3 * upper, precision), 3 * upper) << run;
+      }
     }
     if (upper < HUGE_VAL) ++known;
     if (upper <= std::max(truth, 0.0) + 1e-6) ++tight;

@@ -10,7 +10,7 @@ namespace {
 
 /// Squares of coordinates of an offset that is not shorter do not underflow so far that its length is off by more than
 /// `Approximate::grown` has room for.
-constexpr double least_distance = 0x1p-300;
+constexpr double min_distance = 0x1p-300;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ LiftedPlane::LiftedPlane(const TexturedTriangle& triangle)
 bool LiftedPlane::is_within(const TexturedTriangle& triangle, double limit) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d step = triangle.coordinates[k] - from_;
-    const double distance = std::max((triangle.corners[k] - at_ - way(step)).norm(), least_distance);
+    const double distance = std::max((triangle.corners[k] - at_ - way(step)).norm(), min_distance);
     if (!((distance + error(step)) * Approximate::grown <= limit)) return false;  // also where it is not a number
   }
   return true;
@@ -56,10 +56,10 @@ bool LiftedPlane::is_within(const TexturedTriangle& triangle, double limit) cons
 Approximate distance_at(const LiftedPlane& p, const LiftedPlane& q, const Eigen::Vector2d& at) {
   const Eigen::Vector2d step_p = at - p.from_, step_q = at - q.from_;
   const Eigen::Vector3d offset = (p.at_ - q.at_) + p.way(step_p) - q.way(step_q);
-  return {std::max(offset.norm(), least_distance), p.error(step_p) + q.error(step_q)};
+  return {std::max(offset.norm(), min_distance), p.error(step_p) + q.error(step_q)};
 }
 
-double LiftedPlane::most_way() const {
+double LiftedPlane::max_derivative() const {
   return (way_[0].cwiseAbs().sum() + way_[1].cwiseAbs().sum() + 6 * error_) * Approximate::grown;
 }
 

@@ -38,14 +38,15 @@ bool NearCover::is_complete(const ChartTriangle& a, Candidates candidates) {
   return !has_open && has_covered_point(a, candidates);
 }
 
-std::optional<double> NearCover::upper(const ChartTriangle& a, Candidates candidates, double least, double precision) {
-  double upper = least;
+std::optional<double> NearCover::upper(const ChartTriangle& a, Candidates candidates, double min_upper,
+                                       double precision) {
+  double upper = min_upper;
   const auto whole =
       std::find_if(candidates.begin(), candidates.end(), [&](const ChartTriangle* b) { return is_part_of(a, *b); });
   if (whole != candidates.end())
-    upper = upper_of_pair(a, **whole, least, precision);
+    upper = upper_of_pair(a, **whole, min_upper, precision);
   else if (is_complete(a, candidates))
-    for (const ChartTriangle* b : candidates) upper = std::max(upper, upper_of_pair(a, *b, least, precision));
+    for (const ChartTriangle* b : candidates) upper = std::max(upper, upper_of_pair(a, *b, min_upper, precision));
   else
     return std::nullopt;
   return upper < HUGE_VAL ? std::optional(upper) : std::nullopt;

@@ -14,10 +14,10 @@ class NearCover {
  public:
   using Candidates = std::span<const ChartTriangle* const>;
 
-  /// An upper bound over all of A: of the candidate that covers all of it, else of the farthest one; at most `least`
-  /// counts as that. Absent where the candidates are not known to cover A, or a distance not to within `precision`.
-  /// A and all candidates must have an area in the texture. O(candidates) but for edges where a chart ends.
-  [[nodiscard]] std::optional<double> upper(const ChartTriangle& a, Candidates candidates, double least,
+  /// An upper bound over all of A: that of the candidate that covers all of it, else that of the farthest one; not
+  /// below `min_upper`. Absent where the candidates are not known to cover A, or a distance is not known to within
+  /// `precision`. A and all candidates must have an area in the texture. Lengths in model units. O(candidates).
+  [[nodiscard]] std::optional<double> upper(const ChartTriangle& a, Candidates candidates, double min_upper,
                                             double precision);
 
   /// True only if the candidates cover all of A: as `Covering` tells it, where no open edge runs through the inside of

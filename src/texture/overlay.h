@@ -31,8 +31,8 @@ class LiftedPlane {
   /// them. O(1).
   [[nodiscard]] bool is_within(const TexturedTriangle& triangle, double limit) const;
   friend Approximate distance_at(const LiftedPlane& p, const LiftedPlane& q, const Eigen::Vector2d& at);
-  /// An upper bound of the way on the plane for a step of 1 on both axes of the texture.
-  [[nodiscard]] double most_way() const;
+  /// An upper bound of the lengths of both derivatives of the position together.
+  [[nodiscard]] double max_derivative() const;
 
  private:
   [[nodiscard]] Eigen::Vector3d way(const Eigen::Vector2d& step) const {

@@ -67,15 +67,15 @@ void cut(HullPoints& points, const ChartTriangle& by, std::size_t edge, double s
 
 }  // namespace
 
-double upper_of_pair(const ChartTriangle& a, const ChartTriangle& b, double least, double precision) {
-  if (b.plane.is_within(*a.source, least) || a.plane.is_within(*b.source, least)) return least;
+double upper_of_pair(const ChartTriangle& a, const ChartTriangle& b, double min_upper, double precision) {
+  if (b.plane.is_within(*a.source, min_upper) || a.plane.is_within(*b.source, min_upper)) return min_upper;
   HullPoints points;
   std::copy(a.source->coordinates.begin(), a.source->coordinates.end(), points.at.begin());
   points.count = 3;
   const double size = size_of(a);
   for (std::size_t edge = 0; edge < 3; ++edge) cut(points, b, edge, size);
-  const double beside = points.reach * (a.plane.most_way() + b.plane.most_way()) * Approximate::grown;
-  double upper = least;
+  const double beside = points.reach * (a.plane.max_derivative() + b.plane.max_derivative()) * Approximate::grown;
+  double upper = min_upper;
   for (std::size_t i = 0; i < points.count; ++i) {
     const Approximate there = distance_at(a.plane, b.plane, points.at[i]);
     const double here = (there.value + (there.error + beside)) * Approximate::grown;

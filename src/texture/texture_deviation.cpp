@@ -106,7 +106,7 @@ class Direction {
   }
 
   /// What is far below the lower bound of all is not told apart.
-  [[nodiscard]] double least() const {
+  [[nodiscard]] double min_upper() const {
     return far_below * std::min(goal_.lower, options_.tolerance.value_or(HUGE_VAL));
   }
 
@@ -133,7 +133,8 @@ class Direction {
         return;
       }
       pairs_[i] = static_cast<std::uint32_t>(work.candidates.near.size());
-      if (const auto upper = work.near_cover.upper(a_.triangles()[i], work.candidates.near, least(), goal_.precision))
+      if (const auto upper =
+              work.near_cover.upper(a_.triangles()[i], work.candidates.near, min_upper(), goal_.precision))
         upper_[i] = *upper;
     });
   }
@@ -197,7 +198,7 @@ class Direction {
     std::vector<std::optional<TextureWitness>> witnesses(triangles.size());
     DeviationGoal goal = goal_;
     goal.error_bound = error_bound;
-    goal.least = least();
+    goal.min_upper = min_upper();
     if (options_.tolerance) {
       goal.lower = std::min(goal.lower, *options_.tolerance - goal.error_bound);
       goal.silent = *options_.tolerance;

@@ -95,7 +95,7 @@ class PieceSearch {
   void search_beside_near_ones() {
     const std::vector<std::uint32_t> candidates = spanning_from(0);
     std::vector<std::uint32_t> near, rest;
-    double upper = goal_.least;
+    double upper = goal_.min_upper;
     for (const std::uint32_t c : candidates) {
       const double bound = upper_of_pair(overlay_.triangle(), overlay_.candidate(c), upper, goal_.precision);
       const bool is_near = bound <= limit();

@@ -30,7 +30,7 @@ struct TriangleDeviation {
 /// The limits of a search, and how precise its result has to be; lengths in model units.
 struct DeviationGoal {
   double lower = 0;        ///< a lower bound for the whole mesh that is known already: smaller deviations do not matter
-  double least = 0;        ///< upper bounds below it are not told apart
+  double min_upper = 0;    ///< upper bounds below it are not told apart
   double error_bound = 0;  ///< an upper bound that exceeds the lower bound by no more than this suffices
   double precision = 0;    ///< of a single distance
   double silent = HUGE_VAL;  ///< a larger upper bound comes with a far point
