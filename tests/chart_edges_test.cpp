@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "chart_cases.h"
 #include "reference/point_triangle_cases.h"
 
 namespace meshbound {
@@ -19,31 +20,15 @@ constexpr ExactUnits units{-6, 0};
 
 /// Triangles of a mesh, linked.
 struct Case {
-  explicit Case(std::vector<TexturedTriangle> of) : triangles(std::move(of)) {
-    for (const TexturedTriangle& t : triangles) {
-      charts.push_back(chart_triangle(t, units));
-      charts.back().number = static_cast<std::uint32_t>(charts.size() - 1);
-    }
-    link_across_edges(charts);
-  }
+  explicit Case(std::vector<TexturedTriangle> of) : triangles(std::move(of)) { link_across_edges(charts); }
   /// The number of the triangle across an edge; -1 if there is none.
   [[nodiscard]] int across(std::size_t triangle, std::size_t corner) const {
     const ChartTriangle* other = charts[triangle].across[corner];
     return other == nullptr ? -1 : static_cast<int>(other - charts.data());
   }
   std::vector<TexturedTriangle> triangles;
-  std::vector<ChartTriangle> charts;
+  std::vector<ChartTriangle> charts = charts_of(triangles, units);
 };
-
-/// Its place in space is that in the texture, at a height.
-TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-                            std::uint32_t material = 0, double height = 0) {
-  TexturedTriangle t;
-  t.coordinates = {a, b, c};
-  for (std::size_t k = 0; k < 3; ++k) t.corners[k] = {t.coordinates[k].x(), t.coordinates[k].y(), height};
-  t.material = material;
-  return t;
-}
 
 const Eigen::Vector2d low(0, 0), right(1, 0), up(0, 1), both(1, 1);
 
@@ -77,15 +62,15 @@ TEST(ChartEdges, DoNotJoinMoreThanTwo) {
 }
 
 TEST(ChartEdges, DoNotJoinMaterials) {
-  const Case square({in_texture(low, right, up), in_texture(right, both, up, 1)});
+  const Case square({in_texture(low, right, up), in_texture(right, both, up, 0, 1)});
   EXPECT_EQ(square.across(0, 0), -1);
   EXPECT_EQ(square.across(1, 1), -1);
 }
 
 /// Two sheets with the same texture, as where a chart serves both sides of a model: each has its own edges.
 TEST(ChartEdges, JoinWithinEachSheet) {
-  const Case sheets({in_texture(low, right, up), in_texture(right, both, up), in_texture(low, right, up, 0, 1),
-                     in_texture(up, both, right, 0, 1)});
+  const Case sheets({in_texture(low, right, up), in_texture(right, both, up), in_texture(low, right, up, 1),
+                     in_texture(up, both, right, 1)});
   EXPECT_EQ(sheets.across(0, 0), 1);
   EXPECT_EQ(sheets.across(1, 1), 0);
   EXPECT_EQ(sheets.across(2, 0), 3);
@@ -147,7 +132,7 @@ TEST(ChartEdges, AreMutual) {
 
 /// The edge is the same in the texture only.
 TEST(ChartEdges, DoNotJoinWhatIsApartInSpace) {
-  const Case square({in_texture(low, right, up), in_texture(right, both, up, 0, 1)});
+  const Case square({in_texture(low, right, up), in_texture(right, both, up, 1)});
   EXPECT_EQ(square.across(0, 0), -1);
 }
 
@@ -165,8 +150,7 @@ TEST(ChartEdges, AreThoseOfAllPairs) {
     std::vector<TexturedTriangle> triangles;
     for (int k = 0; k < 12; ++k) {
       const int material = random.below(2);
-      triangles.push_back(
-          in_texture(point(), point(), point(), static_cast<std::uint32_t>(material), static_cast<double>(material)));
+      triangles.push_back(in_texture(point(), point(), point(), material, static_cast<std::uint32_t>(material)));
     }
     const Case test(triangles);
     using Key = std::tuple<std::uint32_t, double, double, double, double>;

@@ -8,16 +8,12 @@
 #include <numeric>
 #include <utility>
 
+#include "chart_cases.h"
 #include "reference/point_triangle_cases.h"
 #include "texture/chart_edges.h"
 
 namespace meshbound {
 namespace covering_test {
-
-/// Its place in space is that in the texture.
-TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return {{{{a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {c.x(), c.y(), 0}}}, {a, b, c}};
-}
 
 /// Texture coordinates here are multiples of 1/64.
 constexpr ExactUnits units{-6, 0};
@@ -25,10 +21,6 @@ constexpr ExactUnits units{-6, 0};
 /// The triangle (0,0), (1,0), (0,1), and others as its candidates.
 struct Case {
   explicit Case(std::vector<TexturedTriangle> by, bool is_linked = true) : triangles(std::move(by)) {
-    for (const TexturedTriangle& t : triangles) {
-      charts.push_back(chart_triangle(t, units));
-      charts.back().number = static_cast<std::uint32_t>(charts.size() - 1);
-    }
     if (is_linked) link_across_edges(charts);
     overlay.begin(a);
     for (const ChartTriangle& t : charts) overlay.add(t);
@@ -38,7 +30,7 @@ struct Case {
   TexturedTriangle whole = in_texture({0, 0}, {1, 0}, {0, 1});
   ChartTriangle a = chart_triangle(whole, units);
   std::vector<TexturedTriangle> triangles;
-  std::vector<ChartTriangle> charts;
+  std::vector<ChartTriangle> charts = charts_of(triangles, units);
   Overlay overlay = Overlay(units);
   std::vector<std::uint32_t> all;
 };

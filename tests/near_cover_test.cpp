@@ -2,6 +2,7 @@
 // Triangles that cover another one in the texture, and how far they are from it, as doubles know it: against integers.
 #include "texture/near_cover.h"
 
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,19 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "chart_cases.h"
 #include "reference/point_triangle_cases.h"
 #include "texture/chart_edges.h"
+#include "texture/chart_sides.h"
 #include "texture/covering.h"
 #include "texture/pair_bound.h"
 
 namespace meshbound {
 namespace near_cover_test {
-
-/// Its place in space is that in the texture, at a height.
-TexturedTriangle in_texture(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-                            double height = 0) {
-  return {{{{a.x(), a.y(), height}, {b.x(), b.y(), height}, {c.x(), c.y(), height}}}, {a, b, c}};
-}
 
 /// All coordinates here are multiples of 2^-70.
 constexpr ExactUnits units{-70, -70};
@@ -31,10 +28,6 @@ const Eigen::Vector2d low(0, 0), right(1, 0), up(0, 1), inside(0.25, 0.375), far
 /// A triangle, and others as its candidates.
 struct Case {
   Case(const TexturedTriangle& of, std::vector<TexturedTriangle> by) : whole(of), triangles(std::move(by)) {
-    for (const TexturedTriangle& t : triangles) {
-      charts.push_back(chart_triangle(t, units));
-      charts.back().number = static_cast<std::uint32_t>(charts.size() - 1);
-    }
     link_across_edges(charts);
     for (const ChartTriangle& t : charts)
       if (t.chart == Chart::Area) candidates.push_back(&t);
@@ -46,7 +39,7 @@ struct Case {
   TexturedTriangle whole;
   ChartTriangle a = chart_triangle(whole, units);
   std::vector<TexturedTriangle> triangles;
-  std::vector<ChartTriangle> charts;
+  std::vector<ChartTriangle> charts = charts_of(triangles, units);
   std::vector<const ChartTriangle*> candidates;
 };
 
@@ -180,6 +173,52 @@ double largest_distance(const ChartTriangle& a, const ChartTriangle& b) {
   double largest = -1;
   for (const auto& corner : covered) largest = std::max(largest, overlay.distance(0, corner.node, 0).lower);
   return largest;
+}
+
+/// Twice the area of a point with an edge, positive on the inner side.
+mpq_class exact_area(const ChartTriangle& t, std::size_t edge, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d &from = t.source->coordinates[(edge + 1) % 3], &to = t.source->coordinates[(edge + 2) % 3];
+  const auto difference = [](double x, double y) { return mpq_class(mpq_class(x) - mpq_class(y)); };
+  const mpq_class area = difference(to.x(), from.x()) * difference(p.y(), from.y()) -
+                         difference(to.y(), from.y()) * difference(p.x(), from.x());
+  return t.turned ? mpq_class(-area) : area;
+}
+
+/// For points so near the edges that doubles cannot tell their sides.
+TEST(ChartSides, TellNothingThatIsNotSo) {
+  reference::Random random(12);
+  int told = 0, untold = 0;
+  for (int run = 0; run < 3000; ++run) {
+    TexturedTriangle source = random_triangle(random, Kind::Rounded), other = source;
+    const auto near_edge = [&](std::size_t k) {
+      const Eigen::Vector2d &p = source.coordinates[k % 3], &q = source.coordinates[(k + 1) % 3];
+      return Eigen::Vector2d(p + random.below(7) / 7.0 * (q - p));
+    };
+    for (std::size_t k = 0; k < 3; ++k) other.coordinates[k] = near_edge(k);
+    const ChartTriangle t = chart_triangle(source, units), part = chart_triangle(other, units);
+    if (t.chart != Chart::Area || part.chart != Chart::Area) continue;
+    bool is_part = true;
+    for (const Eigen::Vector2d& p : other.coordinates) {
+      bool is_within = true, is_strictly_within = true;
+      for (std::size_t edge = 0; edge < 3; ++edge) {
+        is_within = is_within && sgn(exact_area(t, edge, p)) >= 0;
+        is_strictly_within = is_strictly_within && sgn(exact_area(t, edge, p)) > 0;
+      }
+      is_part = is_part && is_within;
+      ASSERT_LE(is_inside(t, p), is_strictly_within) << run;
+      told += is_inside(t, p) ? 1 : 0;
+    }
+    ASSERT_LE(is_part_of(part, t), is_part) << run;
+    untold += is_part && !is_part_of(part, t) ? 1 : 0;
+    const Eigen::Vector2d from = near_edge(0), to = near_edge(0);
+    bool is_beyond = false;
+    for (std::size_t edge = 0; edge < 3; ++edge)
+      is_beyond = is_beyond || (sgn(exact_area(t, edge, from)) <= 0 && sgn(exact_area(t, edge, to)) <= 0);
+    ASSERT_LE(is_outside(t, from, to), is_beyond) << run;
+    told += is_outside(t, from, to) ? 1 : 0;
+  }
+  EXPECT_GT(told, 100);
+  EXPECT_GT(untold, 10);
 }
 
 TEST(PairBound, IsNeverBelowTheTruth) {

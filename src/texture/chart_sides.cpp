@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "texture/chart_sides.h"
 
-#include <algorithm>
+#include <optional>
 
 namespace meshbound {
 namespace {
 
-bool is_known_positive(const Approximate& x) { return x.value > x.error; }
-bool is_known_not_negative(const Approximate& x) { return is_known_positive(x) || x.is_zero(); }
-bool is_known_not_positive(const Approximate& x) { return is_known_not_negative(-x); }
+/// The side of an edge that a point is known to lie on: 1 inside, 0 on its line, -1 beyond it; absent if doubles do not
+/// tell.
+std::optional<int> known_side(const ChartTriangle& t, std::size_t edge, const Eigen::Vector2d& p) {
+  int side = 0;
+  return sign_is_known(inner_area(t, edge, p), side) ? std::optional(side) : std::nullopt;
+}
 
 /// Whether a point is known to lie on an edge or beyond it.
 bool is_beyond(const ChartTriangle& t, std::size_t edge, const Eigen::Vector2d& p) {
-  return is_known_not_positive(inner_area(t, edge, p));
+  return known_side(t, edge, p).value_or(1) <= 0;
 }
 
 /// Whether all of a triangle is known to be on one side of the line of an edge.
 bool is_on_one_side(const ChartTriangle& t, const ChartTriangle& of_edge, std::size_t edge) {
   bool is_within = true, is_beyond = true;
   for (const Eigen::Vector2d& p : t.source->coordinates) {
-    const Approximate area = inner_area(of_edge, edge, p);
-    is_within = is_within && is_known_not_negative(area);
-    is_beyond = is_beyond && is_known_not_positive(area);
+    const std::optional<int> side = known_side(of_edge, edge, p);
+    is_within = is_within && side.value_or(-1) >= 0;
+    is_beyond = is_beyond && side.value_or(1) <= 0;
   }
   return is_within || is_beyond;
 }
@@ -30,14 +33,14 @@ bool is_on_one_side(const ChartTriangle& t, const ChartTriangle& of_edge, std::s
 
 bool is_inside(const ChartTriangle& t, const Eigen::Vector2d& p) {
   for (std::size_t edge = 0; edge < 3; ++edge)
-    if (!is_known_positive(inner_area(t, edge, p))) return false;
+    if (known_side(t, edge, p) != 1) return false;
   return true;
 }
 
 bool is_part_of(const ChartTriangle& part, const ChartTriangle& whole) {
   for (const Eigen::Vector2d& p : part.source->coordinates)
     for (std::size_t edge = 0; edge < 3; ++edge)
-      if (!is_known_not_negative(inner_area(whole, edge, p))) return false;
+      if (known_side(whole, edge, p).value_or(-1) < 0) return false;
   return true;
 }
 

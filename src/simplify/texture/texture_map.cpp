@@ -168,8 +168,8 @@ void TextureMap::take_vertices(const ArrayMesh& start, const FeatureLines& lines
 }
 
 void TextureMap::take_edges(const ArrayMesh& start, const FeatureLines& lines, double spacing) {
-  const auto count_on = [&](Corner c) {
-    if ((start.edge(c) != c && !lines.is_line(start, c)) || chart_[c / 3] == no_index) return 0.0;
+  const auto count_on = [&](Corner c) -> double {
+    if ((start.edge(c) != c && !lines.is_line(start, c)) || chart_[c / 3] == no_index) return 0;
     const double length = meshbound::length(start.position(start.end(c)) - start.position(start.start(c)));
     const double count = std::floor(length / spacing);
     return count >= 1 ? std::min(count, max_between) : 0;  // 0 also where it is not a number
@@ -180,6 +180,7 @@ void TextureMap::take_edges(const ArrayMesh& start, const FeatureLines& lines, d
   samples_.reserve(all);
   lists.reserve(all);
   for (Corner c = 0; c < counts.size(); ++c) {
+    if (counts[c] == 0) continue;
     const Vec3 p = start.position(start.start(c)), q = start.position(start.end(c));
     for (int k = 1; k <= counts[c]; ++k) {
       const double share = k / (counts[c] + 1.0);
