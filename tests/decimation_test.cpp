@@ -318,11 +318,10 @@ TEST_P(Decimation, LeavesLittleAtTheSeamsOfItsCuts) {
   EXPECT_LT(100 * result.counts.proven_alone, result.last().collapses_performed);
 }
 
-/// Where three cuts leave many regions, others follow: 33 of 160,000 collapses are proven one by one, 1,023 without
-/// them.
+/// Where three cuts leave many regions, others follow: 29 of 180,000 collapses are proven one by one, 736 without them.
 TEST(Decimation, CutsAgainWhereMuchIsLeftAtSeams) {
-  const SimplifyResult result = simplify_with_bound(datasets::torus(1, 0.4, 400, 400), {.tolerance = 0.04});
-  EXPECT_GT(result.last().collapses_performed, 159'000u);
+  const SimplifyResult result = simplify_with_bound(datasets::torus(1, 0.4, 300, 600), {.tolerance = 0.04});
+  EXPECT_GT(result.last().collapses_performed, 179'000u);
   EXPECT_LT(1000 * result.counts.proven_alone, result.last().collapses_performed);
 }
 

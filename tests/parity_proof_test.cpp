@@ -310,7 +310,7 @@ std::vector<Vector3d> points_of(const std::array<Vec3, 3>& corners) {
 /// it, or from one.
 struct PatchResult {
   PatchResult(const TriangleMesh& mesh, const std::array<Vec3, 3>& corners, double tolerance,
-              std::optional<std::uint32_t> seed = std::nullopt) {
+              std::optional<std::uint32_t> seed = std::nullopt, int max_strips = 1) {
     const std::vector<Vec3> vertices = positions(mesh);
     const auto neighbours = edge_neighbours(vertices, mesh.triangles);
     const OriginalSoup soup{vertices, mesh.triangles, neighbours};
@@ -319,7 +319,7 @@ struct PatchResult {
     PatchCover patches;
     if (seed)
       patches.cover(
-          soup, {corners, 0}, tolerance, 2, [&](const std::array<Vec3, 3>&) { return *seed; }, open);
+          soup, {corners, 0}, tolerance, 2, [&](const std::array<Vec3, 3>&) { return *seed; }, max_strips, open);
     else
       patches.cover(soup, {corners, 0}, tolerance, 2, all, faces, open);
   }
@@ -362,6 +362,43 @@ TEST(PatchCover, FromOneTriangleLeavesAllOpenWhereOneStripIsNotEnough) {
   EXPECT_EQ(area(result.open[0].corners), area(corner));
 }
 
+/// The points of a triangle that are not left open.
+std::vector<Vector3d> proven_points(const std::array<Vec3, 3>& corners, const PatchResult& result) {
+  std::vector<Vector3d> points = points_of(corners);
+  if (result.open.empty()) return points;
+  TriangleMesh open;
+  for (const PatchCover::Part& part : result.open) {
+    for (const Vec3 p : part.corners) open.vertices.emplace_back(p.x, p.y, p.z);
+    const auto end = static_cast<std::uint32_t>(open.vertices.size());
+    open.triangles.push_back({end - 3, end - 2, end - 1});
+  }
+  const Bvh left(open);
+  std::erase_if(points, [&](const Vector3d& p) { return closest_point(left, p).distance.lower <= 1e-9; });
+  return points;
+}
+
+/// A triangle in a disc, with its corners a little outside: a strip frees it of two of them, and another one of the
+/// third.
+TEST(PatchCover, FromOneTriangleCutsOffTheCornersBeyondABorderAllAround) {
+  const TriangleMesh disc = reference::fan(5000);
+  constexpr double tolerance = 0.02, radius = 1 + 0.5 * tolerance;
+  std::array<Vec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = 0.3 + 2.1 * static_cast<double>(k);
+    corners[k] = {radius * std::cos(angle), radius * std::sin(angle), 0};
+  }
+  const PatchResult one_strip(disc, corners, tolerance, 0, 1);
+  ASSERT_EQ(one_strip.open.size(), 1U);
+  EXPECT_EQ(area(one_strip.open[0].corners), area(corners));
+  const PatchResult two_strips(disc, corners, tolerance, 0, 2);
+  ASSERT_EQ(two_strips.open.size(), 4U);
+  double open_area = 0;
+  for (const PatchCover::Part& part : two_strips.open) open_area += area(part.corners);
+  EXPECT_LT(open_area, 0.1 * area(corners));
+  EXPECT_FALSE(proven_points(corners, two_strips).empty());
+  for (const Vector3d& p : proven_points(corners, two_strips)) EXPECT_LT(p.norm(), 1);
+}
+
 TEST(PatchCover, LeavesATriangleOpenThatItKnowsNothingOf) {
   const TriangleMesh square = reference::unit_square(4);
   const std::array<Vec3, 3> above{Vec3{0.2, 0.2, 0.5}, Vec3{0.7, 0.2, 0.5}, Vec3{0.2, 0.7, 0.5}};
@@ -382,21 +419,6 @@ std::array<Vec3, 3> large_triangle(const Shape& shape, std::uint32_t t, double s
     corners[k] = {p.x() + noise(random), p.y() + noise(random), p.z() + noise(random)};
   }
   return corners;
-}
-
-/// The points of a triangle that are not left open.
-std::vector<Vector3d> proven_points(const std::array<Vec3, 3>& corners, const PatchResult& result) {
-  std::vector<Vector3d> points = points_of(corners);
-  if (result.open.empty()) return points;
-  TriangleMesh open;
-  for (const PatchCover::Part& part : result.open) {
-    for (const Vec3 p : part.corners) open.vertices.emplace_back(p.x, p.y, p.z);
-    const auto end = static_cast<std::uint32_t>(open.vertices.size());
-    open.triangles.push_back({end - 3, end - 2, end - 1});
-  }
-  const Bvh left(open);
-  std::erase_if(points, [&](const Vector3d& p) { return closest_point(left, p).distance.lower <= 1e-9; });
-  return points;
 }
 
 /// Random large triangles near rough surfaces: whatever is not left open is near the faces that are said to cover it.
@@ -432,7 +454,7 @@ TEST(PatchCover, FromOneTriangleSaysNothingThatTheEngineDenies) {
     for (int i = 0; i < 1500; ++i) {
       const auto t = static_cast<std::uint32_t>(random() % shape.mesh.triangles.size());
       const std::array<Vec3, 3> corners = large_triangle(shape, t, 1 + 0.002 * i, random);
-      const PatchResult result(shape.mesh, corners, shape.tolerance, t);
+      const PatchResult result(shape.mesh, corners, shape.tolerance, t, 1 + i % 2);
       const std::vector<Vector3d> points = proven_points(corners, result);
       if (points.empty()) continue;
       ++proven;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -104,6 +105,25 @@ TEST(Split, DependsOnTheMeshAlone) {
     EXPECT_EQ(one.region_of, three.region_of);
     EXPECT_EQ(one.region_of_face, three.region_of_face);
   }
+}
+
+/// Along its axis, where it is longest, a wall is one edge high: a cut across would leave no face in a region.
+TEST(Split, CutsWhereItMeetsFewEdges) {
+  constexpr std::uint32_t segments = 4000;
+  TriangleMesh wall;
+  for (std::uint32_t i = 0; i < segments; ++i) {
+    const double angle = i * 6.28 / segments;
+    const std::uint32_t low = 2 * i, next = 2 * ((i + 1) % segments);
+    for (const double z : {0.0, 5.0}) wall.vertices.emplace_back(std::cos(angle), std::sin(angle), z);
+    wall.triangles.push_back({low, next, next + 1});
+    wall.triangles.push_back({low, next + 1, low + 1});
+  }
+  const test::StateOf state(wall);
+  const Split parts = split(*state, 0, 500);
+  std::size_t between = 0;
+  for (std::uint32_t f = 0; f < state->mesh.face_count(); ++f) between += parts.region_of_face[f] == no_index ? 1 : 0;
+  EXPECT_GE(parts.regions.size(), 8u);
+  EXPECT_LT(100 * between, state->mesh.face_count());
 }
 
 /// A thread asks for faces of other regions, whose corners may change meanwhile.
@@ -241,6 +261,14 @@ TEST_P(Regions, TheResultIsTheSameForAnyNumberOfThreads) {
 TEST_P(Regions, LeaveNoSeams) {
   EXPECT_LT(simplify_with_bound(datasets::icosphere(1, 6), options(0.01)).last().faces(), 450u);
   EXPECT_EQ(simplify_with_bound(datasets::cube(1, 60), options(0.01)).last().faces(), 12u);
+}
+
+/// A thin face at an edge of the outline that folds back onto a flat face would leave vertices which nothing removes.
+TEST_P(Regions, LeaveNoFlaps) {
+  for (const std::uint32_t cells : {40, 50, 80})
+    for (const double tolerance : {0.01, 0.0017, 0.00035})
+      EXPECT_EQ(simplify_with_bound(datasets::cube(1, cells), options(tolerance)).last().faces(), 12u)
+          << cells << ", " << tolerance;
 }
 
 TEST_P(Regions, KeepTheTopologyOfTheOriginal) {

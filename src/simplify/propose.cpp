@@ -332,9 +332,7 @@ void Proposer::begin_star(double share) {
   const ArrayMesh& mesh = state_.mesh;
   origin_ = mesh.position(star_.kept);
   before_.clear();
-  for (const Corner c : star_.moved)
-    before_.emplace_back(
-        GuardedFace({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))}));
+  for (const Corner c : star_.moved) before_.emplace_back(mesh, c, [&](std::uint32_t face) { return owns(face); });
   full_limit_ = limit_around() * internal::sample_fault;
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
   proofs_failed_ = 0;

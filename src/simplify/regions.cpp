@@ -24,14 +24,16 @@ constexpr double shifted_cut = 1.0 / 3;
 /// on one thread 1.01 (28 meshes of 20,000 triangles and more at 0.1%).
 std::uint32_t regions_of_shifted(std::uint32_t count) { return count == 2 ? 4 : count + 1; }
 
+/// Vertices whose edges tell along which axis a cut meets fewest.
+constexpr std::size_t looks_at_edges = 64;
+
 class Cutter {
  public:
-  Cutter(const DecimationState& state, Split& into, int shift) : state_(state), into_(into), shift_(shift) {
-    const std::array<Vec3, 3>& axes = cut_axes[static_cast<std::size_t>(shift)];
+  Cutter(const DecimationState& state, Split& into, int shift)
+      : state_(state), into_(into), shift_(shift), axes_(cut_axes[static_cast<std::size_t>(shift)]) {
     for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v) {
       if (!state.mesh.is_vertex(v)) continue;
-      const Vec3 p = state.mesh.position(v);
-      vertices_.push_back({Eigen::Vector3d(dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)).cast<float>(), v});
+      vertices_.push_back({along_axes(state.mesh.position(v)), v});
     }
   }
   [[nodiscard]] std::size_t vertices() const { return vertices_.size(); }
@@ -58,10 +60,7 @@ class Cutter {
       for (const Placed& placed : vertices) into_.region_of[placed.vertex] = first;
       return;
     }
-    Eigen::AlignedBox3f box;
-    for (const Placed& placed : vertices) box.extend(placed.along);
-    Eigen::Index axis = 0;
-    box.sizes().maxCoeff(&axis);
+    const Eigen::Index axis = axis_of_cut(vertices);
     const auto middle = static_cast<std::size_t>(share * static_cast<double>(vertices.size()));
     std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(middle), vertices.end(),
                      [axis](const Placed& p, const Placed& q) {
@@ -70,6 +69,31 @@ class Cutter {
     const std::uint32_t half = regions / 2;
     do_both([&] { cut(vertices.first(middle), first, half, 0.5); },
             [&] { cut(vertices.subspan(middle), first + half, regions - half, 0.5); });
+  }
+
+  [[nodiscard]] Eigen::Vector3f along_axes(Vec3 p) const {
+    return Eigen::Vector3d(dot(axes_[0], p), dot(axes_[1], p), dot(axes_[2], p)).cast<float>();
+  }
+  /// The axis along which the vertices reach the most lengths of their edges: a cut across it meets fewest edges. Where
+  /// edges are as long along all axes, the vertices reach farthest along it. The wall of a cylinder may be one edge
+  /// high: a cut across that would leave no edge within a region.
+  [[nodiscard]] Eigen::Index axis_of_cut(std::span<const Placed> vertices) const {
+    Eigen::AlignedBox3f box;
+    for (const Placed& placed : vertices) box.extend(placed.along);
+    Eigen::Array3f edges = Eigen::Array3f::Zero();
+    for (std::size_t i = 0; i < vertices.size(); i += vertices.size() / looks_at_edges + 1) {
+      state_.mesh.for_each_corner(vertices[i].vertex, [&](Corner c) {
+        edges += (along_axes(state_.mesh.position(state_.mesh.end(c))) - vertices[i].along).array().abs();
+        return true;
+      });
+    }
+    Eigen::Index axis = 0;
+    float most = 0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const float lengths = box.sizes()[k] / edges[k];
+      if (lengths > most) most = lengths, axis = k;
+    }
+    return axis;
   }
 
   /// Makes one region of those around a vertex with so many faces that a collapse next to one of its edges may be
@@ -109,6 +133,7 @@ class Cutter {
   const DecimationState& state_;
   Split& into_;
   const int shift_;
+  const std::array<Vec3, 3>& axes_;
   std::vector<Placed> vertices_;
   std::uint32_t count_ = 0;  ///< of regions
 };

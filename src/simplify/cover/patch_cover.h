@@ -36,29 +36,30 @@ class PatchCover {
       faces.insert(faces.end(), parity_.patch().begin(), parity_.patch().end());
   }
   /// As above, without the faces; `seed_near(corners)` is one that lies above or below the middle of a part, if any
-  /// does. One strip is cut off at most: where it is not enough, `whole` stays open as it is.
+  /// does. So many strips are cut off at most: where they are not enough, `whole` stays open as it is.
   template <class Soup, class SeedNear>
   void cover(const Soup& mesh, const Part& whole, double tolerance, double magnitude, const SeedNear& seed_near,
-             std::vector<Part>& open) {
+             int max_strips, std::vector<Part>& open) {
     const auto covers = [&](const std::array<Vec3, 3>& corners) {
       return parity_.covers(mesh, corners, tolerance, magnitude, seed_near(corners));
     };
     const std::size_t before = open.size();
-    if (cut_strips(whole, tolerance, covers, tries_with_one_strip, open)) return;
+    if (cut_strips(whole, tolerance, covers, max_strips + 1, open)) return;
     open.resize(before);
     open.push_back(whole);
   }
 
  private:
   /// Cuts strips off until `covers` holds for the corners of the rest. False where it does not: then the rest is open,
-  /// too.
+  /// too. The rest keeps away from what stood in the way by the tolerance: an edge at which the soup ends is seldom the
+  /// only one there.
   template <class Covers>
   [[nodiscard]] bool cut_strips(const Part& whole, double tolerance, const Covers& covers, int tries,
                                 std::vector<Part>& open) {
     Part rest = whole;
     for (; !covers(rest.corners); --tries) {
       const ParityProof::Obstacle obstacle = parity_.obstacle();
-      const double share = (obstacle.depth + clearance * tolerance) / obstacle.height;
+      const double share = (obstacle.depth + tolerance) / obstacle.height;
       if (tries == 1 || !(share < max_share)) return open.push_back(rest), false;
       rest = without_strip(rest, obstacle.side, share, open);
     }
@@ -68,9 +69,7 @@ class PatchCover {
   [[nodiscard]] static Part without_strip(const Part& part, std::size_t side, double share, std::vector<Part>& open);
 
   /// A triangle has three edges, and at one that runs along a crease with corners more than one strip may be needed.
-  static constexpr int max_tries = 6, tries_with_one_strip = 2;
-  /// The rest keeps away from what stood in the way by this share of the tolerance: ten times what shrinking moves it.
-  static constexpr double clearance = 0.01;
+  static constexpr int max_tries = 6;
   /// Where strips would take more than this share of the way to the corner across, the part is left as it is.
   static constexpr double max_share = 0.5;
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "geometry/vec3.h"
+#include "numeric/no_index.h"
+#include "simplify/mesh/array_mesh.h"
 
 namespace meshbound {
 
@@ -16,8 +17,21 @@ class GuardedFace {
   /// The face before the change.
   explicit GuardedFace(const Corners& before) : normal_(normal(before)) {
     squared_area_ = squared_length(normal_);
-    const double longest = squared_longest_edge(before);
-    is_thin_ = squared_area_ < 100 * min_shape * min_shape * longest * longest;
+    is_thin_ = is_thin(squared_area_, squared_longest_edge(before));
+  }
+  /// The face of a corner, whose vertex moves. A face that is too thin for a normal must not fold back onto the face
+  /// across the edge that stays; it stays thin where `may_look_at` says that this one is not to be looked at. Else
+  /// flaps are left on flat faces at an edge of their outline, where no collapse removes them.
+  template <class MayLookAt>
+  GuardedFace(const ArrayMesh& mesh, Corner moved, const MayLookAt& may_look_at)
+      : GuardedFace(
+            {mesh.position(mesh.start(moved)), mesh.position(mesh.end(moved)), mesh.position(mesh.apex(moved))}) {
+    const Corner across = mesh.twin(next_corner(moved));
+    if (!is_thin_ || across == no_index) return;
+    if (may_look_at(across / 3))
+      beside_ = normal(mesh.triangle(across / 3));
+    else
+      stays_thin_ = true;
   }
 
   [[nodiscard]] bool allows(const Corners& after) const {
@@ -25,24 +39,33 @@ class GuardedFace {
     const double squared_area = squared_length(turned), longest = squared_longest_edge(after);
     if (!(squared_area > 0)) return false;
     if (squared_area < min_shape * min_shape * longest * longest && squared_area <= squared_area_) return false;
-    if (is_thin_) return true;  // the normal of a face this thin says nothing
+    if (is_thin_) return is_thin(squared_area, longest) || (!stays_thin_ && !folds_back(turned));
     const double cosine = dot(normal_, turned);
     return cosine > 0 && cosine * cosine > min_cosine * min_cosine * squared_area_ * squared_area;
   }
 
  private:
   static constexpr double min_cosine = 0.1;  ///< between the normals of a face before and after
-  /// Twice the area over the squared longest edge; a face may be thinner if it was before.
-  static constexpr double min_shape = 1e-4;
+  /// Between the normals of a face that was thin and of the one beside it: they may enclose 60 degrees.
+  static constexpr double min_cosine_beside = -0.5;
+  /// Twice the area over the squared longest edge; a face may be thinner if it was before. The normal of one with ten
+  /// times as much says nothing.
+  static constexpr double min_shape = 1e-4, min_shape_with_normal = 1e-3;
 
+  [[nodiscard]] bool folds_back(Vec3 turned) const {
+    return dot(beside_, turned) < min_cosine_beside * length(beside_) * length(turned);
+  }
   static Vec3 normal(const Corners& c) { return cross(c[1] - c[0], c[2] - c[0]); }
+  static bool is_thin(double squared_area, double squared_longest) {
+    return squared_area < min_shape_with_normal * min_shape_with_normal * squared_longest * squared_longest;
+  }
   static double squared_longest_edge(const Corners& c) {
     return std::max({squared_length(c[1] - c[0]), squared_length(c[2] - c[1]), squared_length(c[0] - c[2])});
   }
 
-  Vec3 normal_;
+  Vec3 normal_, beside_;     ///< of any length; `beside_` is 0 where no face is
   double squared_area_ = 0;  ///< of twice the area
-  bool is_thin_ = false;
+  bool is_thin_ = false, stays_thin_ = false;
 };
 
 }  // namespace meshbound
