@@ -82,7 +82,7 @@ bool LocalEdit::gather_move(std::uint32_t vertex) {
     take_face(c / 3);
     numbers_.push_back(c / 3);
     corners_.push_back({origin_, mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))});
-    before_.emplace_back(mesh, c, [this](std::uint32_t face) { return split_->owns_face(region_->id, face); });
+    before_.push_back(guarded_face(c));
     take_beside(next_corner(c));
     return numbers_.size() < EdgeStar::max_faces;
   });
@@ -133,7 +133,7 @@ bool LocalEdit::gather_collapse(Corner edge) {
     take_face(c / 3);
     numbers_.push_back(c / 3);
     corners_.push_back({mesh.position(mesh.start(c)), mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))});
-    before_.emplace_back(mesh, c, [this](std::uint32_t face) { return split_->owns_face(region_->id, face); });
+    before_.push_back(guarded_face(c));
     take_beside(next_corner(c));
   }
   return true;

@@ -88,6 +88,10 @@ class LocalEdit {
   [[nodiscard]] std::uint32_t original_near(Vec3 p, std::uint32_t hint);
   [[nodiscard]] std::span<const Corners> changing_edges() const;
   [[nodiscard]] bool owns(std::uint32_t vertex) const { return split_->owns(region_->id, vertex); }
+  /// The face of this corner, whose vertex moves, as it is before the change.
+  [[nodiscard]] GuardedFace guarded_face(Corner moved) const {
+    return {state_.mesh, moved, [this](std::uint32_t face) { return split_->owns_face(region_->id, face); }};
+  }
   [[nodiscard]] bool owns_around(std::uint32_t vertex) const;
   [[nodiscard]] bool has_edge(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool may_move(std::uint32_t vertex) const;
