@@ -116,19 +116,21 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_o
   if (order_.empty()) return;
   const Eigen::Vector3d middle = boxes[order_[order_.size() / 2]].center();
   if (middle.allFinite()) origin_ = middle;
-  std::vector<Eigen::AlignedBox3d> below;
-  below.reserve(order_.size());
-  for (const std::uint32_t index : order_) below.push_back(boxes[index]);
-  while (levels_.empty() || levels_.back().size() > 1) {
-    std::vector<Node>& nodes = levels_.emplace_back((below.size() + width - 1) / width);
+  const auto add_level = [&](std::size_t count, const auto& box_at) {
+    std::vector<Node>& nodes = levels_.emplace_back((count + width - 1) / width);
     std::vector<Eigen::AlignedBox3d> around(nodes.size());
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      if (below[i].isEmpty()) continue;
-      nodes[i / width].set(i % width, rounded(below[i]));
-      around[i / width].extend(below[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::AlignedBox3d& box = box_at(i);
+      if (box.isEmpty()) continue;
+      nodes[i / width].set(i % width, rounded(box));
+      around[i / width].extend(box);
     }
-    below = std::move(around);
-  }
+    return around;
+  };
+  std::vector<Eigen::AlignedBox3d> around =
+      add_level(order_.size(), [&](std::size_t i) -> const Eigen::AlignedBox3d& { return boxes[order_[i]]; });
+  while (levels_.back().size() > 1)
+    around = add_level(around.size(), [&](std::size_t i) -> const Eigen::AlignedBox3d& { return around[i]; });
 }
 
 void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
