@@ -320,7 +320,9 @@ TEST_P(Decimation, LeavesLittleAtTheSeamsOfItsCuts) {
 
 /// Where three cuts leave many regions, others follow: 29 of 180,000 collapses are proven one by one, 736 without them.
 TEST(Decimation, CutsAgainWhereMuchIsLeftAtSeams) {
-  const SimplifyResult result = simplify_with_bound(datasets::torus(1, 0.4, 300, 600), {.tolerance = 0.04});
+  SimplifyOptions options;
+  options.tolerance = 0.04;
+  const SimplifyResult result = simplify_with_bound(datasets::torus(1, 0.4, 300, 600), options);
   EXPECT_GT(result.last().collapses_performed, 179'000u);
   EXPECT_LT(1000 * result.counts.proven_alone, result.last().collapses_performed);
 }

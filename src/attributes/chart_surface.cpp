@@ -2,6 +2,7 @@
 #include "attributes/chart_surface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesh/mesh_arrays.h"
 #include "numeric/no_index.h"
@@ -30,24 +31,27 @@ std::size_t WeightedPoint::nearest_corner() const {
   return static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
 }
 
-ChartSurface::ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes, NormalSeams normal_seams)
-    : mesh_(mesh),
-      charts_(charts(mesh, attributes, normal_seams)),
-      positions_(positions_of(mesh)),
-      corners_at_(mesh.vertices.size()),
-      triangles_of_(charts_.count),
-      trees_(charts_.count) {
-  at_position_.emplace(positions_);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    triangles_of_[charts_.chart_of[t]].push_back(t);
-    for (std::uint32_t k = 0; k < 3; ++k) corners_at_[charts_.first[mesh.triangles[t][k]]].push_back(3 * t + k);
-  }
-}
+ChartSurface::CornersAt::CornersAt(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first)
+    : positions(positions_of(mesh)), table(positions), corners(mesh.vertices.size(), [&](const auto& add) {
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+          for (std::uint32_t k = 0; k < 3; ++k) add(first[mesh.triangles[t][k]], 3 * t + k);
+      }) {}
 
-const std::vector<std::uint32_t>& ChartSurface::corners_at(const Eigen::Vector3d& p) const {
-  static const std::vector<std::uint32_t> no_corners;
-  const std::uint32_t v = at_position_->find({p.x(), p.y(), p.z()});
-  return v == no_index ? no_corners : corners_at_[v];
+ChartSurface::ChartSurface(const TriangleMesh& mesh, ChartPartition charts)
+    : mesh_(mesh),
+      charts_(std::move(charts)),
+      triangles_of_(charts_.count,
+                    [this](const auto& add) {
+                      for (std::uint32_t t = 0; t < charts_.chart_of.size(); ++t) add(charts_.chart_of[t], t);
+                    }),
+      trees_(charts_.count),
+      number_in_chart_(mesh.vertices.size()) {}
+
+std::span<const std::uint32_t> ChartSurface::corners_at(const Eigen::Vector3d& p) {
+  if (!corners_at_) corners_at_.emplace(mesh_, charts_.first);
+  const std::uint32_t v = corners_at_->table.find({p.x(), p.y(), p.z()});
+  if (v == no_index) return {};
+  return corners_at_->corners[v];
 }
 
 std::array<Eigen::Vector3d, 3> ChartSurface::corners(std::uint32_t triangle) const {
@@ -56,19 +60,17 @@ std::array<Eigen::Vector3d, 3> ChartSurface::corners(std::uint32_t triangle) con
 }
 
 WeightedPoint ChartSurface::closest(std::uint32_t chart, const Eigen::Vector3d& p) {
-  if (!trees_[chart]) trees_[chart] = std::make_unique<Bvh>(mesh_of(triangles_of_[chart]));
+  if (!trees_[chart]) trees_[chart] = std::make_unique<Bvh>(mesh_of(chart));
   const SurfacePoint found = closest_point(*trees_[chart], p).point;
   const std::uint32_t triangle = triangles_of_[chart][found.triangle];
   return {triangle, barycentric(corners(triangle), found.position)};
 }
 
-TriangleMesh ChartSurface::mesh_of(const std::vector<std::uint32_t>& triangles) const {
+TriangleMesh ChartSurface::mesh_of(std::uint32_t chart) {
   TriangleMesh part;
-  for (const std::uint32_t t : triangles) {
-    const auto first = static_cast<std::uint32_t>(part.vertices.size());
-    for (const Eigen::Vector3d& p : corners(t)) part.vertices.push_back(p);
-    part.triangles.push_back({first, first + 1, first + 2});
-  }
+  number_in_chart_.clear();
+  for (const std::uint32_t t : triangles_of_[chart]) part.triangles.push_back(number_in_chart_(mesh_.triangles[t]));
+  for (const std::uint32_t v : number_in_chart_.used()) part.vertices.push_back(mesh_.vertices[v]);
   return part;
 }
 

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "attributes/seams.h"
 #include "geometry/position_table.h"
+#include "mesh/first_use.h"
 #include "meshbound/bvh.h"
+#include "numeric/buckets.h"
 
 namespace meshbound {
 
@@ -26,30 +29,38 @@ struct WeightedPoint {
   [[nodiscard]] std::size_t nearest_corner() const;
 };
 
-/// A mesh with its charts, for closest points on one chart at a time. Not thread-safe: trees are built when first used.
+/// A mesh with its charts, for closest points on one chart at a time. Not thread-safe: what is asked for is built then.
 class ChartSurface {
  public:
-  /// `mesh` must outlive this. Throws as `charts`.
-  ChartSurface(const TriangleMesh& mesh, const MeshAttributes& attributes,
-               NormalSeams normal_seams = NormalSeams::Ignored);
+  /// `mesh` must outlive this; `charts` are its own.
+  ChartSurface(const TriangleMesh& mesh, ChartPartition charts);
 
+  [[nodiscard]] const ChartPartition& charts() const { return charts_; }
   [[nodiscard]] std::uint32_t chart_of(std::uint32_t triangle) const { return charts_.chart_of[triangle]; }
   /// Corners 3 t + k of triangles at exactly this position.
-  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(const Eigen::Vector3d& p) const;
+  [[nodiscard]] std::span<const std::uint32_t> corners_at(const Eigen::Vector3d& p);
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const;
   /// The closest point of a chart.
   [[nodiscard]] WeightedPoint closest(std::uint32_t chart, const Eigen::Vector3d& p);
 
  private:
-  [[nodiscard]] TriangleMesh mesh_of(const std::vector<std::uint32_t>& triangles) const;
+  /// Tells which corners are at a position.
+  struct CornersAt {
+    CornersAt(const TriangleMesh& mesh, const std::vector<std::uint32_t>& first);
+
+    std::vector<Vec3> positions;
+    PositionTable table;
+    Buckets<std::uint32_t> corners;  ///< by first vertex at a position
+  };
+
+  [[nodiscard]] TriangleMesh mesh_of(std::uint32_t chart);
 
   const TriangleMesh& mesh_;
   ChartPartition charts_;
-  std::vector<Vec3> positions_;
-  std::optional<PositionTable> at_position_;
-  std::vector<std::vector<std::uint32_t>> corners_at_;    ///< by first vertex at a position
-  std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< by chart
-  std::vector<std::unique_ptr<Bvh>> trees_;               ///< by chart, built when first used
+  Buckets<std::uint32_t> triangles_of_;      ///< by chart
+  std::optional<CornersAt> corners_at_;      ///< once asked for
+  std::vector<std::unique_ptr<Bvh>> trees_;  ///< by chart, once asked for
+  FirstUse number_in_chart_;                 ///< of vertices, while a tree is built
 };
 
 }  // namespace meshbound

@@ -95,9 +95,26 @@ void check_sizes(const MeshAttributes& attributes, std::size_t triangles) {
   for (const NamedAttribute& named : attributes.named) check_size(named.index.size(), triangles, named.name.c_str());
 }
 
+/// Makes edges seams where `is_seam(neighbours)`. Returns whether one was none before.
+template <class IsSeam>
+bool add_seams(const TriangleMesh& mesh, ChartPartition& charts, const IsSeam& is_seam) {
+  bool has_new = false;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t other = charts.neighbours[t][k];
+      if (other == no_index || charts.is_seam[t][k] != 0) continue;
+      if (!is_seam(neighbours_across(mesh, charts.first, t, k, other))) continue;
+      charts.is_seam[t][k] = 1;
+      has_new = true;
+    }
+  }
+  return has_new;
+}
+
 /// Numbers the charts: triangles connected across edges that are no seams.
 void number_charts(ChartPartition& charts) {
   const std::size_t triangles = charts.neighbours.size();
+  charts.count = 0;
   charts.chart_of.assign(triangles, no_index);
   std::vector<std::uint32_t> open;
   for (std::uint32_t start = 0; start < triangles; ++start) {
@@ -120,7 +137,7 @@ void number_charts(ChartPartition& charts) {
 
 }  // namespace
 
-ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes, NormalSeams normal_seams) {
+ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
   const std::size_t triangles = mesh.triangles.size();
   check_sizes(attributes, triangles);
   ChartPartition result;
@@ -128,17 +145,15 @@ ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes
   result.first = first_at_position(positions);
   result.neighbours = edge_neighbours(positions, mesh.triangles);
   result.is_seam.resize(triangles, {0, 0, 0});
-  for (std::uint32_t t = 0; t < triangles; ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t other = result.neighbours[t][k];
-      if (other == no_index) continue;
-      const Neighbours at = neighbours_across(mesh, result.first, t, k, other);
-      const bool is_crease = normal_seams == NormalSeams::Counted && differs(attributes.normals, at);
-      if (is_crease || is_seam(attributes, at)) result.is_seam[t][k] = 1;
-    }
-  }
+  (void)add_seams(mesh, result, [&](const Neighbours& at) { return is_seam(attributes, at); });
   number_charts(result);
   return result;
+}
+
+bool cut_at_normals(const TriangleMesh& mesh, const CornerAttribute& normals, ChartPartition& charts) {
+  if (!add_seams(mesh, charts, [&](const Neighbours& at) { return differs(normals, at); })) return false;
+  number_charts(charts);
+  return true;
 }
 
 std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes) {

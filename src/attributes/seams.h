@@ -17,11 +17,12 @@ struct ChartPartition {
   std::vector<std::uint32_t> first;                      ///< by vertex: the first one at its position
 };
 
-/// Whether edges where normals differ are seams as well: surfaces are shaded smoothly within a chart then.
-enum class NormalSeams : bool { Ignored, Counted };
+/// Seams are where texture coordinates, materials, parts or named attributes with seams differ. Throws `InvalidInput`
+/// if the attributes are for another number of triangles. O(n log n).
+[[nodiscard]] ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes);
 
-/// Throws `InvalidInput` if the attributes are for another number of triangles. O(n log n).
-[[nodiscard]] ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes,
-                                    NormalSeams normal_seams = NormalSeams::Ignored);
+/// Cuts the charts of a mesh where its normals differ as well: surfaces are shaded smoothly within a chart then. False
+/// if they differ nowhere else than at seams, so that nothing has changed. O(n).
+bool cut_at_normals(const TriangleMesh& mesh, const CornerAttribute& normals, ChartPartition& charts);
 
 }  // namespace meshbound

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "numeric/buckets.h"
 #include "numeric/disjoint_sets.h"
 #include "numeric/no_index.h"
 
@@ -16,23 +17,15 @@ std::uint32_t vertex(const SimplifiedLevel& level, std::uint32_t corner) {
   return level.mesh.triangles[corner / 3][corner % 3];
 }
 
-/// The corners where the edges of all triangles start, by the smaller vertex of the edge.
-struct CornersByVertex {
-  std::vector<std::uint32_t> end;  ///< by vertex: where its corners end
-  std::vector<std::uint32_t> corners;
-};
-
 Edge edge_at(const SimplifiedLevel& level, std::uint32_t corner) {
   return sorted({vertex(level, corner), vertex(level, next(corner))});
 }
 
-CornersByVertex corners_by_vertex(const SimplifiedLevel& level) {
-  const auto count = static_cast<std::uint32_t>(3 * level.mesh.triangles.size());
-  CornersByVertex by{std::vector<std::uint32_t>(level.mesh.vertices.size() + 1, 0), std::vector<std::uint32_t>(count)};
-  for (std::uint32_t c = 0; c < count; ++c) ++by.end[edge_at(level, c)[0] + 1];
-  std::partial_sum(by.end.begin(), by.end.end(), by.end.begin());
-  for (std::uint32_t c = 0; c < count; ++c) by.corners[by.end[edge_at(level, c)[0]]++] = c;
-  return by;
+/// The corners where the edges of all triangles start, by the smaller vertex of the edge.
+Buckets<std::uint32_t> corners_by_vertex(const SimplifiedLevel& level) {
+  return {level.mesh.vertices.size(), [&](const auto& add) {
+            for (std::uint32_t c = 0; c < 3 * level.mesh.triangles.size(); ++c) add(edge_at(level, c)[0], c);
+          }};
 }
 
 }  // namespace
@@ -57,12 +50,11 @@ SectorFinder::SectorFinder(const SimplifiedLevel& level) : level_(level) {
   std::vector<Edge> lines;
   for (const Edge& edge : level.lines) lines.push_back(sorted(edge));
   std::sort(lines.begin(), lines.end());
-  const CornersByVertex by_vertex = corners_by_vertex(level);
+  const Buckets<std::uint32_t> by_vertex = corners_by_vertex(level);
   std::vector<std::array<std::uint32_t, 2>> to;  // of one vertex: the larger vertex of an edge, and the corner
-  for (std::size_t first = 0, v = 0; v + 1 < by_vertex.end.size(); first = by_vertex.end[v++]) {
+  for (std::size_t v = 0; v < by_vertex.size(); ++v) {
     to.clear();
-    for (std::size_t i = first; i < by_vertex.end[v]; ++i)
-      to.push_back({edge_at(level, by_vertex.corners[i])[1], by_vertex.corners[i]});
+    for (const std::uint32_t corner : by_vertex[v]) to.push_back({edge_at(level, corner)[1], corner});
     std::sort(to.begin(), to.end());
     for (std::size_t i = 1, of_edge = 0; i < to.size(); ++i) {
       if (to[i][0] != to[of_edge][0])

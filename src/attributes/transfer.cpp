@@ -118,7 +118,7 @@ class Transfer {
   }
 
   ChartSurface& original() {
-    if (!original_) original_.emplace(original_mesh_, from_);
+    if (!original_) original_.emplace(original_mesh_, charts(original_mesh_, from_));
     return *original_;
   }
   [[nodiscard]] Sectors sectors(const MayJoin& may_join = {}) {
@@ -189,7 +189,7 @@ class Transfer {
   }
 
   /// The corners of the original where a corner stands.
-  [[nodiscard]] const std::vector<std::uint32_t>& corners_at(std::uint32_t corner) {
+  [[nodiscard]] std::span<const std::uint32_t> corners_at(std::uint32_t corner) {
     return original().corners_at(keeps_vertices_ ? original_mesh_.vertices[level_.source_vertex[vertex(corner)]]
                                                  : position(corner));
   }
@@ -230,7 +230,7 @@ class Transfer {
     const std::uint32_t source = level_.source_triangle[triangle];
     const WeightedPoint closest = original().closest(original().chart_of(source), inside);
     const double aligned = alignment(triangle, closest.triangle);
-    if (aligned >= min_alignment) return closest;
+    if (aligned >= min_alignment || &smooth == &original()) return closest;
     const WeightedPoint of_source = smooth.closest(smooth.chart_of(source), inside);
     return alignment(triangle, of_source.triangle) > aligned ? of_source : closest;
   }
@@ -266,7 +266,10 @@ class Transfer {
   }
 
   CornerAttribute normals() {
-    ChartSurface smooth(original_mesh_, from_, NormalSeams::Counted);
+    ChartPartition cut = original().charts();
+    std::optional<ChartSurface> own;
+    if (cut_at_normals(original_mesh_, from_.normals, cut)) own.emplace(original_mesh_, std::move(cut));
+    ChartSurface& smooth = own ? *own : original();
     normal_of_vertex_.resize(level_.mesh.vertices.size());
     std::vector<Eigen::Vector3d> by_corner;
     for (std::uint32_t t = 0; t < level_.mesh.triangles.size(); ++t) {
@@ -322,7 +325,7 @@ class Transfer {
   /// The index of a normal of `candidates`, corners of the original that have all other values of `corner`; `none`
   /// where these have no normal.
   [[nodiscard]] std::uint32_t normal_most_like(const Eigen::Vector3d& given, std::uint32_t corner,
-                                               const std::vector<std::uint32_t>& candidates) {
+                                               std::span<const std::uint32_t> candidates) {
     double best = -HUGE_VAL;
     std::uint32_t found = no_value;
     for (const std::uint32_t c : candidates) {

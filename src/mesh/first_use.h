@@ -26,6 +26,12 @@ class FirstUse {
     return {a, b, c};
   }
 
+  /// Forgets the numbers. O(vertices used).
+  void clear() {
+    for (const std::uint32_t vertex : used_) number_[vertex] = no_index;
+    used_.clear();
+  }
+
   /// The old numbers of the vertices, by new number.
   [[nodiscard]] const std::vector<std::uint32_t>& used() const { return used_; }
 

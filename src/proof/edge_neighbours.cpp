@@ -2,11 +2,11 @@
 #include "proof/edge_neighbours.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "bvh/bvh_data.h"
 #include "geometry/position_table.h"
+#include "numeric/buckets.h"
 #include "numeric/no_index.h"
 #include "numeric/tasks.h"
 
@@ -123,17 +123,10 @@ std::vector<TriangleNeighbours> edge_neighbours(const Bvh& tree, std::span<const
 
 std::vector<TriangleNeighbours> edge_neighbours(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   const std::vector<std::uint32_t> first = first_at_position(vertices);
-  std::vector<std::size_t> end(vertices.size() + 1, 0);  // of the half-edges of each vertex, once these are put in
-  for_each_half_edge(triangles, first, [&](std::uint32_t low, const HalfEdge&) { ++end[low + 1]; });
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<HalfEdge> edges(end.back());
-  for_each_half_edge(triangles, first, [&](std::uint32_t low, const HalfEdge& edge) { edges[end[low]++] = edge; });
+  Buckets<HalfEdge> by_lower_vertex(vertices.size(),
+                                    [&](const auto& add) { for_each_half_edge(triangles, first, add); });
   std::vector<TriangleNeighbours> neighbours(triangles.size(), {no_index, no_index, no_index});
-  std::size_t begin = 0;
-  for (const std::size_t stop : std::span(end).first(vertices.size())) {
-    join(std::span(edges).subspan(begin, stop - begin), neighbours);
-    begin = stop;
-  }
+  for (std::size_t v = 0; v < by_lower_vertex.size(); ++v) join(by_lower_vertex[v], neighbours);
   return neighbours;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <span>
 #include <string>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include "geometry/position_table.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/error.h"
+#include "numeric/buckets.h"
 #include "numeric/no_index.h"
 
 namespace meshbound {
@@ -27,22 +27,6 @@ std::uint32_t& at(std::vector<Triangle>& table, std::uint32_t corner) {
 }
 std::uint32_t at(const std::vector<Triangle>& table, std::uint32_t corner) {
   return reinterpret_cast<const std::uint32_t*>(table.data())[corner];
-}
-
-/// Calls `use` with a span of the items of each vertex, in the order of the vertices. `for_each_item(add)` calls
-/// `add(vertex, item)` for each item, twice the same.
-template <class Item, class ForEachItem, class Use>
-void for_each_vertex(std::size_t vertices, const ForEachItem& for_each_item, const Use& use) {
-  std::vector<std::uint32_t> end(vertices + 1, 0);  // the begin of each vertex until its items are put in
-  for_each_item([&](std::uint32_t v, const Item&) { ++end[v + 1]; });
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<Item> items(end.back());
-  for_each_item([&](std::uint32_t v, const Item& item) { items[end[v]++] = item; });
-  std::size_t begin = 0;
-  for (const std::size_t stop : std::span(end).first(vertices)) {
-    if (stop != begin) use(std::span(items).subspan(begin, stop - begin));
-    begin = stop;
-  }
 }
 
 class ManifoldBuilder {
@@ -191,7 +175,9 @@ void ManifoldBuilder::take_distinct_triangles() {
       add(a, Seen{b, c, t});
     }
   };
-  for_each_vertex<Seen>(first_.size(), for_each_candidate, [&](std::span<Seen> here) {
+  Buckets<Seen> by_lowest_vertex(first_.size(), for_each_candidate);
+  for (std::size_t v = 0; v < by_lowest_vertex.size(); ++v) {
+    const std::span<Seen> here = by_lowest_vertex[v];
     const auto corners = [](const Seen& seen) { return std::tuple(seen.middle, seen.highest); };
     std::sort(here.begin(), here.end(), [&](const Seen& a, const Seen& b) {
       return std::tuple(corners(a), a.triangle) < std::tuple(corners(b), b.triangle);
@@ -200,7 +186,7 @@ void ManifoldBuilder::take_distinct_triangles() {
       while (end < here.size() && corners(here[end]) == corners(here[i])) ++end;
       sort_out(here.subspan(i, end - i), dropped);
     }
-  });
+  }
   result_.dropped_triangles = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), 1));
   result_.triangle_of.reserve(triangles - result_.dropped_triangles);
   result_.faces.reserve(triangles - result_.dropped_triangles);
@@ -259,7 +245,9 @@ void ManifoldBuilder::join_edges() {
       add(std::min(from, to), Side{std::max(from, to), c});
     }
   };
-  for_each_vertex<Side>(first_.size(), for_each_side, [&](std::span<Side> here) {
+  Buckets<Side> by_lower_vertex(first_.size(), for_each_side);
+  for (std::size_t v = 0; v < by_lower_vertex.size(); ++v) {
+    const std::span<Side> here = by_lower_vertex[v];
     const auto edge = [&](const Side& side) { return std::tuple(side.high, sheet_of(side.corner)); };
     std::sort(here.begin(), here.end(), [&](const Side& a, const Side& b) {
       return std::tuple(edge(a), a.corner) < std::tuple(edge(b), b.corner);
@@ -269,7 +257,7 @@ void ManifoldBuilder::join_edges() {
       if (end - i != 2) continue;
       join_unoriented(here[i].corner, here[i + 1].corner);
     }
-  });
+  }
 }
 
 /// A flood fill over each component, breadth first.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "numeric/tasks.h"
@@ -98,18 +97,10 @@ Rivals::Rivals(std::span<const FacedTriangle> triangles, const Limits& limits) :
           rivals_[t].rivals[rivals_[t].count++] = {other, static_cast<float>(squared)};
     });
   });
-  turn_round();
-}
-
-void Rivals::turn_round() {
-  first_with_.assign(rivals_.size() + 1, 0);
-  for (std::uint32_t t = 0; t < rivals_.size(); ++t)
-    for (const Rival& rival : of(t)) ++first_with_[rival.triangle + 1];
-  std::partial_sum(first_with_.begin(), first_with_.end(), first_with_.begin());
-  with_.resize(first_with_.back());
-  std::vector<std::uint32_t> next = first_with_;
-  for (std::uint32_t t = 0; t < rivals_.size(); ++t)
-    for (const Rival& rival : of(t)) with_[next[rival.triangle]++] = t;
+  with_.emplace(triangles.size(), [this](const auto& add) {
+    for (std::uint32_t t = 0; t < rivals_.size(); ++t)
+      for (const Rival& rival : of(t)) add(rival.triangle, t);
+  });
 }
 
 }  // namespace meshbound

@@ -2,10 +2,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/vec3.h"
+#include "numeric/buckets.h"
 
 namespace meshbound {
 
@@ -43,7 +45,7 @@ class Rivals {
   }
   /// The triangles that have this one as a rival, ascending.
   [[nodiscard]] std::span<const std::uint32_t> with(std::uint32_t triangle) const {
-    return std::span(with_).subspan(first_with_[triangle], first_with_[triangle + 1] - first_with_[triangle]);
+    return (*with_)[triangle];
   }
 
  private:
@@ -51,11 +53,9 @@ class Rivals {
     std::array<Rival, max_rivals> rivals{};
     std::uint32_t count = 0;
   };
-  void turn_round();
 
-  std::vector<Few> rivals_;                ///< by triangle
-  std::vector<std::uint32_t> first_with_;  ///< by triangle: index in `with_`
-  std::vector<std::uint32_t> with_;
+  std::vector<Few> rivals_;                     ///< by triangle
+  std::optional<Buckets<std::uint32_t>> with_;  ///< by triangle
 };
 
 }  // namespace meshbound
