@@ -181,7 +181,7 @@ TEST(Proposer, AlwaysLooksAlongBorders) {
   for (const auto looks : {Proposer::Looks::AtSamples, Proposer::Looks::Around}) {
     proposer.enter(split, split.regions.front(), looks);
     EXPECT_FALSE(proposer.placement(edge, 0.999, {}));
-    EXPECT_TRUE(proposer.refused_by_bound());
+    EXPECT_TRUE(proposer.refused_for_distance());
   }
 }
 

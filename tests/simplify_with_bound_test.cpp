@@ -262,6 +262,18 @@ TEST_P(Pruning, NeverDropsAllThatStandForOneAnother) {
   expect_within(chain, result.last());
 }
 
+/// Many components go one after another, and each is as large a part of the mesh as those before.
+TEST_P(Pruning, LeavesOneOfManyShells) {
+  TriangleMesh shells = datasets::icosphere(1, 2);
+  for (int i = 1; i < 40; ++i) shells = reference::both(shells, datasets::icosphere(1 + 1e-5 * i, 2));
+  SimplifyOptions options = within(0.02);
+  options.prune = true;
+  const SimplifyResult result = simplify_with_bound(shells, options);
+  EXPECT_EQ(result.pruned_components, 39u);
+  EXPECT_EQ(result.pruned_faces, 39u * 320);
+  expect_within(shells, result.last());
+}
+
 TEST_P(Pruning, LeavesWhatIsToStay) {
   const TriangleMesh sphere = datasets::icosphere(1, 3);
   const TriangleMesh shells = reference::both(sphere, datasets::icosphere(1.005, 2));

@@ -33,7 +33,9 @@ class CollapseDriver {
 /// What happens at a collapse that would exceed the tolerance.
 enum class OnExceed {
   Skip,  ///< it is refused, and decimation goes on until no collapse fits: far fewer faces at the same bound
-  Stop   ///< decimation ends there, once the global engine has confirmed that the distance would exceed
+  /// Decimation ends there, once the global engine has confirmed that the distance would exceed. Edges that cannot be
+  /// collapsed for another reason, as where a face would fold, are skipped.
+  Stop
 };
 
 /// How much time to spend on a mesh with fewer faces. Both values keep the same bound.

@@ -301,7 +301,7 @@ void Run::prove_together() {
     if (share < min_share_taken_back || share > max_share_taken_back) break;
   }
   try_the_others_again();
-  if (proves_later()) propose(0, 1);
+  if (proves_later() || goal_.on_exceed == OnExceed::Stop) propose(0, 1);
   (void)prove_and_repair();
   std::fill(state_.share.begin(), state_.share.end(), 1.0F);
   state_.tried_tolerance = goal_.tolerance;

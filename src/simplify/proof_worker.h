@@ -82,6 +82,7 @@ class ProofWorkers::Worker {
     found_.clear();
     boxes.find(grown(box_of(corners), state_.tolerance), found_);
     std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
+    if (!is_near_found(middle_of(corners))) return {};
     const auto one =
         std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
     if (one != found_.end()) return draft(*one);
@@ -378,6 +379,13 @@ class ProofWorkers::Worker {
     return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
   }
 
+  /// Whether one of the faces found is near a point.
+  [[nodiscard]] bool is_near_found(Vec3 p) const {
+    const double squared_tolerance = state_.tolerance * state_.tolerance;
+    return std::ranges::any_of(
+        found_, [&](std::uint32_t f) { return squared_distance(state_.mesh.triangle(f), p) <= squared_tolerance; });
+  }
+
   /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
   template <class Owned>
   bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
@@ -441,11 +449,12 @@ class ProofWorkers::Worker {
     for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
   }
 
+  /// Large sub-triangles come first: a part that is not near any face is found before others are cut into small pieces.
   void cover_in_sub_triangles(const Corners& corners, double limit) {
     sub_triangles_.assign(1, {corners, 0});
-    for (std::size_t count = 1; !sub_triangles_.empty();) {
-      const SubTriangle sub_triangle = sub_triangles_.back();
-      sub_triangles_.pop_back();
+    for (std::size_t i = 0, count = 1; i < sub_triangles_.size(); ++i) {
+      const SubTriangle sub_triangle = sub_triangles_[i];
+      if (!is_near_found(middle_of(sub_triangle.corners))) return drafted_.clear();
       choose_candidates(sub_triangle.corners);
       enter(chosen_, limit);
       const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);

@@ -21,6 +21,7 @@ class FaceBoxes {
   /// Takes the boxes of the faces that meet one of these boxes. Expected O(n log m) for m boxes, and O(k log k) for k
   /// such faces.
   FaceBoxes(const ArrayMesh& mesh, const BoxTree& wanted);
+  [[nodiscard]] std::size_t size() const { return faces_.size(); }
   /// Appends the faces whose boxes meet `box`.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 

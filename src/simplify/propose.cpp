@@ -172,7 +172,6 @@ bool Proposer::fits(Vec3 point) {
   found_.clear();
   if (!set_faces(point) || !keeps_normals(point)) return false;
   if (!gathered_) gather_samples();
-  by_bound_ = true;
   if (!samples_.hold(beside_, limit_) || !is_vertex_near(point)) return is_too_far();
   if (!keeps_texture(point) || !keeps_normals_around()) return false;
   return are_edges_near(point) || is_too_far();
@@ -207,7 +206,6 @@ bool Proposer::is_too_far() {
 
 /// Notes that a placement is refused for something else than the distance. Always false.
 bool Proposer::refuse(std::optional<float>& least, float deviation) {
-  by_bound_ = false;
   least = std::min(least.value_or(HUGE_VALF), deviation);
   return false;
 }
@@ -298,7 +296,7 @@ std::optional<Vec3> Proposer::placement_at_end(const AllowedEnds& ends) {
 
 std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional<Vec3> wanted) {
   ++counts.tried;
-  by_bound_ = refused_for_distance_ = false;
+  refused_for_distance_ = false;
   deviation_ = 0;
   texture_deviation_.reset();
   turn_deviation_.reset();
@@ -312,7 +310,6 @@ std::optional<Vec3> Proposer::placement(Corner edge, double share, std::optional
   const Vec3 p = state_.mesh.position(kept), q = state_.mesh.position(gone);
   const Placement best = best_placement(state_.quadrics[kept], state_.quadrics[gone], p, q);
   tried_ = wanted ? *wanted : best.point;
-  by_bound_ = true;
   const double deviation = deviation_from_planes(best, state_.quadrics[kept], state_.quadrics[gone]);
   if (const auto refusal = refusal_by_planes(deviation, limit_, full_limit_, is_together_); refusal && !wanted) {
     refused_for_distance_ = true;

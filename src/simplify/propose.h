@@ -70,8 +70,9 @@ class Proposer {
   /// Whether all vertices around an edge belong to the region. An edge with too many faces around it may count as
   /// outside: it can not be collapsed either.
   [[nodiscard]] bool is_inside(Corner edge) const;
-  /// Whether the last edge was refused because of the bound, and where its vertex was to go.
-  [[nodiscard]] bool refused_by_bound() const { return by_bound_; }
+  /// Whether the last edge was refused for a distance from the original, not because it would fold a face where its
+  /// vertex was to go.
+  [[nodiscard]] bool refused_for_distance() { return refused_for_distance_ && set_faces(tried_); }
   [[nodiscard]] Vec3 refused_placement() const { return tried_; }
   /// How far samples, in space or of the texture, were from the best placement of the edge refused last, or how much
   /// they turned there, in tolerances; 0 where that is not known. An edge that was not refused for a distance waits for
@@ -155,7 +156,6 @@ class Proposer {
   float deviation_ = 0;
   /// The least of refused placements of the edge, in tolerances of texture and normals.
   std::optional<float> texture_deviation_, turn_deviation_;
-  bool by_bound_ = false;              ///< samples decided the refusal
   bool refused_for_distance_ = false;  ///< some placement, or the edge, was: more of the tolerance may help
   Vec3 tried_;                         ///< the first placement
   Vec3 origin_;

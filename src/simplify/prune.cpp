@@ -2,6 +2,7 @@
 #include "simplify/prune.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "numeric/no_index.h"
@@ -55,6 +56,10 @@ std::vector<std::uint32_t> originals_of(const DecimationState& state, const Comp
   return originals;
 }
 
+/// Removed faces are found in the boxes too. Where they are as many as the originals to be covered, that takes the
+/// square of their number: then boxes are made without them.
+bool is_large_part(std::size_t faces, std::size_t of_all) { return faces > of_all / 16; }
+
 }  // namespace
 
 Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bool keeps_borders,
@@ -64,14 +69,18 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
   if (state.proven_changes) return pruned;  // these could not be taken back without their component
   const std::vector<Component> all = components(state.mesh);
   if (all.size() < 2) return pruned;
-  const FaceBoxes boxes(state.mesh);
+  FaceBoxes boxes(state.mesh);
+  std::size_t removed = 0;  // since the boxes were made
   std::vector<IdList> covers;
   for (const Component& component : all) {
     if (state.faces < min_faces + component.size() || state.faces == component.size()) continue;
     if (must_stay(state, component, keeps_borders)) continue;
     const std::vector<std::uint32_t> originals = originals_of(state, component);
+    if (is_large_part(removed, boxes.size())) boxes = FaceBoxes(state.mesh), removed = 0;
     state.mesh.remove_component(component);
-    if (!workers.cover_anywhere(originals, boxes, covers)) {
+    std::optional<FaceBoxes> boxes_of_others;
+    if (is_large_part(component.size(), state.faces)) boxes_of_others.emplace(state.mesh);
+    if (!workers.cover_anywhere(originals, boxes_of_others ? *boxes_of_others : boxes, covers)) {
       state.mesh.restore_component(component);
       continue;
     }
@@ -86,6 +95,7 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
     state.faces -= component.size();
     ++pruned.components;
     pruned.faces += component.size();
+    removed += component.size();
   }
   return pruned;
 }

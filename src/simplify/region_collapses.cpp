@@ -64,7 +64,8 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
   state_.refuse(edge, point_found ? 0 : proposer_.deviation());
-  if (limits_.ends_at_refusal && proposer_.refused_by_bound() && limits_.ends_at_refusal()) ended_ = true;
+  const bool breaks_bound = point_found || proposer_.refused_for_distance();
+  if (limits_.ends_at_refusal && breaks_bound && limits_.ends_at_refusal()) ended_ = true;
   return false;
 }
 
