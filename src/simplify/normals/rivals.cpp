@@ -62,14 +62,17 @@ class RivalSearch {
     return near_.size() == Rivals::max_rivals;
   }
 
-  /// Triangles that face elsewhere, with the squared distances of their boxes: the nearest ones first.
+  /// Triangles that face elsewhere, with the squared distances of their boxes or planes: the nearest ones first. Boxes of
+  /// needles contain points that are far from their planes.
   void find_boxes(const FacedTriangle& triangle, Vec3 middle, double reach) {
     found_.clear();
     boxes_within_.clear();
     tree_.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found_);
     for (const std::uint32_t other : found_) {
       if (dot(triangle.normal, triangles_[other].normal) >= limits_.min_cosine) continue;
-      const double squared = squared_distance(boxes_[other], middle);
+      const double height = dot(triangles_[other].normal, middle - triangles_[other].corners[0]);
+      if (height * height > reach * reach) continue;
+      const double squared = std::max(height * height, squared_distance(boxes_[other], middle));
       if (squared <= reach * reach) boxes_within_.emplace_back(squared, other);
     }
     std::sort(boxes_within_.begin(), boxes_within_.end());
