@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "numeric/no_index.h"
 
@@ -30,6 +31,17 @@ struct Projected {
     const double of_c = ((b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y())) / doubled_area;
     return {1 - of_b - of_c, of_b, of_c};
   }
+  /// The least and the greatest x where the triangle meets the line of this y, up to rounding.
+  [[nodiscard]] std::pair<double, double> span(double y) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    const auto meet = [&](const Vector3d& p, const Vector3d& q) {
+      if (std::min(p.y(), q.y()) > y || std::max(p.y(), q.y()) < y) return;
+      const double share = p.y() == q.y() ? 0 : (y - p.y()) / (q.y() - p.y()), x = p.x() + share * (q.x() - p.x());
+      low = std::min(low, x), high = std::max(high, x);
+    };
+    meet(a, b), meet(b, c), meet(c, a);
+    return {low, high};
+  }
 };
 
 /// The first and last pixel whose middle lies between two positions.
@@ -55,10 +67,11 @@ SurfaceImage::SurfaceImage(const TriangleMesh& mesh, const Camera& camera, int w
 void SurfaceImage::draw(std::uint32_t triangle) {
   const Projected p(mesh_, triangle, camera_);
   if (p.doubled_area == 0 || !std::isfinite(p.doubled_area)) return;
-  const auto [left, right] = std::minmax({p.a.x(), p.b.x(), p.c.x()});
   const auto [top, bottom] = std::minmax({p.a.y(), p.b.y(), p.c.y()});
-  const PixelRange columns(left, right, width_), rows(top, bottom, height_);
+  const PixelRange rows(top, bottom, height_);
   for (int y = rows.first; y <= rows.last; ++y) {
+    const auto [left, right] = p.span(y + 0.5);
+    const PixelRange columns(left - 1, right + 1, width_);  // a pixel of room for rounding
     for (int x = columns.first; x <= columns.last; ++x) {
       const Vector3d weights = p.weights(x + 0.5, y + 0.5);
       if (!(weights.minCoeff() >= 0)) continue;
