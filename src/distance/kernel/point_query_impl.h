@@ -211,6 +211,7 @@ class PointSearch {
   void walk_near() {
     QueryCounters counters;
     visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
+      if (block * block_width / std::uint32_t{doubles_width} == first_) return limit_;  // tested with a block before
       test_first(block * block_width);
       update_limit();
       return limit_;
