@@ -44,9 +44,7 @@ class Rivals {
     return std::span(rivals_[triangle].rivals).first(rivals_[triangle].count);
   }
   /// The triangles that have this one as a rival, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> with(std::uint32_t triangle) const {
-    return (*with_)[triangle];
-  }
+  [[nodiscard]] std::span<const std::uint32_t> with(std::uint32_t triangle) const { return (*with_)[triangle]; }
 
  private:
   struct Few {
