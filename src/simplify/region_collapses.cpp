@@ -64,8 +64,8 @@ bool RegionCollapses::collapse(Corner edge, std::optional<Vec3> wanted) {
   ++proposer_.counts.refused;
   if (point_found && prover_ != nullptr && prover_->met_seam()) return false;
   state_.refuse(edge, point_found ? 0 : proposer_.deviation());
-  const bool breaks_bound = point_found || proposer_.refused_for_distance();
-  if (limits_.ends_at_refusal && breaks_bound && limits_.ends_at_refusal()) ended_ = true;
+  if (limits_.ends_at_refusal && (point_found || proposer_.refused_for_distance()) && limits_.ends_at_refusal())
+    ended_ = true;
   return false;
 }
 
