@@ -375,9 +375,9 @@ std::vector<FacedTriangle> random_triangles(std::size_t count) {
   std::mt19937 random(3);
   std::vector<FacedTriangle> triangles;
   while (triangles.size() < count) {
-    const Vec3 at = 0.2 * random_point(random), normal = random_point(random);
-    triangles.push_back(
-        {{at, at + 0.1 * random_point(random), at + 0.1 * random_point(random)}, (1 / length(normal)) * normal});
+    const Vec3 at = 0.2 * random_point(random), u = 0.1 * random_point(random), v = 0.1 * random_point(random);
+    const Vec3 normal = cross(u, v);
+    triangles.push_back({{at, at + u, at + v}, (1 / length(normal)) * normal});
   }
   return triangles;
 }

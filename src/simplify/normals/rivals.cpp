@@ -20,6 +20,10 @@ constexpr double sizes_within_reach = 2;
 /// Share of the reach that is searched first: most triangles that have many rivals have enough of them within it.
 constexpr double first_share = 0.5;
 
+/// The square of a height above a plane times this is no more than the squared distance from a triangle in it, which
+/// may be the same but for rounding.
+constexpr double less_than_1 = 1 - 0x1p-20;
+
 constexpr std::size_t grain = 1024;  ///< triangles that a thread takes at once
 
 double size_of(const FacedTriangle& triangle) {
@@ -70,9 +74,8 @@ class RivalSearch {
     tree_.find(grown(Eigen::AlignedBox3d(to_eigen(middle)), reach), found_);
     for (const std::uint32_t other : found_) {
       if (dot(triangle.normal, triangles_[other].normal) >= limits_.min_cosine) continue;
-      const double height = dot(triangles_[other].normal, middle - triangles_[other].corners[0]);
-      if (height * height > reach * reach) continue;
-      const double squared = std::max(height * height, squared_distance(boxes_[other], middle));
+      const double height = dot(triangles_[other].normal, middle - triangles_[other].corners[0]),
+                   squared = std::max(less_than_1 * height * height, squared_distance(boxes_[other], middle));
       if (squared <= reach * reach) boxes_within_.emplace_back(squared, other);
     }
     std::sort(boxes_within_.begin(), boxes_within_.end());
