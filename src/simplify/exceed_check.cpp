@@ -11,9 +11,6 @@
 namespace meshbound {
 namespace {
 
-/// Boxes are made anew when one in so many faces has changed since.
-constexpr std::size_t faces_per_change = 16;
-
 using Corners = std::array<Vec3, 3>;
 
 void add(TriangleMesh& soup, const Corners& corners) {
@@ -45,7 +42,7 @@ void ExceedCheck::note_change(std::uint32_t kept) {
 
 /// Where there are none, or too many faces have changed since.
 void ExceedCheck::make_boxes() {
-  if (boxes_ && changed_.size() * faces_per_change <= state_.mesh.face_count()) return;
+  if (boxes_ && !boxes_->are_outdated(changed_.size())) return;
   boxes_.emplace(state_.mesh);
   is_changed_.clear();
   changed_.clear();

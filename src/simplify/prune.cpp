@@ -56,10 +56,6 @@ std::vector<std::uint32_t> originals_of(const DecimationState& state, const Comp
   return originals;
 }
 
-/// Removed faces are found in the boxes too. Where they are as many as the originals to be covered, that takes the
-/// square of their number: then boxes are made without them.
-bool is_large_part(std::size_t faces, std::size_t of_all) { return faces > of_all / 16; }
-
 }  // namespace
 
 Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bool keeps_borders,
@@ -76,10 +72,10 @@ Pruned prune(DecimationState& state, double tolerance, std::size_t min_faces, bo
     if (state.faces < min_faces + component.size() || state.faces == component.size()) continue;
     if (must_stay(state, component, keeps_borders)) continue;
     const std::vector<std::uint32_t> originals = originals_of(state, component);
-    if (is_large_part(removed, boxes.size())) boxes = FaceBoxes(state.mesh), removed = 0;
+    if (boxes.are_outdated(removed)) boxes = FaceBoxes(state.mesh), removed = 0;
     state.mesh.remove_component(component);
-    std::optional<FaceBoxes> boxes_of_others;
-    if (is_large_part(component.size(), state.faces)) boxes_of_others.emplace(state.mesh);
+    std::optional<FaceBoxes> boxes_of_others;  // of a large component all faces would be found for each original
+    if (boxes.are_outdated(component.size())) boxes_of_others.emplace(state.mesh);
     if (!workers.cover_anywhere(originals, boxes_of_others ? *boxes_of_others : boxes, covers)) {
       state.mesh.restore_component(component);
       continue;
