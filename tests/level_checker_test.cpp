@@ -194,6 +194,19 @@ TEST(LevelChecker, ProofEndsWithTheFaceItRestsOn) {
   }
 }
 
+TEST(LevelChecker, TriangleThatThousandsOfFacesCoverTogetherRestsOnEach) {
+  const TriangleMesh original = unit_square(1), level = moved(unit_square(64), {0, 0, 0.01});
+  for (std::size_t gone = 0; gone < level.triangles.size(); gone += 999) {
+    LevelChecker levels(original);
+    EXPECT_EQ(levels.check(level, 0.0105).verdict, Verdict::Within);
+    TriangleMesh holed = level;
+    holed.triangles.erase(holed.triangles.begin() + static_cast<std::ptrdiff_t>(gone));
+    const ToleranceCheck check = levels.check(holed, 0.0105);
+    EXPECT_EQ(check.verdict, Verdict::Exceeds) << gone;
+    EXPECT_EQ(check.a_to_b.stats.proven_before, 1u) << "the triangle of the original that did not lie on it";
+  }
+}
+
 TEST(LevelChecker, OneLargeTriangleRestsOnAllFacesItLiesOn) {
   const TriangleMesh original = single_triangle({0, 0, 0}, {1, 0, 0}, {1, 1, 0});
   const TriangleMesh level = moved(unit_square(8), {0, 0, 0.01});

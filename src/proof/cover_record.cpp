@@ -15,4 +15,9 @@ void CoverRecord::add(std::uint32_t slot) {
   if (std::find(slots.rbegin(), slots.rend(), slot) == slots.rend()) slots.push_back(slot);
 }
 
+void CoverRecord::add(std::span<const std::uint32_t> together) {
+  if (!names_all) return add(together.front());
+  slots.insert(slots.end(), together.begin(), together.end());
+}
+
 }  // namespace meshbound

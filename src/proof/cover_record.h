@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "numeric/no_index.h"
@@ -14,7 +15,7 @@ struct CoverRecord {
   double squared = 0;     ///< largest distance that was accepted
   bool complete = true;
   std::uint32_t last = no_index;     ///< slot added last
-  std::vector<std::uint32_t> slots;  ///< each once
+  std::vector<std::uint32_t> slots;  ///< each once, but for those that bound several pieces together
 
   void clear() {
     squared = 0;
@@ -24,6 +25,8 @@ struct CoverRecord {
   }
   /// `no_slot`: a piece whose triangle is not known, so the cover proves nothing for later.
   void add(std::uint32_t slot);
+  /// Those that bound a piece together.
+  void add(std::span<const std::uint32_t> together);
   [[nodiscard]] bool proves() const { return complete && !slots.empty(); }
 };
 

@@ -23,6 +23,7 @@ struct Goal {
   bool decide_only = false;  ///< only tell whether the distance is within the tolerance
   double slack = 0;          ///< what a computed distance of a point of the models may be off, either way
   double cut_slack = 0;      ///< what each cut adds for the points it makes
+  double magnitude = std::numeric_limits<double>::infinity();  ///< of all coordinates at most
   StopToken stop;
 
   /// The proven length of a computed squared distance to a point of B, of a point of A behind so many cuts: never below

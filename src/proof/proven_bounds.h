@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "bvh/nearest.h"
 #include "proof/cover_record.h"
@@ -45,6 +46,13 @@ class ProvenBounds {
     if (record_ == nullptr) return;
     record_->squared = std::max(record_->squared, squared);
     if (slot != record_->last) record_->add(slot);
+  }
+  /// As above, for a piece that several triangles bound together.
+  void accept(double squared, std::span<const std::uint32_t> slots) {
+    upper_squared_ = std::max(upper_squared_, squared);
+    if (record_ == nullptr) return;
+    record_->squared = std::max(record_->squared, squared);
+    record_->add(slots);
   }
   [[nodiscard]] bool accepts(double squared) const { return squared <= accepted_squared_; }
 

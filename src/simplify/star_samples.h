@@ -7,7 +7,7 @@
 
 #include "bvh/build_kernels.h"
 #include "meshbound/proximity.h"
-#include "simplify/cover/parity_view.h"
+#include "simplify/cover/original_soup.h"
 #include "simplify/cover/surface_walk.h"
 #include "simplify/decimation_state.h"
 #include "simplify/kernel/kernels.h"

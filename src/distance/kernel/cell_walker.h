@@ -3,6 +3,8 @@
 /// Each part walks on to the neighbour across the cut, and is bounded by that triangle alone. Compiled once per
 /// instruction set.
 ///
+///     a triangle of A that lies on many triangles of B is covered by them together (distance/kernel/parity_cover.h);
+///     where B ends below it, its halves are; what neither covers are the first pieces
 ///     while a piece is left                               d(., t) is convex: the corners bound the piece
 ///       if every corner is within the target of its candidate t: done
 ///       cut it by the cell of t, pushed outward by a slack; what is outside goes to the neighbour, without a query
@@ -21,9 +23,11 @@
 #include <vector>
 
 #include "distance/kernel/choice.h"
+#include "distance/kernel/parity_cover.h"
 #include "proof/cell_planes.h"
 #include "proof/piece.h"
 #include "proof/proven_bounds.h"
+#include "proof/triangle_corners.h"
 
 namespace meshbound {
 
@@ -45,12 +49,15 @@ inline constexpr std::uint32_t cuts_before_resolving = 60;
 inline constexpr std::uint32_t splits_before_halving = 8;
 /// Cuts after which the walk leaves a piece to subdivision, which may cut it until `deepest_cut`.
 inline constexpr std::uint32_t deepest_walk = 90;
+/// Halvings after which a triangle of A is not halved again for a cover by parity: an edge of it is then a few
+/// thousandths of what it was.
+inline constexpr std::uint32_t halved_for_parity = 16;
 
 inline namespace MESHBOUND_ISA {
 
 class CellWalker : public ProvenBounds {
  public:
-  CellWalker(const Bvh::Data& target, const Goal& goal) : ProvenBounds(target, goal) {
+  CellWalker(const Bvh::Data& target, const Goal& goal) : ProvenBounds(target, goal), parity_(target, goal.magnitude) {
     constexpr std::size_t usual_depth = 8;
     stack_.reserve(usual_depth);
   }
@@ -62,7 +69,8 @@ class CellWalker : public ProvenBounds {
     cuts_left_ = max_cuts;
     stack_.clear();
     unfinished_.clear();
-    stack_.push_back(whole_triangle(a, b, c, slot));
+    parity_.begin();
+    cover_by_parity({a, b, c}, slot, 0);
     while (!stack_.empty()) {
       const Piece piece = stack_.back();
       stack_.pop_back();
@@ -109,6 +117,50 @@ class CellWalker : public ProvenBounds {
   }
 
  private:
+  /// Covers a triangle behind so many cuts by many triangles of B together, as far as that proves it; the rest becomes
+  /// pieces.
+  void cover_by_parity(const TriangleCorners& triangle, std::uint32_t slot, std::uint32_t cuts) {
+    Piece piece = whole_triangle(triangle[0], triangle[1], triangle[2], slot);
+    piece.depth = cuts;
+    if (!parity_.spans_many(triangle, slot)) return stack_.push_back(piece);
+    // Less by the roundings of a sum of lengths and of its square.
+    const double limit = std::sqrt(accepted_squared_) * (1 - 0x1p-48);
+    if (const std::optional<double> distance = parity_.distance(triangle, limit, slot)) {
+      accept(*distance * *distance, parity_.patch());
+      for (const std::uint32_t too_high : parity_.too_high()) push_what_is_over(piece, too_high);
+    } else if (parity_.is_worth_halving() && cuts < halved_for_parity && cuts_left_ > 0) {
+      halve_for_parity(triangle, slot, cuts);
+    } else {
+      stack_.push_back(piece);
+    }
+  }
+
+  void halve_for_parity(const TriangleCorners& triangle, std::uint32_t slot, std::uint32_t cuts) {
+    count_cut();
+    for (const TriangleCorners& half : halves(triangle))
+      cover_by_parity(half, nearest_within_target(centroid(half), slot).slot, cuts + 1);
+  }
+
+  /// Pushes what of a piece is over or under a triangle of B that is too high.
+  void push_what_is_over(const Piece& whole, std::uint32_t slot) {
+    Piece rest = whole, inside, outside;
+    for (const HalfSpace& space : parity_.half_spaces_over(slot)) {
+      const CornerDistances sides = distances_from_plane(rest, space.normal, space.offset);
+      if (sides.min > 0) return;
+      if (sides.max <= 0 || !cut_and_count(rest, sides, inside, outside)) continue;
+      rest = inside;
+    }
+    push(rest, slot, 1);
+  }
+
+  /// The triangle of B that is nearest to a point, or one within the target; starts with `slot`.
+  Nearest nearest_within_target(const Vec3& p, std::uint32_t slot) {
+    Nearest nearest{closest_on_triangle(triangle_at(b_, slot), p).squared_distance, slot};
+    descend(b_, p, accepted_squared_, nearest, counters_.queries);
+    find_nearest(b_, p, accepted_squared_, nearest, counters_.queries);
+    return nearest;
+  }
+
   void step(const Piece& piece) {
     // A look at the clock costs as much as a piece; a thousand pieces take well under a millisecond.
     if ((++counters_.pieces & 1023) == 0 && goal_.out_of_time()) cuts_left_ = 0;
@@ -223,9 +275,7 @@ class CellWalker : public ProvenBounds {
 
   void query_and_walk(const Piece& piece, const Farthest& farthest) {
     const Vec3 probe = probe_point(piece, farthest.corner);
-    Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), probe).squared_distance, piece.slot};
-    descend(b_, probe, accepted_squared_, nearest, counters_.queries);
-    find_nearest(b_, probe, accepted_squared_, nearest, counters_.queries);
+    const Nearest nearest = nearest_within_target(probe, piece.slot);
     if (!accepts(nearest.squared)) offer(probe, nearest, piece.depth + 1);
     const double lipschitz = std::sqrt(nearest.squared) + std::sqrt(squared_radius(piece, probe));
     if (done_with(farthest.squared, piece.slot) || done_with(lipschitz * lipschitz, nearest.slot)) return;
@@ -278,9 +328,7 @@ class CellWalker : public ProvenBounds {
   /// many are equally near, looking for the nearest means looking at all of them. True when the piece has been bounded
   /// by that triangle, or split between it and the candidate.
   bool split_by_query(const Piece& piece, const Vec3& p, double& bound) {
-    Nearest nearest{closest_on_triangle(triangle_at(b_, piece.slot), p).squared_distance, piece.slot};
-    descend(b_, p, accepted_squared_, nearest, counters_.queries);
-    find_nearest(b_, p, accepted_squared_, nearest, counters_.queries);
+    const Nearest nearest = nearest_within_target(p, piece.slot);
     if (!accepts(nearest.squared)) offer(p, nearest, piece.depth + 1);
     if (nearest.slot == piece.slot) return false;
     const double squared = farthest_corner(piece, triangle_at(b_, nearest.slot)).squared;
@@ -377,6 +425,7 @@ class CellWalker : public ProvenBounds {
   }
 
   std::uint64_t cuts_left_ = 0;
+  ParityCover parity_;
   std::vector<Piece> stack_;
   std::vector<Unfinished> unfinished_;
 };

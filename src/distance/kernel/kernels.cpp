@@ -19,6 +19,7 @@ std::unique_ptr<SearchKernel> make_search_kernel(const Bvh::Data& target, const 
 void set_slack(Goal& goal, double magnitude, double model_error) {
   goal.slack = ((primal_error + dual_error) * magnitude + model_error) * (1 + 4 * unit_roundoff);
   goal.cut_slack = cut_error * magnitude;
+  goal.magnitude = magnitude;
 }
 
 }  // namespace meshbound

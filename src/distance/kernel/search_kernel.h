@@ -76,8 +76,8 @@ class SearchKernel {
 /// The fastest kernel this machine runs. All of them give the same results to the last bit.
 std::unique_ptr<SearchKernel> make_search_kernel(const Bvh::Data& target, const Goal& goal);
 
-/// Sets the rounding slacks of a goal (numeric/rounding.h): `magnitude` bounds all coordinates, `model_error` is what
-/// the coordinates themselves may be off.
+/// Sets the magnitude and the rounding slacks of a goal (numeric/rounding.h): `magnitude` bounds all coordinates,
+/// `model_error` is what the coordinates themselves may be off.
 void set_slack(Goal& goal, double magnitude, double model_error);
 
 }  // namespace meshbound

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "simplify/cover/original_clusters.h"
-#include "simplify/cover/parity_view.h"
+#include "simplify/cover/original_soup.h"
 #include "simplify/cover/slab_tree.h"
 
 namespace meshbound {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "simplify/cover/parity_view.h"
+#include "proof/parity_view.h"
 
 namespace meshbound {
 

@@ -3,8 +3,9 @@
 #include <array>
 #include <cstdint>
 
+#include "proof/parity_view.h"
 #include "simplify/cover/original_clusters.h"
-#include "simplify/cover/parity_view.h"
+#include "simplify/cover/original_soup.h"
 #include "simplify/cover/slab_tree.h"
 #include "simplify/kernel/kernels.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simplify/cover/original_clusters.h"
-#include "simplify/cover/parity_view.h"
+#include "simplify/cover/original_soup.h"
 #include "simplify/kernel/slab_kernel.h"
 
 namespace meshbound {

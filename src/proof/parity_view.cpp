@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simplify/cover/parity_view.h"
+#include "proof/parity_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,25 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
-#include "meshbound/triangle_mesh.h"
-#include "proof/edge_neighbours.h"
 #include "proof/parity_patch.h"
 
 namespace meshbound {
-
-/// The triangles of an original as a parity proof asks for them. `neighbours` are its `edge_neighbours`.
-struct OriginalSoup {
-  const std::vector<Vec3>& vertices;
-  const std::vector<Triangle>& triangles;
-  const std::vector<TriangleNeighbours>& neighbours;
-
-  [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t t) const {
-    return {vertices[triangles[t][0]], vertices[triangles[t][1]], vertices[triangles[t][2]]};
-  }
-  [[nodiscard]] std::uint32_t neighbour(std::uint32_t t, std::size_t k) const { return neighbours[t][k]; }
-};
 
 /// What the proofs that a triangle T lies near a soup look from: the prism over T', which is T a little shrunk, with
 /// the heights that are allowed in it.
@@ -46,7 +31,7 @@ struct ParityView {
   double height_limit = 0, rim = 0;
 };
 
-/// What is seen of one triangle of a soup, see `ParityProof`.
+/// What is seen of one triangle of a soup, which tells `corners(t)` of triangle t.
 template <class Soup>
 struct Sight {
   const ParityView& from;
