@@ -90,15 +90,65 @@ Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
     triangles_.back().number = static_cast<std::uint32_t>(triangles_.size() - 1);
   }
   link_across_edges(triangles_);
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const TexturedTriangle& t : mesh.triangles) boxes.push_back(box_in_texture(t)), places_.push_back(place_of(t));
-  tree_.emplace(boxes);
+  std::vector<Eigen::AlignedBox3d> with_area, in_texture, in_space;
+  for (const ChartTriangle& t : triangles_) {
+    const Eigen::AlignedBox3d box = box_in_texture(*t.source);
+    places_.push_back(place_of(*t.source));
+    with_area.push_back(t.chart == Chart::Area ? box : Eigen::AlignedBox3d());
+    if (t.chart == Chart::Area) continue;
+    without_area_.push_back(t.number);
+    in_texture.push_back(box);
+    in_space.push_back(places_.back());
+  }
+  with_area_.emplace(with_area);
+  without_area_in_texture_.emplace(in_texture);
+  without_area_in_space_.emplace(in_space);
+}
+
+/// Appends the triangles without an area in the texture whose boxes in a tree of them meet a box.
+void Charts::find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tree,
+                               std::vector<std::uint32_t>& found) const {
+  const std::size_t before = found.size();
+  tree.find(box, found);
+  for (std::size_t i = before; i < found.size(); ++i) found[i] = without_area_[found[i]];
 }
 
 void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
   found.clear();
-  tree_->find(box_in_texture(*a.source), found);
+  with_area_->find(box_in_texture(*a.source), found);
+  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found);
   for (const std::uint32_t b : found) overlay.add(triangles_[b]);
+}
+
+bool Charts::may_have_among_others(const ChartTriangle& a) const {
+  std::vector<std::uint32_t> found;
+  with_area_->find(box_in_texture(*a.source), found);
+  if (!found.empty()) return true;
+  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found);
+  return std::any_of(found.begin(), found.end(), [&](std::uint32_t i) { return triangles_[i].chart != Chart::Point; });
+}
+
+void Charts::find_near_without_area(const ChartTriangle& a, double reach, ChartCandidates& found) const {
+  const Eigen::AlignedBox3d in_texture = box_in_texture(*a.source);
+  Eigen::AlignedBox3d place = place_of(*a.source);
+  // More by what rounding may take away.
+  const double margin =
+      reach * (1 + 0x1p-40) + 0x1p-50 * place.max().cwiseAbs().cwiseMax(place.min().cwiseAbs()).maxCoeff();
+  place.min().array() -= margin;
+  place.max().array() += margin;
+  with_area_->find(in_texture, found.indices);
+  find_without_area(place, *without_area_in_space_, found.indices);
+  for (const std::uint32_t i : found.indices)
+    if (in_texture.intersects(box_in_texture(mesh_.triangles[i]))) found.near.push_back(&triangles_[i]);
+}
+
+void Charts::find_others(const ChartTriangle& a, ChartCandidates& found) const {
+  found.indices.clear();
+  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found.indices);
+  std::vector<const ChartTriangle*> near = found.near;
+  std::sort(near.begin(), near.end());
+  for (const std::uint32_t i : found.indices)
+    if (!std::binary_search(near.begin(), near.end(), &triangles_[i])) found.others.push_back(&triangles_[i]);
 }
 
 void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const {
@@ -106,7 +156,9 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.others.clear();
   found.copy.reset();
   found.indices.clear();
-  tree_->find(box_in_texture(*a.source), found.indices);
+  if (a.chart != Chart::Area) return find_near_without_area(a, reach, found);
+  with_area_->find(box_in_texture(*a.source), found.indices);
+  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
   const Eigen::Vector2d& origin = a.source->coordinates[0];
   const Outline outline(a, origin);
@@ -120,7 +172,7 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
     const ChartTriangle& b = triangles_[i];
     const bool is_near = squared_distance(places_[i], place) <= reach * reach && seems_to_share_area(b);
     found.is_near.push_back(is_near ? 1 : 0);
-    if (!is_near || a.chart != Chart::Area) continue;
+    if (!is_near) continue;
     const std::optional<double> upper = upper_at_equal_corners(*a.source, *b.source);
     if (upper && *upper <= (found.copy ? found.copy->upper : reach)) found.copy = {&b, *upper};
   }

@@ -27,12 +27,13 @@ struct ChartCopy {
 /// Triangles that may have texture coordinates of a triangle.
 struct ChartCandidates {
   /// Those that seem to share more than an edge with it in the texture and to be within reach of it in space. Rounding
-  /// decides about some. If there is a `copy`, only this one.
+  /// decides about some. If there is a `copy`, only this one. Where the triangle has no area in the texture: all with
+  /// an area that may have coordinates of it, and those without one whose boxes in space are within reach.
   std::vector<const ChartTriangle*> near;
-  std::vector<const ChartTriangle*> others;
-  std::optional<ChartCopy> copy;       ///< the nearest one, if one is within reach
-  std::vector<std::uint32_t> indices;  ///< of the triangles above in their mesh
-  std::vector<std::uint8_t> is_near;   ///< by index: one of those, were there no `copy`
+  std::vector<const ChartTriangle*> others;  ///< `find_others` finds those of a triangle without an area
+  std::optional<ChartCopy> copy;             ///< the nearest one, if one is within reach
+  std::vector<std::uint32_t> indices;        ///< of the triangles above in their mesh
+  std::vector<std::uint8_t> is_near;         ///< by index: one of those, were there no `copy`
 };
 
 /// The triangles of a mesh with a search tree over their texture coordinates. Immutable, safe to share.
@@ -50,15 +51,26 @@ class Charts {
   /// of those whose boxes of texture coordinates meet.
   void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const;
 
-  /// Sorts the triangles that may overlap `a` in the texture. Expected O(log n + k) for k of them.
+  /// Sorts the triangles that may overlap `a` in the texture. Expected O(log n + k) for k of them. Where `a` has no
+  /// area in the texture, all may: in a palette many have one coordinate. Then only the near ones are looked for.
   void find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const;
+  /// Whether triangles may have the only texture coordinate of `a` and others besides. O(n).
+  [[nodiscard]] bool may_have_among_others(const ChartTriangle& a) const;
+  /// Where `a` has no area in the texture: sets `others` to those that are not near, by the last `find_candidates`.
+  void find_others(const ChartTriangle& a, ChartCandidates& found) const;
 
  private:
+  void find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tree, std::vector<std::uint32_t>& found) const;
+  void find_near_without_area(const ChartTriangle& a, double reach, ChartCandidates& found) const;
+
   const TexturedMesh& mesh_;
   ExactUnits units_;
   std::vector<ChartTriangle> triangles_;
   std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by triangle
-  std::optional<BoxTree> tree_;
+  std::optional<BoxTree> with_area_;         ///< boxes in the texture, by triangle; empty where it has no area there
+  std::vector<std::uint32_t> without_area_;  ///< triangles
+  /// Boxes of these, in the texture and in space.
+  std::optional<BoxTree> without_area_in_texture_, without_area_in_space_;
 };
 
 /// Units that the texture coordinates and positions of both meshes are multiples of.

@@ -145,6 +145,8 @@ class Overlay {
   [[nodiscard]] Bounds refined(const Bounds& rough, std::uint32_t candidate, const Node& node, double precision);
   /// The point and that nearest point, rounded to doubles.
   [[nodiscard]] TextureWitness witness(std::uint32_t candidate, const Node& node);
+  /// The point in space.
+  [[nodiscard]] std::array<Approximate, 3> near_position(const Node& node) const;
   /// The area of the polygon as a share of that of A.
   [[nodiscard]] Approximate share(const Polygon& polygon);
   /// Rounded weights of sum 1.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "geometry/longest_edge.h"
+#include "geometry/magnitude.h"
+#include "numeric/rounding.h"
 #include "texture/overlay.h"
 #include "texture/overlay_numbers.h"
 
@@ -76,12 +78,37 @@ Bounds distance_to_segment(const NearPoint& p, const NearPoint& from, const Near
   return {lower > 0 ? next_down(lower) : 0, there.upper};
 }
 
-/// The point of a triangle that is nearest to p, rounded.
-Eigen::Vector3d nearest_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
+std::array<Vec3, 3> as_vectors(const std::array<Eigen::Vector3d, 3>& corners) {
   std::array<Vec3, 3> c;
   for (std::size_t k = 0; k < 3; ++k) c[k] = {corners[k].x(), corners[k].y(), corners[k].z()};
-  const Vec3 offset = closest_on_triangle(longest_edge_first(c), Vec3{p.x(), p.y(), p.z()}).offset;
+  return c;
+}
+
+/// The point of a triangle that is nearest to p, rounded.
+Eigen::Vector3d nearest_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
+  const Vec3 offset = closest_on_triangle(longest_edge_first(as_vectors(corners)), Vec3{p.x(), p.y(), p.z()}).offset;
   return p - Eigen::Vector3d(offset.x, offset.y, offset.z);
+}
+
+/// Between magnitudes of this and its inverse squares of lengths that matter neither overflow nor underflow.
+constexpr double max_plain_magnitude = 0x1p400;
+
+/// The primal and the dual bound of numeric/rounding.h: the triangle lies beyond the plane, across the way to its
+/// closest point, through its nearest corner.
+Bounds distance_to_triangle(const NearPoint& p, const std::array<Eigen::Vector3d, 3>& corners) {
+  const std::array<Vec3, 3> c = as_vectors(corners);
+  const Vec3 point{p[0].value, p[1].value, p[2].value};
+  double magnitude = largest_magnitude_of(point);
+  for (const Vec3& corner : c) magnitude = std::max(magnitude, largest_magnitude_of(corner));
+  const auto [offset, squared] = closest_on_triangle(longest_edge_first(c), point);
+  const double length = std::sqrt(squared), of_point = p[0].error + p[1].error + p[2].error,
+               slack =
+                   (std::max(primal_error, dual_error) * magnitude + of_point) * Approximate::grown + Approximate::tiny;
+  if (!(magnitude > 1 / max_plain_magnitude && magnitude < max_plain_magnitude && slack < HUGE_VAL)) return {};
+  if (!(length > slack)) return {0, next_up(length * (1 + 8 * unit_roundoff) + slack)};
+  double beyond = HUGE_VAL;
+  for (const Vec3& corner : c) beyond = std::min(beyond, dot(offset, point - corner) / length);
+  return {std::max(0.0, next_down(beyond - slack)), next_up(length * (1 + 8 * unit_roundoff) + slack)};
 }
 
 }  // namespace
@@ -96,7 +123,8 @@ Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
 Bounds Overlay::rough_distance(std::uint32_t candidate, const Node& node) {
   Candidate& c = candidates_[candidate];
   if (c.triangle->chart == Chart::Area) return near_distance(c, node);
-  return c.triangle->chart == Chart::Segment ? near_distance_to_fibre(c, node) : Bounds{};
+  return c.triangle->chart == Chart::Segment ? near_distance_to_fibre(c, node)
+                                             : distance_to_triangle(near_position(node), c.triangle->source->corners);
 }
 
 Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
@@ -164,6 +192,11 @@ Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& n
   const NearPoint across = point_between(first, last, at / length);
   const NearPoint round =
       is_before ? point_between(first, second, at / turn) : point_between(second, last, (at - turn) / (length - turn));
+  return distance_to_segment(near_position(node), across, round);
+}
+
+std::array<Approximate, 3> Overlay::near_position(const Node& node) const {
+  const Approximate total = sum(node.weights);
   NearPoint point;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto corner = [&](std::size_t k) {
@@ -171,7 +204,7 @@ Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& n
     };
     point[i] = weighted<Approximate>({corner(0), corner(1), corner(2)}, node.weights) / total;
   }
-  return distance_to_segment(point, across, round);
+  return point;
 }
 
 /// A point of A, and all points of a candidate with its texture coordinate: a point, a segment or a triangle. All

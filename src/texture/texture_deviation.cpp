@@ -14,6 +14,7 @@
 #include "numeric/tasks.h"
 #include "texture/charts.h"
 #include "texture/near_cover.h"
+#include "texture/single_coordinates.h"
 #include "texture/surface_area.h"
 #include "texture/texture_comparison.h"
 #include "texture/triangle_deviation.h"
@@ -48,11 +49,13 @@ class Direction {
     goal_.error_bound = error_bound;
     goal_.precision = precision_share * error_bound;
     goal_.max_pieces = options.max_pieces;
+    goal_.reach = reach;
   }
 
   OneSidedTextureDeviation run() {
     options_.stop.check();
     pairs_.assign(upper_.size(), 0);
+    bound_single_coordinates();
     const std::vector<std::size_t> unknown_before = unknown();
     for (const bool is_first : {true, false}) {
       look_at_near(part_of(unknown_before, is_first));
@@ -86,6 +89,13 @@ class Direction {
 
   void find_candidates(std::size_t triangle, Workspace& work) const {
     b_.find_candidates(a_.triangles()[triangle], reach_, work.candidates);
+  }
+
+  [[nodiscard]] FindOthers others_of(std::size_t triangle, Workspace& work) const {
+    return [this, &a = a_.triangles()[triangle], &found = work.candidates] {
+      if (a.chart != Chart::Area) b_.find_others(a, found);
+      return std::span<const ChartTriangle* const>(found.others);
+    };
   }
 
   /// Starts the overlay of a triangle with the near ones of the candidates that were found last.
@@ -137,6 +147,17 @@ class Direction {
               work.near_cover.upper(a_.triangles()[i], work.candidates.near, min_upper(), goal_.precision))
         upper_[i] = *upper;
     });
+  }
+
+  /// Triangles of one texture coordinate are bounded together. Beyond the tolerance each is looked at by itself.
+  void bound_single_coordinates() {
+    for (const SingleCoordinate& single :
+         distances_at_single_coordinates(a_, b_, unknown(), goal_.error_bound, options_)) {
+      if (single.lower) raise(*single.lower, single.witness);
+      for (std::size_t k = 0; k < single.triangles.size(); ++k)
+        if (!options_.tolerance || single.upper[k] <= *options_.tolerance)
+          upper_[single.triangles[k]] = single.upper[k];
+    }
   }
 
   /// The first part has triangles from all over the mesh: enough for a lower bound that spares the others most of their
@@ -207,7 +228,7 @@ class Direction {
       if (!is_open(triangles[k])) return;
       find_candidates(triangles[k], work);
       overlay_near(triangles[k], work);
-      found[k] = deviation_by_pieces(work.overlay, work.covering, work.candidates.others, goal);
+      found[k] = deviation_by_pieces(work.overlay, work.covering, others_of(triangles[k], work), goal);
       pairs_[triangles[k]] += work.overlay.candidates();
       const bool may_be_shown = found[k].bounds.lower >= goal_.lower || exceeds(found[k]);
       if (found[k].far && may_be_shown)
@@ -241,7 +262,7 @@ class Direction {
     const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
-    const TriangleDeviation found = deviation_by_pieces(work.overlay, work.covering, work.candidates.others, goal);
+    const TriangleDeviation found = deviation_by_pieces(work.overlay, work.covering, others_of(triangle, work), goal);
     if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
   }
 

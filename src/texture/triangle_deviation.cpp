@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "texture/charts.h"
 #include "texture/pair_bound.h"
 
 namespace meshbound {
@@ -48,12 +49,25 @@ Cover cover_of(Overlay& overlay, const Polygon& polygon, std::uint32_t candidate
   return cover;
 }
 
+/// Whether the box of a triangle in space is known to be farther away. The box and the distance round by a few units of
+/// the last places.
+bool is_beyond(const ChartTriangle& t, const std::array<Approximate, 3>& point, double distance) {
+  const Eigen::AlignedBox3d place = place_of(*t.source);
+  const Eigen::Vector3d p(point[0].value, point[1].value, point[2].value);
+  const double largest = p.cwiseAbs().cwiseMax(place.min().cwiseAbs()).cwiseMax(place.max().cwiseAbs()).maxCoeff(),
+               error = point[0].error + point[1].error + point[2].error + 0x1p-45 * largest;
+  return place.exteriorDistance(p) * (1 - 0x1p-40) - error > distance;
+}
+
 /// Sets the lower bound to the distance from the point to the nearest candidate that covers it, if that is larger or no
 /// distance is known yet.
 void include(Overlay& overlay, const Node& node, double precision, TriangleDeviation& result) {
   double nearest = HUGE_VAL;
   std::uint32_t candidate = 0;
+  const bool has_area = overlay.triangle().chart == Chart::Area;
+  const std::array<Approximate, 3> at = has_area ? std::array<Approximate, 3>{} : overlay.near_position(node);
   for (std::uint32_t c = 0; c < overlay.candidates(); ++c) {
+    if (!has_area && is_beyond(overlay.candidate(c), at, nearest)) continue;
     if (!overlay.covers(c, node)) continue;
     const Bounds rough = overlay.rough_distance(c, node);
     if (result.far && rough.upper <= result.bounds.lower) return;
@@ -68,9 +82,8 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
 
 class PieceSearch {
  public:
-  PieceSearch(Overlay& overlay, Covering& covering, std::span<const ChartTriangle* const> others,
-              const DeviationGoal& goal)
-      : overlay_(overlay), covering_(covering), others_(others), likely_(overlay.candidates()), goal_(goal) {}
+  PieceSearch(Overlay& overlay, Covering& covering, const FindOthers& find_others, const DeviationGoal& goal)
+      : overlay_(overlay), covering_(covering), find_others_(find_others), likely_(overlay.candidates()), goal_(goal) {}
 
   /// Starts with the whole triangle. Every point of a candidate that covers some area of A lies in a piece that a
   /// candidate covers, or on its border. What no candidate covers is left; all other candidates matter only where they
@@ -223,17 +236,19 @@ class PieceSearch {
       return accept(bound.upper);
     }
     if (cut) return split(piece, *cut);
-    if (!piece.has_all) return take_all(piece);
+    const bool may_do_without_others = has_no_area() && is_covered && !has_others_;
+    if (!piece.has_all && !may_do_without_others) return take_all(piece);
     if (!is_covered) return uncovered_.push_back(std::move(piece.polygon));
     probe(piece, *bound.where);
     if (bound.upper <= limit() || piece.full.size() == 1) return accept(bound.upper);
+    if (has_no_area()) drop_far(piece, bound.upper);
     if (const auto middle = middle_line(piece.polygon)) return split(piece, *middle);
     accept(bound.upper);
   }
 
   void add_others() {
-    if (others_.empty()) return;
-    for (const ChartTriangle* other : std::exchange(others_, {})) overlay_.add(*other);
+    if (std::exchange(has_others_, true)) return;
+    for (const ChartTriangle* other : find_others_()) overlay_.add(*other);
     is_bounded_.resize(overlay_.candidates(), 0);
     unlikely_ = spanning_from(likely_);
     Line cut = 0;
@@ -288,7 +303,34 @@ class PieceSearch {
     if (piece.full.size() > 1) raise(Overlay::given(middle));
   }
 
-  void raise(const Node& node) { include(overlay_, node, goal_.precision, result_); }
+  void raise(const Node& node) {
+    if (has_no_area() && !is_near_likely(node)) add_others();
+    include(overlay_, node, goal_.precision, result_);
+  }
+
+  [[nodiscard]] bool has_no_area() const { return overlay_.triangle().chart != Chart::Area; }
+
+  /// Whether a distance to likely candidates tells that none to the others is less.
+  [[nodiscard]] bool is_within_reach(double distance) const { return has_no_area() && distance <= goal_.reach; }
+
+  [[nodiscard]] bool is_near_likely(const Node& node) {
+    for (std::uint32_t c = 0; c < likely_; ++c)
+      if (overlay_.covers(c, node) && is_within_reach(overlay_.rough_distance(c, node).upper)) return true;
+    return false;
+  }
+
+  /// Drops candidates that are farther from all of the piece than `upper`: of a triangle without an area in the texture
+  /// all of the others may have the coordinate. Rounding may decide.
+  void drop_far(Piece& piece, double upper) const {
+    Eigen::AlignedBox3d place;
+    for (const auto& corner : piece.polygon) {
+      const std::array<Approximate, 3> at = overlay_.near_position(corner.node);
+      place.extend(Eigen::Vector3d(at[0].value, at[1].value, at[2].value));
+    }
+    std::erase_if(piece.full, [&](std::uint32_t c) {
+      return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > upper;
+    });
+  }
 
   /// A line that halves the piece across its longest extent; absent if the piece is too small for that.
   std::optional<Line> middle_line(const Polygon& polygon) {
@@ -308,9 +350,10 @@ class PieceSearch {
 
   Overlay& overlay_;
   Covering& covering_;
-  std::span<const ChartTriangle* const> others_;  ///< candidates that the overlay does not hold yet
-  std::uint32_t likely_;                          ///< candidates that it held from the start
-  std::vector<std::uint32_t> unlikely_;           ///< the others that may cover some area of A
+  const FindOthers& find_others_;
+  bool has_others_ = false;              ///< the overlay holds the others too
+  std::uint32_t likely_;                 ///< candidates that it held from the start
+  std::vector<std::uint32_t> unlikely_;  ///< the others that may cover some area of A
   const DeviationGoal& goal_;
   TriangleDeviation result_;
   std::vector<Piece> stack_, spare_;
@@ -322,9 +365,9 @@ class PieceSearch {
 
 }  // namespace
 
-TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering,
-                                      std::span<const ChartTriangle* const> others, const DeviationGoal& goal) {
-  return PieceSearch(overlay, covering, others, goal).run();
+TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering, const FindOthers& find_others,
+                                      const DeviationGoal& goal) {
+  return PieceSearch(overlay, covering, find_others, goal).run();
 }
 
 }  // namespace meshbound

@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -35,12 +36,16 @@ struct DeviationGoal {
   double precision = 0;    ///< of a single distance
   double silent = HUGE_VAL;  ///< a larger upper bound comes with a far point
   std::uint64_t max_pieces = 0;
+  /// Where A has no area in the texture: the others are farther than this from every point of A.
+  double reach = 0;
 };
 
-/// Bounds the deviation to the goal by branch and bound over pieces of A. The overlay holds the likely candidates;
-/// `others` are all further triangles that may have texture coordinates of A, and join it where those do not suffice.
-[[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering,
-                                                    std::span<const ChartTriangle* const> others,
+/// Finds all triangles that may have texture coordinates of A, beside the likely candidates.
+using FindOthers = std::function<std::span<const ChartTriangle* const>()>;
+
+/// Bounds the deviation to the goal by branch and bound over pieces of A. The overlay holds the likely candidates; the
+/// others are found once, where those do not suffice, and join it.
+[[nodiscard]] TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering, const FindOthers& find_others,
                                                     const DeviationGoal& goal);
 
 }  // namespace meshbound

@@ -31,11 +31,6 @@ constexpr std::size_t few_samples = 32;
 /// edge.
 constexpr double min_weight = -1e-9;
 
-double doubled_area(const CornerCoordinates& t) {
-  const Eigen::Vector2d u = t[1] - t[0], v = t[2] - t[0];
-  return u.x() * v.y() - u.y() * v.x();
-}
-
 /// Weights of the point on the outline of a triangle in the texture that is closest to `p`, and its squared distance.
 std::array<double, 3> closest_on_outline(const CornerCoordinates& t, const Eigen::Vector2d& p, double& squared) {
   std::array<double, 3> best{};
@@ -213,10 +208,13 @@ bool TextureGuard::match_inside(const TextureMap::Sample& sample, std::uint32_t 
 }
 
 TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
-  Match match;
-  for (std::uint32_t i = 0; i < faces_.size(); ++i)
-    if (faces_[i].chart == chart && match_inside(sample, i, match)) return match;
-  return match_outside(sample, chart);
+  Match match, nearest;
+  for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+    if (faces_[i].chart != chart || !match_inside(sample, i, match)) continue;
+    if (faces_[i].has_area) return match;
+    if (nearest.face == no_index || squared_length(match.offset) < squared_length(nearest.offset)) nearest = match;
+  }
+  return nearest.face == no_index ? match_outside(sample, chart) : nearest;
 }
 
 /// The point of the faces that is nearest in the texture to a sample whose coordinate no face has.
@@ -258,7 +256,7 @@ bool TextureGuard::match(std::size_t count, double max_squared) {
     const TextureMap::Sample& sample = map_.sample(samples_[i]);
     Match& match = matches_[i];
     const bool is_again = match.is_inside && match_inside(sample, match.face, match);
-    if (!is_again) match = this->match(sample, charts_[i]);
+    if (!is_again || !faces_[match.face].has_area) match = this->match(sample, charts_[i]);
     const double squared = match.face == no_index ? HUGE_VAL : squared_length(match.offset);
     if (squared <= max_squared) continue;
     exceeding_squared_ = squared;

@@ -27,14 +27,14 @@ bool has_coordinates(const CornerCoordinates& corners) {
 
 Eigen::AlignedBox3d box_in_texture(const CornerCoordinates& corners, std::uint32_t material) {
   Eigen::AlignedBox3d box;
-  if (!has_coordinates(corners)) return box;
+  if (!(doubled_area(corners) != 0) || !has_coordinates(corners)) return box;
   for (const Eigen::Vector2d& uv : corners) box.extend(Eigen::Vector3d(uv.x(), uv.y(), material));
   return box;
 }
 
 std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners, const Eigen::Vector2d& coordinate) {
   const Eigen::Vector2d u = corners[1] - corners[0], v = corners[2] - corners[0], w = coordinate - corners[0];
-  const double area = u.x() * v.y() - u.y() * v.x();
+  const double area = doubled_area(corners);
   if (area == 0) return std::nullopt;
   const double second = (w.x() * v.y() - w.y() * v.x()) / area, third = (u.x() * w.y() - u.y() * w.x()) / area;
   return std::array<double, 3>{1 - second - third, second, third};

@@ -19,6 +19,13 @@ namespace meshbound {
 /// Texture coordinates of the corners of a triangle; NaN where it has none.
 using CornerCoordinates = std::array<Eigen::Vector2d, 3>;
 
+/// Twice the area in the texture, as computed: negative where the corners go round clockwise, NaN where there are no
+/// coordinates.
+[[nodiscard]] inline double doubled_area(const CornerCoordinates& t) {
+  const Eigen::Vector2d u = t[1] - t[0], v = t[2] - t[0];
+  return u.x() * v.y() - u.y() * v.x();
+}
+
 /// The triangles of the original, found by a texture coordinate. Immutable, safe to share.
 class Atlas {
  public:
@@ -111,7 +118,7 @@ class TextureMap {
 [[nodiscard]] std::optional<std::array<double, 3>> weights_inside(const CornerCoordinates& corners,
                                                                   const Eigen::Vector2d& coordinate);
 
-/// The box of a triangle in the texture, with the material as third coordinate; empty for one without coordinates.
+/// The box of a triangle in the texture, with the material as third coordinate; empty for one without an area there.
 [[nodiscard]] Eigen::AlignedBox3d box_in_texture(const CornerCoordinates& corners, std::uint32_t material);
 
 }  // namespace meshbound
