@@ -68,13 +68,28 @@ NearPoint point_between(const NearPoint& from, const NearPoint& to, const Approx
   return {from[0] + share * way[0], from[1] + share * way[1], from[2] + share * way[2]};
 }
 
+/// The largest that a number can be.
+Approximate size_of(const Approximate& x) { return {(std::fabs(x.value) + x.error) * Approximate::grown, 0}; }
+
+/// A point on the way from `p` to one of two others, which are known only so far.
+NearPoint around(const NearPoint& p, const std::array<NearPoint, 2>& others) {
+  NearPoint result = p;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const NearPoint& other : others)
+      result[i].error =
+          std::max(result[i].error,
+                   (std::fabs(other[i].value - p[i].value) + other[i].error) * Approximate::grown + Approximate::tiny);
+  return result;
+}
+
 /// No point of the segment is nearer than the one at a share that may be wrong, less the way between these two.
 Bounds distance_to_segment(const NearPoint& p, const NearPoint& from, const NearPoint& to) {
   const NearPoint way = to - from;
   const Approximate share = sum_of_products(p - from, way) / sum_of_products(way, way);
   const double chosen = share.value >= 0 ? std::min(share.value, 1.0) : 0;
   const Bounds there = length_bounds(p - point_between(from, to, {chosen, 0}));
-  const double lower = there.lower - next_up(share.error * length_bounds(way).upper);
+  const double off = share.error < 1 ? share.error : 1;  // both are between the ends
+  const double lower = there.lower - next_up(off * length_bounds(way).upper);
   return {lower > 0 ? next_down(lower) : 0, there.upper};
 }
 
@@ -184,14 +199,17 @@ Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& n
   const Approximate total = sum(node.weights), length = dot<Approximate>(high - low, high - low),
                     turn = dot<Approximate>(high - low, middle - low),
                     at = weighted(lines_[candidate.lines[2]].at, node.weights) / total;
-  int beyond_turn = 0;
-  if (!sign_is_known(at - turn, beyond_turn)) return {};
-  const bool is_before = beyond_turn < 0;
   const NearPoint first = near_point(b.source->corners[b.along[0]]), second = near_point(b.source->corners[b.along[1]]),
                   last = near_point(b.source->corners[b.along[2]]);
   const NearPoint across = point_between(first, last, at / length);
-  const NearPoint round =
-      is_before ? point_between(first, second, at / turn) : point_between(second, last, (at - turn) / (length - turn));
+  int beyond_turn = 0;
+  NearPoint round;
+  if (!sign_is_known(at - turn, beyond_turn))
+    round = around(second, {point_between(second, first, size_of(at - turn) / turn),
+                            point_between(second, last, size_of(at - turn) / (length - turn))});
+  else
+    round = beyond_turn < 0 ? point_between(first, second, at / turn)
+                            : point_between(second, last, (at - turn) / (length - turn));
   return distance_to_segment(near_position(node), across, round);
 }
 
