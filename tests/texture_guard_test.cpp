@@ -252,6 +252,18 @@ TEST(TextureGuard, KeepsMaterialsApart) {
   EXPECT_GE(simplified(square, 0.01, 0.01).faces(), 4U);
 }
 
+/// Each colour of a palette is one point of the texture.
+TEST(TextureGuard, KeepsTheColoursOfAPaletteApart) {
+  const auto colour = [](double /*x*/, double /*y*/, bool is_right) -> Eigen::Vector2d {
+    return {is_right ? 0.75 : 0.25, 0.5};
+  };
+  const auto wavy = [](double x, double y) { return 0.05 * std::sin(7 * x) * std::cos(5 * y); };
+  const Textured square = sheet(32, wavy, colour);
+  const SimplifiedLevel level = simplified(square, 0.01, 0.01);
+  EXPECT_LE(deviation_of(square, level).bounds.upper, 0.01);
+  EXPECT_LT(level.faces(), 2 * simplified(square, 0.01, HUGE_VAL).faces());
+}
+
 TEST(TextureGuard, CarriesTrianglesWithoutCoordinates) {
   Textured square = sheet(8, flat, even);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
