@@ -320,16 +320,17 @@ class PieceSearch {
   }
 
   /// Drops candidates that are farther from all of the piece than `upper`: of a triangle without an area in the texture
-  /// all of the others may have the coordinate. Rounding may decide.
+  /// all of the others may have the coordinate. Rounding may decide, but some are left: what none covers is uncovered.
   void drop_far(Piece& piece, double upper) const {
     Eigen::AlignedBox3d place;
     for (const auto& corner : piece.polygon) {
       const std::array<Approximate, 3> at = overlay_.near_position(corner.node);
       place.extend(Eigen::Vector3d(at[0].value, at[1].value, at[2].value));
     }
-    std::erase_if(piece.full, [&](std::uint32_t c) {
+    const auto is_far = [&](std::uint32_t c) {
       return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > upper;
-    });
+    };
+    if (!std::all_of(piece.full.begin(), piece.full.end(), is_far)) std::erase_if(piece.full, is_far);
   }
 
   /// A line that halves the piece across its longest extent; absent if the piece is too small for that.
