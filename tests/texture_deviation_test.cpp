@@ -380,6 +380,21 @@ TEST(TextureDeviation, LooksAtFewPiecesOfMirroredCharts) {
 }
 
 /// Twice as many copies that all show the same texture, each near its own counterpart: twice as many pairs.
+/// Two large triangles on 20,000 small ones. Across these the second kind shares slivers with many, by rounding alone.
+TEST(TextureDeviation, LooksAtFewPiecesOfLargeTriangles) {
+  const TexturedMesh wavy = grid(100, [](double s, double t) {
+    return Corner{{s, t, 0.002 * std::sin(30 * s) * std::sin(20 * t)}, {s, t}};
+  });
+  const TexturedMesh mirrored = grid(1, [](double s, double t) { return flat(1 - s, t); });
+  for (const TexturedMesh& large : {grid(1, flat), mirrored}) {
+    const TextureDeviation found = measured(large, wavy, 1e-6);
+    EXPECT_LT(found.a_to_b.pieces, 200U);
+    EXPECT_LE(found.a_to_b.bounds.upper - found.a_to_b.bounds.lower, 1e-6);
+    EXPECT_LE(found.a_to_b.bounds.lower, found.b_to_a.bounds.upper);
+    EXPECT_GE(found.a_to_b.bounds.upper, found.b_to_a.bounds.lower);
+  }
+}
+
 TEST(TextureDeviation, LooksAtNearCopiesOfAChartFirst) {
   const auto copies = [](int count, int n) {
     TexturedMesh mesh;
