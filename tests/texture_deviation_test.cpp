@@ -221,6 +221,18 @@ TEST(TextureDeviation, OfTrianglesOnASegmentOfTheTexture) {
   expect_value(found.b_to_a.bounds, std::sqrt(5.0));  // from (0, 3, 1) to (0, 1, 0)
 }
 
+/// The coordinates of a triangle on a segment, so far apart that their squares overflow.
+TEST(TextureDeviation, OfTrianglesOnALongSegmentOfTheTexture) {
+  const double far = 0x1p600;
+  TexturedMesh a, b;
+  a.triangles.push_back(triangle({{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {far, 0}}, {{0, 1, 0}, {far / 2, 0}}));
+  b.triangles.push_back(triangle({{0, 0, 1}, {0, 0}}, {{1, 0, 1}, {far, 0}}, {{0, 3, 1}, {far / 2, 0}}));
+  const TextureDeviation found = measured(a, b);
+  expect_value(found.a_to_b.bounds,
+               std::sqrt(1 + 1 / 9.25));              // from (0, 1, 0) to the line from (1/2, 0, 1) to (0, 3, 1)
+  expect_value(found.b_to_a.bounds, std::sqrt(5.0));  // from (0, 3, 1) to (0, 1, 0)
+}
+
 TEST(TextureDeviation, OfASegmentAcrossAChart) {
   TexturedMesh line;
   line.triangles.push_back(triangle({{0, 0, 2}, {0.25, 0.5}}, {{1, 0, 2}, {0.75, 0.5}}, {{1, 0, 2}, {0.75, 0.5}}));

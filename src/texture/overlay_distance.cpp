@@ -71,14 +71,13 @@ NearPoint point_between(const NearPoint& from, const NearPoint& to, const Approx
 /// The largest that a number can be.
 Approximate size_of(const Approximate& x) { return {(std::fabs(x.value) + x.error) * Approximate::grown, 0}; }
 
-/// A point on the way from `p` to one of two others, which are known only so far.
+/// A point on the way from `p` to one of two others, which are known only so far. What is not a number stays none.
 NearPoint around(const NearPoint& p, const std::array<NearPoint, 2>& others) {
   NearPoint result = p;
   for (std::size_t i = 0; i < 3; ++i)
     for (const NearPoint& other : others)
-      result[i].error =
-          std::max(result[i].error,
-                   (std::fabs(other[i].value - p[i].value) + other[i].error) * Approximate::grown + Approximate::tiny);
+      result[i].error +=
+          (std::fabs(other[i].value - p[i].value) + other[i].error) * Approximate::grown + Approximate::tiny;
   return result;
 }
 

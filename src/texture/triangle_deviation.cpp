@@ -57,7 +57,8 @@ bool is_beyond(const ChartTriangle& t, const std::array<Approximate, 3>& point, 
   const Eigen::Vector3d p(point[0].value, point[1].value, point[2].value);
   const double largest = p.cwiseAbs().cwiseMax(place.min().cwiseAbs()).cwiseMax(place.max().cwiseAbs()).maxCoeff(),
                error = point[0].error + point[1].error + point[2].error + 0x1p-45 * largest;
-  return place.exteriorDistance(p) * (1 - 0x1p-40) - error > distance;
+  const Eigen::Vector3d outside = (place.min() - p).cwiseMax(p - place.max()).cwiseMax(0.0);
+  return outside.stableNorm() * (1 - 0x1p-40) - error > distance;
 }
 
 /// Sets the lower bound to the distance from the point to the nearest candidate that covers it, if that is larger or no
@@ -332,12 +333,10 @@ class PieceSearch {
 
   [[nodiscard]] bool has_no_area() const { return overlay_.triangle().chart != Chart::Area; }
 
-  /// Whether a distance to likely candidates tells that none to the others is less.
-  [[nodiscard]] bool is_within_reach(double distance) const { return has_no_area() && distance <= goal_.reach; }
-
+  /// Whether a likely candidate is so near that none of the others is nearer.
   [[nodiscard]] bool is_near_likely(const Node& node) {
     for (std::uint32_t c = 0; c < likely_; ++c)
-      if (overlay_.covers(c, node) && is_within_reach(overlay_.rough_distance(c, node).upper)) return true;
+      if (overlay_.covers(c, node) && overlay_.rough_distance(c, node).upper <= goal_.reach) return true;
     return false;
   }
 

@@ -122,6 +122,7 @@ class CellWalker : public ProvenBounds {
   void cover_by_parity(const TriangleCorners& triangle, std::uint32_t slot, std::uint32_t cuts) {
     Piece piece = whole_triangle(triangle[0], triangle[1], triangle[2], slot);
     piece.depth = cuts;
+    counters_.deepest = std::max(counters_.deepest, cuts);
     if (!parity_.spans_many(triangle, slot)) return stack_.push_back(piece);
     // Less by the roundings of a sum of lengths and of its square.
     const double limit = std::sqrt(accepted_squared_) * (1 - 0x1p-48);
