@@ -42,17 +42,11 @@ class ProvenBounds {
   /// Records that a piece of A is within this squared distance of B, of the triangle at `slot` where that is known, and
   /// needs no more work.
   void accept(double squared, std::uint32_t slot = no_slot) {
-    upper_squared_ = std::max(upper_squared_, squared);
-    if (record_ == nullptr) return;
-    record_->squared = std::max(record_->squared, squared);
-    if (slot != record_->last) record_->add(slot);
+    if (is_recorded(squared) && slot != record_->last) record_->add(slot);
   }
   /// As above, for a piece that several triangles bound together.
   void accept(double squared, std::span<const std::uint32_t> slots) {
-    upper_squared_ = std::max(upper_squared_, squared);
-    if (record_ == nullptr) return;
-    record_->squared = std::max(record_->squared, squared);
-    record_->add(slots);
+    if (is_recorded(squared)) record_->add(slots);
   }
   [[nodiscard]] bool accepts(double squared) const { return squared <= accepted_squared_; }
 
@@ -92,6 +86,12 @@ class ProvenBounds {
   WalkCounters counters_;
 
  private:
+  /// Raises the upper bound, also that of the record, if there is one.
+  bool is_recorded(double squared) {
+    upper_squared_ = std::max(upper_squared_, squared);
+    if (record_ != nullptr) record_->squared = std::max(record_->squared, squared);
+    return record_ != nullptr;
+  }
   void set_lower(const LowerBound& lower) {
     lower_ = lower;
     const double accepted = goal_.accepted(lower.lower);

@@ -113,18 +113,22 @@ void Charts::find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tr
   for (std::size_t i = before; i < found.size(); ++i) found[i] = without_area_[found[i]];
 }
 
+/// Appends the triangles whose boxes in the texture meet that of `a`.
+void Charts::find_in_texture(const ChartTriangle& a, std::vector<std::uint32_t>& found) const {
+  const Eigen::AlignedBox3d box = box_in_texture(*a.source);
+  with_area_->find(box, found);
+  find_without_area(box, *without_area_in_texture_, found);
+}
+
 void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
   found.clear();
-  with_area_->find(box_in_texture(*a.source), found);
-  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found);
+  find_in_texture(a, found);
   for (const std::uint32_t b : found) overlay.add(triangles_[b]);
 }
 
 bool Charts::may_have_among_others(const ChartTriangle& a) const {
   std::vector<std::uint32_t> found;
-  with_area_->find(box_in_texture(*a.source), found);
-  if (!found.empty()) return true;
-  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found);
+  find_in_texture(a, found);
   return std::any_of(found.begin(), found.end(), [&](std::uint32_t i) { return triangles_[i].chart != Chart::Point; });
 }
 
@@ -157,8 +161,7 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   found.copy.reset();
   found.indices.clear();
   if (a.chart != Chart::Area) return find_near_without_area(a, reach, found);
-  with_area_->find(box_in_texture(*a.source), found.indices);
-  find_without_area(box_in_texture(*a.source), *without_area_in_texture_, found.indices);
+  find_in_texture(a, found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
   const Eigen::Vector2d& origin = a.source->coordinates[0];
   const Outline outline(a, origin);

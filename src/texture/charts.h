@@ -60,6 +60,7 @@ class Charts {
   void find_others(const ChartTriangle& a, ChartCandidates& found) const;
 
  private:
+  void find_in_texture(const ChartTriangle& a, std::vector<std::uint32_t>& found) const;
   void find_without_area(const Eigen::AlignedBox3d& box, const BoxTree& tree, std::vector<std::uint32_t>& found) const;
   void find_near_without_area(const ChartTriangle& a, double reach, ChartCandidates& found) const;
 

@@ -58,8 +58,8 @@ struct ParityCover::TreeSoup {
     return {b.vertices[t[0]], b.vertices[t[1]], b.vertices[t[2]]};
   }
   /// The tree links the triangles of an edge in a ring, by hints: one counts only where both point to each other across
-  /// an edge with the same ends, as two do and three do not. A triangle
-  /// with two corners at one place has an edge twice: it has no neighbours.
+  /// an edge with the same ends, as two do and three do not. A triangle with two corners at one place has an edge
+  /// twice: it has no neighbours.
   [[nodiscard]] std::uint32_t neighbour(std::uint32_t slot, std::size_t k) const {
     const std::uint32_t next = b.neighbours[slot][k].slot;
     if (next == no_slot || has_edge_twice(slot) || has_edge_twice(next)) return no_index;
@@ -112,6 +112,8 @@ struct ParityCover::Search {
 ParityCover::ParityCover(const Bvh::Data& target, double magnitude) : target_(target), magnitude_(magnitude) {}
 ParityCover::~ParityCover() = default;
 
+void ParityCover::begin() { spent_ = largest_ = 0; }
+
 bool ParityCover::spans_many(const TriangleCorners& triangle, std::uint32_t seed) const {
   return area_of_parallelogram(triangle) > min_areas * area_of_parallelogram(TreeSoup{target_}.corners(seed));
 }
@@ -149,6 +151,7 @@ bool ParityCover::is_worth_halving() const {
 }
 
 std::span<const std::uint32_t> ParityCover::patch() const { return search_->patch.triangles(); }
+std::span<const std::uint32_t> ParityCover::too_high() const { return too_high_; }
 
 /// Each half-space has all three corners, whatever its normal is. It has what is straight above them where the normal
 /// lies in T: it leaves it by 8 u times the steepness of the edge, which over a height of 4 magnitudes adds up to less

@@ -46,7 +46,7 @@ class ParityCover {
   [[nodiscard]] bool spans_many(const TriangleCorners& triangle, std::uint32_t seed) const;
 
   /// To be called for each triangle of A: what was spent on the one before is forgotten.
-  void begin() { spent_ = largest_ = 0; }
+  void begin();
 
   /// No point of T is further from P than this, at most `limit`, but for those over `too_high()`. P grows from the
   /// triangle of B at `seed`. Nothing: not proven. O(size of P).
@@ -59,7 +59,7 @@ class ParityCover {
 
   [[nodiscard]] std::span<const std::uint32_t> patch() const;
   /// Triangles of P that are higher than the limit somewhere over T.
-  [[nodiscard]] std::span<const std::uint32_t> too_high() const { return too_high_; }
+  [[nodiscard]] std::span<const std::uint32_t> too_high() const;
   /// What of T is over or under a triangle of B lies in these half-spaces; those that lines of no accurate direction
   /// bound are all of space.
   [[nodiscard]] std::array<HalfSpace, 3> half_spaces_over(std::uint32_t slot) const;

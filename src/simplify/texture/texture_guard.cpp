@@ -255,8 +255,8 @@ bool TextureGuard::match(std::size_t count, double max_squared) {
   for (std::size_t i = 0; i < count; ++i) {
     const TextureMap::Sample& sample = map_.sample(samples_[i]);
     Match& match = matches_[i];
-    const bool is_again = match.is_inside && match_inside(sample, match.face, match);
-    if (!is_again || !faces_[match.face].has_area) match = this->match(sample, charts_[i]);
+    const bool is_again = match.is_inside && faces_[match.face].has_area && match_inside(sample, match.face, match);
+    if (!is_again) match = this->match(sample, charts_[i]);
     const double squared = match.face == no_index ? HUGE_VAL : squared_length(match.offset);
     if (squared <= max_squared) continue;
     exceeding_squared_ = squared;
