@@ -75,6 +75,31 @@ TEST(OverlayDistance, ByDoublesEnclosesThatToASegment) {
   EXPECT_GT(compared, 3000);
 }
 
+/// A segment in the texture is halved again and again by its coordinates, far beyond what doubles tell apart.
+TEST(Overlay, PartsPiecesHoweverThin) {
+  reference::Random random(7);
+  for (int run = 0; run < 100; ++run) {
+    const TexturedTriangle segment = random_segment(random);
+    const ChartTriangle of_segment = chart_triangle(segment, units);
+    if (of_segment.chart != Chart::Segment) continue;
+    Overlay overlay(units);
+    overlay.begin(of_segment);
+    Overlay::Polygon piece = overlay.whole(), half;
+    for (int k = 0; k < 200; ++k) {
+      const auto line = overlay.add_middle_coordinate(piece);
+      ASSERT_TRUE(line);
+      EXPECT_FALSE(overlay.is_on_one_side(*line, piece));
+      const Overlay::Node inside = overlay.inside(piece, piece.front().node, 10);
+      for (const auto& corner : piece) {
+        const bool is_edge = overlay.is_on_one_side(corner.to_next, piece);
+        EXPECT_TRUE(!is_edge || overlay.side(corner.to_next, inside) != 0);
+      }
+      overlay.clip(piece, *line, random.below(2) == 0, half);
+      std::swap(piece, half);
+    }
+  }
+}
+
 /// What the planes of two triangles say of a limit, against exact distances. Counts the pairs that they tell are near.
 int compare_planes(const TexturedTriangle& a, const TexturedTriangle& b, const ExactUnits& of_both) {
   const ChartTriangle of_a = chart_triangle(a, of_both), of_b = chart_triangle(b, of_both);

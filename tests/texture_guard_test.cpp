@@ -264,6 +264,38 @@ TEST(TextureGuard, KeepsTheColoursOfAPaletteApart) {
   EXPECT_LT(level.faces(), 2 * simplified(square, 0.01, HUGE_VAL).faces());
 }
 
+std::size_t exceeding(const Textured& original, const SimplifiedLevel& level, double tolerance) {
+  TextureDeviationOptions options;
+  options.tolerance = tolerance;
+  options.error_bound = 0.1 * tolerance;
+  const TextureDeviation deviation = texture_deviation(textured(original.mesh, original.coordinates),
+                                                       textured(level.mesh, level.texture_coordinates), options);
+  return deviation.a_to_b.exceeding.size() + deviation.b_to_a.exceeding.size();
+}
+
+/// Coordinates on a line, as with a palette of gradients: each belongs to a segment in space. Here they run along a
+/// side of a wavy square, across it, and with its height, so that hills have a coordinate in common.
+TEST(TextureGuard, KeepsGradients) {
+  const auto wavy = [](double x, double y) { return 0.05 * std::sin(11 * x) * std::cos(9 * y); };
+  struct Case {
+    Height gradient;
+    std::size_t max_exceeding, max_faces;
+  };
+  const Case cases[] = {
+      {[](double x, double y) { return x + 0.05 * std::sin(9 * y); }, 2, 220},
+      {[](double x, double y) { return 0.3 * x + y; }, 2, 90},
+      {wavy, 20, 650},
+  };
+  for (const auto& [gradient, max_exceeding, max_faces] : cases) {
+    const Textured square = sheet(32, wavy, [&along = gradient](double x, double y, bool /*is_right*/) {
+      return Eigen::Vector2d(along(x, y), 0.5);
+    });
+    const SimplifiedLevel level = simplified(square, 0.01, 0.01);
+    EXPECT_LE(exceeding(square, level, 0.01), max_exceeding);  // samples miss a little
+    EXPECT_LE(level.faces(), max_faces);                       // of 2,048
+  }
+}
+
 TEST(TextureGuard, CarriesTrianglesWithoutCoordinates) {
   Textured square = sheet(8, flat, even);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -24,20 +24,6 @@ Overlay::Node inner_point(const Overlay::Polygon& piece, const std::array<double
   return Overlay::given(weights);
 }
 
-/// The side of a line of a border on which the piece lies: 1 or -1; 0 where it has no area.
-int inner_side(Overlay& overlay, Overlay::Line line, const Overlay::Polygon& piece) {
-  for (const auto& corner : piece)
-    if (const int side = overlay.side(line, corner.node); side != 0) return side;
-  return 0;
-}
-
-bool is_inside(Overlay& overlay, const Overlay::Polygon& piece, const Overlay::Node& point) {
-  return std::all_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
-    const int inner = inner_side(overlay, corner.to_next, piece);
-    return inner != 0 && overlay.side(corner.to_next, point) == inner;
-  });
-}
-
 /// Whether some candidate has the point inside. Absent if none has, but the point lies on the border of one.
 std::optional<bool> is_in_some(Overlay& overlay, Covering::Candidates candidates, const Overlay::Node& point) {
   bool is_on_border = false;
@@ -58,7 +44,7 @@ std::optional<bool> is_in_some(Overlay& overlay, Covering::Candidates candidates
 std::optional<bool> is_covered(Overlay& overlay, Covering::Candidates candidates, const Overlay::Polygon& piece) {
   for (const std::array<double, 3>& weights : weights_of_inner_points) {
     const Overlay::Node point = inner_point(piece, weights);
-    if (!is_inside(overlay, piece, point)) continue;
+    if (!overlay.is_inside(piece, point)) continue;
     if (const auto is_in = is_in_some(overlay, candidates, point)) return is_in;
   }
   return std::nullopt;
@@ -67,7 +53,7 @@ std::optional<bool> is_covered(Overlay& overlay, Covering::Candidates candidates
 /// Whether an edge has no point inside the piece because both its ends lie beyond a line of the border, or on it.
 bool is_beyond(Overlay& overlay, const Overlay::Polygon& piece, const std::array<Overlay::Node, 2>& ends) {
   return std::any_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
-    const int inner = inner_side(overlay, corner.to_next, piece);
+    const int inner = overlay.inner_side(corner.to_next, piece);
     return std::all_of(ends.begin(), ends.end(),
                        [&](const Overlay::Node& end) { return overlay.side(corner.to_next, end) * inner <= 0; });
   });

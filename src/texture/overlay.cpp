@@ -178,6 +178,35 @@ Overlay::Line Overlay::add_level(std::size_t corner, std::int64_t numerator) {
   return static_cast<Line>(lines_.size() - 1);
 }
 
+std::optional<Overlay::Line> Overlay::add_middle_coordinate(const Polygon& polygon) {
+  const auto uv = texture_points<mpz_class>(*a_, units_);
+  const auto &low = uv[a_->along[0]], way = uv[a_->along[2]] - low;
+  ExactWeights along;  // by corner of A
+  for (std::size_t i = 0; i < 3; ++i) along[i] = dot<mpz_class>(way, uv[i] - low);
+  std::optional<mpq_class> first, last;
+  for (const PolygonCorner& corner : polygon) {
+    const ExactWeights weights = exact(corner.node);
+    mpq_class at(weighted(along, weights), sum(weights));
+    at.canonicalize();
+    if (!first || at < *first) first = at;
+    if (!last || at > *last) last = at;
+  }
+  const mpq_class width = *last - *first;
+  if (sgn(width) == 0) return std::nullopt;
+  // Rounded down to units of less than an eighth of the width.
+  const std::size_t above = mpz_sizeinbase(width.get_num_mpz_t(), 2), below = mpz_sizeinbase(width.get_den_mpz_t(), 2);
+  const std::size_t bits = below + 4 > above ? below + 4 - above : 0;
+  const mpq_class twice = *first + *last;
+  const mpz_class level = (twice.get_num() << bits) / (2 * twice.get_den());
+  LineData line;
+  ExactWeights& weights = exact_.emplace_back();
+  for (std::size_t i = 0; i < 3; ++i) weights[i] = (along[i] << bits) - level;
+  line.at = near(weights);
+  line.exact = &weights;
+  lines_.push_back(line);
+  return static_cast<Line>(lines_.size() - 1);
+}
+
 std::span<const Overlay::Line> Overlay::lines_of(std::uint32_t candidate) const {
   const Candidate& c = candidates_[candidate];
   return std::span(c.lines).first(c.line_count);
@@ -192,6 +221,29 @@ Overlay::Node Overlay::given(const std::array<double, 3>& weights) {
   Node node;
   node.second = Node::is_given;
   for (std::size_t i = 0; i < 3; ++i) node.weights[i] = {weights[i], 0};
+  return node;
+}
+
+/// Sums the weights of all corners, scaled to totals with the same number of bits.
+Overlay::Node Overlay::inside(const Polygon& polygon, const Node& corner, int closer) {
+  std::vector<ExactWeights> corners;
+  std::vector<std::size_t> bits;
+  for (const PolygonCorner& c : polygon) {
+    corners.push_back(exact(c.node));
+    const mpz_class total = sum(corners.back());
+    bits.push_back(mpz_sizeinbase(total.get_mpz_t(), 2));
+  }
+  const std::size_t max_bits = *std::max_element(bits.begin(), bits.end());
+  ExactWeights weights;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::size_t up = max_bits - bits[k] + (&polygon[k].node == &corner ? static_cast<std::size_t>(closer) : 0);
+    for (std::size_t i = 0; i < 3; ++i) weights[i] += corners[k][i] << up;
+  }
+  Node node;
+  node.first = static_cast<Line>(exact_.size());
+  node.second = Node::is_exact;
+  node.weights = near(weights);
+  exact_.push_back(std::move(weights));
   return node;
 }
 
@@ -216,6 +268,7 @@ Overlay::ExactWeights Overlay::exact(const Node& node) {
     weights[node.first] = 1;
     return weights;
   }
+  if (node.second == Node::is_exact) return exact_[node.first];
   if (node.second == Node::is_given) {
     int unit = no_bit;
     for (const Approximate& w : node.weights) unit = std::min(unit, lowest_bit(w.value));
@@ -244,7 +297,7 @@ Overlay::Node Overlay::crossing(Line line, Line other) {
 
 bool Overlay::lies_on(const Node& node, const LineData& line) const {
   if (node.at != nullptr && is_end(line.ends, *node.at)) return true;
-  if (node.second == Node::is_corner || node.second == Node::is_given) return false;
+  if (node.second >= Node::is_exact) return false;
   for (const Line made_of : {node.first, node.second}) {
     const LineData& other = lines_[made_of];
     if (&other == &line) return true;
@@ -271,6 +324,19 @@ bool Overlay::is_on_one_side(Line line, const Polygon& polygon) {
     if (has_inside && has_outside) return false;
   }
   return true;
+}
+
+int Overlay::inner_side(Line line, const Polygon& polygon) {
+  for (const PolygonCorner& corner : polygon)
+    if (const int here = side(line, corner.node); here != 0) return here;
+  return 0;
+}
+
+bool Overlay::is_inside(const Polygon& polygon, const Node& node) {
+  return std::all_of(polygon.begin(), polygon.end(), [&](const PolygonCorner& corner) {
+    const int inner = inner_side(corner.to_next, polygon);
+    return inner != 0 && side(corner.to_next, node) == inner;
+  });
 }
 
 void Overlay::set_sides(const Polygon& polygon, Line line) {

@@ -84,10 +84,11 @@ class Overlay {
  public:
   using Line = std::uint32_t;  ///< 0, 1, 2: the edges of A opposite to the corners 0, 1, 2
   using Weights = std::array<Approximate, 3>;
+  using NearPoint = std::array<Approximate, 3>;  ///< in space
 
   struct Node {
-    static constexpr Line is_corner = ~Line{0}, is_given = ~Line{0} - 1;
-    Line first = 0;                       ///< a line through the point; or the number of a corner
+    static constexpr Line is_corner = ~Line{0}, is_given = ~Line{0} - 1, is_exact = ~Line{0} - 2;
+    Line first = 0;                       ///< a line through the point; or the number of a corner, or of exact weights
     Line second = is_corner;              ///< another one
     Weights weights;                      ///< times one positive number
     const Eigen::Vector2d* at = nullptr;  ///< its texture coordinate if it is a corner of a triangle, else null
@@ -122,11 +123,21 @@ class Overlay {
   [[nodiscard]] Node corner_of(std::uint32_t candidate, std::size_t corner);
   /// The line on which the weight of `corner` is `numerator` / 2^40.
   [[nodiscard]] Line add_level(std::size_t corner, std::int64_t numerator);
+  /// A line of points with one texture coordinate that parts the corners of a polygon by theirs; absent if all have the
+  /// same one. A must be a segment in the texture.
+  [[nodiscard]] std::optional<Line> add_middle_coordinate(const Polygon& polygon);
   /// The point with weights in the given proportion: none negative, at least one positive.
   [[nodiscard]] static Node given(const std::array<double, 3>& weights);
+  /// A point inside of the polygon, however thin, about 2^-`closer` of the way from one of its corners to the middle;
+  /// valid until another overlay begins. It is made of integers: `given` is faster where rounding does no harm.
+  [[nodiscard]] Node inside(const Polygon& polygon, const Node& corner, int closer);
 
   /// The side of the line that the point lies on: 1 inside, 0 on the line, -1 outside.
   [[nodiscard]] int side(Line line, const Node& node);
+  /// The side of the line of an edge that the polygon lies on: 1 or -1; 0 where it has no area.
+  [[nodiscard]] int inner_side(Line line, const Polygon& polygon);
+  /// Whether the point lies inside of the polygon, not on its border. False where the polygon has no area.
+  [[nodiscard]] bool is_inside(const Polygon& polygon, const Node& node);
   /// Whether all of the polygon lies on one side of the line, or on it.
   [[nodiscard]] bool is_on_one_side(Line line, const Polygon& polygon);
   /// Sets `result` to what of the polygon lies inside the line or on it; with `flip`, outside or on it.
@@ -143,10 +154,15 @@ class Overlay {
   [[nodiscard]] Bounds rough_distance(std::uint32_t candidate, const Node& node);
   /// `distance`, where `rough` is what `rough_distance` says of the point.
   [[nodiscard]] Bounds refined(const Bounds& rough, std::uint32_t candidate, const Node& node, double precision);
+  /// The ends of the segment of all points of the candidate with the texture coordinate of the point, off by at most
+  /// `precision` or what doubles round. Both are one point where the candidate has an area in the texture; it must have
+  /// more than one coordinate.
+  [[nodiscard]] std::array<Eigen::Vector3d, 2> ends_of_fibre(std::uint32_t candidate, const Node& node,
+                                                             double precision);
   /// The point and that nearest point, rounded to doubles.
   [[nodiscard]] TextureWitness witness(std::uint32_t candidate, const Node& node);
   /// The point in space.
-  [[nodiscard]] std::array<Approximate, 3> near_position(const Node& node) const;
+  [[nodiscard]] NearPoint near_position(const Node& node) const;
   /// The area of the polygon as a share of that of A.
   [[nodiscard]] Approximate share(const Polygon& polygon);
   /// Rounded weights of sum 1.
@@ -181,7 +197,7 @@ class Overlay {
   void cut_by_sides(const Polygon& polygon, Line line, Polygon& result);
   [[nodiscard]] Offsets offsets_at_corners(const Candidate& candidate) const;
   [[nodiscard]] Bounds near_distance(Candidate& candidate, const Node& node);
-  [[nodiscard]] Bounds near_distance_to_fibre(const Candidate& candidate, const Node& node) const;
+  [[nodiscard]] std::array<NearPoint, 2> near_fibre(const Candidate& candidate, const Node& node) const;
   [[nodiscard]] Bounds exact_distance(const Candidate& candidate, const Node& node);
   struct Fibre;
   [[nodiscard]] Fibre fibre(const Candidate& candidate, const Node& node);
@@ -189,7 +205,7 @@ class Overlay {
   ExactUnits units_;
   const ChartTriangle* a_ = nullptr;
   std::vector<LineData> lines_;
-  std::deque<ExactWeights> exact_;  ///< of lines
+  std::deque<ExactWeights> exact_;  ///< of lines and points
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> spanning_;
   std::vector<std::uint32_t> candidate_of_;  ///< by number of a triangle: valid where the candidate is that triangle

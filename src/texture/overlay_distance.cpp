@@ -57,7 +57,7 @@ Bounds length_bounds(const std::array<Approximate, 3>& v) {
   return bounds.upper >= 0 ? bounds : Bounds{};                        // not a number: nothing is known
 }
 
-using NearPoint = std::array<Approximate, 3>;
+using NearPoint = Overlay::NearPoint;
 
 NearPoint near_point(const Eigen::Vector3d& p) { return {{{p.x(), 0}, {p.y(), 0}, {p.z(), 0}}}; }
 
@@ -137,8 +137,9 @@ Bounds distance_bounds(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
 Bounds Overlay::rough_distance(std::uint32_t candidate, const Node& node) {
   Candidate& c = candidates_[candidate];
   if (c.triangle->chart == Chart::Area) return near_distance(c, node);
-  return c.triangle->chart == Chart::Segment ? near_distance_to_fibre(c, node)
-                                             : distance_to_triangle(near_position(node), c.triangle->source->corners);
+  if (c.triangle->chart == Chart::Point) return distance_to_triangle(near_position(node), c.triangle->source->corners);
+  const auto [across, round] = near_fibre(c, node);
+  return distance_to_segment(near_position(node), across, round);
 }
 
 Bounds Overlay::distance(std::uint32_t candidate, const Node& node, double precision) {
@@ -191,7 +192,7 @@ Bounds Overlay::near_distance(Candidate& candidate, const Node& node) {
 }
 
 /// As `fibre` for a segment in the texture, with doubles.
-Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& node) const {
+std::array<Overlay::NearPoint, 2> Overlay::near_fibre(const Candidate& candidate, const Node& node) const {
   const ChartTriangle& b = *candidate.triangle;
   const auto uv = texture_points<Approximate>(b, units_);
   const auto &low = uv[b.along[0]], &middle = uv[b.along[1]], &high = uv[b.along[2]];
@@ -200,7 +201,6 @@ Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& n
                     at = weighted(lines_[candidate.lines[2]].at, node.weights) / total;
   const NearPoint first = near_point(b.source->corners[b.along[0]]), second = near_point(b.source->corners[b.along[1]]),
                   last = near_point(b.source->corners[b.along[2]]);
-  const NearPoint across = point_between(first, last, at / length);
   int beyond_turn = 0;
   NearPoint round;
   if (!sign_is_known(at - turn, beyond_turn))
@@ -209,10 +209,10 @@ Bounds Overlay::near_distance_to_fibre(const Candidate& candidate, const Node& n
   else
     round = beyond_turn < 0 ? point_between(first, second, at / turn)
                             : point_between(second, last, (at - turn) / (length - turn));
-  return distance_to_segment(near_position(node), across, round);
+  return {point_between(first, last, at / length), round};
 }
 
-std::array<Approximate, 3> Overlay::near_position(const Node& node) const {
+Overlay::NearPoint Overlay::near_position(const Node& node) const {
   const Approximate total = sum(node.weights);
   NearPoint point;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -277,6 +277,24 @@ Bounds Overlay::exact_distance(const Candidate& candidate, const Node& node) {
   }
   squared.denominator *= f.denominator * f.denominator;
   return root_bounds(squared, units_.position);
+}
+
+std::array<Eigen::Vector3d, 2> Overlay::ends_of_fibre(std::uint32_t candidate, const Node& node, double precision) {
+  const Candidate& c = candidates_[candidate];
+  std::array<Eigen::Vector3d, 2> ends;
+  if (c.triangle->chart == Chart::Segment) {
+    double error = 0;
+    const std::array<NearPoint, 2> near = near_fibre(c, node);
+    for (std::size_t k = 0; k < 2; ++k) {
+      ends[k] = {near[k][0].value, near[k][1].value, near[k][2].value};
+      for (const Approximate& x : near[k]) error += x.error;
+    }
+    if (error <= precision) return ends;
+  }
+  const Fibre f = fibre(c, node);
+  for (std::size_t k = 0; k < 2; ++k)
+    ends[k] = as_doubles(f.corners[std::min(k, f.corner_count - 1)], f.denominator, units_.position);
+  return ends;
 }
 
 TextureWitness Overlay::witness(std::uint32_t candidate, const Node& node) {

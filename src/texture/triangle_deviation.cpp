@@ -265,7 +265,7 @@ class PieceSearch {
     probe(piece, *bound.where);
     if (bound.upper <= limit() || piece.full.size() == 1) return accept(bound.upper);
     if (has_no_area()) drop_far(piece, bound.upper);
-    if (const auto middle = middle_line(piece.polygon)) return split(piece, *middle);
+    if (const auto middle = halving_line(piece)) return split(piece, *middle);
     accept(bound.upper);
   }
 
@@ -312,18 +312,24 @@ class PieceSearch {
   /// Raises the lower bound at the worst corner of the piece, at a point inside next to it, where only candidates of
   /// the piece count, and at the middle of the piece.
   void probe(const Piece& piece, const Node& worst) {
-    constexpr double next_to = 0x1p-26;
-    std::array<double, 3> middle{};
-    for (const auto& corner : piece.polygon) {
-      const std::array<double, 3> w = Overlay::rounded(corner.node);
-      for (std::size_t i = 0; i < 3; ++i) middle[i] += w[i] / static_cast<double>(piece.polygon.size());
-    }
-    const std::array<double, 3> corner = Overlay::rounded(worst);
-    std::array<double, 3> near = corner;
-    for (std::size_t i = 0; i < 3; ++i) near[i] += next_to * (middle[i] - corner[i]);
     raise(worst);
-    raise(Overlay::given(near));
-    if (piece.full.size() > 1) raise(Overlay::given(middle));
+    raise(inside(piece.polygon, worst, 26));
+    if (piece.full.size() > 1) raise(inside(piece.polygon, worst, 0));
+  }
+
+  /// A point inside of the piece, about 2^-`closer` of the way from the corner to the middle. Where rounding would move
+  /// it out of a thin piece, an exact one.
+  Node inside(const Polygon& piece, const Node& corner, int closer) {
+    const std::array<double, 3> from = Overlay::rounded(corner);
+    std::array<double, 3> weights = from;
+    for (const auto& c : piece) {
+      const std::array<double, 3> w = Overlay::rounded(c.node);
+      for (std::size_t i = 0; i < 3; ++i)
+        weights[i] += std::ldexp((w[i] - from[i]) / static_cast<double>(piece.size()), -closer);
+    }
+    const Node rounded = Overlay::given(weights);
+    const bool has_inside = piece.size() > 2;
+    return !has_inside || overlay_.is_inside(piece, rounded) ? rounded : overlay_.inside(piece, corner, closer);
   }
 
   void raise(const Node& node) {
@@ -340,18 +346,44 @@ class PieceSearch {
     return false;
   }
 
-  /// Drops candidates that are farther from all of the piece than `upper`: of a triangle without an area in the texture
-  /// all of the others may have the coordinate. Rounding may decide, but some are left: what none covers is uncovered.
-  void drop_far(Piece& piece, double upper) const {
+  [[nodiscard]] Eigen::AlignedBox3d place_of_piece(const Polygon& polygon) const {
     Eigen::AlignedBox3d place;
-    for (const auto& corner : piece.polygon) {
+    for (const auto& corner : polygon) {
       const std::array<Approximate, 3> at = overlay_.near_position(corner.node);
       place.extend(Eigen::Vector3d(at[0].value, at[1].value, at[2].value));
     }
-    const auto is_far = [&](std::uint32_t c) {
+    return place;
+  }
+
+  /// Drops candidates that are farther from all of the piece than `upper`: of a triangle without an area in the texture
+  /// all of the others may have the coordinate. Rounding may decide, but some are left: what none covers is uncovered.
+  void drop_far(Piece& piece, double upper) const {
+    const auto is_far = [&, place = place_of_piece(piece.polygon)](std::uint32_t c) {
       return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > upper;
     };
     if (!std::all_of(piece.full.begin(), piece.full.end(), is_far)) std::erase_if(piece.full, is_far);
+  }
+
+  /// A line that halves the piece where the way to candidates varies most. Across the coordinates of a segment what a
+  /// candidate has there may move as far as the candidate is long, however thin the piece is: where coordinates are
+  /// rounded, a candidate may have all of its own within a few units of the last place.
+  std::optional<Line> halving_line(const Piece& piece) {
+    if (overlay_.triangle().chart == Chart::Segment) {
+      const double extent = place_of_piece(piece.polygon).diagonal().norm();
+      if (std::any_of(piece.full.begin(), piece.full.end(), [&](std::uint32_t c) { return sweeps(c, piece, extent); }))
+        if (const auto line = overlay_.add_middle_coordinate(piece.polygon)) return line;
+    }
+    return middle_line(piece.polygon);
+  }
+
+  /// Whether the points of the candidate with coordinates of the piece move by more than `limit` from corner to corner.
+  [[nodiscard]] bool sweeps(std::uint32_t candidate, const Piece& piece, double limit) {
+    if (overlay_.candidate(candidate).chart == Chart::Point) return false;
+    const auto from = overlay_.ends_of_fibre(candidate, piece.polygon.front().node, goal_.precision);
+    return std::any_of(piece.polygon.begin() + 1, piece.polygon.end(), [&](const auto& corner) {
+      const auto to = overlay_.ends_of_fibre(candidate, corner.node, goal_.precision);
+      return std::max((to[0] - from[0]).norm(), (to[1] - from[1]).norm()) > limit;
+    });
   }
 
   /// A line that halves the piece across its longest extent; absent if the piece is too small for that.

@@ -58,7 +58,7 @@ std::vector<Refuted> refuted_by_texture(const TextureMap& texture, const ArrayMe
     faces.for_each_point(*r.coordinate, material, [&](std::uint32_t face, Vec3 at) {
       if (point)
         is_shown = is_shown || squared_length(at - *point) <= squared_limit;
-      else if (texture.atlas().squared_distance(*r.coordinate, material, at, found) > squared_limit)
+      else if (texture.atlas().squared_distance(*r.coordinate, material, at, texture.limit, found) > squared_limit)
         left.push_back({no_index, face, r.coordinate});
     });
     if (!is_shown) left.push_back(r);

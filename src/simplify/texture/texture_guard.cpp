@@ -9,6 +9,7 @@
 #include "geometry/point_triangle.h"
 #include "numeric/no_index.h"
 #include "simplify/mesh/face_box.h"
+#include "simplify/texture/nearest_with_coordinate.h"
 #include "simplify/texture/weighted_points.h"
 
 namespace meshbound {
@@ -194,11 +195,12 @@ bool TextureGuard::match_inside(const TextureMap::Sample& sample, std::uint32_t 
   const Face& face = faces_[number];
   match.face = number;
   match.is_inside = true;
-  if (!face.has_area) {  // one coordinate or a line of them: the nearest point stands for it
-    const CornerTriangle<double> t{face.at[0], face.at[1] - face.at[0], face.at[2] - face.at[0]};
+  if (!face.has_area) {
+    const std::optional<Vec3> nearest =
+        nearest_with_coordinate(face.at, face.coordinates, sample.coordinate, sample.at);
     match.weights = {1, 0, 0};
-    match.offset = -1.0 * closest_on_triangle(t, sample.at).offset;
-    return true;
+    if (nearest) match.offset = *nearest - sample.at;
+    return nearest.has_value();
   }
   const Eigen::Vector2d weights = face.to_weights * (sample.coordinate - face.coordinates[0]);
   match.weights = {1 - weights.x() - weights.y(), weights.x(), weights.y()};

@@ -105,7 +105,8 @@ bool TextureGuard::are_uncovered_free() {
 double TextureGuard::squared_deviation(const Face& face, const std::array<double, 3>& weights) {
   const CornerCoordinates& t = face.coordinates;
   const Eigen::Vector2d coordinate = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
-  return map_.atlas().squared_distance(coordinate, map_.material(face.number), point_of(face.at, weights), found_);
+  return map_.atlas().squared_distance(coordinate, map_.material(face.number), point_of(face.at, weights), map_.limit,
+                                       found_);
 }
 
 bool TextureGuard::is_edge_near(const EdgeOfFace& edge) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "numeric/no_index.h"
+#include "simplify/texture/nearest_with_coordinate.h"
 #include "simplify/texture/weighted_points.h"
 
 namespace meshbound {
@@ -19,17 +20,29 @@ constexpr double max_between = 3;
 /// triangle.
 constexpr double rounding = 1e-12;
 
+/// Shares of the limit within which points are looked for, one after the other: most are much nearer than the limit.
+constexpr std::array<double, 3> shares_of_reach = {1.0 / 16, 1.0 / 4, 1};
+
 bool has_coordinates(const CornerCoordinates& corners) {
   return std::all_of(corners.begin(), corners.end(), [](const Eigen::Vector2d& uv) { return uv.allFinite(); });
+}
+
+/// Whether corners that have no area are not all equal.
+bool is_line(const CornerCoordinates& corners) {
+  return has_coordinates(corners) && (corners[0] != corners[1] || corners[0] != corners[2]);
+}
+
+Eigen::AlignedBox3d box_of(const CornerCoordinates& corners, std::uint32_t material) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector2d& uv : corners) box.extend(Eigen::Vector3d(uv.x(), uv.y(), material));
+  return box;
 }
 
 }  // namespace
 
 Eigen::AlignedBox3d box_in_texture(const CornerCoordinates& corners, std::uint32_t material) {
-  Eigen::AlignedBox3d box;
-  if (!(doubled_area(corners) != 0) || !has_coordinates(corners)) return box;
-  for (const Eigen::Vector2d& uv : corners) box.extend(Eigen::Vector3d(uv.x(), uv.y(), material));
-  return box;
+  if (!(doubled_area(corners) != 0) || !has_coordinates(corners)) return {};
+  return box_of(corners, material);
 }
 
 std::optional<std::array<double, 3>> weights_at(const CornerCoordinates& corners, const Eigen::Vector2d& coordinate) {
@@ -54,10 +67,19 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
       triangles_(triangles),
       coordinates_(std::move(coordinates)),
       materials_(std::move(materials)) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  boxes.reserve(coordinates_.size());
-  for (std::uint32_t t = 0; t < coordinates_.size(); ++t) boxes.push_back(box_in_texture(coordinates_[t], material(t)));
+  std::vector<Eigen::AlignedBox3d> boxes(coordinates_.size()), lines(boxes), in_space(boxes);
+  bool has_lines = false;
+  for (std::uint32_t t = 0; t < coordinates_.size(); ++t) {
+    boxes[t] = box_in_texture(coordinates_[t], material(t));
+    if (!boxes[t].isEmpty() || !is_line(coordinates_[t])) continue;
+    has_lines = true;
+    lines[t] = box_of(coordinates_[t], material(t));
+    for (const Vec3 p : corners(t)) in_space[t].extend(Eigen::Vector3d(p.x, p.y, p.z));
+  }
   tree_.emplace(boxes);
+  if (!has_lines) return;
+  on_lines_.emplace(lines);
+  on_lines_in_space_.emplace(in_space);
 }
 
 std::array<Vec3, 3> Atlas::corners(std::uint32_t triangle) const {
@@ -93,14 +115,45 @@ double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, s
   return far;
 }
 
-double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
                                std::vector<std::uint32_t>& found) const {
   double nearest = HUGE_VAL;
   for_each_point(coordinate, material, found, [&](Vec3 q) {
     nearest = std::min(nearest, squared_length(q - p));
     return true;
   });
+  if (on_lines_ && !(nearest <= limit * limit))
+    nearest = std::min(nearest, squared_distance_to_lines(coordinate, material, p, limit, found));
   return nearest < HUGE_VAL ? nearest : 0;
+}
+
+/// As `squared_distance` among the triangles with a line of coordinates; infinite if none has the coordinate. In a
+/// palette of gradients all of them may have it, so those near `p` in space come first.
+double Atlas::squared_distance_to_lines(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
+                                        std::vector<std::uint32_t>& found) const {
+  double nearest = HUGE_VAL;
+  const auto visit = [&](std::uint32_t t) {
+    if (this->material(t) != material) return;
+    if (const auto q = nearest_with_coordinate(corners(t), coordinates_[t], coordinate, p))
+      nearest = std::min(nearest, squared_length(*q - p));
+  };
+  const Eigen::Vector3d at(p.x, p.y, p.z);
+  for (const double share : shares_of_reach) {
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(share * limit);
+    found.clear();
+    on_lines_in_space_->find({at - reach, at + reach}, found);
+    for (const std::uint32_t t : found) visit(t);
+    if (nearest <= reach.x() * reach.x()) return nearest;
+  }
+  const Eigen::Vector3d there(coordinate.x(), coordinate.y(), material),
+      around = Eigen::Vector3d(1, 1, 0) * (rounding_of_coordinates * coordinate.norm());
+  found.clear();
+  on_lines_->find({there - around, there + around}, found);
+  for (const std::uint32_t t : found) {
+    visit(t);
+    if (nearest < HUGE_VAL) break;
+  }
+  return nearest;
 }
 
 TextureMap::TextureMap(Atlas atlas, const ArrayMesh& start, const FeatureLines& lines,

@@ -44,11 +44,14 @@ class Atlas {
   [[nodiscard]] double squared_distance_of_far_point(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
                                                      double limit, std::vector<std::uint32_t>& found) const;
   /// The squared distance from `p` to the nearest point of the original with this coordinate and material; 0 if there
-  /// is none.
-  [[nodiscard]] double squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+  /// is none. Where all of them are farther away than `limit`, it need not be the nearest one. Triangles with a single
+  /// coordinate do not count: they are compared as surfaces.
+  [[nodiscard]] double squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
                                         std::vector<std::uint32_t>& found) const;
 
  private:
+  [[nodiscard]] double squared_distance_to_lines(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
+                                                 double limit, std::vector<std::uint32_t>& found) const;
   [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle) const;
   template <class Visit>
   void for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
@@ -58,7 +61,9 @@ class Atlas {
   const std::vector<Triangle>& triangles_;
   std::vector<CornerCoordinates> coordinates_;
   std::vector<std::uint32_t> materials_;
-  std::optional<BoxTree> tree_;
+  std::optional<BoxTree> tree_;  ///< of those with an area in the texture
+  /// Of those with a line of coordinates, if there are any: their boxes in the texture and in space.
+  std::optional<BoxTree> on_lines_, on_lines_in_space_;
 };
 
 /// The texture of a mesh under decimation: coordinates at its corners, and samples of the original, each assigned to

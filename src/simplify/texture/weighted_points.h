@@ -21,4 +21,10 @@ namespace meshbound {
   return squared > 0 ? std::clamp((p - a).dot(way) / squared, 0.0, 1.0) : 0;
 }
 
+[[nodiscard]] inline double closest_share(Vec3 a, Vec3 b, Vec3 p) {
+  const Vec3 way = b - a;
+  const double squared = squared_length(way);
+  return squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0;
+}
+
 }  // namespace meshbound

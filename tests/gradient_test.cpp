@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Texture deviation where the coordinates of triangles lie on a line, as those of a palette of gradients: each belongs
+// to a segment in space. Where coordinates were rounded, these sweep far between coordinates that hardly differ.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "meshbound/texture_deviation.h"
+#include "reference/texture_oracle.h"
+#include "textured_shapes.h"
+
+namespace meshbound {
+namespace gradient_test {
+
+using namespace test;
+using Random = std::mt19937_64;
+
+/// Two coordinates between which no point has weights that are doubles.
+constexpr double low = 0, high = 0x1p-200;
+
+/// Two triangles between an edge with one coordinate and an edge with another.
+void add_ribbon(TexturedMesh& mesh, const std::array<Eigen::Vector3d, 2>& from, double u,
+                const std::array<Eigen::Vector3d, 2>& to, double v) {
+  mesh.triangles.push_back(triangle({from[0], {u, 0}}, {to[0], {v, 0}}, {to[1], {v, 0}}));
+  mesh.triangles.push_back(triangle({from[0], {u, 0}}, {to[1], {v, 0}}, {from[1], {u, 0}}));
+}
+
+/// The edge across the unit square at x, at a height.
+std::array<Eigen::Vector3d, 2> across(double x, double height) {
+  return {Eigen::Vector3d(x, 0, height), Eigen::Vector3d(x, 1, height)};
+}
+
+/// The unit square at a height, its texture coordinates from -1 to 1.
+TexturedMesh square(double height) {
+  TexturedMesh mesh;
+  add_ribbon(mesh, across(0, height), -1, across(1, height), 1);
+  return numbered(mesh);
+}
+
+/// The square without what lies between the two coordinates.
+TexturedMesh parted_square() {
+  TexturedMesh mesh;
+  add_ribbon(mesh, across(0, 0), -1, across(0.5, 0), low);
+  add_ribbon(mesh, across(0.5, 0), high, across(1, 0), 1);
+  return mesh;
+}
+
+TEST(Gradient, IsFarInAThinGap) {
+  const TextureDeviation found = measured(square(0), joined(parted_square(), square(5)), 1e-6);
+  expect_value(found.a_to_b.bounds, 5, 1e-6);
+  EXPECT_EQ(found.a_to_b.outcome, Outcome::Converged);
+  EXPECT_LT(found.a_to_b.pieces, 5000U);
+  ASSERT_TRUE(found.a_to_b.witness);
+  EXPECT_NEAR(found.a_to_b.witness->distance, 5, 1e-6);
+}
+
+/// One candidate rises from the square to 1 above it between the two coordinates, the other one comes down: the nearer
+/// one is farthest in the middle.
+TEST(Gradient, FollowsCandidatesThroughAThinGap) {
+  TexturedMesh b = parted_square();
+  add_ribbon(b, across(0.5, 0), low, across(0.5, 1), high);
+  add_ribbon(b, across(0.5, 1), low, across(0.5, 0), high);
+  const TextureDeviation found = measured(square(0), numbered(b), 1e-6);
+  expect_value(found.a_to_b.bounds, 0.5, 1e-6);
+  EXPECT_EQ(found.a_to_b.outcome, Outcome::Converged);
+  EXPECT_LT(found.a_to_b.pieces, 5000U);
+  expect_value(found.b_to_a.bounds, 1, 1e-6);
+}
+
+/// Triangles with few coordinates each, many of them next to each other.
+TexturedMesh random_gradients(std::size_t count, Random& random) {
+  std::uniform_int_distribution<int> place(0, 4), coarse(0, 2), fine(0, 3);
+  TexturedMesh mesh;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto corner = [&] {
+      const double u = (1 + coarse(random)) / 3.0 + 0x1p-52 * fine(random);
+      return Corner{{0.25 * place(random), 0.25 * place(random), 0.25 * place(random)}, {u, 0}};
+    };
+    mesh.triangles.push_back(triangle(corner(), corner(), corner()));
+  }
+  return numbered(mesh);
+}
+
+/// The point of the triangle on edge `edge` with a coordinate between the two at its ends, and a way to corner `edge`.
+reference::RationalWeights weights_between(int edge, int share, int way) {
+  reference::RationalWeights weights;
+  const mpq_class inner(way, 8), along(share, 8);
+  const auto corner = static_cast<std::size_t>(edge);
+  weights[corner] = inner;
+  weights[(corner + 1) % 3] = (1 - inner) * along;
+  weights[(corner + 2) % 3] = (1 - inner) * (1 - along);
+  return weights;
+}
+
+TEST(Gradient, IsNeverExceededByAPoint) {
+  Random random(3);
+  std::uniform_int_distribution<int> share(0, 8), edge(0, 2);
+  for (int trial = 0; trial < 40; ++trial) {
+    const TexturedMesh a = random_gradients(4, random), b = random_gradients(12, random);
+    mpq_class furthest = 0;
+    for (const TexturedTriangle& t : a.triangles)
+      for (int k = 0; k < 60; ++k)
+        if (const auto squared =
+                reference::squared_deviation_at(t, weights_between(edge(random), share(random), share(random)), b))
+          furthest = std::max(furthest, *squared);
+    const OneSidedTextureDeviation found = measured(a, b, 1e-3).a_to_b;
+    EXPECT_LE(found.bounds.lower, found.bounds.upper);
+    EXPECT_LE(reference::compare_root(furthest, found.bounds.upper), 0) << trial;
+    EXPECT_NE(found.outcome, Outcome::BudgetExhausted) << trial;
+  }
+}
+
+}  // namespace gradient_test
+}  // namespace meshbound
