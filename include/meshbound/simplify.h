@@ -33,8 +33,9 @@ class CollapseDriver {
 /// What happens at a collapse that would exceed the tolerance.
 enum class OnExceed {
   Skip,  ///< it is refused, and decimation goes on until no collapse fits: far fewer faces at the same bound
-  /// Decimation ends there, once the global engine has confirmed that the distance would exceed. Edges that cannot be
-  /// collapsed for another reason, as where a face would fold, are skipped.
+  /// Decimation ends there, once the global engine has confirmed that the distance would exceed wherever the vertex
+  /// goes: to the best placement, to an end of the edge or to its middle. Edges that cannot be collapsed for another
+  /// reason, as where a face would fold, are skipped.
   Stop
 };
 

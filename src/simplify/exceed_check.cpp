@@ -62,7 +62,16 @@ std::vector<std::uint32_t> ExceedCheck::faces_near(const Eigen::AlignedBox3d& bo
 
 bool ExceedCheck::exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options) {
   make_boxes();
-  proposer.collapse(region, proposer.refused_placement());
+  const Corner edge = proposer.star().edge;
+  const Vec3 start = state_.mesh.position(state_.mesh.start(edge)), end = state_.mesh.position(state_.mesh.end(edge));
+  const std::array placements = {proposer.refused_placement(), start, end, 0.5 * (start + end)};
+  return std::all_of(placements.begin(), placements.end(),
+                     [&](Vec3 placement) { return exceeds_at(placement, region, proposer, tolerance, options); });
+}
+
+bool ExceedCheck::exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
+                             const DistanceOptions& options) {
+  proposer.collapse(region, placement);
   TriangleMesh originals, new_faces, faces;
   Eigen::AlignedBox3d box;
   std::vector<std::uint32_t> affected;

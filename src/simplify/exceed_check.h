@@ -12,7 +12,8 @@
 namespace meshbound {
 
 /// Decides by the distance engine whether a refused collapse would really break the bound, for `OnExceed::Stop`: its
-/// proof may fail although the bound would hold, with the help of faces that are far away along the surface.
+/// proof may fail although the bound would hold, with the help of faces that are far away along the surface, and where
+/// faces turn at the best placement, an end of the edge may do.
 ///
 /// The state is proven except for that collapse, so only what the collapse touches is compared: the originals that
 /// relied on its faces with all faces within the tolerance of their box, which are found by boxes, and its new faces
@@ -24,13 +25,16 @@ class ExceedCheck {
   explicit ExceedCheck(DecimationState& state) : state_(state) {}
 
   /// False only if the engine finds the mesh after the collapse that `proposer` refused last to be within `tolerance`
-  /// of the original. The mesh is unchanged afterwards. Expected O(log n), O(n log n) where the boxes are built again.
+  /// of the original: to the placement that was refused, to an end of the edge or to its middle. The mesh is unchanged
+  /// afterwards. Expected O(log n), O(n log n) where the boxes are built again.
   [[nodiscard]] bool exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options);
 
   /// To be told of every collapse that is made: the vertex that it has kept.
   void note_change(std::uint32_t kept);
 
  private:
+  [[nodiscard]] bool exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
+                                const DistanceOptions& options);
   void make_boxes();
   [[nodiscard]] std::vector<std::uint32_t> faces_near(const Eigen::AlignedBox3d& box, double tolerance);
 
