@@ -133,6 +133,18 @@ TriangleCorners triangle_near(const Target& target, double reach, Random& random
   return corners;
 }
 
+/// 8 x 8 squares of the unit square lie on one of its halves. Within a limit of half a square a proof is worth it;
+/// within one of ten squares a walk is, as it is on a triangle that few lie on.
+TEST(ParityCover, IsTriedWhereItCostsLessThanAWalk) {
+  const Target target(unit_square(8));
+  const auto corner = [&](double x, double y) { return target.in_frame(Vector3d(x, y, 0)); };
+  const TriangleCorners large = {corner(0, 0), corner(1, 0), corner(1, 1)},
+                        small = {corner(0, 0), corner(0.25, 0), corner(0.25, 0.25)};
+  EXPECT_TRUE(target.cover->spans_many(large, target.in_frame(0.5 / 8), 0));
+  EXPECT_FALSE(target.cover->spans_many(large, target.in_frame(10.0 / 8), 0));
+  EXPECT_FALSE(target.cover->spans_many(small, target.in_frame(0.5 / 8), 0));
+}
+
 TEST(ParityCover, NeverSaysLessThanTheDistanceOfAPoint) {
   std::size_t proven = 0, with_too_high = 0;
   for (const Rough& rough : rough_meshes()) {

@@ -123,9 +123,9 @@ class CellWalker : public ProvenBounds {
     Piece piece = whole_triangle(triangle[0], triangle[1], triangle[2], slot);
     piece.depth = cuts;
     counters_.deepest = std::max(counters_.deepest, cuts);
-    if (!parity_.spans_many(triangle, slot)) return stack_.push_back(piece);
     // Less by the roundings of a sum of lengths and of its square.
     const double limit = std::sqrt(accepted_squared_) * (1 - 0x1p-48);
+    if (!parity_.spans_many(triangle, limit, slot)) return stack_.push_back(piece);
     if (const std::optional<double> distance = parity_.distance(triangle, limit, slot)) {
       accept(*distance * *distance, parity_.patch());
       for (const std::uint32_t too_high : parity_.too_high()) push_what_is_over(piece, too_high);

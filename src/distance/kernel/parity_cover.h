@@ -42,8 +42,9 @@ class ParityCover {
   ParityCover(const ParityCover&) = delete;
   ParityCover& operator=(const ParityCover&) = delete;
 
-  /// Whether so many triangles of B of the size of the one at `seed` fit into T that a proof is worth a try.
-  [[nodiscard]] bool spans_many(const TriangleCorners& triangle, std::uint32_t seed) const;
+  /// Whether so many triangles of B of the size of the one at `seed` fit into T, and they are so large beside the
+  /// limit, that a proof is worth a try: where the limit is many of them wide, a walk cuts T into fewer pieces.
+  [[nodiscard]] bool spans_many(const TriangleCorners& triangle, double limit, std::uint32_t seed) const;
 
   /// To be called for each triangle of A: what was spent on the one before is forgotten.
   void begin();
