@@ -67,18 +67,18 @@ Atlas::Atlas(const std::vector<Vec3>& vertices, const std::vector<Triangle>& tri
       triangles_(triangles),
       coordinates_(std::move(coordinates)),
       materials_(std::move(materials)) {
-  std::vector<Eigen::AlignedBox3d> boxes(coordinates_.size()), lines(boxes), in_space(boxes);
-  bool has_lines = false;
+  std::vector<Eigen::AlignedBox3d> boxes(coordinates_.size()), on_lines, in_space;
   for (std::uint32_t t = 0; t < coordinates_.size(); ++t) {
     boxes[t] = box_in_texture(coordinates_[t], material(t));
     if (!boxes[t].isEmpty() || !is_line(coordinates_[t])) continue;
-    has_lines = true;
-    lines[t] = box_of(coordinates_[t], material(t));
+    on_lines.resize(boxes.size());
+    in_space.resize(boxes.size());
+    on_lines[t] = box_of(coordinates_[t], material(t));
     for (const Vec3 p : corners(t)) in_space[t].extend(Eigen::Vector3d(p.x, p.y, p.z));
   }
   tree_.emplace(boxes);
-  if (!has_lines) return;
-  on_lines_.emplace(lines);
+  if (on_lines.empty()) return;
+  on_lines_.emplace(on_lines);
   on_lines_in_space_.emplace(in_space);
 }
 
