@@ -201,14 +201,22 @@ std::array<Overlay::NearPoint, 2> Overlay::near_fibre(const Candidate& candidate
                     at = weighted(lines_[candidate.lines[2]].at, node.weights) / total;
   const NearPoint first = near_point(b.source->corners[b.along[0]]), second = near_point(b.source->corners[b.along[1]]),
                   last = near_point(b.source->corners[b.along[2]]);
+  const Eigen::Vector2d& turns_at = b.source->coordinates[b.along[1]];
   int beyond_turn = 0;
+  if (turns_at == b.source->coordinates[b.along[0]])
+    beyond_turn = 1;
+  else if (turns_at == b.source->coordinates[b.along[2]])
+    beyond_turn = -1;
+  else
+    (void)sign_is_known(at - turn, beyond_turn);
   NearPoint round;
-  if (!sign_is_known(at - turn, beyond_turn))
+  if (beyond_turn < 0)
+    round = point_between(first, second, at / turn);
+  else if (beyond_turn > 0)
+    round = point_between(second, last, (at - turn) / (length - turn));
+  else  // at the turn, or so near that doubles do not tell the side
     round = around(second, {point_between(second, first, size_of(at - turn) / turn),
                             point_between(second, last, size_of(at - turn) / (length - turn))});
-  else
-    round = beyond_turn < 0 ? point_between(first, second, at / turn)
-                            : point_between(second, last, (at - turn) / (length - turn));
   return {point_between(first, last, at / length), round};
 }
 
