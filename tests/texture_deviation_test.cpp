@@ -391,7 +391,6 @@ TEST(TextureDeviation, LooksAtFewPiecesOfMirroredCharts) {
   EXPECT_LT(many, 6 * few);
 }
 
-/// Twice as many copies that all show the same texture, each near its own counterpart: twice as many pairs.
 /// Two large triangles on 20,000 small ones. Across these the second kind shares slivers with many, by rounding alone.
 TEST(TextureDeviation, LooksAtFewPiecesOfLargeTriangles) {
   const TexturedMesh wavy = grid(100, [](double s, double t) {
@@ -407,6 +406,7 @@ TEST(TextureDeviation, LooksAtFewPiecesOfLargeTriangles) {
   }
 }
 
+/// Twice as many copies that all show the same texture, each near its own counterpart: twice as many pairs.
 TEST(TextureDeviation, LooksAtNearCopiesOfAChartFirst) {
   const auto copies = [](int count, int n) {
     TexturedMesh mesh;

@@ -166,15 +166,21 @@ std::optional<std::uint32_t> Overlay::number_of(const ChartTriangle& b) const {
 
 Overlay::Line Overlay::add_level(std::size_t corner, std::int64_t numerator) {
   constexpr std::int64_t one = std::int64_t{1} << 40;
-  LineData line;
-  ExactWeights& weights = exact_.emplace_back();
+  Weights at;
+  ExactWeights weights;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t value = (i == corner ? one : 0) - numerator;
-    line.at[i] = {static_cast<double>(value), 0};
+    at[i] = {static_cast<double>(value), 0};
     weights[i] = static_cast<long>(value);
   }
-  line.exact = &weights;
-  lines_.push_back(line);
+  return add_line(at, std::move(weights));
+}
+
+/// Adds a line that belongs to no candidate.
+Overlay::Line Overlay::add_line(const Weights& at, ExactWeights exact) {
+  LineData& line = lines_.emplace_back();
+  line.at = at;
+  line.exact = &exact_.emplace_back(std::move(exact));
   return static_cast<Line>(lines_.size() - 1);
 }
 
@@ -198,13 +204,10 @@ std::optional<Overlay::Line> Overlay::add_middle_coordinate(const Polygon& polyg
   const std::size_t bits = below + 4 > above ? below + 4 - above : 0;
   const mpq_class twice = *first + *last;
   const mpz_class level = (twice.get_num() << bits) / (2 * twice.get_den());
-  LineData line;
-  ExactWeights& weights = exact_.emplace_back();
+  ExactWeights weights;
   for (std::size_t i = 0; i < 3; ++i) weights[i] = (along[i] << bits) - level;
-  line.at = near(weights);
-  line.exact = &weights;
-  lines_.push_back(line);
-  return static_cast<Line>(lines_.size() - 1);
+  const Weights at = near(weights);  // before they are moved
+  return add_line(at, std::move(weights));
 }
 
 std::span<const Overlay::Line> Overlay::lines_of(std::uint32_t candidate) const {

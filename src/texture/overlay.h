@@ -192,6 +192,7 @@ class Overlay {
   [[nodiscard]] bool lies_on(const Node& node, const LineData& line) const;
   [[nodiscard]] const ExactWeights& exact(Line line);
   [[nodiscard]] ExactWeights exact(const Node& node);
+  Line add_line(const Weights& at, ExactWeights exact);
   [[nodiscard]] Node crossing(Line line, Line other);
   void set_sides(const Polygon& polygon, Line line);
   void cut_by_sides(const Polygon& polygon, Line line, Polygon& result);

@@ -312,8 +312,9 @@ class PieceSearch {
   /// Raises the lower bound at the worst corner of the piece, at a point inside next to it, where only candidates of
   /// the piece count, and at the middle of the piece.
   void probe(const Piece& piece, const Node& worst) {
+    constexpr int next_to = 26;  // half of the bits of a double
     raise(worst);
-    raise(inside(piece.polygon, worst, 26));
+    raise(inside(piece.polygon, worst, next_to));
     if (piece.full.size() > 1) raise(inside(piece.polygon, worst, 0));
   }
 

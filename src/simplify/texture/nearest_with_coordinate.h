@@ -13,9 +13,11 @@ namespace meshbound {
 /// corners rounds.
 inline constexpr double rounding_of_coordinates = 1e-9;
 
-/// Of the points of a triangle without an area in the texture that have a coordinate, the one nearest to `p`, rounded.
-/// Where the triangle has a line of coordinates, they lie on a segment from the edge between its ends to one of its
-/// other edges. Where it has a single coordinate, all points have it. Rounding decides whether it is the same. O(1).
+/// The point of a triangle that is nearest to `p` among its points with the given texture coordinate, rounded; absent
+/// if it has none. The triangle has no area in the texture. Where its texture coordinates lie on a line, the points
+/// with one of them form a segment, from the edge between the ends of the line to another edge. Where all its corners
+/// have one texture coordinate, all its points have it. Coordinates count as equal within `rounding_of_coordinates`.
+/// O(1).
 [[nodiscard]] std::optional<Vec3> nearest_with_coordinate(const std::array<Vec3, 3>& at, const CornerCoordinates& t,
                                                           const Eigen::Vector2d& coordinate, Vec3 p);
 

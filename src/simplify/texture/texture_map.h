@@ -61,8 +61,8 @@ class Atlas {
   const std::vector<Triangle>& triangles_;
   std::vector<CornerCoordinates> coordinates_;
   std::vector<std::uint32_t> materials_;
-  std::optional<BoxTree> tree_;  ///< of those with an area in the texture
-  /// Of those with a line of coordinates, if there are any: their boxes in the texture and in space.
+  std::optional<BoxTree> tree_;  ///< boxes in the texture, of the triangles that have an area there
+  /// Boxes in the texture and in space, of the triangles whose texture coordinates lie on a line; absent without any.
   std::optional<BoxTree> on_lines_, on_lines_in_space_;
 };
 
