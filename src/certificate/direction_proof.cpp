@@ -113,7 +113,7 @@ std::optional<ProofTrees> DirectionProof::run(std::size_t max_patch,
   trees.runs.resize(count);
   const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
   std::vector<Failure> failures(count);
-  std::size_t done = 0;
+  std::atomic<std::size_t> done = 0;
   std::uint64_t& parity_work = trees.parity_work;
   std::atomic<bool> stop = false;
   FirstError error;
@@ -126,9 +126,8 @@ std::optional<ProofTrees> DirectionProof::run(std::size_t max_patch,
       if (stop || !search || goal_.out_of_time()) continue;
       error.guard([&] { failures[run] = prove_run(run, *search, trees.runs[run]); });
       if (failures[run].outcome != CutSearch::Outcome::Proven) stop = true;
-#pragma omp atomic
-      ++done;
-      if (progress && omp_get_thread_num() == 0) progress(static_cast<double>(done) / static_cast<double>(count));
+      const std::size_t done_now = ++done;
+      if (progress && omp_get_thread_num() == 0) progress(static_cast<double>(done_now) / static_cast<double>(count));
     }
     const std::uint64_t own_work = search ? search->parity_work() : 0;
 #pragma omp atomic
