@@ -77,18 +77,50 @@ class Triangles {
   std::vector<std::uint32_t> next_;  ///< by triangle: the next one of its list, with a larger index
 };
 
-/// The boxes, in the texture, of the triangles that only one of two meshes has.
-BoxTree changed_boxes(const TexturedMesh& b, const TexturedMesh& new_b, const Triangles& of_new_b) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  if (b == new_b) return BoxTree(boxes);
-  const auto add = [&](const TexturedMesh& of, const Triangles& others) {
-    for (const TexturedTriangle& t : of.triangles)
-      if (!others.has(t)) boxes.push_back(box_in_texture(t));
-  };
-  add(b, of_new_b);
-  add(new_b, Triangles(b.triangles));
-  return BoxTree(boxes);
+/// Whether all points of the one box are farther than `distance` from all of the other, along one axis. A difference is
+/// rounded, but not across the distance, which is a double itself.
+bool are_apart(const Eigen::AlignedBox3d& p, const Eigen::AlignedBox3d& q, double distance) {
+  return (p.min() - q.max()).maxCoeff() > distance || (q.min() - p.max()).maxCoeff() > distance;
 }
+
+/// The triangles that only one of two meshes B has, by their places in the texture.
+class Changes {
+ public:
+  Changes(const TexturedMesh& b, const TexturedMesh& new_b, const Triangles& of_new_b)
+      : tree_(std::vector<Eigen::AlignedBox3d>{}) {
+    if (b == new_b) return;
+    std::vector<Eigen::AlignedBox3d> boxes;
+    const auto add = [&](const TexturedMesh& of, const Triangles& others) {
+      for (const TexturedTriangle& t : of.triangles) {
+        if (others.has(t)) continue;
+        boxes.push_back(box_in_texture(t));
+        places_.push_back(place_of(t));
+      }
+    };
+    add(b, of_new_b);
+    gone_ = places_.size();
+    add(new_b, Triangles(b.triangles));
+    tree_ = BoxTree(boxes);
+  }
+
+  /// Whether the bounds of a triangle of A hold as they are. Where all of it is covered, what comes makes nothing
+  /// farther; and what goes was nearest to no point of it if it is beyond the upper bound.
+  [[nodiscard]] bool leave(const TexturedTriangle& a, double upper, const Approximate& uncovered) {
+    met_.clear();
+    tree_.find(box_in_texture(a), met_);
+    if (met_.empty()) return true;
+    if (!(upper >= 0) || !uncovered.is_zero()) return false;
+    return std::all_of(met_.begin(), met_.end(), [&, place = place_of(a)](std::uint32_t change) {
+      return change >= gone_ || are_apart(place, places_[change], upper);
+    });
+  }
+
+ private:
+  BoxTree tree_;
+  std::vector<Eigen::AlignedBox3d> places_;  ///< in space, by change: first those that go
+  std::size_t gone_ = 0;
+  std::vector<std::uint32_t> met_;
+};
 
 TriangleBounds bounds_of_equal(const TexturedMesh& a, const Triangles& of_b) {
   TriangleBounds bounds;
@@ -109,15 +141,11 @@ TriangleBounds bounds_left(const TriangleBounds& known, const TexturedMesh& a, c
   std::optional<Triangles> before;  // those of A, where the new ones are others
   if (!(a == new_a)) before.emplace(a.triangles);
   TriangleBounds left = bounds_of_equal(new_a, of_new_b);
-  const BoxTree changed = changed_boxes(b, new_b, of_new_b);
-  std::vector<std::uint32_t> met;
+  Changes changes(b, new_b, of_new_b);
   for (std::size_t i = 0; i < new_a.triangles.size(); ++i) {
     if (left.upper[i] == 0) continue;
     const std::size_t same = before ? before->find(new_a.triangles[i]) : i;
-    if (same == no_index) continue;
-    met.clear();
-    changed.find(box_in_texture(new_a.triangles[i]), met);
-    if (!met.empty()) continue;
+    if (same == no_index || !changes.leave(new_a.triangles[i], known.upper[same], known.uncovered[same])) continue;
     left.upper[i] = known.upper[same];
     left.uncovered[i] = known.uncovered[same];
   }

@@ -20,7 +20,8 @@ struct TriangleBounds {
 [[nodiscard]] TriangleBounds bounds_of_equal(const TexturedMesh& a, const TexturedMesh& b);
 
 /// The bounds that `known`, those of A compared with B, leaves for another A compared with another B: of the triangles
-/// that are in both A, where the same triangles of both B may have their texture coordinates. Expected O(n log n).
+/// that are in both A, where the same triangles of both B may have their texture coordinates, or all that changes lies
+/// farther away in space than matters. Expected O(n log n).
 [[nodiscard]] TriangleBounds bounds_left(const TriangleBounds& known, const TexturedMesh& a, const TexturedMesh& b,
                                          const TexturedMesh& new_a, const TexturedMesh& new_b);
 

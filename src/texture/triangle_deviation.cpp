@@ -24,6 +24,7 @@ struct Piece {
   Polygon polygon;
   std::vector<std::uint32_t> full, part;
   bool has_all = false;  ///< all candidates were looked at, not only the likely ones
+  double reach = HUGE_VAL;       ///< likely candidates that are farther away have been left out; infinite: none was
 };
 
 /// An upper bound for a piece, and the corner that it comes from.
@@ -86,6 +87,10 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
 /// `simplify_with_bound` with a texture take 4% longer (seven models at three tolerances), with 64 one of them does.
 constexpr std::size_t many_candidates = 256, max_worst = 8;
 
+/// Candidates up to which a piece is not crowded, and the share of them that a half may have at most.
+constexpr std::size_t few_candidates = 8;
+constexpr double max_share_of_half = 0.75, growth_of_reach = 4;
+
 class PieceSearch {
  public:
   PieceSearch(Overlay& overlay, Covering& covering, const FindOthers& find_others, const DeviationGoal& goal)
@@ -99,7 +104,7 @@ class PieceSearch {
     if (overlay_.triangle().chart == Chart::Area)
       search_beside_near_ones();
     else
-      search(Piece{overlay_.whole(), {}, spanning_from(0)});
+      search(Piece{overlay_.whole(), {}, spanning_from(0), false, goal_.reach > 0 ? goal_.reach : HUGE_VAL});
     const std::vector<std::uint32_t> touching = uncovered_.empty() ? std::vector<std::uint32_t>() : not_bounded();
     for (const Polygon& polygon : std::exchange(uncovered_, {})) {
       result_.uncovered = result_.uncovered + overlay_.share(polygon);
@@ -248,6 +253,7 @@ class PieceSearch {
 
   void bound(Piece& piece) {
     ++result_.pieces;
+    if (is_crowded(piece) && halve_in_space(piece)) return;
     PieceBound bound;
     for (const std::uint32_t c : piece.full)
       if (lower_bound_to(piece, c, bound)) return accept(bound.upper);
@@ -259,6 +265,7 @@ class PieceSearch {
       return accept(bound.upper);
     }
     if (cut) return split(piece, *cut);
+    if (!(bound.upper <= piece.reach) && piece.reach < HUGE_VAL) return take_farther(piece);
     const bool may_do_without_others = has_no_area() && is_covered && !has_others_;
     if (!piece.has_all && !may_do_without_others) return take_all(piece);
     if (!is_covered) return uncovered_.push_back(std::move(piece.polygon));
@@ -290,6 +297,53 @@ class PieceSearch {
     }
   }
 
+  /// Of a triangle without an area in the texture there may be as many candidates with the coordinates of a piece as lie
+  /// along the fibres of A, most of them far from the piece.
+  [[nodiscard]] bool is_crowded(const Piece& piece) const {
+    return piece.reach < HUGE_VAL && piece.full.size() + piece.part.size() > few_candidates;
+  }
+
+  /// Halves a piece across its longest extent, and leaves each half those candidates that are within reach of it. False
+  /// where that does not part them.
+  bool halve_in_space(Piece& piece) {
+    const auto line = middle_line(piece.polygon);
+    if (!line) return false;
+    std::array<Piece, 2> halves = {unused_piece(), unused_piece()};
+    std::size_t largest = 0;
+    for (Piece& half : halves) {
+      overlay_.clip(piece.polygon, *line, &half == &halves[1], half.polygon);
+      half.full = piece.full;
+      half.part = piece.part;
+      half.has_all = false;
+      half.reach = piece.reach;
+      drop_farther(half);
+      largest = std::max(largest, half.full.size() + half.part.size());
+    }
+    const bool is_parted = largest <= max_share_of_half * static_cast<double>(piece.full.size() + piece.part.size());
+    for (Piece& half : halves) (is_parted && !half.polygon.empty() ? stack_ : spare_).push_back(std::move(half));
+    return is_parted;
+  }
+
+  /// Drops the candidates beyond the reach of the piece. Whether one was dropped.
+  bool drop_farther(Piece& piece) const {
+    const auto is_far = [&, place = place_of_piece(piece.polygon)](std::uint32_t c) {
+      return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > piece.reach;
+    };
+    const std::size_t dropped = std::erase_if(piece.full, is_far) + std::erase_if(piece.part, is_far);
+    return dropped > 0;
+  }
+
+  /// Goes on with likely candidates that are farther away, too, where the near ones do not bound the piece within its
+  /// reach.
+  void take_farther(Piece& piece) {
+    piece.full.clear();
+    piece.part = spanning_from(0);
+    if (!piece.has_all) std::erase_if(piece.part, [&](std::uint32_t c) { return c >= likely_; });
+    piece.reach *= growth_of_reach;
+    if (!drop_farther(piece)) piece.reach = HUGE_VAL;
+    bound(piece);
+  }
+
   /// Goes on with the piece and the candidates that are not likely.
   void take_all(Piece& piece) {
     add_others();
@@ -305,6 +359,7 @@ class PieceSearch {
       half.full = piece.full;
       half.part = piece.part;
       half.has_all = piece.has_all;
+      half.reach = piece.reach;
       (half.polygon.empty() ? spare_ : stack_).push_back(std::move(half));
     }
   }
@@ -313,9 +368,9 @@ class PieceSearch {
   /// the piece count, and at the middle of the piece.
   void probe(const Piece& piece, const Node& worst) {
     constexpr int next_to = 26;  // half of the bits of a double
-    raise(worst);
-    raise(inside(piece.polygon, worst, next_to));
-    if (piece.full.size() > 1) raise(inside(piece.polygon, worst, 0));
+    raise_in(piece, worst);
+    raise_in(piece, inside(piece.polygon, worst, next_to));
+    if (piece.full.size() > 1) raise_in(piece, inside(piece.polygon, worst, 0));
   }
 
   /// A point inside of the piece, about 2^-`closer` of the way from the corner to the middle. Where rounding would move
@@ -331,6 +386,15 @@ class PieceSearch {
     const Node rounded = Overlay::given(weights);
     const bool has_inside = piece.size() > 2;
     return !has_inside || overlay_.is_inside(piece, rounded) ? rounded : overlay_.inside(piece, corner, closer);
+  }
+
+  /// As `raise`, at a point of the piece. Mostly one of the candidates that cover the piece is near enough to tell that
+  /// nothing is raised.
+  void raise_in(const Piece& piece, const Node& node) {
+    const auto is_near = [&](std::uint32_t c) {
+      return overlay_.rough_distance(c, node).upper <= result_.bounds.lower;
+    };
+    if (!result_.far || std::none_of(piece.full.begin(), piece.full.end(), is_near)) raise(node);
   }
 
   void raise(const Node& node) {
