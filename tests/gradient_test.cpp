@@ -69,6 +69,36 @@ TEST(Gradient, FollowsCandidatesThroughAThinGap) {
   expect_value(found.b_to_a.bounds, 1, 1e-6);
 }
 
+/// The unit square in 2 n^2 triangles, flat in two halves at two depths and a ramp between them.
+TexturedMesh fine_step(int n, double depth, double further_depth) {
+  TexturedMesh mesh;
+  const auto at = [&](int i, int j) {
+    const double x = i / static_cast<double>(n);
+    return Corner{{x, j / static_cast<double>(n), -(2 * i < n ? depth : further_depth)}, {2 * x - 1, 0}};
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      mesh.triangles.push_back(triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1)));
+      mesh.triangles.push_back(triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1)));
+    }
+  return numbered(mesh);
+}
+
+/// Pieces of a large triangle look at those of many that are near them; where the other mesh is beyond the tolerance,
+/// near ones do not tell how far.
+TEST(Gradient, OfALargeTriangleIsBoundedNearAndBeyondTheTolerance) {
+  TextureDeviationOptions options;
+  options.threads = 1;
+  options.tolerance = 0.05;
+  options.error_bound = 1e-3;
+  for (const double further_depth : {0.02, 0.049, 0.051, 0.12}) {
+    const TextureDeviation found = texture_deviation(square(0), fine_step(20, 0.04, further_depth), options);
+    expect_value(found.a_to_b.bounds, std::max(0.04, further_depth), 1e-3);
+    EXPECT_EQ(found.a_to_b.exceeding.size(), further_depth > 0.05 ? 2U : 0U);
+    EXPECT_EQ(found.a_to_b.uncovered.upper, 0);
+  }
+}
+
 /// Triangles with few coordinates each, many of them next to each other.
 TexturedMesh random_gradients(std::size_t count, Random& random) {
   std::uniform_int_distribution<int> place(0, 4), coarse(0, 2), fine(0, 3);

@@ -84,6 +84,23 @@ TEST(TextureComparison, MeasuresOnlyAroundAChange) {
   EXPECT_LT(2 * again.b_to_a.pairs, anew.b_to_a.pairs);
 }
 
+/// Two sheets, one far above the other, with the same texture coordinates.
+TexturedMesh storeys(const TexturedMesh& below, const Height& above) {
+  return joined(below, sheet([&](double s, double t) { return 1 + above(s, t); }));
+}
+
+/// What changes high above is nearest to nothing below, though it has the same coordinates.
+TEST(TextureComparison, MeasuresOnlyNearAChangeInSpace) {
+  const TexturedMesh a = storeys(flat(), [](double, double) { return 0; });
+  TextureComparison comparison;
+  expect_value(comparison.measure({a, storeys(sheet(wave), wave)}, options()).bounds, 0.02);
+  const TexturedMesh b = storeys(sheet(wave), [](double s, double t) { return 0.005 + wave(s, t); });
+  const TextureDeviation again = comparison.measure({a, b}, options()), anew = texture_deviation(a, b, options());
+  expect_value(again.bounds, 0.025);
+  expect_value(anew.bounds, 0.025);
+  EXPECT_LT(3 * again.a_to_b.pairs, 2 * anew.a_to_b.pairs);
+}
+
 double bump(double s, double t) { return s == 0.5 && t == 0.5 ? 0.045 : wave(s, t); }
 
 /// Takes the triangles at the bump out of the sheet.

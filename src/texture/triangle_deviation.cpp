@@ -23,8 +23,8 @@ enum class Cover { None, Part, All };
 struct Piece {
   Polygon polygon;
   std::vector<std::uint32_t> full, part;
-  bool has_all = false;  ///< all candidates were looked at, not only the likely ones
-  double reach = HUGE_VAL;       ///< likely candidates that are farther away have been left out; infinite: none was
+  bool has_all = false;   ///< all candidates were looked at, not only the likely ones
+  bool has_near = false;  ///< likely candidates that are farther away than the reach may have been left out
 };
 
 /// An upper bound for a piece, and the corner that it comes from.
@@ -88,8 +88,8 @@ void include(Overlay& overlay, const Node& node, double precision, TriangleDevia
 constexpr std::size_t many_candidates = 256, max_worst = 8;
 
 /// Candidates up to which a piece is not crowded, and the share of them that a half may have at most.
-constexpr std::size_t few_candidates = 8;
-constexpr double max_share_of_half = 0.75, growth_of_reach = 4;
+constexpr std::size_t few_candidates = 24;
+constexpr double max_share_of_half = 0.75;
 
 class PieceSearch {
  public:
@@ -104,7 +104,7 @@ class PieceSearch {
     if (overlay_.triangle().chart == Chart::Area)
       search_beside_near_ones();
     else
-      search(Piece{overlay_.whole(), {}, spanning_from(0), false, goal_.reach > 0 ? goal_.reach : HUGE_VAL});
+      search_without_area();
     const std::vector<std::uint32_t> touching = uncovered_.empty() ? std::vector<std::uint32_t>() : not_bounded();
     for (const Polygon& polygon : std::exchange(uncovered_, {})) {
       result_.uncovered = result_.uncovered + overlay_.share(polygon);
@@ -149,6 +149,20 @@ class PieceSearch {
       overlay_.clip(overlay_.whole(), at->second, covered_);
       for (const auto& corner : Polygon(covered_)) raise(corner.node);
     }
+  }
+
+  /// Of a triangle without an area in the texture there may be as many candidates with the coordinates of a piece as
+  /// lie along the fibres of A, most of them far from it. So pieces are parted in space first. Where near candidates do
+  /// not bound one, all of A starts again with all: in a gap between coordinates, where candidates move far, pieces
+  /// that are short already would be halved far more often.
+  void search_without_area() {
+    search(Piece{overlay_.whole(), {}, spanning_from(0), false, true});
+    if (!std::exchange(needs_far_, false)) return;
+    result_.bounds.upper = -1;
+    result_.gave_up = false;
+    result_.pieces = 0;
+    is_bounded_.assign(overlay_.candidates(), 0);
+    search(Piece{overlay_.whole(), {}, spanning_from(0)});
   }
 
   /// The candidates from `first` on that can cover more of A than a line or a point.
@@ -265,7 +279,8 @@ class PieceSearch {
       return accept(bound.upper);
     }
     if (cut) return split(piece, *cut);
-    if (!(bound.upper <= piece.reach) && piece.reach < HUGE_VAL) return take_farther(piece);
+    if (piece.has_near && !is_covered) return give_up_near();
+    if (piece.has_near && !is_within_reach(piece)) return take_likely(piece);
     const bool may_do_without_others = has_no_area() && is_covered && !has_others_;
     if (!piece.has_all && !may_do_without_others) return take_all(piece);
     if (!is_covered) return uncovered_.push_back(std::move(piece.polygon));
@@ -297,51 +312,59 @@ class PieceSearch {
     }
   }
 
-  /// Of a triangle without an area in the texture there may be as many candidates with the coordinates of a piece as lie
-  /// along the fibres of A, most of them far from the piece.
+  /// Whether there are many candidates, and the piece is so long that not all can be near all of it.
   [[nodiscard]] bool is_crowded(const Piece& piece) const {
-    return piece.reach < HUGE_VAL && piece.full.size() + piece.part.size() > few_candidates;
+    return piece.has_near && piece.full.size() + piece.part.size() > few_candidates &&
+           place_of_piece(piece.polygon).diagonal().norm() > goal_.reach;
   }
 
   /// Halves a piece across its longest extent, and leaves each half those candidates that are within reach of it. False
   /// where that does not part them.
-  bool halve_in_space(Piece& piece) {
+  bool halve_in_space(const Piece& piece) {
     const auto line = middle_line(piece.polygon);
     if (!line) return false;
     std::array<Piece, 2> halves = {unused_piece(), unused_piece()};
     std::size_t largest = 0;
-    for (Piece& half : halves) {
-      overlay_.clip(piece.polygon, *line, &half == &halves[1], half.polygon);
-      half.full = piece.full;
-      half.part = piece.part;
-      half.has_all = false;
-      half.reach = piece.reach;
-      drop_farther(half);
+    for (const bool flip : {false, true}) {
+      Piece& half = halves[flip ? 1 : 0];
+      set_half(piece, *line, flip, half);
+      drop_beyond_reach(half);
       largest = std::max(largest, half.full.size() + half.part.size());
     }
-    const bool is_parted = largest <= max_share_of_half * static_cast<double>(piece.full.size() + piece.part.size());
+    const bool is_parted =
+        static_cast<double>(largest) <= max_share_of_half * static_cast<double>(piece.full.size() + piece.part.size());
     for (Piece& half : halves) (is_parted && !half.polygon.empty() ? stack_ : spare_).push_back(std::move(half));
     return is_parted;
   }
 
-  /// Drops the candidates beyond the reach of the piece. Whether one was dropped.
-  bool drop_farther(Piece& piece) const {
+  void drop_beyond_reach(Piece& piece) const {
     const auto is_far = [&, place = place_of_piece(piece.polygon)](std::uint32_t c) {
-      return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > piece.reach;
+      return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > goal_.reach;
     };
-    const std::size_t dropped = std::erase_if(piece.full, is_far) + std::erase_if(piece.part, is_far);
-    return dropped > 0;
+    std::erase_if(piece.full, is_far);
+    std::erase_if(piece.part, is_far);
   }
 
-  /// Goes on with likely candidates that are farther away, too, where the near ones do not bound the piece within its
-  /// reach.
-  void take_farther(Piece& piece) {
+  /// Whether each corner of the piece is within reach of a candidate that covers the piece.
+  [[nodiscard]] bool is_within_reach(const Piece& piece) {
+    return std::all_of(piece.polygon.begin(), piece.polygon.end(), [&](const auto& corner) {
+      return std::any_of(piece.full.begin(), piece.full.end(),
+                         [&](std::uint32_t c) { return overlay_.rough_distance(c, corner.node).lower <= goal_.reach; });
+    });
+  }
+
+  /// Goes on with the piece and all likely candidates.
+  void take_likely(Piece& piece) {
     piece.full.clear();
     piece.part = spanning_from(0);
-    if (!piece.has_all) std::erase_if(piece.part, [&](std::uint32_t c) { return c >= likely_; });
-    piece.reach *= growth_of_reach;
-    if (!drop_farther(piece)) piece.reach = HUGE_VAL;
+    std::erase_if(piece.part, [&](std::uint32_t c) { return c >= likely_; });
+    piece.has_near = false;
     bound(piece);
+  }
+
+  void give_up_near() {
+    needs_far_ = true;
+    stack_.clear();
   }
 
   /// Goes on with the piece and the candidates that are not likely.
@@ -352,14 +375,19 @@ class PieceSearch {
     bound(piece);
   }
 
+  /// Sets `half` to what of the piece lies inside the line or on it; with `flip`, outside or on it.
+  void set_half(const Piece& piece, Line line, bool flip, Piece& half) {
+    overlay_.clip(piece.polygon, line, flip, half.polygon);
+    half.full = piece.full;
+    half.part = piece.part;
+    half.has_all = piece.has_all;
+    half.has_near = piece.has_near;
+  }
+
   void split(const Piece& piece, Line line) {
     for (const bool flip : {false, true}) {
       Piece half = unused_piece();
-      overlay_.clip(piece.polygon, line, flip, half.polygon);
-      half.full = piece.full;
-      half.part = piece.part;
-      half.has_all = piece.has_all;
-      half.reach = piece.reach;
+      set_half(piece, line, flip, half);
       (half.polygon.empty() ? spare_ : stack_).push_back(std::move(half));
     }
   }
@@ -470,6 +498,7 @@ class PieceSearch {
   Overlay& overlay_;
   Covering& covering_;
   const FindOthers& find_others_;
+  bool needs_far_ = false;               ///< near candidates do not bound a piece
   bool has_others_ = false;              ///< the overlay holds the others too
   std::uint32_t likely_;                 ///< candidates that it held from the start
   std::vector<std::uint32_t> unlikely_;  ///< the others that may cover some area of A
