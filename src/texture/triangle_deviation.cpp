@@ -156,19 +156,24 @@ class PieceSearch {
   /// not bound one, all of A starts again with all: in a gap between coordinates, where candidates move far, pieces
   /// that are short already would be halved far more often.
   void search_without_area() {
-    search(Piece{overlay_.whole(), {}, spanning_from(0), false, true});
+    search(Piece{overlay_.whole(), {}, spanning_likely(), false, true});
     if (!std::exchange(needs_far_, false)) return;
     result_.bounds.upper = -1;
     result_.gave_up = false;
     result_.pieces = 0;
     is_bounded_.assign(overlay_.candidates(), 0);
-    search(Piece{overlay_.whole(), {}, spanning_from(0)});
+    search(Piece{overlay_.whole(), {}, spanning_likely()});
   }
 
   /// The candidates from `first` on that can cover more of A than a line or a point.
   [[nodiscard]] std::vector<std::uint32_t> spanning_from(std::uint32_t first) const {
     const std::span<const std::uint32_t> spanning = overlay_.spanning();
     return {std::lower_bound(spanning.begin(), spanning.end(), first), spanning.end()};
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> spanning_likely() const {
+    const std::span<const std::uint32_t> spanning = overlay_.spanning();
+    return {spanning.begin(), std::lower_bound(spanning.begin(), spanning.end(), likely_)};
   }
 
   /// The candidates that may cover points of A which lie in no piece with a bound.
@@ -356,8 +361,7 @@ class PieceSearch {
   /// Goes on with the piece and all likely candidates.
   void take_likely(Piece& piece) {
     piece.full.clear();
-    piece.part = spanning_from(0);
-    std::erase_if(piece.part, [&](std::uint32_t c) { return c >= likely_; });
+    piece.part = spanning_likely();
     piece.has_near = false;
     bound(piece);
   }
