@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "meshbound/error.h"
+#include "meshbound/lod_chain.h"
 #include "meshbound/simplify.h"
 #include "meshbound/texture_deviation.h"
 
@@ -104,6 +105,26 @@ TEST(TextureGuard, KeepsFacesWhereTheTextureIsUneven) {
   EXPECT_LE(deviation_of(square, level).bounds.upper, 0.01);
   EXPECT_LT(level.faces(), 200U);  // of 512
   EXPECT_LT(simplified(square, 0.01, 0.02).faces(), level.faces());
+}
+
+/// What the texture has refused is tried again where it may move further. What one decimation of its own leaves for the
+/// last tolerance is a little less: it need not come by the finer levels.
+TEST(TextureGuard, LetsTheTextureOfLaterLevelsMoveFurther) {
+  const Textured square = sheet(16, flat, warped);
+  LodOptions options = options_of(square, 0, 0.005);
+  options.tolerance = std::numeric_limits<double>::quiet_NaN();
+  LodChain chain(square.mesh, options);
+  const LodLevel first = chain.next(0.01);
+  EXPECT_LE(deviation_of(square, first).bounds.upper, 0.005);
+  chain.set_texture_tolerance(0.02);
+  const LodLevel second = chain.next(0.02);
+  EXPECT_GT(deviation_of(square, second).bounds.lower, 0.005);
+  EXPECT_LE(deviation_of(square, second).bounds.upper, 0.02);
+  EXPECT_LT(second.faces(), first.faces() / 2);
+  EXPECT_LE(second.faces(), simplified(square, 0.02, 0.02).faces() * 3 / 2);
+  EXPECT_THROW(chain.set_texture_tolerance(0.01), InvalidInput);
+  EXPECT_THROW(chain.set_texture_tolerance(std::numeric_limits<double>::quiet_NaN()), InvalidInput);
+  EXPECT_THROW(LodChain(square.mesh).set_texture_tolerance(1), InvalidInput);
 }
 
 /// A collapse that moves the texture much too far is tried at one placement, and again only once its ends have moved:

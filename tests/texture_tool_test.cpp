@@ -107,6 +107,13 @@ TEST_F(TextureTool, RefusesWhatMakesNoSense) {
   refused(measure({even_, raised_, "--texture", "--texture-tolerance", "2texels"}), "--texture-size");
   refused(simplify({folder_ / "bare.obj", out_, "--tolerance", "1%", "--texture-tolerance", "1%"}),
           "texture coordinates");
+  for (const std::string wrong : {"x", "1%x", "-1x", "1y"})
+    refused(simplify({even_, out_, "--tolerance", "1%", "--texture-tolerance", wrong}), "--texture-tolerance: '");
+  const auto levels = [](const std::string& in, const std::string& chain, const std::string& format) {
+    return run_tool(LOD_CHAIN, {in, chain, "--levels", "1%", "--texture-tolerance", "1x", "--format", format});
+  };
+  refused(levels(folder_ / "bare.obj", folder_ / "chain", "obj"), "texture coordinates");
+  refused(levels(even_, folder_ / "chain", "stl"), "texture coordinates");
   refused(simplify({even_, folder_ / "out.stl", "--tolerance", "1%", "--texture-tolerance", "1%"}),
           "texture coordinates");
 }
@@ -186,6 +193,58 @@ TEST_F(TextureTool, WritesAFinerLevelThatHasFewerFaces) {
   EXPECT_LE(document["simplified"]["faces"], levels[1]["faces"]);
   EXPECT_EQ(document["verdict"], "within");
   EXPECT_LE(document["texture"]["upper"].get<double>(), 0.004);
+}
+
+/// Each level may move the texture as far as its own tolerance. A level whose texture may move as little as that of the
+/// finest one has more faces.
+TEST_F(TextureTool, LetsTheTextureOfEachLevelMoveByItsOwnTolerance) {
+  const std::string wavy = folder_ / "wavy.obj", chain = folder_ / "chain";
+  write_square(wavy, 12, 0.08, 0, 0.05);
+  const auto levels_of = [&](const std::string& texture_tolerance) {
+    const ToolRun run = run_tool(LOD_CHAIN, {wavy, chain, "--format", "obj", "--levels", "0.004,0.01,0.03",
+                                             "--texture-tolerance", texture_tolerance, "--json", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return checked_document(run.out)["levels"];
+  };
+  const json each = levels_of("0.5x");
+  ASSERT_EQ(each.size(), 3U);
+  for (const json& level : each) {
+    const double tolerance = level["tolerance"].get<double>() / 2;
+    EXPECT_EQ(level["texture"]["tolerance"]["absolute"], tolerance);
+    EXPECT_LE(level["texture"]["upper"].get<double>(), tolerance);
+    const json again = checked_document(measure({wavy, level["path"], "--texture", "--json", "-"}).out)["texture"];
+    EXPECT_LE(again["upper"].get<double>(), tolerance);
+    EXPECT_NEAR(again["upper"].get<double>(), level["texture"]["upper"].get<double>(), 0.01 * tolerance);
+  }
+  const json fixed = levels_of("0.002");
+  EXPECT_EQ(fixed[0]["faces"], each[0]["faces"]);
+  EXPECT_GT(fixed[2]["faces"].get<int>(), 2 * each[2]["faces"].get<int>());
+  EXPECT_LE(fixed[2]["texture"]["upper"].get<double>(), 0.002);
+  const ToolRun text = run_tool(LOD_CHAIN, {wavy, chain, "--format", "obj", "--levels", "0.01", "--texture-tolerance",
+                                            "1x", "--normal-tolerance", "20"});
+  EXPECT_NE(text.out.find("original to level"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("faces turn by at most"), std::string::npos) << text.out;
+}
+
+/// The levels of simplify_with_bound, and the proofs of their textures.
+TEST_F(TextureTool, CertifiesTheTextureOfEachLevel) {
+  const std::string wavy = folder_ / "wavy.obj", certificate = folder_ / "out.cert";
+  write_square(wavy, 12, 0.08, 0, 0.05);
+  const ToolRun run = simplify({wavy, out_, "--levels", "0.004", "--tolerance", "0.02", "--texture-tolerance", "1x",
+                                "--normal-tolerance", "60", "--certificate", certificate, "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json document = checked_document(run.out);
+  EXPECT_EQ(document["levels"][0]["texture"]["tolerance"]["absolute"], 0.004);
+  EXPECT_LE(document["levels"][0]["texture"]["upper"].get<double>(), 0.004);
+  EXPECT_LE(document["levels"][0]["normals"]["max_degrees"].get<double>(), 60);
+  EXPECT_EQ(document["texture"]["tolerance"]["absolute"], 0.02);
+  EXPECT_GT(document["texture"]["upper"].get<double>(), 0.004);
+  const auto proves = [](const ToolRun& verified, const std::string& tolerance) {
+    EXPECT_EQ(verified.exit_code, 0) << verified.err;
+    EXPECT_NE(verified.out.find("texture     moves by at most " + tolerance), std::string::npos) << verified.out;
+  };
+  proves(run_tool(VERIFY_CERTIFICATE, {wavy, folder_ / "out_level_0.obj", folder_ / "out_level_0.cert"}), "0.004;");
+  proves(run_tool(VERIFY_CERTIFICATE, {wavy, out_, certificate}), "0.02;");
 }
 
 TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {

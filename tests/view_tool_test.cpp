@@ -117,6 +117,22 @@ TEST_F(ViewTool, RefusesAScenePointingAtWhatIsWrong) {
   scene_ = good;
   expect_refused("leave out --levels", {"--levels", "1%"});
   expect_refused("leave IN out", {folder_ / "more"});
+  for (const std::string option : {"--line-tolerance", "--feature-edges", "--texture-tolerance", "--texture-size",
+                                   "--normal-tolerance", "--error-bound", "--glb"})
+    expect_refused("leave out " + option, {option, "1"});
+  expect_refused("leave out --tileset", {"--tileset"});
+  expect_refused("leave out --strict", {"--strict"});
+}
+
+TEST_F(ViewTool, LeavesVerticesWhereTheModelHasSome) {
+  ASSERT_EQ(run({"--placement", "subset", "--quiet"}).exit_code, 0);
+  const auto before = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  };
+  std::vector<Eigen::Vector3d> model = read_mesh(folder_ / "torus.ply").mesh.vertices;
+  std::sort(model.begin(), model.end(), before);
+  for (const Eigen::Vector3d& p : read_mesh(folder_ / "out/model_0_lod_2.ply").mesh.vertices)
+    ASSERT_TRUE(std::binary_search(model.begin(), model.end(), p, before));
 }
 
 TEST_F(ViewTool, RefusesToReplaceItsInputs) {

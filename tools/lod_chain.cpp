@@ -18,6 +18,7 @@
 #include "common/provenance.h"
 #include "common/signals.h"
 #include "common/standard_streams.h"
+#include "common/texture_text.h"
 #include "decimation/decimation_run.h"
 #include "deviation/deviation_outputs.h"
 #include "levels/scene_run.h"
@@ -72,6 +73,7 @@ void declare(CLI::App& app, Options& options) {
                "With --format glb: write DIR/tileset.json, too, for viewers of 3D Tiles; geometricError is the proven "
                "error of each level");
   add_report_options(app, options.deviation);
+  add_appearance_options(app, options);
   add_decimation_options(app, options);
   add_examples(
       app, {"lod_chain bunny.ply lods --levels 0.1%,0.3%,1%", "lod_chain bunny.ply lods --pixels 1,2,4 --distances 3"});
@@ -82,6 +84,23 @@ constexpr double default_fov = 60;              // degrees
 
 /// In degrees: smaller fields of view are those of telescopes, and every angle in radians is below this.
 constexpr double smallest_usual_fov = 5;
+
+/// Throws for options that have no meaning for the bare triangles of many models.
+void check_no_use_in_scenes(const Options& options) {
+  const std::pair<const char*, bool> without_use[] = {{"--feature-edges", !options.feature_edges.empty()},
+                                                      {"--line-tolerance", !options.line_tolerance.empty()},
+                                                      {"--texture-tolerance", !options.texture_tolerance.empty()},
+                                                      {"--texture-size", options.texture_size.has_value()},
+                                                      {"--normal-tolerance", options.normal_tolerance.has_value()},
+                                                      {"--error-bound", !options.error_bound.empty()},
+                                                      {"--strict", options.strict},
+                                                      {"--glb", !options.one_file.empty()},
+                                                      {"--tileset", options.tileset}};
+  for (const auto& [name, is_given] : without_use)
+    if (is_given)
+      throw InvalidInput(std::string("--scene writes bare triangles of many models; leave out ") + name +
+                         ", which is for the levels of one mesh");
+}
 
 /// `lod_chain --scene FILE DIR`.
 int run_scene(const Options& options) {
@@ -94,6 +113,7 @@ int run_scene(const Options& options) {
   if (options.pixels.size() > 1) throw InvalidInput("--scene takes one number of --pixels");
   if (options.deviation.has_any())
     throw InvalidInput("--report shows the levels of one mesh; leave it out with --scene");
+  check_no_use_in_scenes(options);
   ViewRequest request{.scene = options.scene, .folder = options.input, .format = options.format, .screen = {}};
   if (!options.pixels.empty()) request.screen.pixels = options.pixels.front();
   if (options.screen_height) request.screen.height_pixels = *options.screen_height;
@@ -117,7 +137,9 @@ class Run : DecimationRun {
   void choose_view();
   void open_outputs();
   void make_levels();
-  [[nodiscard]] bool take(std::size_t index, const SimplifiedLevel& level);
+  [[nodiscard]] bool make_level(std::size_t index);
+  [[nodiscard]] SimplifiedLevel decimated(std::size_t index);
+  void note_level(std::size_t index, EndedBy ended_by, DecidedBy decided_by);
   void measure_deviation();
   void publish();
   void write_tileset() const;
@@ -142,6 +164,7 @@ int Run::operator()() {
   check_paths();
   read();
   choose_tolerances();
+  choose_appearance("an IN and levels");
   open_outputs();
   make_levels();
   if (report_.verdict == Verdict::Within) {
@@ -246,17 +269,13 @@ void Run::open_outputs() {
 void Run::make_levels() {
   bar_.emplace("simplifying and measuring", options_.common.quiet);
   report_.verdict = Verdict::Within;
-  SimplifyOptions options = decimation(outputs_.back(), *bar_);
-  options.tolerance = tolerances_.back();
-  SceneRun run(original_, attributes_, options);
-  set_lines(run.lines());
-  for (std::size_t i = 0; i < tolerances_.size(); ++i) {
-    SimplifiedLevel level = run.next(before_rounding(tolerances_[i]), 0);
-    level.tolerance = tolerances_[i];
-    if (!take(i, level)) break;
-  }
+  SimplifyOptions options = decimation(outputs_.back(), tolerances_.back(), *bar_);
+  if (bounds_texture()) options.texture_tolerance = texture_tolerance_of(tolerances_.front());
+  scene_.emplace(original_, attributes_, options);
+  set_lines(scene_->lines());
+  for (std::size_t i = 0; i < tolerances_.size() && make_level(i); ++i) continue;
   SimplifyResult run_of_all;
-  run.describe(run_of_all);
+  scene_->describe(run_of_all);
   report_.locked_vertices = run_of_all.locked_vertices;
   report_.provenance = provenance();
   report_.driver = options_.driver;
@@ -264,34 +283,42 @@ void Run::make_levels() {
   report_.seconds.total = watch_.seconds();
 }
 
-/// Writes the level under a temporary name, reads it back and measures that. Returns false, which ends the chain, if
-/// the time ended it.
-bool Run::take(std::size_t index, const SimplifiedLevel& level) {
-  if (interrupted_) throw Error("interrupted before every level was proven; nothing was written");
-  report_.seconds.simplify += watch_.lap();
+/// Makes a level and its file, under a temporary name. Returns false, which ends the chain, if it is not proven.
+bool Run::make_level(std::size_t index) {
   GatedOutput& output = outputs_[index];
-  if (original_lines_) output.require_lines(&*original_lines_);
-  (void)writes(output, level);  // if this fails, `prove` falls back to a finer level
-  report_.seconds.write += watch_.lap();
-  const auto redo = [&](double tolerance) {
-    SimplifyOptions again = decimation(output, *bar_);
+  SimplifiedLevel level;
+  OutputSteps steps;
+  steps.smaller = index > 0 ? &outputs_[index - 1] : nullptr;
+  steps.make = [&]() -> const SimplifiedLevel& { return level = decimated(index); };
+  steps.redo = [&](double tolerance) {
+    SimplifyOptions again = decimation(output, tolerances_[index], *bar_);
     again.tolerance = before_rounding(tolerance);
     return decimate_levels(original_, again, attributes_).last();
   };
-  const DecidedBy decided_by = prove(output, level.tolerance, index > 0 ? &outputs_[index - 1] : nullptr, redo);
-  report_.seconds.certify += watch_.lap();
+  const DecidedBy decided_by = make_output(output, tolerances_[index], steps, report_.seconds);
   report_.verdict = output.verdict();
   if (report_.verdict == Verdict::Exceeds && level.ended_by != EndedBy::Rounding)
     throw Error(
         "internal error: a level is further from the original than was proven during decimation; nothing was "
         "written. Please report this with the input and the command line");
   if (report_.verdict != Verdict::Within) return false;
+  note_level(index, level.ended_by, decided_by);
+  return true;
+}
+
+SimplifiedLevel Run::decimated(std::size_t index) {
+  if (bounds_texture()) scene_->set_texture_tolerance(texture_tolerance_of(tolerances_[index]));
+  return scene_->next(before_rounding(tolerances_[index]), 0);
+}
+
+void Run::note_level(std::size_t index, EndedBy ended_by, DecidedBy decided_by) {
+  const GatedOutput& output = outputs_[index];
   LodReport::Level& entry = report_.levels.emplace_back();
-  entry.tolerance = level.tolerance;
+  entry.tolerance = tolerances_[index];
   entry.decided_by = decided_by;
   if (report_.view) {
     entry.pixels = pixels_[index];
-    entry.view_distance = min_view_distance(report_.view->screen, pixels_[index], level.tolerance);
+    entry.view_distance = min_view_distance(report_.view->screen, pixels_[index], entry.tolerance);
   }
   entry.path = output.path().string();
   entry.file = output.path().filename().string();
@@ -299,12 +326,13 @@ bool Run::take(std::size_t index, const SimplifiedLevel& level) {
   entry.vertices = output.summary().vertices;
   entry.faces = output.summary().faces;
   entry.distance = output.distance();
-  entry.lines = line_report(output, level.tolerance);
+  entry.lines = line_report(output, entry.tolerance);
+  entry.texture = texture_report(output);
+  entry.normals = normal_report(output);
   const bool was_late = options_.common.has_time_limit && remaining(1) == 0 &&
                         (decided_by == DecidedBy::SmallerLevel || decided_by == DecidedBy::Original);
-  entry.stopped_by = to_string(was_late ? EndedBy::TimeLimit : level.ended_by);
-  ended_by_time_ = ended_by_time_ || was_late || level.ended_by == EndedBy::TimeLimit;
-  return true;
+  entry.stopped_by = to_string(was_late ? EndedBy::TimeLimit : ended_by);
+  ended_by_time_ = ended_by_time_ || was_late || ended_by == EndedBy::TimeLimit;
 }
 
 /// Measures deviations of the levels as they read from their files. Leaves `deviation_` empty if there was no time for
@@ -380,6 +408,8 @@ void Run::print_summary() const {
     print_line(level.file, std::to_string(level.faces) + " faces, tolerance " + both_units(level.tolerance, diagonal_));
     print_line("", "distance " + interval(level.distance.bounds));
     print_lines(level.lines, diagonal_);
+    if (level.normals) print_normals(*level.normals);
+    if (level.texture) print_texture(*level.texture, {"original to level", "level to original"}, diagonal_);
     if (level.view_distance)
       print_line("", exact_number(*level.pixels) + (*level.pixels == 1 ? " pixel" : " pixels") +
                          " on the screen from view distance " + short_number(*level.view_distance) + " on");

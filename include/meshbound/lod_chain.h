@@ -40,6 +40,11 @@ class LodChain {
   /// `InvalidInput` when that is smaller than the one before, negative or not finite.
   [[nodiscard]] LodLevel next(double tolerance);
 
+  /// How far the texture of the levels that follow may move (`SimplifyOptions::texture_tolerance`, which is that of the
+  /// levels before), model units. O(1). Throws `InvalidInput` when that is smaller than before or not a number, or
+  /// where the options have no texture coordinates.
+  void set_texture_tolerance(double tolerance);
+
   [[nodiscard]] const TriangleMesh& original() const;  ///< as it was given
   /// Facts about the run so far: a `SimplifyResult` without levels.
   [[nodiscard]] SimplifyResult describe() const;

@@ -144,6 +144,8 @@ struct LevelReport {
   std::size_t faces = 0;                          ///< triangles
   HausdorffDistance distance;                     ///< a: the original, b: the level as written
   std::optional<LineReport> lines = {};           ///< where there are feature lines
+  std::optional<TextureReport> texture = {};      ///< where it was asked for
+  std::optional<NormalReport> normals = {};       ///< where it was asked for
   std::string sha256 = {};                        ///< of the file, hexadecimal; empty: not computed
 };
 

@@ -67,6 +67,10 @@ SimplifiedLevel LevelRun::next(double tolerance, std::size_t target_faces) {
   return level;
 }
 
+void LevelRun::set_texture_tolerance(double tolerance) {
+  if (decimation_) decimation_->set_texture_tolerance(tolerance);
+}
+
 bool LevelRun::take_back(std::span<const Refuted> refuted) {
   const Clock::time_point start = Clock::now();
   const bool is_changed = decimation_ && decimation_->take_back(refuted);

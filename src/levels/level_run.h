@@ -20,6 +20,8 @@ class LevelRun {
   /// Continues to this tolerance, which must not be smaller than that of the call before, or until `target_faces` are
   /// left. The level is not measured.
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
+  /// As `Decimation::set_texture_tolerance`, for the levels that follow.
+  void set_texture_tolerance(double tolerance);
   /// Undoes what has led to refuted triangles of the last level, as `Decimation::take_back`; `next` then makes a level
   /// for the tolerance of the call before once more.
   [[nodiscard]] bool take_back(std::span<const Refuted> refuted);

@@ -34,11 +34,14 @@ struct LodChain::Impl {
   LodOptions options;
   LevelRun run;
   std::optional<Bvh> tree;  ///< of the original in model coordinates; built for the first measurement
-  double tolerance = 0;
+  double tolerance = 0, texture_tolerance;
   double measure_seconds = 0;
 
   Impl(TriangleMesh mesh, const LodOptions& wanted)
-      : original(std::move(mesh)), options(checked(wanted)), run(validated(original), options) {}
+      : original(std::move(mesh)),
+        options(checked(wanted)),
+        run(validated(original), options),
+        texture_tolerance(options.texture_tolerance) {}
 };
 
 LodChain::LodChain(TriangleMesh original, const LodOptions& options) {
@@ -58,6 +61,15 @@ LodLevel LodChain::next(double tolerance) {
   measure_level(impl_->original, *impl_->tree, impl_->run.lines(), level, impl_->options);
   impl_->measure_seconds += seconds_since(start);
   return level;
+}
+
+void LodChain::set_texture_tolerance(double tolerance) {
+  if (impl_->options.texture_coordinates.empty())
+    throw InvalidInput("a texture tolerance needs texture coordinates in the options of the chain");
+  if (!(tolerance >= impl_->texture_tolerance))
+    throw InvalidInput("the texture tolerances of a chain must be lengths, and grow from level to level");
+  impl_->texture_tolerance = tolerance;
+  impl_->run.set_texture_tolerance(tolerance);
 }
 
 const TriangleMesh& LodChain::original() const { return impl_->original; }

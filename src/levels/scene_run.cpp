@@ -238,6 +238,10 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
   return level;
 }
 
+void SceneRun::set_texture_tolerance(double tolerance) {
+  for (Group& group : groups_) group.run->set_texture_tolerance(tolerance);
+}
+
 /// A group is told which of its triangles are refuted by their numbers in one copy.
 bool SceneRun::take_back(std::span<const Refuted> refuted) {
   if (groups_.size() == 1 && groups_.front().group.triangles.empty()) return groups_.front().run->take_back(refuted);

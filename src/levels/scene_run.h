@@ -43,6 +43,8 @@ class SceneRun {
 
   /// As `LevelRun::next`. A target counts the faces shown, and each group gets its share of it.
   [[nodiscard]] SimplifiedLevel next(double tolerance, std::size_t target_faces);
+  /// As `LevelRun::set_texture_tolerance`.
+  void set_texture_tolerance(double tolerance);
   /// As `LevelRun::take_back`, in all copies of a mesh.
   [[nodiscard]] bool take_back(std::span<const Refuted> refuted);
   [[nodiscard]] const std::vector<Edge>& lines() const { return lines_; }

@@ -150,6 +150,13 @@ Json normals(const NormalReport& from) {
   return json;
 }
 
+void add_appearance(const LevelReport& level, double diagonal, Json& to) {
+  if (level.lines) to["lines"] = lines(*level.lines, diagonal);
+  if (level.texture)
+    to["texture"] = texture(*level.texture, diagonal, "original_to_simplified", "simplified_to_original");
+  if (level.normals) to["normals"] = normals(*level.normals);
+}
+
 Json stats(const std::vector<const OneSidedDistance*>& directions) {
   DistanceStats sum;
   double culled_triangles = 0;

@@ -49,6 +49,9 @@ using Json = nlohmann::ordered_json;
 /// {"tolerance":..,"max_degrees":..,"witness":{..}}
 [[nodiscard]] Json normals(const NormalReport& normals);
 
+/// Adds what is known of the lines, the texture and the normals of a level.
+void add_appearance(const LevelReport& level, double diagonal, Json& to);
+
 /// Statistics over the directions that were searched: sums of counts, and means of percentages weighted by those
 /// counts.
 [[nodiscard]] Json stats(const std::vector<const OneSidedDistance*>& directions);

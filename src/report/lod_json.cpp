@@ -22,7 +22,7 @@ report::Json level_json(std::size_t index, const LodReport::Level& level, double
   json["decided_by"] = to_string(level.decided_by);
   json["stopped_by"] = level.stopped_by;
   json["distance"] = symmetric(level.distance);
-  if (level.lines) json["lines"] = lines(*level.lines, diagonal);
+  add_appearance(level, diagonal, json);
   return json;
 }
 

@@ -36,7 +36,7 @@ std::string to_json(const SimplifyReport& from) {
     entry["faces"] = level.faces;
     entry["decided_by"] = to_string(level.decided_by);
     entry["distance"] = symmetric(level.distance);
-    if (level.lines) entry["lines"] = lines(*level.lines, from.original.summary.bbox_diagonal);
+    add_appearance(level, from.original.summary.bbox_diagonal, entry);
   }
   if (!from.certificates.empty()) {
     json["certificates"] = Json::array();

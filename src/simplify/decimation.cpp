@@ -342,11 +342,15 @@ void Decimation::set_texture() {
     coordinates.push_back(options_.texture_coordinates[t]);
     if (!options_.materials.empty()) materials.push_back(options_.materials[t]);
   }
-  const double tolerance = frame_.length_to_frame(options_.texture_tolerance);
   state_->texture.emplace(Atlas(vertices_, order_.triangles, std::move(coordinates), std::move(materials)),
-                          state_->mesh, state_->lines, state_->source_triangle, vertices_, order_.triangles, tolerance);
-  state_->texture->limit = share_of_texture_tolerance * tolerance;
+                          state_->mesh, state_->lines, state_->source_triangle, vertices_, order_.triangles,
+                          frame_.length_to_frame(options_.texture_tolerance));
+  set_texture_tolerance(options_.texture_tolerance);
   state_->reset_quadrics(threads());
+}
+
+void Decimation::set_texture_tolerance(double tolerance) {
+  state_->texture->limit = share_of_texture_tolerance * frame_.length_to_frame(tolerance);
 }
 
 void Decimation::note_turned_faces() {

@@ -94,7 +94,7 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   verdict_ = Verdict::Undecided;
   texture_.reset();
   normals_.reset();
-  const MeshFile file = written_file(stop_, original_texture_ != nullptr);
+  const MeshFile file = written_file(stop_, original_texture_.has_value());
   const TriangleMesh& mesh = file.mesh;
   summary_ = summarise(mesh);
   distance_ = distance_between(original, mesh, options, stop_);
@@ -107,7 +107,7 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
 void GatedOutput::look_at(MeshWithTree& original, const MeshFile& level, int threads) {
   texture_.reset();
   normals_.reset();
-  if (original_texture_ != nullptr) measure_texture(level, threads);
+  if (original_texture_) measure_texture(level, threads);
   if (normal_tolerance_) {
     const bool is_known = normals_looked_at_ && looked_at_.vertices == level.mesh.vertices &&
                           looked_at_.triangles == level.mesh.triangles;
@@ -132,7 +132,7 @@ void GatedOutput::measure_texture(const MeshFile& level, int threads) {
 bool GatedOutput::are_normals_within() const { return !normal_tolerance_ || (normals_ && normals_->exceeding.empty()); }
 
 bool GatedOutput::is_texture_within() const {
-  if (original_texture_ == nullptr) return true;
+  if (!original_texture_) return true;
   return texture_ && verdict_of(texture_->bounds, original_texture_->tolerance) == Verdict::Within;
 }
 

@@ -55,9 +55,9 @@ class GatedOutput {
   /// Makes the verdict include the distance from these lines; null: no lines. They must outlive this.
   void require_lines(const OriginalLines* lines) { original_lines_ = lines; }
 
-  /// Makes `measure` measure the texture deviation as well; null: it does not. Must outlive this.
-  void require_texture(const OriginalTexture* texture) { original_texture_ = texture; }
-  [[nodiscard]] bool requires_texture() const { return original_texture_ != nullptr; }
+  /// Makes `measure` measure the texture deviation as well; absent: it does not.
+  void require_texture(const std::optional<OriginalTexture>& texture) { original_texture_ = texture; }
+  [[nodiscard]] const std::optional<OriginalTexture>& required_texture() const { return original_texture_; }
 
   /// Makes `measure` measure how far faces of the original turn, with this tolerance in degrees; absent: it does not.
   void require_normals(std::optional<double> tolerance) { normal_tolerance_ = tolerance; }
@@ -125,7 +125,7 @@ class GatedOutput {
   Verdict verdict_ = Verdict::Undecided;
   HausdorffDistance distance_;
   const OriginalLines* original_lines_ = nullptr;
-  const OriginalTexture* original_texture_ = nullptr;
+  std::optional<OriginalTexture> original_texture_;
   TextureComparison texture_comparison_;
   std::optional<TextureDeviation> texture_;
   std::optional<double> normal_tolerance_;

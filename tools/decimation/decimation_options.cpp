@@ -50,4 +50,17 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
       "along; whatever it does not carry is counted and dropped.");
 }
 
+void add_appearance_options(CLI::App& app, DecimationOptions& options) {
+  app.add_option("--texture-tolerance", options.texture_tolerance,
+                 "Largest distance that the texture may move on the surface, between points of equal texture "
+                 "coordinates, measured on what was written: a length as above, '2texels' with --texture-size, or '1x' "
+                 "for as much as the tolerance of each level");
+  app.add_option("--texture-size", options.texture_size, "Width of the texture, which counts as square, in texels")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--normal-tolerance", options.normal_tolerance,
+                 "Largest angle by which a face may turn, in degrees: between each face of IN and the face of what is "
+                 "written nearest to its centroid")
+      ->check(CLI::Range(0.0, 180.0));
+}
+
 }  // namespace meshbound::tools

@@ -17,6 +17,9 @@ struct DecimationOptions {
   std::string feature_edges;            ///< a file of edges; empty: none
   std::string line_tolerance;           ///< a length as typed; empty: no feature lines
   std::string placement = "optimal";
+  std::string texture_tolerance;           ///< as typed; empty: the texture may move as far as it likes
+  std::optional<double> texture_size;      ///< texels of a side
+  std::optional<double> normal_tolerance;  ///< degrees
   bool drop_attributes = false;
   bool strict = false;  ///< refuse an input of which outputs would not carry everything
   WriteOptions write;
@@ -29,5 +32,8 @@ struct DecimationOptions {
 /// --drop-attributes, --strict, --error-bound, what `add_write_options` and what `add_common_options` adds, and says in
 /// the description what outputs do not carry.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
+
+/// Adds --texture-tolerance, --texture-size and --normal-tolerance.
+void add_appearance_options(CLI::App& app, DecimationOptions& options);
 
 }  // namespace meshbound::tools

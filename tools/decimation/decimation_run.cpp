@@ -11,6 +11,7 @@
 #include "common/distance_text.h"
 #include "common/length.h"
 #include "common/mesh_input.h"
+#include "common/provenance.h"
 #include "common/signals.h"
 #include "decimation/drivers.h"
 #include "decimation/dropped_attributes.h"
@@ -18,6 +19,7 @@
 #include "decimation/measurement_fault.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
+#include "numeric/no_index.h"
 
 namespace meshbound::tools {
 namespace {
@@ -33,6 +35,20 @@ constexpr double min_error_bound = 1e-9;
 /// Share of a tolerance for which a result is made again where the distance of the first is too near to the tolerance
 /// for any measurement.
 constexpr double smaller_tolerance = 0.99;
+
+/// What of a level, or of the original, has moved too far in the texture or turned too much.
+std::vector<Refuted> refuted_by(const GatedOutput& output) {
+  std::vector<Refuted> refuted;
+  if (const auto& texture = output.texture_deviation()) {
+    for (const TextureWitness& w : texture->a_to_b.exceeding)
+      refuted.push_back({w.from.triangle, w.nearest.triangle, w.coordinate});
+    for (const TextureWitness& w : texture->b_to_a.exceeding)
+      refuted.push_back({no_index, w.from.triangle, w.coordinate});
+  }
+  if (const auto& normals = output.normal_deviation())
+    for (const FaceTurn& turn : normals->exceeding) refuted.push_back({turn.from.triangle, turn.nearest.triangle});
+  return refuted;
+}
 
 }  // namespace
 
@@ -79,8 +95,33 @@ void DecimationRun::sort_tolerances() {
   tolerances_.erase(std::unique(tolerances_.begin(), tolerances_.end()), tolerances_.end());
 }
 
-SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar& bar) const {
+void DecimationRun::choose_appearance(const std::string& kind) {
+  if (shared_.texture_tolerance.empty()) return;
+  texture_tolerance_ = parse_texture_tolerance(shared_.texture_tolerance, shared_.texture_size.has_value());
+  if (attributes_.texture_coordinates.empty())
+    throw InvalidInput("--texture-tolerance needs texture coordinates, and " + kind +
+                       " of a format that carries them (OBJ, PLY, glTF): none were found in " + shared_.input);
+  warn_of_other_coordinates();
+  if (shared_.texture_size)
+    texel_length_ =
+        texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *shared_.texture_size);
+}
+
+/// Further sets of texture coordinates come along, but nothing is measured of them.
+void DecimationRun::warn_of_other_coordinates() const {
+  std::string sets;
+  for (const NamedAttribute& attribute : attributes_.named)
+    if (attribute.name.starts_with("TEXCOORD_")) sets += (sets.empty() ? "" : ", ") + attribute.name;
+  if (sets.empty()) return;
+  const std::string warning =
+      shared_.input + ": --texture-tolerance bounds the first set of texture coordinates only, and not " + sets;
+  if (shared_.strict) throw InvalidInput(warning + "; leave out --strict to accept that");
+  std::fprintf(stderr, "%s: %s\n", provenance().tool.c_str(), warning.c_str());
+}
+
+SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tolerance, ProgressBar& bar) const {
   SimplifyOptions options;
+  options.tolerance = before_rounding(tolerance);
   options.driver = collapse_driver(shared_.driver, shared_.cost);
   options.preserve_boundary = shared_.preserve_boundary;
   if (shared_.feature_angle) options.feature_angle = *shared_.feature_angle / 180 * std::numbers::pi;
@@ -88,6 +129,8 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
     options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
   options.feature_edges = feature_edges_;
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
+  options.normal_tolerance = shared_.normal_tolerance;
+  if (bounds_texture()) guard_texture(texture_tolerance_of(tolerance), options);
   // Frames of nodes round by themselves (`rounding_`).
   options.precision = rounding_ > 0 ? Precision::Double : output.precision();
   options.time_limit = remaining(simplify_share);
@@ -95,6 +138,19 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, ProgressBar
   options.cancel = &interrupted_;
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   return options;
+}
+
+/// Makes the decimation refuse collapses that move the texture too far.
+void DecimationRun::guard_texture(double tolerance, SimplifyOptions& options) const {
+  const CornerAttribute& from = attributes_.texture_coordinates;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (const Triangle& index : from.index) {
+    auto& corners = options.texture_coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = index[k] == CornerAttribute::none ? Eigen::Vector2d(none, none) : from.values[index[k]].head<2>();
+  }
+  options.materials = attributes_.materials.index;
+  options.texture_tolerance = tolerance;
 }
 
 double DecimationRun::before_rounding(double tolerance) const {
@@ -126,10 +182,58 @@ double DecimationRun::remaining(double share) const {
                                        : std::numeric_limits<double>::infinity();
 }
 
+void DecimationRun::set_requirements(GatedOutput& output, double tolerance) const {
+  if (original_lines_) output.require_lines(&*original_lines_);
+  if (bounds_texture())
+    output.require_texture(OriginalTexture{&original_, &attributes_, texture_tolerance_of(tolerance)});
+  output.require_normals(shared_.normal_tolerance);
+}
+
+DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, const OutputSteps& steps,
+                                     SimplifyReport::Seconds& seconds) {
+  set_requirements(output, tolerance);
+  for (;;) {
+    const SimplifiedLevel& level = steps.make();
+    end_if_interrupted();
+    seconds.simplify += watch_.lap();
+    const bool is_wrong = looks_wrong(output, level);
+    seconds.certify += watch_.lap();
+    if (is_wrong && takes_back(output)) continue;
+    (void)writes(output, level);  // if this fails, `prove` falls back to a smaller output or the original
+    seconds.write += watch_.lap();
+    const DecidedBy how = prove(output, tolerance, steps);
+    seconds.certify += watch_.lap();
+    if (output.verdict() != Verdict::Within) return how;
+    if (!output.keeps_appearance()) {
+      if (takes_back(output)) continue;
+      return fall_back(output, steps.smaller, measurement(tolerance));
+    }
+    const bool has_more_faces = steps.smaller != nullptr && output.summary().faces > steps.smaller->summary().faces;
+    return has_more_faces ? fall_back(output, steps.smaller, measurement(tolerance)) : how;
+  }
+}
+
+/// Whether a level moves the texture too far or turns faces too much. What is seen before it is written need not be
+/// written again.
+bool DecimationRun::looks_wrong(GatedOutput& output, const SimplifiedLevel& level) {
+  if (!scene_ || !bounds_appearance()) return false;
+  look_at(output, level);
+  return !output.keeps_appearance();
+}
+
+/// Undoes what has led to a texture that has moved too far or to faces that have turned too much. False if nothing was
+/// undone, or not in time.
+bool DecimationRun::takes_back(const GatedOutput& output) {
+  end_if_interrupted();
+  return !is_out_of_time() && scene_->take_back(refuted_by(output));
+}
+
+/// Measures how far texture and normals of a level have changed, as far as the output requires it; leaves off at the
+/// time limit.
 void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
   try {
     MeshAttributes visible;
-    if (output.requires_texture()) {
+    if (output.required_texture()) {
       visible.texture_coordinates = attributes_.texture_coordinates;
       visible.texture_precision = attributes_.texture_precision;
       visible.materials = attributes_.materials;
@@ -146,6 +250,7 @@ void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
   }
 }
 
+/// False when the time limit came first.
 bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) const {
   try {
     const MeshAttributes attributes =
@@ -158,6 +263,7 @@ bool DecimationRun::writes(GatedOutput& output, const SimplifiedLevel& level) co
   }
 }
 
+/// Measures what was written; true when the verdict is known.
 bool DecimationRun::decides(GatedOutput& output, const DistanceOptions& options) {
   try {
     output.measure(measured_original_, options);
@@ -171,17 +277,17 @@ bool DecimationRun::decides(GatedOutput& output, const DistanceOptions& options)
   return output.verdict() != Verdict::Undecided;
 }
 
-DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const GatedOutput* smaller, const Redo& redo) {
+DecidedBy DecimationRun::prove(GatedOutput& output, double tolerance, const OutputSteps& steps) {
   DistanceOptions options = measurement(tolerance);
   if (!is_out_of_time() && decides(output, options)) return DecidedBy::Measurement;
   options.method = Method::CrossCulling;
   if (!is_out_of_time() && decides(output, options)) return DecidedBy::SecondMethod;
   options.method = Method::CellWalking;
-  if (!is_out_of_time() && writes(output, redo(smaller_tolerance * tolerance)) && !is_out_of_time() &&
+  if (!is_out_of_time() && writes(output, steps.redo(smaller_tolerance * tolerance)) && !is_out_of_time() &&
       decides(output, options))
     return DecidedBy::SmallerTolerance;
-  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
-  return fall_back(output, smaller, options);
+  end_if_interrupted();
+  return fall_back(output, steps.smaller, options);
 }
 
 DecidedBy DecimationRun::fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options) {
@@ -203,6 +309,21 @@ std::optional<LineReport> DecimationRun::line_report(const GatedOutput& output, 
   if (!original_lines_ || !output.line_distance()) return std::nullopt;
   return LineReport{std::min(original_lines_->tolerance, tolerance), lines_.size(), output.line_edges(),
                     *output.line_distance()};
+}
+
+std::optional<TextureReport> DecimationRun::texture_report(const GatedOutput& output) const {
+  if (!output.required_texture() || !output.texture_deviation()) return std::nullopt;
+  return TextureReport{*output.texture_deviation(), output.required_texture()->tolerance, shared_.texture_size,
+                       texel_length_};
+}
+
+std::optional<NormalReport> DecimationRun::normal_report(const GatedOutput& output) const {
+  if (!shared_.normal_tolerance || !output.normal_deviation()) return std::nullopt;
+  return NormalReport{*output.normal_deviation(), *shared_.normal_tolerance};
+}
+
+void DecimationRun::end_if_interrupted() const {
+  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
 }
 
 int DecimationRun::threads() const { return threads_ > 0 ? threads_ : omp_get_max_threads(); }

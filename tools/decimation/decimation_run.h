@@ -11,7 +11,9 @@
 #include "common/stopwatch.h"
 #include "common/time_limit.h"
 #include "decimation/decimation_options.h"
+#include "decimation/texture_tolerance.h"
 #include "deviation/measure_here.h"
+#include "levels/scene_run.h"
 #include "meshbound/report.h"
 #include "meshbound/simplify.h"
 
@@ -31,21 +33,23 @@ class DecimationRun {
   /// Ascending, without repetitions.
   void sort_tolerances();
 
-  /// Options of a decimation whose results are measured as they read from files like `output`.
-  [[nodiscard]] SimplifyOptions decimation(const GatedOutput& output, ProgressBar& bar) const;
+  /// Reads what texture and normals may do. `kind` says what must carry texture coordinates, for messages.
+  void choose_appearance(const std::string& kind);
+  [[nodiscard]] bool bounds_texture() const { return texture_tolerance_.has_value(); }
+  [[nodiscard]] bool bounds_appearance() const { return bounds_texture() || shared_.normal_tolerance; }
+  /// How far the texture of a level with this tolerance may move, model units. Needs `bounds_texture`.
+  [[nodiscard]] double texture_tolerance_of(double tolerance) const {
+    return texture_tolerance_->of_level(tolerance, diagonal_, texel_length_);
+  }
+
+  /// Options of a decimation to this tolerance whose result is measured as it reads from files like `output`.
+  [[nodiscard]] SimplifyOptions decimation(const GatedOutput& output, double tolerance, ProgressBar& bar) const;
   /// From now on decimations and measurements use so many threads.
   void use_threads(int threads) { threads_ = threads; }
   /// Options of the measurement of a file.
   [[nodiscard]] DistanceOptions measurement(double tolerance) const;
   /// How a browser repeats the measurement of an output.
   [[nodiscard]] RepeatedMeasurement repeated(double tolerance, DecidedBy how) const;
-  /// Measures how far texture and normals of a level that is not written yet have changed, as far as the output
-  /// requires it; leaves off at the time limit.
-  void look_at(GatedOutput& output, const SimplifiedLevel& level);
-  /// Writes; false when the time limit came first.
-  [[nodiscard]] bool writes(GatedOutput& output, const SimplifiedLevel& level) const;
-  /// Measures what was written; true when the verdict is known.
-  [[nodiscard]] bool decides(GatedOutput& output, const DistanceOptions& options);
   /// What a decimation may use up of a tolerance: the rest is for the rounding in the frames of nodes.
   [[nodiscard]] double before_rounding(double tolerance) const;
   [[nodiscard]] bool is_out_of_time() const { return interrupted_ || remaining(1) == 0; }
@@ -53,15 +57,29 @@ class DecimationRun {
   [[nodiscard]] double remaining(double share) const;
   /// Notes the lines that outputs must keep: edges of the original.
   void set_lines(std::vector<Edge> lines);
+  /// Throws when a signal came.
+  void end_if_interrupted() const;
   /// Says how far the lines of an output are from those of the original; none where there are no lines.
   [[nodiscard]] std::optional<LineReport> line_report(const GatedOutput& output, double tolerance) const;
-  /// Makes the mesh again for a tolerance, model units.
-  using Redo = std::function<SimplifiedLevel(double tolerance)>;
-  /// Reads back what `writes` left in `output` and measures it against the original. Where that remains undecided it
-  /// tries harder: another method, a mesh for a slightly smaller tolerance, then the result of the smaller tolerance
-  /// before (may be null), then the original itself. Once the time limit has come only the last two are left. Says how
-  /// the mesh that stands in `output` then was decided. Throws `Error` when it was interrupted.
-  [[nodiscard]] DecidedBy prove(GatedOutput& output, double tolerance, const GatedOutput* smaller, const Redo& redo);
+  /// Says how far its texture moves and its faces turn; none where that has no tolerance.
+  [[nodiscard]] std::optional<TextureReport> texture_report(const GatedOutput& output) const;
+  [[nodiscard]] std::optional<NormalReport> normal_report(const GatedOutput& output) const;
+  /// How an output is made.
+  struct OutputSteps {
+    /// Makes the level for the tolerance, again once something of it was taken back. It stays as it is until the next
+    /// call.
+    std::function<const SimplifiedLevel&()> make;
+    std::function<SimplifiedLevel(double tolerance)> redo;  ///< makes a mesh for a tolerance from the original
+    const GatedOutput* smaller = nullptr;                   ///< the output with the smaller tolerance before
+  };
+  /// Makes a level, writes it under a temporary name, reads that back and measures it against the original. Where
+  /// texture or normals have changed too much, that is undone and the level made again; it may then have more faces
+  /// than the smaller one, which takes its place. Where the distance remains undecided it tries harder: another method,
+  /// a mesh for a slightly smaller tolerance, then the smaller output, then the original itself. Once the time limit
+  /// has come only the last two are left. Says how the mesh that stands in `output` then was decided; the verdict may
+  /// be that it exceeds the tolerance. Throws `Error` when it was interrupted.
+  [[nodiscard]] DecidedBy make_output(GatedOutput& output, double tolerance, const OutputSteps& steps,
+                                      SimplifyReport::Seconds& seconds);
   /// For a result whose proof was not finished in time: the one of `smaller`, or the original.
   [[nodiscard]] DecidedBy fall_back(GatedOutput& output, const GatedOutput* smaller, const DistanceOptions& options);
   /// Stops at a signal, and at the time limit.
@@ -81,9 +99,22 @@ class DecimationRun {
   std::vector<Edge> feature_edges_;  ///< seams of these, and the edges of --feature-edges
   std::vector<Edge> lines_;          ///< of the original
   std::optional<OriginalLines> original_lines_;
+  std::optional<SceneRun> scene_;  ///< makes the levels; absent where workers on tiles do
 
  private:
+  void warn_of_other_coordinates() const;
+  void guard_texture(double tolerance, SimplifyOptions& options) const;
+  void set_requirements(GatedOutput& output, double tolerance) const;
+  [[nodiscard]] bool looks_wrong(GatedOutput& output, const SimplifiedLevel& level);
+  void look_at(GatedOutput& output, const SimplifiedLevel& level);
+  [[nodiscard]] bool takes_back(const GatedOutput& output);
+  [[nodiscard]] bool writes(GatedOutput& output, const SimplifiedLevel& level) const;
+  [[nodiscard]] bool decides(GatedOutput& output, const DistanceOptions& options);
+  [[nodiscard]] DecidedBy prove(GatedOutput& output, double tolerance, const OutputSteps& steps);
+
   const DecimationOptions& shared_;
+  std::optional<TextureTolerance> texture_tolerance_;
+  double texel_length_ = 0;  ///< model units, where there is a texture size
   MeshWithTree measured_original_;
   int threads_;  ///< 0: as many as OpenMP has
 };

@@ -74,15 +74,7 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   app.add_flag("--dry-run", arguments.dry_run,
                "Read and check everything, say what a run would take in memory and time, and write nothing");
   add_batch_options(app, arguments.batch);
-  app.add_option("--texture-tolerance", arguments.texture_tolerance,
-                 "Largest distance that the texture may move on the surface, between points of equal texture "
-                 "coordinates, measured on what was written: a length as above, or '2texels' with --texture-size");
-  app.add_option("--texture-size", arguments.texture_size, "Width of the texture, which counts as square, in texels")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--normal-tolerance", arguments.normal_tolerance,
-                 "Largest angle by which a face may turn, in degrees: between each face of IN and the face of OUT "
-                 "nearest to its centroid")
-      ->check(CLI::Range(0.0, 180.0));
+  add_appearance_options(app, arguments);
   auto* const memory = app.add_option(
       "--memory", arguments.memory,
       "Work tile by tile within this memory, such as 4G; the result is the same for every limit. Bare triangles, "

@@ -18,8 +18,7 @@ struct SimplifyArguments : DecimationOptions {
                                                                       certificate;
   std::vector<std::string> levels;
   std::optional<std::int64_t> target_faces;
-  std::string target_ratio, texture_tolerance;
-  std::optional<double> texture_size, normal_tolerance;
+  std::string target_ratio;
   bool prune = false;
   bool dry_run = false;
   std::string memory;  ///< as typed; empty: no limit, and the mesh in one piece

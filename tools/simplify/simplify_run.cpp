@@ -36,20 +36,6 @@
 namespace meshbound::tools {
 namespace {
 
-/// What of a level, or of the original, has moved too far in the texture or turned too much.
-std::vector<Refuted> refuted_by(const GatedOutput& output) {
-  std::vector<Refuted> refuted;
-  if (const auto& texture = output.texture_deviation()) {
-    for (const TextureWitness& w : texture->a_to_b.exceeding)
-      refuted.push_back({w.from.triangle, w.nearest.triangle, w.coordinate});
-    for (const TextureWitness& w : texture->b_to_a.exceeding)
-      refuted.push_back({no_index, w.from.triangle, w.coordinate});
-  }
-  if (const auto& normals = output.normal_deviation())
-    for (const FaceTurn& turn : normals->exceeding) refuted.push_back({turn.from.triangle, turn.nearest.triangle});
-  return refuted;
-}
-
 /// One run of the tool, in the order of its phases.
 class Run : DecimationRun {
  public:
@@ -65,14 +51,8 @@ class Run : DecimationRun {
   void open_outputs();
   void make_levels();
   void make_level(std::size_t level);
-  void choose_appearance();
-  void set_requirements(GatedOutput& output) const;
-  [[nodiscard]] bool looks_wrong(GatedOutput& output);
-  [[nodiscard]] bool takes_back(const GatedOutput& output);
-  [[nodiscard]] bool tightens_appearance(std::size_t output);
-  [[nodiscard]] SimplifyOptions decimation_options(ProgressBar& bar) const;
-  void guard_texture(SimplifyOptions& simplify) const;
-  void certify(std::size_t output, ProgressBar& bar);
+  void note_exceeding(const GatedOutput& output, double tolerance) const;
+  [[nodiscard]] SimplifyOptions decimation_options(double tolerance, ProgressBar& bar) const;
   /// OUT may repeat the last level.
   [[nodiscard]] double tolerance_of(std::size_t output) const {
     return tolerances_[std::min(output, tolerances_.size() - 1)];
@@ -81,9 +61,6 @@ class Run : DecimationRun {
                                                           CertificateOptions options) const;
   void write_certificates();
   void measure_deviation();
-  void take_finer(std::size_t index);
-  void warn_of_other_coordinates() const;
-  void end_if_interrupted() const;
   void publish();
   void report();
 
@@ -92,23 +69,18 @@ class Run : DecimationRun {
   std::vector<GatedOutput> outputs_;
   std::deque<AtomicFile> certificates_;  ///< of the outputs, when they are asked for
   std::optional<DeviationOutputs> deviation_;
-  SimplifyOptions simplify_;       ///< of all levels
-  std::optional<SceneRun> scene_;  ///< makes them; absent where workers on tiles do
-  SimplifyResult result_;          ///< the last level that was made
+  SimplifyOptions simplify_;  ///< of all levels
+  SimplifyResult result_;     ///< the last level that was made
   SimplifyReport report_;
   Verdict verdict_ = Verdict::Undecided;
   /// Whether the time limit ended the run: OUT is then the best mesh proven by that time.
   [[nodiscard]] bool ended_by_time() const;
-  [[nodiscard]] bool bounds_appearance() const { return original_texture_ || options_.normal_tolerance; }
   /// Whether some output contains the JSON document, which needs the checksums of the files.
   [[nodiscard]] bool has_document() const {
     return !options_.common.json.empty() || !options_.deviation.report.empty();
   }
 
   std::optional<double> target_ratio_;
-  std::optional<TextureLength> typed_texture_tolerance_;
-  std::optional<OriginalTexture> original_texture_;
-  double texel_length_ = 0;
   std::vector<std::string> checksums_;  ///< of the outputs, when a document is to name them
   std::vector<DecidedBy> decided_by_;   ///< of the outputs
 };
@@ -118,7 +90,7 @@ int Run::operator()() {
   check_paths(options_);
   read();
   choose_tolerances();
-  choose_appearance();
+  choose_appearance("an IN and OUT");
   if (options_.dry_run) {
     print_estimate(report_.original.summary.faces, report_.tolerance, diagonal_);
     return ExitDone;
@@ -135,9 +107,6 @@ int Run::operator()() {
 
 void Run::parse_target() {
   if (!options_.target_ratio.empty()) target_ratio_ = parse_share("--target-ratio", options_.target_ratio);
-  if (!options_.texture_tolerance.empty())
-    typed_texture_tolerance_ =
-        parse_texture_length("--texture-tolerance", options_.texture_tolerance, options_.texture_size.has_value());
 }
 
 void Run::read() {
@@ -177,33 +146,6 @@ void Run::choose_tolerances() {
   report_.tolerance = tolerances_.back();
 }
 
-void Run::choose_appearance() {
-  if (!typed_texture_tolerance_) return;
-  if (attributes_.texture_coordinates.empty())
-    throw InvalidInput(
-        "--texture-tolerance needs texture coordinates, and an IN and OUT of a format that carries them "
-        "(OBJ, PLY, glTF): none were found in " +
-        options_.input);
-  warn_of_other_coordinates();
-  if (options_.texture_size)
-    texel_length_ =
-        texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *options_.texture_size);
-  const double tolerance = typed_texture_tolerance_->in_model_units(diagonal_, texel_length_);
-  original_texture_ = OriginalTexture{&original_, &attributes_, tolerance};
-}
-
-/// Further sets of texture coordinates come along, but nothing is measured of them.
-void Run::warn_of_other_coordinates() const {
-  std::string sets;
-  for (const NamedAttribute& attribute : attributes_.named)
-    if (attribute.name.starts_with("TEXCOORD_")) sets += (sets.empty() ? "" : ", ") + attribute.name;
-  if (sets.empty()) return;
-  const std::string warning =
-      options_.input + ": --texture-tolerance bounds the first set of texture coordinates only, and not " + sets;
-  if (options_.strict) throw InvalidInput(warning + "; leave out --strict to accept that");
-  std::fprintf(stderr, "%s: %s\n", provenance().tool.c_str(), warning.c_str());
-}
-
 /// Opens an output for each level, if levels are asked for, and then OUT.
 void Run::open_outputs() {
   if (!options_.levels.empty()) {
@@ -223,14 +165,15 @@ void Run::open_outputs() {
   certificates_.emplace_back(options_.certificate, AtomicFile::Stream::Staged, signals);
 }
 
-/// Makes the levels, the finest first, and proves each before the next one. Where a texture has moved too far or faces
-/// have turned too much, the level is made again there, which may leave it with more faces than the finer one.
+/// Makes the levels, the finest first, and proves each before the next one.
 void Run::make_levels() {
   ProgressBar bar("simplifying", options_.common.quiet);
-  simplify_ = decimation_options(bar);
-  simplify_.tolerance = before_rounding(tolerances_.back());
-  if (original_texture_ && tolerances_.size() == 1)  // points with the same coordinate are no nearer than the nearest
-    simplify_.tolerance = std::min(simplify_.tolerance, original_texture_->tolerance);
+  simplify_ = decimation_options(tolerances_.back(), bar);
+  if (bounds_texture()) {
+    simplify_.texture_tolerance = texture_tolerance_of(tolerances_.front());
+    // Points with the same coordinate are no nearer than the nearest.
+    if (tolerances_.size() == 1) simplify_.tolerance = std::min(simplify_.tolerance, simplify_.texture_tolerance);
+  }
   if (options_.workers == nullptr) {
     check_options(simplify_);
     scene_.emplace(original_, attributes_, simplify_);
@@ -238,15 +181,21 @@ void Run::make_levels() {
   }
   verdict_ = Verdict::Within;
   for (std::size_t i = 0; i < outputs_.size() && verdict_ == Verdict::Within; ++i) {
-    set_requirements(outputs_[i]);
-    for (;;) {
+    const double tolerance = tolerance_of(i);
+    OutputSteps steps;
+    steps.smaller = i > 0 ? &outputs_[i - 1] : nullptr;
+    steps.make = [&]() -> const SimplifiedLevel& {
       if (i < tolerances_.size()) make_level(i);  // OUT may repeat the last level
-      end_if_interrupted();
-      if (looks_wrong(outputs_[i]) && takes_back(outputs_[i])) continue;
-      certify(i, bar);
-      if (!tightens_appearance(i)) break;
-    }
-    if (i > 0 && outputs_[i].summary().faces > outputs_[i - 1].summary().faces) take_finer(i);
+      return result_.last();
+    };
+    steps.redo = [&](double smaller) {
+      SimplifyOptions again = decimation_options(tolerance, bar);
+      again.tolerance = before_rounding(smaller);
+      return decimated(again);
+    };
+    decided_by_.push_back(make_output(outputs_[i], tolerance, steps, report_.seconds));
+    verdict_ = outputs_[i].verdict();
+    if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding) note_exceeding(outputs_[i], tolerance);
   }
   report_.effort = options_.effort;
   report_.driver = options_.driver;
@@ -259,124 +208,44 @@ void Run::make_levels() {
 
 /// Sets `result_`, whose only level is this one.
 void Run::make_level(std::size_t level) {
-  watch_.lap();
-  if (scene_) {
-    const bool is_last = level + 1 == tolerances_.size();
-    const double tolerance = is_last ? simplify_.tolerance : before_rounding(tolerances_[level]);
-    SimplifiedLevel made = scene_->next(tolerance, is_last ? target_faces(original_, simplify_) : 0);
-    result_ = {};
-    result_.levels.push_back(std::move(made));
-    scene_->describe(result_);
-    if (is_last && !bounds_appearance()) scene_.reset();  // nothing will be taken back: room for the measurement
-  } else {
+  if (!scene_) {
     result_ = options_.workers->decimate(*stored_original_, simplify_);
+    return;
   }
-  report_.seconds.simplify += watch_.lap();
+  const bool is_last = level + 1 == tolerances_.size();
+  const double tolerance = is_last ? simplify_.tolerance : before_rounding(tolerances_[level]);
+  if (bounds_texture()) scene_->set_texture_tolerance(texture_tolerance_of(tolerances_[level]));
+  SimplifiedLevel made = scene_->next(tolerance, is_last ? target_faces(original_, simplify_) : 0);
+  result_ = {};
+  result_.levels.push_back(std::move(made));
+  scene_->describe(result_);
+  if (is_last && !bounds_appearance()) scene_.reset();  // nothing will be taken back: room for the measurement
 }
 
-/// All options of the decimation except its tolerances.
-SimplifyOptions Run::decimation_options(ProgressBar& bar) const {
-  SimplifyOptions simplify = decimation(outputs_.back(), bar);
+/// All options of a decimation from the original.
+SimplifyOptions Run::decimation_options(double tolerance, ProgressBar& bar) const {
+  SimplifyOptions simplify = decimation(outputs_.back(), tolerance, bar);
   if (options_.target_faces) simplify.target_faces = static_cast<std::size_t>(*options_.target_faces);
   simplify.target_ratio = target_ratio_;
   simplify.on_exceed = options_.on_exceed == "stop" ? OnExceed::Stop : OnExceed::Skip;
   simplify.effort = options_.effort == "high" ? Effort::High : Effort::Normal;
   simplify.prune = options_.prune;
-  simplify.normal_tolerance = options_.normal_tolerance;
-  if (original_texture_) guard_texture(simplify);
   return simplify;
 }
 
-/// Makes the decimation refuse collapses that move the texture too far.
-void Run::guard_texture(SimplifyOptions& simplify) const {
-  const CornerAttribute& from = attributes_.texture_coordinates;
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  for (const Triangle& index : from.index) {
-    auto& corners = simplify.texture_coordinates.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = index[k] == CornerAttribute::none ? Eigen::Vector2d(none, none) : from.values[index[k]].head<2>();
-  }
-  simplify.materials = attributes_.materials.index;
-  simplify.texture_tolerance = original_texture_->tolerance;
-}
-
-void Run::set_requirements(GatedOutput& output) const {
-  if (original_lines_) output.require_lines(&*original_lines_);
-  if (original_texture_) output.require_texture(&*original_texture_);
-  output.require_normals(options_.normal_tolerance);
-}
-
-/// Whether the level that was made last moves the texture too far or turns faces too much. What is seen before it is
-/// written need not be written again.
-bool Run::looks_wrong(GatedOutput& output) {
-  if (!scene_ || !bounds_appearance()) return false;
-  watch_.lap();
-  look_at(output, result_.last());
-  report_.seconds.certify += watch_.lap();
-  return !output.keeps_appearance();
-}
-
-/// Writes the level under a temporary name, reads it back and measures that.
-void Run::certify(std::size_t index, ProgressBar& bar) {
-  GatedOutput& output = outputs_[index];
-  const double tolerance = tolerance_of(index);
-  watch_.lap();
-  (void)writes(output, result_.last());  // if this fails, `prove` falls back to a finer level or the original
-  report_.seconds.write += watch_.lap();
-  const auto redo = [&](double smaller) {
-    SimplifyOptions again = decimation_options(bar);
-    again.tolerance = before_rounding(smaller);
-    return decimated(again);
-  };
-  decided_by_.resize(index + 1);
-  decided_by_[index] = prove(output, tolerance, index > 0 ? &outputs_[index - 1] : nullptr, redo);
-  verdict_ = output.verdict();
-  report_.seconds.certify += watch_.lap();
-  if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding)
-    throw Error(
-        "internal error: the result is further from the original than was proven during decimation; nothing was "
-        "written under its name. Please report this with the folder " +
-        save_reproducer(options_, output, {tolerances_, tolerance, target_ratio_}).string());
-}
-
-/// Undoes what has led to a texture that has moved too far or to faces that have turned too much. False if nothing was
-/// undone, or not in time.
-bool Run::takes_back(const GatedOutput& output) {
-  end_if_interrupted();
-  if (is_out_of_time()) return false;
-  watch_.lap();
-  const bool is_changed = scene_->take_back(refuted_by(output));
-  report_.seconds.simplify += watch_.lap();
-  return is_changed;
-}
-
-/// Takes back what moves the texture too far or turns faces too much as the file reads. A result that does not get
-/// within these tolerances in this way is replaced by the original.
-bool Run::tightens_appearance(std::size_t index) {
-  GatedOutput& output = outputs_[index];
-  if (output.verdict() != Verdict::Within || output.keeps_appearance()) return false;
-  if (takes_back(output)) return true;
-  const bool has_smaller = index > 0 && outputs_[index - 1].keeps_appearance();
-  decided_by_[index] =
-      fall_back(output, has_smaller ? &outputs_[index - 1] : nullptr, measurement(tolerance_of(index)));
-  return false;
-}
-
-/// Replaces a level by the finer one before it, which is within its tolerance too.
-void Run::take_finer(std::size_t index) {
-  decided_by_[index] = fall_back(outputs_[index], &outputs_[index - 1], measurement(tolerance_of(index)));
-  verdict_ = outputs_[index].verdict();
-}
-
-void Run::end_if_interrupted() const {
-  if (interrupted_) throw Error("interrupted before the result was proven; nothing was written");
+/// Saves what led to an output that a measurement refutes, and throws.
+void Run::note_exceeding(const GatedOutput& output, double tolerance) const {
+  throw Error(
+      "internal error: the result is further from the original than was proven during decimation; nothing was "
+      "written under its name. Please report this with the folder " +
+      save_reproducer(options_, output, {tolerances_, tolerance, target_ratio_}).string());
 }
 
 /// Also of the lines and the texture if there are any with a tolerance. Absent if the time ended.
 std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double tolerance,
                                                CertificateOptions options) const {
   MeshFile file;
-  if (original_texture_)
+  if (bounds_texture())
     file = output.written_with_attributes();
   else
     file.mesh = output.written_mesh();
@@ -387,11 +256,11 @@ std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double
     options.lines = CertifiedLines{lines_, output.lines_of(written), std::min(tolerance, original_lines_->tolerance)};
   const Stopwatch watch;
   auto certificate = build_certificate(original_, written, tolerance, options);
-  if (!certificate || !original_texture_) return certificate;
+  if (!certificate || !bounds_texture()) return certificate;
   options.seconds -= watch.seconds();
   auto with_texture =
       with_texture_proof(*certificate, textured_meshes(original_, attributes_, written, file.attributes),
-                         original_texture_->tolerance, options);
+                         texture_tolerance_of(tolerance), options);
   if (!with_texture) return std::nullopt;
   return std::move(with_texture->certificate);
 }
@@ -478,14 +347,12 @@ void Run::report() {
   if (!checksums_.empty()) report_.simplified.sha256 = checksums_.back();
   report_.distance = out.distance();
   report_.lines = line_report(out, report_.tolerance);
-  if (original_texture_ && out.texture_deviation())
-    report_.texture =
-        TextureReport{*out.texture_deviation(), original_texture_->tolerance, options_.texture_size, texel_length_};
-  if (options_.normal_tolerance && out.normal_deviation())
-    report_.normals = NormalReport{*out.normal_deviation(), *options_.normal_tolerance};
+  report_.texture = texture_report(out);
+  report_.normals = normal_report(out);
   for (std::size_t i = 0; i + 1 < outputs_.size() && verdict_ == Verdict::Within; ++i)
     report_.levels.push_back({tolerances_[i], decided_by_[i], outputs_[i].path().string(), outputs_[i].summary().faces,
                               outputs_[i].distance(), line_report(outputs_[i], tolerances_[i]),
+                              texture_report(outputs_[i]), normal_report(outputs_[i]),
                               checksums_.empty() ? "" : checksums_[i]});
   report_.threads = threads();
   if (options_.workers != nullptr) report_.communication = options_.workers->communication();

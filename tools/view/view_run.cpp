@@ -95,6 +95,7 @@ class ViewRun {
     view.lod.driver = collapse_driver(options_.driver, options_.cost);
     view.lod.preserve_boundary = options_.preserve_boundary;
     if (options_.feature_angle) view.lod.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
+    if (options_.placement == "subset") view.lod.placements = CollapsePlacements::Subset;
     if (options_.write.single_precision || format_ == "stl") view.lod.precision = Precision::Single;
     view.lod.threads = options_.common.threads;
     view.lod.cancel = &interrupted();
