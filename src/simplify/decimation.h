@@ -29,8 +29,8 @@ class Decimation {
   /// than in the call before.
   EndedBy run(double tolerance, std::size_t target_faces, const StopToken& stop);
 
-  /// From now on the texture may move so far, model units, instead of `SimplifyOptions::texture_tolerance`. Needs texture
-  /// coordinates in the options.
+  /// From now on the texture may move so far, model units, instead of `SimplifyOptions::texture_tolerance`. Needs
+  /// texture coordinates in the options.
   void set_texture_tolerance(double tolerance);
 
   /// Undoes what has led to triangles that a measurement of `current_mesh` refutes, for good. The numbers are those of
