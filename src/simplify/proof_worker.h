@@ -67,6 +67,7 @@ class ProofWorkers::Worker {
       };
       if (loops_.covers(t, start_at, is_usable, drafted_)) return drafted_;
     }
+    if (const std::uint32_t f = across(at, corners, limit); f != no_index) return draft(f);
     find_around(at, grown(box_of(corners), state_.tolerance));
     cover_by_found(t, corners, limit, is_usable);
     return drafted_;
@@ -371,6 +372,19 @@ class ProofWorkers::Worker {
       face = next;
     }
     return face;
+  }
+
+  /// A face beside one of these that holds all of an original: around a hub most faces are far from it. `no_index` if
+  /// there is none.
+  std::uint32_t across(const std::array<std::uint32_t, 3>& faces, const Corners& corners, double limit) {
+    for (const std::uint32_t f : faces) {
+      if (f == no_index) continue;
+      for (Corner c = 3 * f; c < 3 * f + 3; ++c) {
+        const Corner twin = state_.mesh.twin(c);
+        if (twin != no_index && holds(twin / 3, corners, limit)) return twin / 3;
+      }
+    }
+    return no_index;
   }
 
   /// Like `CandidateFaces::holds`, for faces that are asked for once.
