@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -21,15 +22,16 @@ using nlohmann::json;
 using namespace testing_tools;
 
 /// n x n squares of the unit square in the plane z = `height`, or with waves as high as `wave` on it, whose u runs
-/// unevenly by `warp`.
-void write_square(const std::string& path, int n, double warp, double height = 0, double wave = 0) {
+/// unevenly by `warp`; moved by `offset` along x.
+void write_square(const std::string& path, int n, double warp, double height = 0, double wave = 0, double offset = 0) {
   const auto z = [&](int i, int j) {
     return height + wave * std::sin(2 * std::numbers::pi * i / n) * std::sin(2 * std::numbers::pi * j / n);
   };
   std::ofstream out(path);
   out.precision(17);
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) out << "v " << i / double(n) << ' ' << j / double(n) << ' ' << z(i, j) << '\n';
+    for (int i = 0; i <= n; ++i)
+      out << "v " << offset + i / double(n) << ' ' << j / double(n) << ' ' << z(i, j) << '\n';
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
       out << "vt " << i / double(n) + warp * std::sin(2 * std::numbers::pi * i / n) << ' ' << j / double(n) << '\n';
@@ -245,6 +247,23 @@ TEST_F(TextureTool, CertifiesTheTextureOfEachLevel) {
   };
   proves(run_tool(VERIFY_CERTIFICATE, {wavy, folder_ / "out_level_0.obj", folder_ / "out_level_0.cert"}), "0.004;");
   proves(run_tool(VERIFY_CERTIFICATE, {wavy, out_, certificate}), "0.02;");
+}
+
+/// Far from the origin floats move vertices by up to 1/2, a flat square's only within its plane. What measuring refutes
+/// then is the rounded original, of which nothing can be undone.
+TEST_F(TextureTool, RefusesFormatsThatRoundBeyondTheTolerances) {
+  const std::string far = folder_ / "far.obj", glb = folder_ / "out.glb";
+  const auto refused = [&](double wave, int exit_code, const std::string& why) {
+    write_square(far, 16, 0.05, 0, wave, 1e7);
+    const ToolRun run = simplify({far, glb, "--tolerance", "0.1", "--texture-tolerance", "0.1"});
+    EXPECT_EQ(run.exit_code, exit_code);
+    EXPECT_EQ(line_count(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(glb));
+    EXPECT_EQ(simplify({far, out_, "--tolerance", "0.1", "--texture-tolerance", "0.1"}).exit_code, 0);
+  };
+  refused(0.5, 1, "smaller than the rounding of the output format");
+  refused(0, 2, "out.glb: rounding coordinates to this format alone");
 }
 
 TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {

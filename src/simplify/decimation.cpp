@@ -247,6 +247,7 @@ std::vector<std::uint8_t> Decimation::locked() const {
 }
 
 bool Decimation::take_back(std::span<const Refuted> refuted) {
+  if (below_rounding_) return false;  // nothing was collapsed: what was measured is the original
   const std::vector<std::uint32_t> faces = faces_in_order();
   const std::vector<std::uint32_t> index = index_of_caller_triangle();
   std::vector<Refuted> here;

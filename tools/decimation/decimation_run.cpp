@@ -206,7 +206,11 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
     if (output.verdict() != Verdict::Within) return how;
     if (!output.keeps_appearance()) {
       if (takes_back(output)) continue;
-      return fall_back(output, steps.smaller, measurement(tolerance));
+      const DecidedBy of_other = fall_back(output, steps.smaller, measurement(tolerance));
+      if (output.keeps_appearance()) return of_other;
+      throw Error(output.path().string() +
+                  ": rounding coordinates to this format alone moves the texture or turns faces by more than their "
+                  "tolerance; use PLY or OBJ, or raise it; nothing was written");
     }
     const bool has_more_faces = steps.smaller != nullptr && output.summary().faces > steps.smaller->summary().faces;
     return has_more_faces ? fall_back(output, steps.smaller, measurement(tolerance)) : how;
