@@ -295,6 +295,38 @@ TEST_F(ToolConventions, ToolsThatDecimateKeepAndReportLines) {
   EXPECT_FALSE(std::filesystem::exists(in("none.ply")));
 }
 
+/// What floats round off is said to be that, whether a line, the tolerance or the time brings it up.
+TEST_F(ToolConventions, ToolsThatDecimateTellRoundingFromWrongProofs) {
+  TriangleMesh moved = datasets::cube(1, 6);
+  for (Eigen::Vector3d& p : moved.vertices) p.x() += 1000.3;
+  write_mesh(in("moved.off"), moved);
+  const auto refused = [](const ToolRun& run, const std::string& why) {
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(testing_tools::line_count(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+    return run.err;
+  };
+  const auto lines = [&](const std::string& tolerance) {
+    return run_tool(SIMPLIFY_WITH_BOUND, {in("moved.off"), in("out.stl"), "--tolerance", "0.2", "--feature-angle", "80",
+                                          "--line-tolerance", tolerance});
+  };
+  const std::string why = "--line-tolerance is smaller than the rounding of the output format; raise it to ";
+  std::string enough = refused(lines("0"), why);
+  EXPECT_FALSE(std::filesystem::exists(in("out.stl")));
+  enough = enough.substr(enough.find(why) + why.size());
+  EXPECT_EQ(lines(enough.substr(0, enough.find(','))).exit_code, 0) << enough;
+  refused(run_tool(LOD_CHAIN, {in("moved.off"), in("chain"), "--levels", "0.2", "--feature-angle", "80",
+                               "--line-tolerance", "0", "--format", "stl"}),
+          why);
+  for (Eigen::Vector3d& p : moved.vertices) p.x() += 1e7;
+  write_mesh(in("moved.off"), moved);
+  for (const char* const seconds : {"100", "1e-9"})
+    refused(
+        run_tool(SIMPLIFY_WITH_BOUND, {in("moved.off"), in("none.stl"), "--tolerance", "0.1", "--time-limit", seconds}),
+        "the tolerance is smaller than the rounding of the output format");
+  EXPECT_FALSE(std::filesystem::exists(in("none.stl")));
+}
+
 /// A sheet of two materials: both tools that decimate carry them to OBJ, and say what other formats lose.
 TEST_F(ToolConventions, AttributesComeAlongBetweenObjFiles) {
   std::string text = "mtllib sheet.mtl\n";

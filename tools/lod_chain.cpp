@@ -177,9 +177,7 @@ int Run::operator()() {
   if (report_.deviation) deviation_->write(to_json(report_));
   if (options_.common.json != "-" && !options_.common.quiet) print_summary();
   if (report_.verdict != Verdict::Within)
-    std::fprintf(stderr,
-                 "lod_chain: a tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ; "
-                 "nothing was written\n");
+    std::fprintf(stderr, "lod_chain: %s; nothing was written\n", obstacle_.c_str());
   else if (ended_by_time_)
     std::fprintf(stderr, "lod_chain: the time limit came first: levels are the best meshes that were proven by then\n");
   const bool is_complete = !ended_by_time_ && options_.deviation.has_any() == report_.deviation.has_value();
@@ -297,7 +295,7 @@ bool Run::make_level(std::size_t index) {
   };
   const DecidedBy decided_by = make_output(output, tolerances_[index], steps, report_.seconds);
   report_.verdict = output.verdict();
-  if (report_.verdict == Verdict::Exceeds && level.ended_by != EndedBy::Rounding)
+  if (report_.verdict != Verdict::Within && obstacle_.empty())
     throw Error(
         "internal error: a level is further from the original than was proven during decimation; nothing was "
         "written. Please report this with the input and the command line");

@@ -119,11 +119,10 @@ void GatedOutput::look_at(MeshWithTree& original, const MeshFile& level, int thr
 }
 
 void GatedOutput::measure_texture(const MeshFile& level, int threads) {
-  constexpr double width = 0.01;  // of the interval, as a share of the tolerance
   auto meshes = textured_meshes(*original_texture_->mesh, *original_texture_->attributes, level.mesh, level.attributes);
   TextureDeviationOptions texture;
   texture.tolerance = original_texture_->tolerance;
-  texture.error_bound = width * original_texture_->tolerance;
+  texture.error_bound = original_texture_->error_bound;
   texture.threads = threads;
   texture.stop = stop_;
   texture_ = texture_comparison_.measure(std::move(meshes), texture);

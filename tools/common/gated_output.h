@@ -32,6 +32,7 @@ struct OriginalTexture {
   const TriangleMesh* mesh = nullptr;          ///< not owned
   const MeshAttributes* attributes = nullptr;  ///< not owned
   double tolerance = 0;                        ///< of the texture deviation, model units
+  double error_bound = 0;                      ///< width of the interval that this is measured to, model units
 };
 
 /// A mesh file that appears under its name only after its content was measured: `write` puts it under a temporary name,

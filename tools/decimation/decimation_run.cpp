@@ -17,6 +17,7 @@
 #include "decimation/dropped_attributes.h"
 #include "decimation/edge_file.h"
 #include "decimation/measurement_fault.h"
+#include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "numeric/no_index.h"
@@ -157,10 +158,15 @@ double DecimationRun::before_rounding(double tolerance) const {
   return rounding_ > 0 ? std::max(tolerance - rounding_, tolerance / 2) : tolerance;
 }
 
+/// Width of the interval that a distance with this tolerance is measured to, unless it was said.
+double DecimationRun::narrow_enough(double tolerance) const {
+  return std::max(default_error_bound * tolerance, min_error_bound * diagonal_);
+}
+
 DistanceOptions DecimationRun::measurement(double tolerance) const {
   DistanceOptions options;
   options.error_bound = shared_.error_bound.empty()
-                            ? std::max(default_error_bound * tolerance, min_error_bound * diagonal_)
+                            ? narrow_enough(tolerance)
                             : parse_length("--error-bound", shared_.error_bound).in_model_units(diagonal_);
   options.tolerance = tolerance;
   options.threads = threads_;
@@ -184,8 +190,10 @@ double DecimationRun::remaining(double share) const {
 
 void DecimationRun::set_requirements(GatedOutput& output, double tolerance) const {
   if (original_lines_) output.require_lines(&*original_lines_);
-  if (bounds_texture())
-    output.require_texture(OriginalTexture{&original_, &attributes_, texture_tolerance_of(tolerance)});
+  if (bounds_texture()) {
+    const double of_texture = texture_tolerance_of(tolerance);
+    output.require_texture(OriginalTexture{&original_, &attributes_, of_texture, narrow_enough(of_texture)});
+  }
   output.require_normals(shared_.normal_tolerance);
 }
 
@@ -203,7 +211,10 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
     seconds.write += watch_.lap();
     const DecidedBy how = prove(output, tolerance, steps);
     seconds.certify += watch_.lap();
-    if (output.verdict() != Verdict::Within) return how;
+    if (output.verdict() != Verdict::Within) {
+      obstacle_ = obstacle_of(output, tolerance, how == DecidedBy::Original || level.ended_by == EndedBy::Rounding);
+      return how;
+    }
     if (!output.keeps_appearance()) {
       if (takes_back(output)) continue;
       const DecidedBy of_other = fall_back(output, steps.smaller, measurement(tolerance));
@@ -215,6 +226,21 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
     const bool has_more_faces = steps.smaller != nullptr && output.summary().faces > steps.smaller->summary().faces;
     return has_more_faces ? fall_back(output, steps.smaller, measurement(tolerance)) : how;
   }
+}
+
+/// What keeps an output from its tolerances where rounding to its format alone exceeds them; else empty.
+std::string DecimationRun::obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const {
+  const std::string is_small = " is smaller than the rounding of the output format", advice = "use PLY, OFF or OBJ";
+  if (verdict_of(output.distance().bounds, tolerance) != Verdict::Within)
+    return is_original ? "the tolerance" + is_small + "; " + advice : "";
+  if (!original_lines_ || output.precision() == Precision::Double) return "";
+  double moved = 0;  // of vertices of lines
+  for (const Edge& line : lines_)
+    for (const std::uint32_t v : line)
+      moved = std::max(moved, (rounded_to_float(original_.vertices[v]) - original_.vertices[v]).norm());
+  if (moved <= original_lines_->tolerance) return "";
+  constexpr double more = 1.01;  // so that a measurement of it can be decided
+  return "--line-tolerance" + is_small + "; raise it to " + short_number(more * moved) + ", or " + advice;
 }
 
 /// Whether a level moves the texture too far or turns faces too much. What is seen before it is written need not be

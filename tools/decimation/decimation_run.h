@@ -99,12 +99,16 @@ class DecimationRun {
   std::vector<Edge> feature_edges_;  ///< seams of these, and the edges of --feature-edges
   std::vector<Edge> lines_;          ///< of the original
   std::optional<OriginalLines> original_lines_;
+  /// Why the last output that was made does not hold, a sentence without an end. Empty: it holds, or a proof was wrong.
+  std::string obstacle_;
   std::optional<SceneRun> scene_;  ///< makes the levels; absent where workers on tiles do
 
  private:
   void warn_of_other_coordinates() const;
   void guard_texture(double tolerance, SimplifyOptions& options) const;
   void set_requirements(GatedOutput& output, double tolerance) const;
+  [[nodiscard]] double narrow_enough(double tolerance) const;
+  [[nodiscard]] std::string obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const;
   [[nodiscard]] bool looks_wrong(GatedOutput& output, const SimplifiedLevel& level);
   void look_at(GatedOutput& output, const SimplifiedLevel& level);
   [[nodiscard]] bool takes_back(const GatedOutput& output);

@@ -195,7 +195,7 @@ void Run::make_levels() {
     };
     decided_by_.push_back(make_output(outputs_[i], tolerance, steps, report_.seconds));
     verdict_ = outputs_[i].verdict();
-    if (verdict_ == Verdict::Exceeds && !result_.tolerance_below_rounding) note_exceeding(outputs_[i], tolerance);
+    if (verdict_ != Verdict::Within && obstacle_.empty()) note_exceeding(outputs_[i], tolerance);
   }
   report_.effort = options_.effort;
   report_.driver = options_.driver;
@@ -366,11 +366,7 @@ void Run::report() {
     std::fprintf(stderr, "%s: the time limit came first: %s is the best mesh that was proven by then\n",
                  provenance().tool.c_str(), as_typed(options_.output).c_str());
   if (verdict_ != Verdict::Within)
-    std::fprintf(
-        stderr,
-        "%s: the tolerance is smaller than the rounding of the output format; use PLY, OFF or OBJ; nothing was "
-        "written\n",
-        provenance().tool.c_str());
+    std::fprintf(stderr, "%s: %s; nothing was written\n", provenance().tool.c_str(), obstacle_.c_str());
 }
 
 bool Run::ended_by_time() const {
