@@ -274,6 +274,22 @@ TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {
 }
 
 /// All folds of 45 degrees are lower than the tolerance: only the normals keep them.
+/// A face thinner than what floats round off has another normal in every file of floats, or none. The other faces
+/// count.
+TEST_F(TextureTool, ComparesNormalsInThePrecisionOfTheFile) {
+  const std::string thin = folder_ / "thin.obj", stl = folder_ / "out.stl";
+  write_square(thin, 12, 0, 0, 0.2, 10000);
+  std::ofstream(thin, std::ios::app) << "v 10000.5 0.2 2\nv 10000.5 0.8 2\nv 10000.50001 0.5 2.00001\nf -3 -2 -1\n";
+  for (const std::string& out : {stl, out_}) {
+    const ToolRun run = simplify({thin, out, "--tolerance", "0.02", "--normal-tolerance", "10", "--json", "-"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const json document = checked_document(run.out);
+    EXPECT_LE(document["normals"]["max_degrees"].get<double>(), 10);
+    EXPECT_GT(document["normals"]["max_degrees"].get<double>(), 2);
+    EXPECT_LT(document["simplified"]["faces"].get<int>(), 250);  // of 289
+  }
+}
+
 TEST_F(TextureTool, KeepsFacesFromTurning) {
   constexpr int n = 16;
   const std::string folded = folder_ / "folded.off", out = folder_ / "out.off";

@@ -63,10 +63,13 @@ NormalDeviation NormalComparison::measure(const MeshView& a, const MeshView& b, 
 
 /// Forgets what stands for the faces near which one has come or gone.
 void NormalComparison::forget_changed(const MeshView& a, const StandIns& now, int threads) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  before_->add_others(now, boxes);
-  now.add_others(*before_, boxes);
-  const BoxTree changed(boxes);
+  std::vector<StandIns::Corners> changed;
+  before_->add_others(now, changed);
+  now.add_others(*before_, changed);
+  std::vector<Eigen::AlignedBox3d> boxes(changed.size());
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    for (const Eigen::Vector3d& p : changed[i]) boxes[i].extend(p);
+  const BoxTree tree(boxes);
   with_team(threads, [&] {
     for_each_range(a.triangle_count(), grain, [&](std::size_t begin, std::size_t end) {
       std::vector<std::uint32_t> found;
@@ -74,8 +77,9 @@ void NormalComparison::forget_changed(const MeshView& a, const StandIns& now, in
         if (!near_[t].is_known()) continue;
         const Eigen::Vector3d middle = middle_of(a, t).position, around = Eigen::Vector3d::Constant(near_[t].reach);
         found.clear();
-        changed.find({middle - around, middle + around}, found);
-        if (!found.empty()) near_[t] = {};
+        tree.find({middle - around, middle + around}, found);
+        const auto is_near = [&](std::uint32_t i) { return is_within(changed[i], middle, near_[t].reach); };
+        if (std::any_of(found.begin(), found.end(), is_near)) near_[t] = {};
       }
     });
   });

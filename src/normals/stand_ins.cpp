@@ -120,9 +120,9 @@ std::vector<FaceTurn> StandIns::turns(const MeshView& a, std::size_t begin, std:
   return turns;
 }
 
-void StandIns::add_others(const StandIns& other, std::vector<Eigen::AlignedBox3d>& boxes) const {
+void StandIns::add_others(const StandIns& other, std::vector<Corners>& faces) const {
   for (std::uint32_t f = 0; f < size(); ++f)
-    if (!other.has(corners(f), normals_[f])) boxes.push_back(box(f));
+    if (!other.has(corners(f), normals_[f])) faces.push_back(corners(f));
 }
 
 /// Whether a face has these corners and this normal, up to rounding.
@@ -148,6 +148,10 @@ FaceTurn StandIns::turn_of(const SurfacePoint& middle, const Eigen::Vector3d& no
     turn.nearest = {middle.position - offset, source_[f]};
   }
   return turn;
+}
+
+bool is_within(const StandIns::Corners& corners, const Eigen::Vector3d& p, double reach) {
+  return offset_from(corners, p).stableNorm() <= reach;
 }
 
 }  // namespace meshbound

@@ -37,8 +37,8 @@ class StandIns {
   /// The turns of these faces: of those above the tolerance, of the first that turns most, and of some others.
   [[nodiscard]] std::vector<FaceTurn> turns(const MeshView& a, std::size_t begin, std::span<const NearStandIns> near,
                                             double tolerance) const;
-  /// Appends the boxes of faces that the other mesh does not have. O(n).
-  void add_others(const StandIns& other, std::vector<Eigen::AlignedBox3d>& boxes) const;
+  /// Appends the faces that the other mesh does not have. O(n).
+  void add_others(const StandIns& other, std::vector<Corners>& faces) const;
 
  private:
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(normals_.size()); }
@@ -59,6 +59,9 @@ class StandIns {
   std::optional<BoxTree> boxes_;
   double tie_;
 };
+
+/// Whether a triangle is within this distance of a point, as `StandIns` decides it.
+[[nodiscard]] bool is_within(const StandIns::Corners& corners, const Eigen::Vector3d& p, double reach);
 
 /// The centroid of a face.
 [[nodiscard]] SurfacePoint middle_of(const MeshView& mesh, std::size_t face);

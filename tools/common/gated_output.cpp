@@ -100,19 +100,20 @@ const HausdorffDistance& GatedOutput::measure(MeshWithTree& original, const Dist
   distance_ = distance_between(original, mesh, options, stop_);
   verdict_ = verdict_of(distance_.bounds, *options.tolerance);
   if (original_lines_ != nullptr && verdict_ == Verdict::Within) measure_lines(mesh, options);
-  if (verdict_ == Verdict::Within) look_at(original, file, options.threads);
+  if (verdict_ == Verdict::Within) look_at(file, options.threads);
   return distance_;
 }
 
-void GatedOutput::look_at(MeshWithTree& original, const MeshFile& level, int threads) {
+void GatedOutput::look_at(const MeshFile& level, int threads) {
   texture_.reset();
   normals_.reset();
   if (original_texture_) measure_texture(level, threads);
-  if (normal_tolerance_) {
+  if (original_normals_) {
     const bool is_known = normals_looked_at_ && looked_at_.vertices == level.mesh.vertices &&
                           looked_at_.triangles == level.mesh.triangles;
     if (!is_known)
-      normals_looked_at_ = normal_comparison_.measure(original.mesh(), level.mesh, {normal_tolerance_, threads});
+      normals_looked_at_ =
+          normal_comparison_.measure(*original_normals_->mesh, level.mesh, {original_normals_->tolerance, threads});
     looked_at_ = level.mesh;
     normals_ = normals_looked_at_;
   }
@@ -128,7 +129,7 @@ void GatedOutput::measure_texture(const MeshFile& level, int threads) {
   texture_ = texture_comparison_.measure(std::move(meshes), texture);
 }
 
-bool GatedOutput::are_normals_within() const { return !normal_tolerance_ || (normals_ && normals_->exceeding.empty()); }
+bool GatedOutput::are_normals_within() const { return !original_normals_ || (normals_ && normals_->exceeding.empty()); }
 
 bool GatedOutput::is_texture_within() const {
   if (!original_texture_) return true;

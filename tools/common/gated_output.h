@@ -35,6 +35,13 @@ struct OriginalTexture {
   double error_bound = 0;                      ///< width of the interval that this is measured to, model units
 };
 
+/// An original whose faces may turn by so much in a result. Where the file holds floats its vertices are floats too: a
+/// face thinner than these round off has no normal that a file could keep.
+struct OriginalNormals {
+  const TriangleMesh* mesh = nullptr;  ///< not owned
+  double tolerance = 0;                ///< degrees
+};
+
 /// A mesh file that appears under its name only after its content was measured: `write` puts it under a temporary name,
 /// `measure` reads that back, `publish` renames it if it was found to be within the tolerance (or sends it to the
 /// device or FIFO of that name). The destructor removes what was not published.
@@ -60,8 +67,8 @@ class GatedOutput {
   void require_texture(const std::optional<OriginalTexture>& texture) { original_texture_ = texture; }
   [[nodiscard]] const std::optional<OriginalTexture>& required_texture() const { return original_texture_; }
 
-  /// Makes `measure` measure how far faces of the original turn, with this tolerance in degrees; absent: it does not.
-  void require_normals(std::optional<double> tolerance) { normal_tolerance_ = tolerance; }
+  /// Makes `measure` measure how far faces of the original turn; absent: it does not.
+  void require_normals(const std::optional<OriginalNormals>& normals) { original_normals_ = normals; }
 
   /// Writes a mesh under the temporary name. `lines` are edges of the mesh, `attributes` those of its triangles as far
   /// as the format carries them. Throws `IoError`; `InvalidInput` when a coordinate leaves the range of the format.
@@ -79,9 +86,8 @@ class GatedOutput {
   const HausdorffDistance& measure(MeshWithTree& original, const DistanceOptions& options);
   [[nodiscard]] Verdict verdict() const { return verdict_; }
   /// Measures texture and normals, as far as they are required, of a mesh that is not written yet. Where the file reads
-  /// like it, `measure` finds that known. The mesh of the original is asked for only where normals are required: a
-  /// stored one would be loaded.
-  void look_at(MeshWithTree& original, const MeshFile& level, int threads);
+  /// like it, `measure` finds that known.
+  void look_at(const MeshFile& level, int threads);
   /// The texture deviation of what was measured or looked at last: there if it is required and, after `measure`, the
   /// verdict is Within. `is_texture_within` is false if it is required but was not measured.
   [[nodiscard]] const std::optional<TextureDeviation>& texture_deviation() const { return texture_; }
@@ -129,7 +135,7 @@ class GatedOutput {
   std::optional<OriginalTexture> original_texture_;
   TextureComparison texture_comparison_;
   std::optional<TextureDeviation> texture_;
-  std::optional<double> normal_tolerance_;
+  std::optional<OriginalNormals> original_normals_;
   NormalComparison normal_comparison_;
   std::optional<NormalDeviation> normals_;
   TriangleMesh looked_at_;  ///< whose deviation of normals is known

@@ -188,13 +188,21 @@ double DecimationRun::remaining(double share) const {
                                        : std::numeric_limits<double>::infinity();
 }
 
-void DecimationRun::set_requirements(GatedOutput& output, double tolerance) const {
+/// The original as files like `output` would hold it.
+const TriangleMesh& DecimationRun::original_of_normals(const GatedOutput& output) {
+  if (output.precision() == Precision::Double || attributes_.document) return original_;  // floats of nodes are exact
+  if (!rounded_original_) rounded_original_ = rounded_for(output.path(), original_, shared_.write);
+  return *rounded_original_;
+}
+
+void DecimationRun::set_requirements(GatedOutput& output, double tolerance) {
   if (original_lines_) output.require_lines(&*original_lines_);
   if (bounds_texture()) {
     const double of_texture = texture_tolerance_of(tolerance);
     output.require_texture(OriginalTexture{&original_, &attributes_, of_texture, narrow_enough(of_texture)});
   }
-  output.require_normals(shared_.normal_tolerance);
+  if (shared_.normal_tolerance)
+    output.require_normals(OriginalNormals{&original_of_normals(output), *shared_.normal_tolerance});
 }
 
 DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, const OutputSteps& steps,
@@ -275,7 +283,7 @@ void DecimationRun::look_at(GatedOutput& output, const SimplifiedLevel& level) {
     MeshFile file;
     file.mesh = placed_as_written(level, attributes).mesh;
     file.attributes = std::move(attributes);
-    output.look_at(measured_original_, file, threads());
+    output.look_at(file, threads());
   } catch (const Stopped&) {  // the file that is written next is not measured either
   }
 }

@@ -106,7 +106,8 @@ class DecimationRun {
  private:
   void warn_of_other_coordinates() const;
   void guard_texture(double tolerance, SimplifyOptions& options) const;
-  void set_requirements(GatedOutput& output, double tolerance) const;
+  [[nodiscard]] const TriangleMesh& original_of_normals(const GatedOutput& output);
+  void set_requirements(GatedOutput& output, double tolerance);
   [[nodiscard]] double narrow_enough(double tolerance) const;
   [[nodiscard]] std::string obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const;
   [[nodiscard]] bool looks_wrong(GatedOutput& output, const SimplifiedLevel& level);
@@ -118,6 +119,7 @@ class DecimationRun {
 
   const DecimationOptions& shared_;
   std::optional<TextureTolerance> texture_tolerance_;
+  std::optional<TriangleMesh> rounded_original_;
   double texel_length_ = 0;  ///< model units, where there is a texture size
   MeshWithTree measured_original_;
   int threads_;  ///< 0: as many as OpenMP has
