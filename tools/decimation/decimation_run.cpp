@@ -37,6 +37,9 @@ constexpr double min_error_bound = 1e-9;
 /// for any measurement.
 constexpr double smaller_tolerance = 0.99;
 
+/// Of a coordinate: what comes within this distance in doubles may be one point where a mesh is decimated.
+constexpr double rounding_of_frame = 0x1p-50;
+
 /// What of a level, or of the original, has moved too far in the texture or turned too much.
 std::vector<Refuted> refuted_by(const GatedOutput& output) {
   std::vector<Refuted> refuted;
@@ -241,14 +244,21 @@ std::string DecimationRun::obstacle_of(const GatedOutput& output, double toleran
   const std::string is_small = " is smaller than the rounding of the output format", advice = "use PLY, OFF or OBJ";
   if (verdict_of(output.distance().bounds, tolerance) != Verdict::Within)
     return is_original ? "the tolerance" + is_small + "; " + advice : "";
-  if (!original_lines_ || output.precision() == Precision::Double) return "";
-  double moved = 0;  // of vertices of lines
-  for (const Edge& line : lines_)
-    for (const std::uint32_t v : line)
-      moved = std::max(moved, (rounded_to_float(original_.vertices[v]) - original_.vertices[v]).norm());
+  if (!original_lines_) return "";
+  const bool has_floats = output.precision() == Precision::Single;
+  double moved = 0;  // vertices of lines
+  for (const Edge& line : lines_) {
+    for (const std::uint32_t v : line) {
+      const Eigen::Vector3d& p = original_.vertices[v];
+      moved = std::max({moved, rounding_of_frame * p.cwiseAbs().maxCoeff(),
+                        has_floats ? (rounded_to_float(p) - p).stableNorm() : 0});
+    }
+  }
   if (moved <= original_lines_->tolerance) return "";
   constexpr double more = 1.01;  // so that a measurement of it can be decided
-  return "--line-tolerance" + is_small + "; raise it to " + short_number(more * moved) + ", or " + advice;
+  const std::string enough = "; raise it to " + short_number(more * moved);
+  return has_floats ? "--line-tolerance" + is_small + enough + ", or " + advice
+                    : "--line-tolerance is smaller than the rounding of the coordinates" + enough;
 }
 
 /// Whether a level moves the texture too far or turns faces too much. What is seen before it is written need not be

@@ -19,10 +19,12 @@ Number turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A point between the corners 0, n / 2 and n - 1.
+/// From corner i to a point between the corners 0, n / 2 and n - 1: half of the way to the first, a quarter of those to
+/// the others. Far from the origin differences of corners are as exact as the piece asks, and their sums are not.
 template <class Number, class CornerAt>
-Vec<Number> middle_of(std::size_t n, const CornerAt& corner_at) {
-  return Number(0.5) * corner_at(0) + Number(0.25) * (corner_at(n / 2) + corner_at(n - 1));
+Vec<Number> way_to_middle(std::size_t n, const CornerAt& corner_at, std::size_t i) {
+  const Vec<Number> from = corner_at(i);
+  return Number(0.5) * (corner_at(0) - from) + Number(0.25) * ((corner_at(n / 2) - from) + (corner_at(n - 1) - from));
 }
 
 /// For each vertex the first one with the same position.
@@ -89,7 +91,7 @@ ParityCheck::Seen<Number> ParityCheck::see(const View<Number>& view, std::uint32
 }
 
 /// Seen along two sides of the triangle, which span its plane. The triangle is counter-clockwise there, the Gram
-/// determinant of the sides being positive, and so are its pieces.
+/// determinant of the sides being positive, and so are its pieces. Corners are ways from the first one of the triangle.
 template <class Number, class CornerAt>
 ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) const {
   View<Number> view;
@@ -100,10 +102,8 @@ ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) cons
   const Number limit = Number(scale_) * Number(tolerance_) * Number(1 - drawn_in_share);
   view.squared_limit = limit * limit * dot(view.z_axis, view.z_axis);
   const std::size_t n = piece_->size();
-  const Vec<Number> middle = middle_of<Number>(n, corner_at);
   for (std::size_t i = 0; i < n; ++i) {
-    // The large terms first: far from the origin an interval of their difference is as narrow as the triangle asks.
-    const Vec<Number> p = Number(scale_) * ((corner_at(i) - view.origin) + Number(drawn_in_) * (middle - corner_at(i)));
+    const Vec<Number> p = Number(scale_) * (corner_at(i) + Number(drawn_in_) * way_to_middle<Number>(n, corner_at, i));
     view.window.push_back({dot(view.x_axis, p), dot(view.y_axis, p), Number(0)});
   }
   return view;
@@ -113,10 +113,9 @@ ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) cons
 template <class Number, class CornerAt>
 bool ParityCheck::drawn_in_enough(const CornerAt& corner_at) const {
   const std::size_t n = piece_->size();
-  const Vec<Number> middle = middle_of<Number>(n, corner_at);
   const Number allowed = Number(scale_) * Number(tolerance_) * Number(drawn_in_share);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec<Number> moved = Number(scale_ * drawn_in_) * (middle - corner_at(i));
+    const Vec<Number> moved = Number(scale_ * drawn_in_) * way_to_middle<Number>(n, corner_at, i);
     const Number room = allowed * allowed - dot(moved, moved);
     if (!surely_not_negative(room)) return false;
   }
@@ -126,24 +125,23 @@ bool ParityCheck::drawn_in_enough(const CornerAt& corner_at) const {
 const ParityCheck::View<Exact>& ParityCheck::exact_view() {
   work_ += exact_cost;
   if (!exact_)
-    exact_ = make_view<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
+    exact_ = make_view<Exact>([&](std::size_t i) { return corners_->exact((*piece_)[i]) - corners_->exact(0); });
   return *exact_;
 }
 
 /// Chooses the share by doubles, then proves it.
 bool ParityCheck::draw_in(const PieceCorners& corners, const Piece& piece) {
-  const auto rough = [&](std::size_t i) -> const Vec<Interval>& { return corners.rough(piece[i]); };
-  const Vec<Interval> middle = middle_of<Interval>(piece.size(), rough);
+  const auto rough = [&](std::size_t i) { return corners.way(piece[i]); };
   double reach = 0;
   for (std::size_t i = 0; i < piece.size(); ++i) {
-    const Vec<Interval> way = middle - rough(i);
+    const Vec<Interval> way = way_to_middle<Interval>(piece.size(), rough, i);
     reach = std::max({reach, std::hypot(way.x.middle(), way.y.middle(), way.z.middle())});
   }
   const double wanted = 0.999 * drawn_in_share * tolerance_ / reach;
   if (!(wanted > 0x1p-60)) return false;  // with the smallest scale still a normal double: nothing is rounded
   drawn_in_ = std::min(0.5, std::ldexp(1.0, std::ilogb(wanted)));
   return drawn_in_enough<Interval>(rough) ||
-         drawn_in_enough<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
+         drawn_in_enough<Exact>([&](std::size_t i) { return corners_->exact((*piece_)[i]); });
 }
 
 /// What the triangle has above and below the window, by clipping.
@@ -259,7 +257,7 @@ bool ParityCheck::proves(const Corners& triangle, PieceCorners& corners, const P
   exact_.reset();
   scale_ = scale_of(triangle);
   if (piece.size() < 3 || !draw_in(corners, piece)) return false;
-  rough_ = make_view<Interval>([&](std::size_t i) -> const Vec<Interval>& { return corners.rough(piece[i]); });
+  rough_ = make_view<Interval>([&](std::size_t i) { return corners.way(piece[i]); });
   // A triangle without area has no normal to look along.
   if (!surely_positive(rough_.squared_limit) && !surely_positive(exact_view().squared_limit)) return false;
   return grow(seed);

@@ -8,7 +8,10 @@ namespace meshbound::verify {
 void PieceCorners::start(const Corners& triangle) {
   triangle_ = triangle;
   corners_.assign(3, {});
-  for (std::size_t k = 0; k < 3; ++k) corners_[k].rough = to_vec<Interval>(triangle[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners_[k].rough = to_vec<Interval>(triangle[k]);
+    corners_[k].way = corners_[k].rough - corners_[0].rough;
+  }
 }
 
 /// Parents lie on strictly smaller places and on the path of cuts to the piece, so the recursion is as deep as the
@@ -31,8 +34,10 @@ std::uint32_t PieceCorners::point_on(const Piece& piece, const Token::End& end, 
   const std::uint32_t from = piece[end.edge], to = piece[(end.edge + 1) % piece.size()];
   if (end.numerator == 0) return from;
   const double share = std::ldexp(static_cast<double>(end.numerator), -bits);  // at most 48 bits: exact
-  const Vec<Interval>&p = rough(from), &q = rough(to);
-  corners_.push_back({p + Interval(share) * (q - p), from, to, end.numerator, bits, {}});
+  const auto between = [share](const Vec<Interval>& p, const Vec<Interval>& q) {
+    return p + Interval(share) * (q - p);
+  };
+  corners_.push_back({between(rough(from), rough(to)), between(way(from), way(to)), from, to, end.numerator, bits, {}});
   return size() - 1;
 }
 

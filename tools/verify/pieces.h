@@ -27,6 +27,8 @@ class PieceCorners {
   void shrink(std::uint32_t size) { corners_.resize(size); }
 
   [[nodiscard]] const Vec<Interval>& rough(std::uint32_t i) const { return corners_[i].rough; }
+  /// From the first corner of the triangle: far from the origin as narrow as the triangle asks.
+  [[nodiscard]] const Vec<Interval>& way(std::uint32_t i) const { return corners_[i].way; }
   [[nodiscard]] const Vec<Exact>& exact(std::uint32_t i);
   /// The double coordinates, where the corner is one of the triangle itself.
   [[nodiscard]] const Eigen::Vector3d* given(std::uint32_t i) const { return i < 3 ? &triangle_[i] : nullptr; }
@@ -39,7 +41,7 @@ class PieceCorners {
 
  private:
   struct Corner {
-    Vec<Interval> rough;
+    Vec<Interval> rough, way;
     std::uint32_t from = 0, to = 0;  ///< of the segment it lies on
     std::uint64_t numerator = 0;
     int bits = 0;
