@@ -19,12 +19,10 @@ Number turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// From corner i to a point between the corners 0, n / 2 and n - 1: half of the way to the first, a quarter of those to
-/// the others. Far from the origin differences of corners are as exact as the piece asks, and their sums are not.
+/// A point between the corners 0, n / 2 and n - 1.
 template <class Number, class CornerAt>
-Vec<Number> way_to_middle(std::size_t n, const CornerAt& corner_at, std::size_t i) {
-  const Vec<Number> from = corner_at(i);
-  return Number(0.5) * (corner_at(0) - from) + Number(0.25) * ((corner_at(n / 2) - from) + (corner_at(n - 1) - from));
+Vec<Number> middle_of(std::size_t n, const CornerAt& corner_at) {
+  return Number(0.5) * corner_at(0) + Number(0.25) * (corner_at(n / 2) + corner_at(n - 1));
 }
 
 /// For each vertex the first one with the same position.
@@ -102,8 +100,9 @@ ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) cons
   const Number limit = Number(scale_) * Number(tolerance_) * Number(1 - drawn_in_share);
   view.squared_limit = limit * limit * dot(view.z_axis, view.z_axis);
   const std::size_t n = piece_->size();
+  const Vec<Number> middle = middle_of<Number>(n, corner_at);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec<Number> p = Number(scale_) * (corner_at(i) + Number(drawn_in_) * way_to_middle<Number>(n, corner_at, i));
+    const Vec<Number> p = Number(scale_) * (corner_at(i) + Number(drawn_in_) * (middle - corner_at(i)));
     view.window.push_back({dot(view.x_axis, p), dot(view.y_axis, p), Number(0)});
   }
   return view;
@@ -113,9 +112,10 @@ ParityCheck::View<Number> ParityCheck::make_view(const CornerAt& corner_at) cons
 template <class Number, class CornerAt>
 bool ParityCheck::drawn_in_enough(const CornerAt& corner_at) const {
   const std::size_t n = piece_->size();
+  const Vec<Number> middle = middle_of<Number>(n, corner_at);
   const Number allowed = Number(scale_) * Number(tolerance_) * Number(drawn_in_share);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec<Number> moved = Number(scale_ * drawn_in_) * way_to_middle<Number>(n, corner_at, i);
+    const Vec<Number> moved = Number(scale_ * drawn_in_) * (middle - corner_at(i));
     const Number room = allowed * allowed - dot(moved, moved);
     if (!surely_not_negative(room)) return false;
   }
@@ -131,17 +131,18 @@ const ParityCheck::View<Exact>& ParityCheck::exact_view() {
 
 /// Chooses the share by doubles, then proves it.
 bool ParityCheck::draw_in(const PieceCorners& corners, const Piece& piece) {
-  const auto rough = [&](std::size_t i) { return corners.way(piece[i]); };
+  const auto rough = [&](std::size_t i) -> const Vec<Interval>& { return corners.way(piece[i]); };
+  const Vec<Interval> middle = middle_of<Interval>(piece.size(), rough);
   double reach = 0;
   for (std::size_t i = 0; i < piece.size(); ++i) {
-    const Vec<Interval> way = way_to_middle<Interval>(piece.size(), rough, i);
+    const Vec<Interval> way = middle - rough(i);
     reach = std::max({reach, std::hypot(way.x.middle(), way.y.middle(), way.z.middle())});
   }
   const double wanted = 0.999 * drawn_in_share * tolerance_ / reach;
   if (!(wanted > 0x1p-60)) return false;  // with the smallest scale still a normal double: nothing is rounded
   drawn_in_ = std::min(0.5, std::ldexp(1.0, std::ilogb(wanted)));
   return drawn_in_enough<Interval>(rough) ||
-         drawn_in_enough<Exact>([&](std::size_t i) { return corners_->exact((*piece_)[i]); });
+         drawn_in_enough<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
 }
 
 /// What the triangle has above and below the window, by clipping.
@@ -257,7 +258,7 @@ bool ParityCheck::proves(const Corners& triangle, PieceCorners& corners, const P
   exact_.reset();
   scale_ = scale_of(triangle);
   if (piece.size() < 3 || !draw_in(corners, piece)) return false;
-  rough_ = make_view<Interval>([&](std::size_t i) { return corners.way(piece[i]); });
+  rough_ = make_view<Interval>([&](std::size_t i) -> const Vec<Interval>& { return corners.way(piece[i]); });
   // A triangle without area has no normal to look along.
   if (!surely_positive(rough_.squared_limit) && !surely_positive(exact_view().squared_limit)) return false;
   return grow(seed);
