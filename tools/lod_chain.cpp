@@ -274,6 +274,7 @@ void Run::make_levels() {
   for (std::size_t i = 0; i < tolerances_.size() && make_level(i); ++i) continue;
   SimplifyResult run_of_all;
   scene_->describe(run_of_all);
+  scene_.reset();  // it refers to the options here, and deviations that are measured next need the room
   report_.locked_vertices = run_of_all.locked_vertices;
   report_.provenance = provenance();
   report_.driver = options_.driver;

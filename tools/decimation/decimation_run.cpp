@@ -37,7 +37,8 @@ constexpr double min_error_bound = 1e-9;
 /// for any measurement.
 constexpr double smaller_tolerance = 0.99;
 
-/// Of a coordinate: what comes within this distance in doubles may be one point where a mesh is decimated.
+/// A share of the largest coordinate of a vertex: vertices that are nearer to each other may have the same position in
+/// the working frame, the scaled coordinates in which a mesh is decimated.
 constexpr double rounding_of_frame = 0x1p-50;
 
 /// What of a level, or of the original, has moved too far in the texture or turned too much.
@@ -232,7 +233,7 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
       if (output.keeps_appearance()) return of_other;
       throw Error(output.path().string() +
                   ": rounding coordinates to this format alone moves the texture or turns faces by more than their "
-                  "tolerance; use PLY or OBJ, or raise it; nothing was written");
+                  "tolerance; use PLY or OBJ, or a larger tolerance; nothing was written");
     }
     const bool has_more_faces = steps.smaller != nullptr && output.summary().faces > steps.smaller->summary().faces;
     return has_more_faces ? fall_back(output, steps.smaller, measurement(tolerance)) : how;

@@ -33,7 +33,8 @@ class DecimationRun {
   /// Ascending, without repetitions.
   void sort_tolerances();
 
-  /// Reads what texture and normals may do. `kind` says what must carry texture coordinates, for messages.
+  /// Reads how far the texture may move. `kind` names the files that must carry texture coordinates, for messages.
+  /// Throws `InvalidInput` where they do not.
   void choose_appearance(const std::string& kind);
   [[nodiscard]] bool bounds_texture() const { return texture_tolerance_.has_value(); }
   [[nodiscard]] bool bounds_appearance() const { return bounds_texture() || shared_.normal_tolerance; }

@@ -12,7 +12,8 @@ struct TextureTolerance {
   TextureLength length;
   std::optional<double> multiple;
 
-  /// Of a level with this tolerance, model units. `texel_length` as the function of that name gives it.
+  /// How far the texture of a level may move, model units: `tolerance` is that of the level, `texel_length` the side of
+  /// a texel on the surface, as the function of that name gives it.
   [[nodiscard]] double of_level(double tolerance, double diagonal, double texel_length) const {
     return multiple ? *multiple * tolerance : length.in_model_units(diagonal, texel_length);
   }

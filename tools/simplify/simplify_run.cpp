@@ -51,7 +51,7 @@ class Run : DecimationRun {
   void open_outputs();
   void make_levels();
   void make_level(std::size_t level);
-  void note_exceeding(const GatedOutput& output, double tolerance) const;
+  [[noreturn]] void report_wrong_proof(const GatedOutput& output, double tolerance) const;
   [[nodiscard]] SimplifyOptions decimation_options(double tolerance, ProgressBar& bar) const;
   /// OUT may repeat the last level.
   [[nodiscard]] double tolerance_of(std::size_t output) const {
@@ -195,7 +195,7 @@ void Run::make_levels() {
     };
     decided_by_.push_back(make_output(outputs_[i], tolerance, steps, report_.seconds));
     verdict_ = outputs_[i].verdict();
-    if (verdict_ != Verdict::Within && obstacle_.empty()) note_exceeding(outputs_[i], tolerance);
+    if (verdict_ != Verdict::Within && obstacle_.empty()) report_wrong_proof(outputs_[i], tolerance);
   }
   report_.effort = options_.effort;
   report_.driver = options_.driver;
@@ -234,7 +234,7 @@ SimplifyOptions Run::decimation_options(double tolerance, ProgressBar& bar) cons
 }
 
 /// Saves what led to an output that a measurement refutes, and throws.
-void Run::note_exceeding(const GatedOutput& output, double tolerance) const {
+void Run::report_wrong_proof(const GatedOutput& output, double tolerance) const {
   throw Error(
       "internal error: the result is further from the original than was proven during decimation; nothing was "
       "written under its name. Please report this with the folder " +
