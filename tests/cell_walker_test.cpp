@@ -187,6 +187,13 @@ TEST(CellWalking, OverlappingLayersDoNotLookAtAllThatOverlaps) {
   EXPECT_LT(stats.triangles_tested, 100'000u);
 }
 
+/// As where one of two meshes has lost its offset: floats do not tell the boxes of the other one apart from there.
+TEST(CellWalking, FarFromTheOtherMeshLooksAtFewOfItsTriangles) {
+  const TriangleMesh sphere = icosphere(5);
+  const DistanceStats stats = measured(sphere, moved(sphere, {3e6, 1e6, 2e6}), 1e-3);
+  EXPECT_LT(stats.triangles_tested, 1000 * stats.closest_point_queries);
+}
+
 TEST(CellWalking, WhatTheWalkLeavesIsSubdivided) {
   const Bvh tree(both(unit_square(4), moved(unit_square(3), {0.05, 0.02, 0.7})));
   Goal goal;

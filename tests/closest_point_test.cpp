@@ -63,8 +63,8 @@ std::vector<Vector3d> queries_around(const TriangleMesh& mesh, int count, std::u
     const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
     const Vector3d a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
     Vector3d p = random.below(3) == 0 ? a : Vector3d((1 - u - v) * a + u * b + v * c);
-    const double away[] = {0, 1e-15, 1e-9, 1e-4, 0.1, 2, 1e5};
-    p += away[random.below(7)] * size * random.in_cube();
+    const double away[] = {0, 1e-15, 1e-9, 1e-4, 0.1, 2, 1e5, 1e9};
+    p += away[random.below(8)] * size * random.in_cube();
     queries.push_back(p);
   }
   return queries;

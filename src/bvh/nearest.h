@@ -91,6 +91,20 @@ inline CornerTriangle<Double4> triangles_of_block(const Bvh::Data& data, std::ui
   return triangles_at(data, slots_of_block(data, block));
 }
 
+/// The eight boxes of a node, seen from a query.
+struct BoxDistances {
+  Float8 squared{};  ///< lower bounds but for 8 roundings of 2^-24 each (`prune_limit` allows for them); infinite for
+                     ///< empty boxes
+  Float8 centre{};   ///< nearer boxes mostly have less; any numbers for empty boxes
+};
+
+/// The limit for computed box distances: boxes at this squared distance or more hold no point within `squared`.
+inline float prune_limit(double squared) {
+  const double limit = squared * (1 + 0x1p-20);
+  return limit < 0x1p126 ? static_cast<float>(limit) + std::numeric_limits<float>::min()
+                         : std::numeric_limits<float>::infinity();
+}
+
 /// A query point or box as intervals of floats, so that box distances never come out too large.
 struct FloatQuery {
   explicit FloatQuery(const Vec3& p) : FloatQuery(p, p) {}
@@ -102,6 +116,29 @@ struct FloatQuery {
       hi[axis] = broadcast8(to + step(to));
     }
   }
+
+  /// `centre` is the squared distance of the centres, times 4.
+  [[nodiscard]] BoxDistances to_boxes(const BvhNode& node) const {
+    BoxDistances distances;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [outside, from_centre] = along(node, axis);
+      distances.squared = multiply_add(outside, outside, distances.squared);
+      distances.centre = multiply_add(from_centre, from_centre, distances.centre);
+    }
+    return distances;
+  }
+  /// The limit for `squared` of boxes that hold no point within a squared distance.
+  [[nodiscard]] static float limit(double squared) { return prune_limit(squared); }
+
+  struct Along {
+    Float8 outside, from_centre;
+  };
+  [[nodiscard]] Along along(const BvhNode& node, int axis) const {
+    const Float8 below = *reinterpret_cast<const Float8*>(node.lo[axis]) - hi[axis],
+                 above = lo[axis] - *reinterpret_cast<const Float8*>(node.hi[axis]);
+    return {maximum(maximum(below, above), Float8{}), below - above};
+  }
+
   Float8 lo[3], hi[3];
 
  private:
@@ -109,41 +146,64 @@ struct FloatQuery {
   static float step(float f) { return (f < 0 ? -f : f) * 0x1p-23F + std::numeric_limits<float>::min(); }
 };
 
-/// The eight boxes of a node, seen from a query.
-struct BoxDistances {
-  Float8 squared{};  ///< lower bounds but for 8 roundings of 2^-24 each (`prune_limit` allows for them); infinite for
-                     ///< empty boxes
-  Float8 centre{};   ///< squared distances of the centres, times 4; any numbers for empty boxes
-};
+/// Queries with a coordinate beyond this, in working units, are `FarQuery`s: floats tell their distances to boxes of
+/// the tree apart by 2^-13 of its size only, and a walk would visit all triangles of a flat side.
+inline constexpr double max_near_magnitude = 0x1p10;
 
-inline BoxDistances box_distances(const BvhNode& node, const FloatQuery& q) {
-  BoxDistances distances;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Float8 lo = *reinterpret_cast<const Float8*>(node.lo[axis]),
-                 hi = *reinterpret_cast<const Float8*>(node.hi[axis]);
-    const Float8 below = lo - q.hi[axis], above = q.lo[axis] - hi;
-    const Float8 outside = maximum(maximum(below, above), Float8{}), from_centre = below - above;
-    distances.squared = multiply_add(outside, outside, distances.squared);
-    distances.centre = multiply_add(from_centre, from_centre, distances.centre);
+inline bool is_far(const Vec3& p) {
+  return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > max_near_magnitude;
+}
+
+/// A query point far outside the box of the tree. Let c be the point of that box nearest to it, apart[k] = |p[k] -
+/// c[k]| and outside[k] how far c is outside a box of a node, along axis k. The squared distance to any point of the
+/// tree in that box is at least the sum of (apart[k] + outside[k])^2. What it exceeds the sum of apart[k]^2 by is the
+/// sum of outside[k] (outside[k] + 2 apart[k]), which floats tell exactly enough: their roundings are relative to it.
+class FarQuery {
+ public:
+  FarQuery(const Box& tree, const Vec3& p) : FarQuery(p, nearest_in(tree, p)) {}
+
+  /// `squared`: less the squared distance to the box of the tree.
+  [[nodiscard]] BoxDistances to_boxes(const BvhNode& node) const {
+    BoxDistances distances;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Float8 outside = from_box_.along(node, axis).outside;
+      distances.squared = multiply_add(outside, outside + twice_apart_[axis], distances.squared);
+    }
+    distances.centre = distances.squared;
+    return distances;
   }
-  return distances;
-}
+  [[nodiscard]] float limit(double squared) const {
+    return prune_limit(std::max(0.0, squared * (1 + margin) - squared_apart_));
+  }
 
-inline Float8 squared_box_distances(const BvhNode& node, const FloatQuery& q) { return box_distances(node, q).squared; }
+ private:
+  /// More than 8 roundings of doubles.
+  static constexpr double margin = 0x1p-49;
 
-/// The limit for computed box distances: boxes at this squared distance or more hold no point within `squared`.
-inline float prune_limit(double squared) {
-  const double limit = squared * (1 + 0x1p-20);
-  return limit < 0x1p126 ? static_cast<float>(limit) + std::numeric_limits<float>::min()
-                         : std::numeric_limits<float>::infinity();
-}
+  FarQuery(const Vec3& p, const Vec3& in_tree) : from_box_(in_tree) {
+    const Vec3 apart = p - in_tree;
+    squared_apart_ = squared_length(apart) * (1 - margin);
+    const double along[3] = {std::fabs(apart.x), std::fabs(apart.y), std::fabs(apart.z)};
+    for (int axis = 0; axis < 3; ++axis)
+      twice_apart_[axis] = broadcast8(static_cast<float>(2 * along[axis]) * (1 - 0x1p-23F));
+  }
+
+  static Vec3 nearest_in(const Box& box, const Vec3& p) {
+    return {std::clamp(p.x, box.lo.x, box.hi.x), std::clamp(p.y, box.lo.y, box.hi.y),
+            std::clamp(p.z, box.lo.z, box.hi.z)};
+  }
+
+  FloatQuery from_box_;
+  Float8 twice_apart_[3];
+  double squared_apart_ = 0;  ///< not above the squared distance to the box of the tree
+};
 
 /// Depth-first walk over the tree, the child with the nearest centre first: where many boxes are equally near, as from
 /// the axis of a cylinder or among coplanar layers, it mostly holds the nearer triangles. `on_block(index)` tests a
-/// block of triangles and returns the limit from then on. The stack holds at most 7 siblings for each of at most 10
-/// levels (8^10 > 2^30) and one root.
-template <class OnBlock>
-void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, QueryCounters& counters,
+/// block of triangles and returns the squared distance that is of interest from then on, negative to end the walk. The
+/// stack holds at most 7 siblings for each of at most 10 levels (8^10 > 2^30) and one root.
+template <class Query, class OnBlock>
+void visit_near(const Bvh::Data& data, const Query& query, double within_squared, QueryCounters& counters,
                 OnBlock&& on_block) {
   struct Entry {
     float centre;
@@ -154,16 +214,19 @@ void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, Que
   Entry stack[80];
   int size = 0;
   stack[size++] = {0, 0, data.levels() - 1, 0};
+  float limit = query.limit(within_squared);
   while (size > 0) {
     const Entry entry = stack[--size];
     if (!(entry.squared < limit)) continue;
     if (entry.level == 0) {
-      limit = on_block(entry.index);
+      within_squared = on_block(entry.index);
+      if (within_squared < 0) return;
+      limit = query.limit(within_squared);
       continue;
     }
     ++counters.nodes;
     const BvhNode& node = data.nodes[data.level_begin[entry.level] + entry.index];
-    const auto [squared, centre] = box_distances(node, query);
+    const auto [squared, centre] = query.to_boxes(node);
     const int first = size;
     for (unsigned hits = lane_bits(squared < broadcast8(limit)); hits != 0; hits &= hits - 1) {
       const int lane = std::countr_zero(hits);
@@ -176,6 +239,16 @@ void visit_near(const Bvh::Data& data, const FloatQuery& query, float limit, Que
   }
 }
 
+/// As above, from a point.
+template <class OnBlock>
+void visit_near(const Bvh::Data& data, const Vec3& p, double within_squared, QueryCounters& counters,
+                OnBlock&& on_block) {
+  if (is_far(p))
+    visit_near(data, FarQuery(data.working_box, p), within_squared, counters, on_block);
+  else
+    visit_near(data, FloatQuery(p), within_squared, counters, on_block);
+}
+
 /// Improves `best` to the nearest triangle; returns as soon as one is within `enough_squared`.
 inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squared, Nearest& best,
                          QueryCounters& counters) {
@@ -183,7 +256,7 @@ inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squ
   if (best.squared <= enough_squared) return;
   const Vec<Double4> p4 = broadcast4(p);
   const std::uint32_t last = data.triangle_count() - 1;
-  visit_near(data, FloatQuery(p), prune_limit(best.squared), counters, [&](std::uint32_t block) {
+  visit_near(data, p, best.squared, counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
     const Double4 squared = closest_on_triangle(triangles_of_block(data, block), p4).squared_distance;
     for (std::uint32_t lane = 0; lane < block_width; ++lane) {
@@ -192,7 +265,7 @@ inline void find_nearest(const Bvh::Data& data, const Vec3& p, double enough_squ
         best = {squared[lane], slot < last ? slot : last};
       }
     }
-    return best.squared <= enough_squared ? -1.0F : prune_limit(best.squared);
+    return best.squared <= enough_squared ? -1.0 : best.squared;
   });
 }
 
@@ -277,12 +350,11 @@ inline double certified_distance(const Bvh::Data& data, const Vec3& p, double ne
   ++counters.queries;
   double least = std::sqrt(nearest_squared);
   const std::uint32_t last = data.triangle_count() - 1;
-  const float limit = prune_limit(nearest_squared);
-  visit_near(data, FloatQuery(p), limit, counters, [&](std::uint32_t block) {
+  visit_near(data, p, nearest_squared, counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
     for (std::uint32_t lane = 0; lane < block_width && block * block_width + lane <= last; ++lane)
       least = std::min(least, best_separation(triangle_at(data, block * block_width + lane), p, least));
-    return limit;
+    return nearest_squared;
   });
   return least;
 }

@@ -41,8 +41,6 @@ ClosestPoint closest_of_point_like(const Bvh::Data& data, const Eigen::Vector3d&
 constexpr double group_extent = 5, hint_extent = 8;
 /// Fewer are not worth it.
 constexpr std::size_t min_group = 3;
-/// Queries further away, in working units, are never answered together: single precision would overflow.
-constexpr double max_group_magnitude = 0x1p10;
 /// How many queries are answered one by one, at most, after a group was none: each failure doubles their number.
 constexpr std::size_t max_pause = 255;
 
@@ -145,7 +143,7 @@ class PointQueries {
     Vec3 first = last_;
     for (std::size_t count = 0; count < max_count; ++count) {
       group.placements[count] = place(queries[count], group.queries[count]);
-      if (group.placements[count].magnitude > max_group_magnitude) return count;
+      if (is_far(group.queries[count].point)) return count;
       const double squared = squared_length(group.queries[count].point - first);
       if (count == 0) {
         if (squared > hint_extent * hint_extent * edge_squared) hint_ = no_slot;

@@ -264,8 +264,11 @@ class GroupSearch {
     if (!(distance + group_margin * roundings.primal <= double{limit_[i]}))
       return measure_point(data_, point, roundings, best.nearest.slot);
     const bool separated = wanted == 0 || best.separated_squared >= wanted * wanted;
-    return {best.nearest, best.offset,
-            separated ? wanted : PointSearch(data_, point, roundings).separated_beyond(best.nearest.squared, wanted)};
+    return {
+        best.nearest, best.offset,
+        separated
+            ? wanted
+            : PointSearch(data_, point, FloatQuery(point), roundings).separated_beyond(best.nearest.squared, wanted)};
   }
 
   const Bvh::Data& data_;

@@ -36,10 +36,11 @@ inline Mask8 lanes_of(unsigned bits) {
 }
 
 /// The block that one reaches by taking the nearest box of each node, from the root down.
-inline std::uint32_t block_by_boxes(const Bvh::Data& data, const FloatQuery& query) {
+template <class Query>
+std::uint32_t block_by_boxes(const Bvh::Data& data, const Query& query) {
   std::uint32_t index = 0;
   for (std::uint32_t level = data.levels() - 1; level > 0; --level) {
-    const Float8 squared = squared_box_distances(data.nodes[data.level_begin[level] + index], query);
+    const Float8 squared = query.to_boxes(data.nodes[data.level_begin[level] + index]).squared;
     std::uint32_t nearest = 0;
     for (std::uint32_t lane = 1; lane < node_width; ++lane)
       if (squared[lane] < squared[nearest]) nearest = lane;
@@ -57,12 +58,13 @@ struct Level {
 
 /// The children of the members of a level of nodes whose boxes are within the limit, in no order and without branches.
 /// False when there are too many.
-inline bool open_level(const Bvh::Data& data, const FloatQuery& query, float limit, std::uint32_t level,
-                       const Level& from, Level& children) {
+template <class Query>
+bool open_level(const Bvh::Data& data, const Query& query, float limit, std::uint32_t level, const Level& from,
+                Level& children) {
   const BvhNode* const nodes = data.nodes.data() + data.level_begin[level];
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < from.count; ++i) {
-    const unsigned hits = lane_bits(squared_box_distances(nodes[from.index[i]], query) < broadcast8(limit));
+    const unsigned hits = lane_bits(query.to_boxes(nodes[from.index[i]]).squared < broadcast8(limit));
     const Mask8 index = lanes_of(hits) + static_cast<std::int32_t>(from.index[i] * node_width);
     std::memcpy(&children.index[count], &index, sizeof index);
     count += static_cast<std::uint32_t>(std::popcount(hits));
@@ -75,8 +77,9 @@ inline bool open_level(const Bvh::Data& data, const FloatQuery& query, float lim
 /// The members of a level whose boxes, and those of all nodes above them, are within the limit: blocks at level 0. A
 /// tree without that level has one block, which is returned. Null where a level has too many. `levels`: memory for the
 /// walk, which the result lies in.
-inline Level* members_within(const Bvh::Data& data, const FloatQuery& query, float limit, std::uint32_t wanted_level,
-                             Level (&levels)[2]) {
+template <class Query>
+Level* members_within(const Bvh::Data& data, const Query& query, float limit, std::uint32_t wanted_level,
+                      Level (&levels)[2]) {
   levels[0].count = 1;
   levels[0].index[0] = 0;
   std::uint32_t now = 0;

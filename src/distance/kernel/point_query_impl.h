@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// `MeasurePoint`. Compiled once per instruction set (numeric/isa.h).
 ///
-///     walk over the surface from the hint; the distance to a corner of the triangle there is a first limit
-///     level by level: keep the children whose boxes are within the limit, in no order and without branches
-///     meanwhile, test the triangles there: before the blocks are reached, the limit is mostly near its final value
-///     test the triangles of those blocks whose own boxes are within the limit too, about a third of them
+///     walk over the surface from the hint; the distance to a corner of the triangle there is a first reach
+///     level by level: keep the children whose boxes are within reach, in no order and without branches
+///     meanwhile, test the triangles there: before the blocks are reached, the reach is mostly near its final value
+///     test the triangles of those blocks whose own boxes are within reach too, about a third of them
 ///
 /// Where a level would hold too many nodes, the hint was a bad one: it begins again at the block that the nearest boxes
-/// lead to. Where that does not do either (far queries), the walk of bvh/nearest.h takes its place, whose limit falls
+/// lead to. Where that does not do either (far queries), the walk of bvh/nearest.h takes its place, whose reach falls
 /// with each block.
 ///
-/// The answer does not depend on the hint or the order. Limits are above the least computed distance d by `primal`, so
+/// The answer does not depend on the hint or the order. Reach is above the least computed distance d by `primal`, so
 /// a triangle whose computed distance is at most d, and whose box therefore is within d + `primal_error`, is met in any
 /// case: the answer is the least (squared distance, slot) of all triangles of the mesh. That of a corner, which is not
-/// a computed distance of a triangle, is used only where it is no less than the limit that follows it.
+/// a computed distance of a triangle, is used only where it is no less than the reach that follows it.
 ///
 /// The lower bound. Let L = d - allowed. A triangle that was not met lies in a box beyond d. One that was met is at
 /// least as far as the plane across its own offset o separates it from p: m / |o| with m the least o . (p - c) over its
@@ -22,7 +22,7 @@
 /// six of squares, sum, product and quotient, 3u of at most 2 sqrt(3) M in the root (11uM): less than `dual_error`. L^2
 /// cannot underflow, as L > 0 is a difference of doubles above 2^-53.
 ///
-/// Where that fails (needles, points next to the surface), a second walk over the boxes within the final limit asks
+/// Where that fails (needles, points next to the surface), a second walk over the boxes within the final reach asks
 /// `best_separation` of each triangle there that fails. It meets the same triangles in the same way whatever the hint
 /// was, and the first walk met all of them: that it was needed, or what it says, does not depend on the hint either.
 #pragma once
@@ -89,20 +89,22 @@ inline Vec<Doubles> broadcast_doubles(const Vec3& v) {
   return {broadcast_doubles(v.x), broadcast_doubles(v.y), broadcast_doubles(v.z)};
 }
 
+/// `Query`: `FloatQuery`, or `FarQuery` where the point is far.
+template <class Query>
 class PointSearch {
  public:
-  PointSearch(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings)
+  PointSearch(const Bvh::Data& data, const Vec3& p, const Query& query, const PointRoundings& roundings)
       : data_(data),
         p_(p),
         coordinates_(coordinates(p)),
         lanes_(broadcast_doubles(p)),
-        box_(p),
+        query_(query),
         roundings_(roundings),
         last_slot_(data.triangle_count() - 1) {}
 
   PointDistance run(std::uint32_t hint) {
-    if (!walk_from(hint == no_slot ? block_by_boxes(data_, box_) * block_width : step_over(data_, p_, hint)) &&
-        !walk_from(block_by_boxes(data_, box_) * block_width))
+    if (!walk_from(hint == no_slot ? block_by_boxes(data_, query_) * block_width : step_over(data_, p_, hint)) &&
+        !walk_from(block_by_boxes(data_, query_) * block_width))
       walk_near();
     PointDistance found;
     const int lane = best_lane();
@@ -116,19 +118,21 @@ class PointSearch {
 
   /// The lower bound that `run` proves where it is not `wanted` at once: given the least squared distance.
   double separated_beyond(double nearest_squared, double wanted) {
-    limit_ = limit_of(nearest_squared);
-    return separated_within_limit(wanted);
+    reach_squared_ = reach_squared(nearest_squared);
+    return separated_within_reach(wanted);
   }
 
  private:
   /// More than the roundings of the squared distance to a corner, which a measured triangle shall not exceed.
   static constexpr double corner_margin = 1 + 0x1p-20;
+  /// More than the roundings of `squared_triangle_box_distances` and of a square.
+  static constexpr double box_margin = 1 + 0x1p-48;
 
-  void update_limit() { limit_ = limit_of(smallest_lane(best_.squared_distance)); }
+  void update_reach() { reach_squared_ = reach_squared(smallest_lane(best_.squared_distance)); }
 
-  [[nodiscard]] float limit_of(double squared) const {
+  [[nodiscard]] double reach_squared(double squared) const {
     const double reach = std::sqrt(squared) + roundings_.primal;
-    return prune_limit(reach * reach);
+    return reach * reach;
   }
 
   /// Tests a triangle and its neighbours in memory.
@@ -166,33 +170,34 @@ class PointSearch {
   /// its corner.
   bool walk_from(std::uint32_t slot) {
     const Vec3& corner = data_.vertices[data_.corners[slot][0]];
-    const float first_limit = limit_of(corner_margin * squared_length(p_ - corner));
+    const double first_reach = reach_squared(corner_margin * squared_length(p_ - corner));
     Level levels[2];
-    Level* members = members_within(data_, box_, first_limit, 1, levels);
+    Level* members = members_within(data_, query_, query_.limit(first_reach), 1, levels);
     test_first(slot);
-    update_limit();
-    if (members == nullptr || limit_ > first_limit) return false;
+    update_reach();
+    if (members == nullptr || reach_squared_ > first_reach) return false;
     if (data_.levels() > 1) {
       Level& blocks = levels[members == &levels[0] ? 1 : 0];
-      if (!open_level(data_, box_, limit_, 1, *members, blocks)) return false;
+      if (!open_level(data_, query_, query_.limit(reach_squared_), 1, *members, blocks)) return false;
       members = &blocks;
     }
     test_blocks(*members);
     return true;
   }
 
-  /// The lanes of a block whose triangles have boxes within the limit.
-  [[nodiscard]] unsigned lanes_within_limit(std::uint32_t block) const {
-    return lane_bits(squared_triangle_box_distances(data_, block, coordinates_) < broadcast4(double{limit_}));
+  /// The lanes of a block whose triangles have boxes within reach.
+  [[nodiscard]] unsigned lanes_within_reach(std::uint32_t block) const {
+    const Double4 squared = squared_triangle_box_distances(data_, block, coordinates_);
+    return lane_bits(squared <= broadcast4(reach_squared_ * box_margin));
   }
 
-  /// Tests the triangles whose boxes are within the limit, as many at a time as fill the lanes, whatever their blocks.
+  /// Tests the triangles whose boxes are within reach, as many at a time as fill the lanes, whatever their blocks.
   void test_blocks(const Level& blocks) {
     std::array<std::uint32_t, Level::capacity * block_width + node_width> slots;
     const Mask8 last = Mask8{} + static_cast<std::int32_t>(last_slot_);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < blocks.count; ++i) {
-      const unsigned hits = lanes_within_limit(blocks.index[i]);
+      const unsigned hits = lanes_within_reach(blocks.index[i]);
       Mask8 slot = lanes_of(hits) + static_cast<std::int32_t>(blocks.index[i] * block_width);
       slot = slot < last ? slot : last;
       std::memcpy(&slots[count], &slot, sizeof slot);
@@ -210,29 +215,30 @@ class PointSearch {
 
   void walk_near() {
     QueryCounters counters;
-    visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
-      if (block * block_width / std::uint32_t{doubles_width} == first_) return limit_;  // tested with a block before
-      test_first(block * block_width);
-      update_limit();
-      return limit_;
+    visit_near(data_, query_, reach_squared_, counters, [&](std::uint32_t block) {
+      if (block * block_width / std::uint32_t{doubles_width} != first_) {  // else tested with a block before
+        test_first(block * block_width);
+        update_reach();
+      }
+      return reach_squared_;
     });
   }
 
-  /// The lower bound that the triangles in the boxes within the limit prove, at most `wanted`.
-  double separated_within_limit(double wanted) const {
+  /// The lower bound that the triangles in the boxes within reach prove, at most `wanted`.
+  double separated_within_reach(double wanted) const {
     QueryCounters counters;
     double least = wanted;
     const Vec<Double4> p = broadcast4(p_);
-    visit_near(data_, box_, limit_, counters, [&](std::uint32_t block) {
+    visit_near(data_, query_, reach_squared_, counters, [&](std::uint32_t block) {
       const CornerTriangle<Double4> t = triangles_of_block(data_, block);
       const Double4 squared = separation_squared(t, p, closest_on_triangle(t, p));
       const Mask4 passes = squared >= broadcast4(wanted * wanted);
-      for (unsigned fails = ~lane_bits(passes) & lanes_within_limit(block); fails != 0; fails &= fails - 1) {
+      for (unsigned fails = ~lane_bits(passes) & lanes_within_reach(block); fails != 0; fails &= fails - 1) {
         const std::uint32_t slot = block * block_width + static_cast<std::uint32_t>(std::countr_zero(fails));
         const auto triangle = triangle_at(data_, std::min(slot, last_slot_));
         least = std::min(least, best_separation(triangle, p_, wanted));
       }
-      return limit_;
+      return reach_squared_;
     });
     return least;
   }
@@ -241,11 +247,11 @@ class PointSearch {
   Vec3 p_;
   Double4 coordinates_;  ///< of the query
   Vec<Doubles> lanes_;   ///< the query, in each lane
-  FloatQuery box_;       ///< the query, as a box of floats
+  Query query_;          ///< for boxes of nodes
   PointRoundings roundings_;
   std::uint32_t last_slot_;
-  std::uint32_t first_ = 0;  ///< which of the runs of `doubles_width` slots `test_first` tested
-  float limit_ = 0;          ///< squared
+  std::uint32_t first_ = 0;   ///< which of the runs of `doubles_width` slots `test_first` tested
+  double reach_squared_ = 0;  ///< triangles beyond it are of no interest
   // In each lane, the best of that lane's triangles in all blocks tested.
   TriangleOffset<Doubles> best_{{}, broadcast_doubles(std::numeric_limits<double>::infinity())};
   DoublesMask slots_{};
@@ -254,7 +260,8 @@ class PointSearch {
 
 inline PointDistance measure_point(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,
                                    std::uint32_t hint) {
-  return PointSearch(data, p, roundings).run(hint);
+  if (is_far(p)) return PointSearch(data, p, FarQuery(data.working_box, p), roundings).run(hint);
+  return PointSearch(data, p, FloatQuery(p), roundings).run(hint);
 }
 
 }  // namespace MESHBOUND_ISA

@@ -53,7 +53,7 @@ inline void collect_candidates(const Bvh::Data& data, const TriangleCorners& cor
       if (slot < data.triangle_count() && from_centre[lane] <= reach)
         candidates.push_back({slot, {squared[0][lane], squared[1][lane], squared[2][lane]}});
     }
-    return prune_limit(wider * wider);
+    return wider * wider;
   });
 }
 

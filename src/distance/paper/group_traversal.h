@@ -37,7 +37,7 @@ void visit_near_triangle(const Bvh::Data& data, const TriangleCorners& corners, 
   const Vec3 lo{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})};
   const Vec3 hi{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})};
   ++counters.queries;
-  visit_near(data, FloatQuery(lo, hi), prune_limit(limit_squared), counters, [&](std::uint32_t block) {
+  visit_near(data, FloatQuery(lo, hi), limit_squared, counters, [&](std::uint32_t block) {
     counters.triangles += block_width;
     return on_block(block);
   });
@@ -50,7 +50,7 @@ inline void group_traversal(const Bvh::Data& data, const TriangleCorners& corner
   if (bounds.upper.squared <= enough_squared) return;
   visit_near_triangle(data, corners, bounds.upper.squared, counters, [&](std::uint32_t block) {
     test_block(data, block, corners, bounds);
-    return bounds.upper.squared <= enough_squared ? -1.0F : prune_limit(bounds.upper.squared);
+    return bounds.upper.squared <= enough_squared ? -1.0 : bounds.upper.squared;
   });
 }
 
