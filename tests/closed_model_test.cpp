@@ -5,11 +5,16 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "meshbound/error.h"
 #include "meshbound/penetration_depth.h"
 #include "penetration/closed_model_data.h"
+#include "penetration/contact.h"
+#include "penetration/placed_pair.h"
 #include "reference/small_meshes.h"
 #include "solids.h"
 
@@ -146,6 +151,74 @@ TEST(ClosedModel, RefusesAVertexOnAFace) {
   EXPECT_EQ(refusal(both(unit, spike(1.0000001))), "");
   expect_refused(both(unit, spike(1)), "intersects itself");
   expect_refused(both(unit, spike(0.9999999)), "intersects itself");
+}
+
+/// Two pyramids back to back over a polygon, which runs counterclockwise seen from above.
+TriangleMesh double_pyramid(const std::vector<Vector3d>& polygon) {
+  TriangleMesh mesh{polygon, {}};
+  const auto n = static_cast<std::uint32_t>(polygon.size());
+  mesh.vertices.emplace_back(0, 0, 3);
+  mesh.vertices.emplace_back(0, 0, -1);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    mesh.triangles.push_back({i, (i + 1) % n, n});
+    mesh.triangles.push_back({(i + 1) % n, i, n + 1});
+  }
+  return mesh;
+}
+
+TEST(ClosedModel, RefusesTrianglesThatCrossBesideACommonCorner) {
+  const auto on_circle = [](double turn) {
+    return Vector3d(2 * std::cos(2 * std::numbers::pi * turn), 2 * std::sin(2 * std::numbers::pi * turn), 0);
+  };
+  std::vector<Vector3d> circle, star;
+  for (int i = 0; i < 500; ++i) circle.push_back(on_circle(i / 500.0));
+  for (int i = 0; i < 5; ++i) star.push_back(on_circle(i * 2 / 5.0));
+  EXPECT_EQ(refusal(double_pyramid(circle)), "");
+  EXPECT_EQ(refusal(moved(double_pyramid(circle), {1e6, 1e6, 1e6})), "");
+  expect_refused(double_pyramid(star), "intersects itself");
+}
+
+/// Whole numbers, exact.
+using Whole = Eigen::Matrix<long long, 3, 1>;
+
+bool is_in_cone(const Whole& v, const Whole& a, const Whole& b) {
+  const Whole normal = a.cross(b);
+  return normal.dot(v) == 0 && normal.dot(a.cross(v)) >= 0 && normal.dot(v.cross(b)) >= 0;
+}
+
+/// Whether the cones between two ways each have a way in common: one that spans them, or one along both planes.
+bool cones_meet(const Whole& a, const Whole& b, const Whole& c, const Whole& d) {
+  const Whole along = a.cross(b).cross(c.cross(d));
+  for (const Whole& way : {a, b, c, d, along, Whole(-along)})
+    if (!way.isZero() && is_in_cone(way, a, b) && is_in_cone(way, c, d)) return true;
+  return false;
+}
+
+/// Triangles between vertices of a grid on a cube touch, lie in one plane and cross in all ways.
+TEST(ClosedModel, TellsWhetherTrianglesWithACommonCornerMeetBesides) {
+  for (const double offset : {0.0, 1e6, 1e15}) {
+    const ClosedModel model(moved(subdivided(subdivided(box({0, 0, 0}, {4, 4, 4}))), {offset, offset, offset}));
+    const std::vector<Vec3>& positions = model.data().positions;
+    PlacedPair pair;
+    pair.place(model.data(), Eigen::Isometry3d::Identity(), model.data(), Eigen::Isometry3d::Identity());
+    Random random(5);
+    int meet = 0, apart = 0;
+    while (meet + apart < 20000) {
+      std::uint32_t vertex[5];
+      Whole way[5];
+      for (int k = 0; k < 5; ++k) {
+        vertex[k] = static_cast<std::uint32_t>(random.below(static_cast<int>(positions.size())));
+        const Vec3 from_first = positions[vertex[k]] - positions[vertex[0]];
+        way[k] = Vector3d(from_first.x, from_first.y, from_first.z).cast<long long>();
+      }
+      if (way[1].cross(way[2]).isZero() || way[3].cross(way[4]).isZero()) continue;
+      if (std::set<std::uint32_t>(vertex, vertex + 5).size() < 5) continue;
+      const bool expected = cones_meet(way[1], way[2], way[3], way[4]);
+      ASSERT_EQ(triangles_cross(pair, {vertex[0], vertex[1], vertex[2]}, {vertex[3], vertex[0], vertex[4]}), expected);
+      ++(expected ? meet : apart);
+    }
+    EXPECT_GT(std::min(meet, apart), 2000);
+  }
 }
 
 TEST(ClosedModel, RefusesAFoldedFlap) {
