@@ -109,6 +109,8 @@ TEST_F(TextureTool, RefusesWhatMakesNoSense) {
   refused(measure({even_, raised_, "--texture", "--texture-tolerance", "2texels"}), "--texture-size");
   refused(simplify({folder_ / "bare.obj", out_, "--tolerance", "1%", "--texture-tolerance", "1%"}),
           "texture coordinates");
+  refused(simplify({even_, out_, "--tolerance", "1%", "--texture-tolerance", "1%", "--drop-attributes"}),
+          "--drop-attributes");
   for (const std::string wrong : {"x", "1%x", "-1x", "1y"})
     refused(simplify({even_, out_, "--tolerance", "1%", "--texture-tolerance", wrong}), "--texture-tolerance: '");
   const auto levels = [](const std::string& in, const std::string& chain, const std::string& format) {

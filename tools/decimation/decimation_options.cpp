@@ -35,7 +35,8 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
       ->check(CLI::IsMember({"optimal", "subset"}))
       ->capture_default_str();
   auto* const drop = app.add_flag("--drop-attributes", options.drop_attributes,
-                                  "Write bare triangles also where attributes could come along, and do not keep seams");
+                                  "Write bare triangles also where attributes could come along, and do not keep seams")
+                         ->excludes(app.get_option("--texture-tolerance"));
   app.add_flag("--strict", options.strict,
                "Refuse an input that holds what the format of the output does not carry; nothing is written")
       ->excludes(drop);

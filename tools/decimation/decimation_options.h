@@ -30,7 +30,7 @@ struct DecimationOptions {
 
 /// Adds --driver, --cost, --preserve-boundary, --feature-angle, --feature-edges, --line-tolerance, --placement,
 /// --drop-attributes, --strict, --error-bound, what `add_write_options` and what `add_common_options` adds, and says in
-/// the description what outputs do not carry.
+/// the description what outputs do not carry. Comes after `add_appearance_options`, which --drop-attributes excludes.
 void add_decimation_options(CLI::App& app, DecimationOptions& options);
 
 /// Adds --texture-tolerance, --texture-size and --normal-tolerance.
