@@ -147,7 +147,8 @@ struct FloatQuery {
 };
 
 /// Queries with a coordinate beyond this, in working units, are `FarQuery`s: floats tell their distances to boxes of
-/// the tree apart by 2^-13 of its size only, and a walk would visit all triangles of a flat side.
+/// the tree apart by 2^-11 of its size only, and a walk would visit all triangles of a flat side. It is less than what
+/// `FloatTriangles` allows for.
 inline constexpr double max_near_magnitude = 0x1p10;
 
 inline bool is_far(const Vec3& p) {
