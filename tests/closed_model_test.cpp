@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -151,31 +150,6 @@ TEST(ClosedModel, RefusesAVertexOnAFace) {
   EXPECT_EQ(refusal(both(unit, spike(1.0000001))), "");
   expect_refused(both(unit, spike(1)), "intersects itself");
   expect_refused(both(unit, spike(0.9999999)), "intersects itself");
-}
-
-/// Two pyramids back to back over a polygon, which runs counterclockwise seen from above.
-TriangleMesh double_pyramid(const std::vector<Vector3d>& polygon) {
-  TriangleMesh mesh{polygon, {}};
-  const auto n = static_cast<std::uint32_t>(polygon.size());
-  mesh.vertices.emplace_back(0, 0, 3);
-  mesh.vertices.emplace_back(0, 0, -1);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    mesh.triangles.push_back({i, (i + 1) % n, n});
-    mesh.triangles.push_back({(i + 1) % n, i, n + 1});
-  }
-  return mesh;
-}
-
-TEST(ClosedModel, RefusesTrianglesThatCrossBesideACommonCorner) {
-  const auto on_circle = [](double turn) {
-    return Vector3d(2 * std::cos(2 * std::numbers::pi * turn), 2 * std::sin(2 * std::numbers::pi * turn), 0);
-  };
-  std::vector<Vector3d> circle, star;
-  for (int i = 0; i < 500; ++i) circle.push_back(on_circle(i / 500.0));
-  for (int i = 0; i < 5; ++i) star.push_back(on_circle(i * 2 / 5.0));
-  EXPECT_EQ(refusal(double_pyramid(circle)), "");
-  EXPECT_EQ(refusal(moved(double_pyramid(circle), {1e6, 1e6, 1e6})), "");
-  expect_refused(double_pyramid(star), "intersects itself");
 }
 
 /// Whole numbers, exact.
