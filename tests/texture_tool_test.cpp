@@ -275,7 +275,6 @@ TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {
   EXPECT_EQ(document["texture"]["upper"], 0);
 }
 
-/// All folds of 45 degrees are lower than the tolerance: only the normals keep them.
 /// A face thinner than what floats round off has another normal in every file of floats, or none. The other faces
 /// count.
 TEST_F(TextureTool, ComparesNormalsInThePrecisionOfTheFile) {
@@ -292,6 +291,7 @@ TEST_F(TextureTool, ComparesNormalsInThePrecisionOfTheFile) {
   }
 }
 
+/// All folds of 45 degrees are lower than the tolerance: only the normals keep them.
 TEST_F(TextureTool, KeepsFacesFromTurning) {
   constexpr int n = 16;
   const std::string folded = folder_ / "folded.off", out = folder_ / "out.off";

@@ -49,7 +49,7 @@ bool an_edge_separates(PlacedPair& pair, const PairTriangle& s, const PairTriang
 }
 
 bool are_separate(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
-  const double error = std::max(pair.error(0), pair.error(1));
+  const double error = pair.largest_error();
   const int axis = dominant_axis(pair.local(s[0]), pair.local(s[1]), pair.local(s[2]));
   return an_edge_separates(pair, s, t, axis, error) || an_edge_separates(pair, t, s, axis, error);
 }

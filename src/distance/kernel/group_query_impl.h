@@ -76,8 +76,8 @@ class GroupSearch {
   bool run(std::uint32_t hint, std::span<PointDistance> answers) {
     measure_start(hint);
     Level levels[2];
-    const float limit = prune_limit(square(largest_lane(limit_)));
-    const Level* const blocks = members_within(data_, FloatQuery(box_.lo, box_.hi), limit, 0, levels);
+    const FloatQuery query(box_.lo, box_.hi);
+    const Level* const blocks = members_within(data_, query, query.limit(square(largest_lane(limit_))), 0, levels);
     if (blocks == nullptr) return false;
     measure_near(*blocks);
     if (!collect_pairs()) return false;
@@ -263,12 +263,9 @@ class GroupSearch {
     const double distance = std::sqrt(best.nearest.squared), wanted = std::max(0.0, distance - roundings.allowed);
     if (!(distance + group_margin * roundings.primal <= double{limit_[i]}))
       return measure_point(data_, point, roundings, best.nearest.slot);
-    const bool separated = wanted == 0 || best.separated_squared >= wanted * wanted;
-    return {
-        best.nearest, best.offset,
-        separated
-            ? wanted
-            : PointSearch(data_, point, FloatQuery(point), roundings).separated_beyond(best.nearest.squared, wanted)};
+    if (wanted == 0 || best.separated_squared >= wanted * wanted) return {best.nearest, best.offset, wanted};
+    PointSearch alone(data_, point, FloatQuery(point), roundings);
+    return {best.nearest, best.offset, alone.separated_beyond(best.nearest.squared, wanted)};
   }
 
   const Bvh::Data& data_;
