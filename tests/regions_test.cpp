@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -187,6 +188,51 @@ TEST(Merge, OpensRefusedEdgesAcrossTheSeamsWhereSomethingHasChanged) {
   state->refuse(inside.back(), 0);
   reopen_around(*state, all, all.regions.front(), vertex);
   EXPECT_TRUE(is_open(inside.back()));
+}
+
+TriangleMesh double_cone(std::uint32_t corners) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    const std::uint32_t j = (i + 1) % corners;
+    mesh.triangles.push_back({i, j, corners});
+    mesh.triangles.push_back({j, i, corners + 1});
+  }
+  mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 1}, {0, 0, -1}});
+  return mesh;
+}
+
+/// Else each collapse at the rim of a cap opens all edges of its hub, and the time grows with the square of its corners
+/// (52 s for two caps of 100,000).
+TEST(Merge, LeavesTheEdgesOfAHubRefusedUntilItHasLostFaces) {
+  constexpr auto corners = static_cast<std::uint32_t>(max_faces_of_star + 3);  // two faces of an edge go
+  test::StateOf state(double_cone(corners));
+  std::uint32_t hub = 0;
+  while (state->mesh.position(hub).z != 1) ++hub;
+  const auto open_edges = [&] {
+    std::size_t open = 0;
+    state->mesh.for_each_edge(hub, [&](Corner e) { open += state->is_open(e) ? 1 : 0; });
+    return open;
+  };
+  const auto reopen = [&](bool in_region) {
+    Split all = whole(*state);
+    if (in_region)
+      reopen_around(*state, all, all.regions.front(), hub);
+    else
+      state->reopen_at(hub);
+    return open_edges();
+  };
+  for (const bool in_region : {true, false}) {
+    state->refuse_all();
+    EXPECT_EQ(reopen(in_region), 0u);
+  }
+  Corner rim = 0;
+  while (state->mesh.apex(rim) != hub) ++rim;
+  state->mesh.collapse(rim);
+  EXPECT_EQ(reopen(true), corners - 1);
+  state->refuse_all();
+  EXPECT_EQ(reopen(false), corners - 1);
 }
 
 TEST(Merge, CountsTheFacesThatAreGoneAndKeepsTheLogsInTheirOrder) {

@@ -213,6 +213,9 @@ struct OriginalOfDecimation {
 [[nodiscard]] OriginalOfDecimation original_of_decimation(const std::vector<Vec3>& vertices,
                                                           const std::vector<Triangle>& triangles, const Bvh& tree);
 
+/// Faces that may stay around an edge, at most: a collapse with more is not tried.
+inline constexpr std::size_t max_faces_of_star = 48;
+
 /// A mesh under decimation and everything known about it.
 ///
 /// `mesh` is proven to be within the tolerance of the original, both ways, except for faces whose vertices have
@@ -285,8 +288,15 @@ struct DecimationState {
     if (!is_far_beyond(deviation)) has_refused[mesh.start(edge)] = has_refused[mesh.end(edge)] = 1;
   }
   void refuse_all();
+  /// Whether a vertex has so many faces that no edge there can be collapsed. Where something changes around it, its
+  /// edges stay refused until it has lost faces: a cap with n corners would open n edges for each collapse at its rim.
+  [[nodiscard]] bool is_hub(std::uint32_t vertex) const {
+    constexpr std::size_t removed = 2;
+    return mesh.has_more_faces(vertex, max_faces_of_star + removed);
+  }
   /// Opens the edges at a vertex that something has changed around, but for those refused far beyond the tolerance.
   void reopen_at(std::uint32_t vertex) {
+    if (is_hub(vertex)) return;
     mesh.for_each_edge(vertex, [&](Corner e) { notes.reopen(e); });
   }
   /// Whether the edge was not refused, or something near has changed since that may help.

@@ -84,7 +84,7 @@ bool LocalEdit::gather_move(std::uint32_t vertex) {
     corners_.push_back({origin_, mesh.position(mesh.end(c)), mesh.position(mesh.apex(c))});
     before_.push_back(guarded_face(c));
     take_beside(next_corner(c));
-    return numbers_.size() < EdgeStar::max_faces;
+    return numbers_.size() < max_faces_of_star;
   });
 }
 

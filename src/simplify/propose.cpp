@@ -106,7 +106,7 @@ bool EdgeStar::gather(const ArrayMesh& mesh, Corner of) {
       ring.push_back(mesh.end(c));
       if (mesh.twin(previous_corner(c)) == no_index) ring.push_back(mesh.apex(c));
       if (c / 3 != face && c / 3 != across) moved.push_back(c);
-      return moved.size() <= max_faces;
+      return moved.size() <= max_faces_of_star;
     });
   };
   if (!visit(kept, around_kept_) || !visit(gone, around_gone_) || moved.empty() || is_tetrahedron(mesh, moved))
@@ -463,7 +463,7 @@ bool Proposer::is_inside(Corner edge) const {
   const auto owned_around = [&](std::uint32_t v) {
     std::size_t faces = 0;
     return state_.mesh.for_each_corner(v, [&](Corner c) {
-      return ++faces <= EdgeStar::max_faces && split_->owns(region_, state_.mesh.end(c)) &&
+      return ++faces <= max_faces_of_star && split_->owns(region_, state_.mesh.end(c)) &&
              split_->owns(region_, state_.mesh.apex(c));
     });
   };

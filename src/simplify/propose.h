@@ -17,8 +17,6 @@ namespace meshbound {
 
 /// The faces around an edge, or around a vertex.
 struct EdgeStar {
-  static constexpr std::size_t max_faces = 48;
-
   std::uint32_t kept = 0, gone = 0;
   Corner edge = 0;
   std::vector<Corner> moved;           ///< of faces that stay: the corner that moves

@@ -116,7 +116,7 @@ class Cutter {
         for (const std::uint32_t v : mesh.corners(f)) ++faces[v];
     for (const Placed& placed : vertices_) {
       const std::uint32_t hub = placed.vertex;
-      if (faces[hub] <= EdgeStar::max_faces) continue;
+      if (faces[hub] <= max_faces_of_star) continue;
       mesh.for_each_corner(hub, [&](Corner c) {
         for (const std::uint32_t v : {mesh.end(c), mesh.apex(c)}) {
           const auto [low, high] = std::minmax({root(into_.region_of[hub]), root(into_.region_of[v])});
@@ -199,7 +199,7 @@ Split whole(const DecimationState& state) {
 }
 
 void reopen_around(DecimationState& state, const Split& split, Region& region, std::uint32_t vertex) {
-  if (state.has_refused[vertex] == 0) return;
+  if (state.has_refused[vertex] == 0 || state.is_hub(vertex)) return;
   state.has_refused[vertex] = 0;
   bool is_at_seam = false;
   state.mesh.for_each_edge(vertex, [&](Corner e) {

@@ -82,6 +82,11 @@ class ArrayMesh {
     }
     return true;
   }
+  /// Whether a vertex has more faces than `count`. O(count).
+  [[nodiscard]] bool has_more_faces(std::uint32_t v, std::size_t count) const {
+    std::size_t faces = 0;
+    return !for_each_corner(v, [&](Corner) { return ++faces <= count; });
+  }
   [[nodiscard]] bool is_border(std::uint32_t v) const;
   /// Calls `visit(edge)` once for each edge at a vertex.
   template <class Visit>
