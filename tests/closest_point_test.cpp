@@ -44,7 +44,8 @@ std::vector<TriangleMesh> hard_meshes() {
                                    cube(0.5),
                                    random_soup(1, 300, 0.05),
                                    moved(scaled(icosphere(2), 1e-6), {5, 6, 7}),
-                                   unwelded(unit_square(6))};
+                                   unwelded(unit_square(6)),
+                                   needles(500)};
   for (unsigned shape = 0; shape < hard_shapes; ++shape) {
     RandomChoices choices(shape);
     meshes.push_back(hard_mesh(static_cast<HardShape>(shape), choices, 200));

@@ -227,7 +227,8 @@ double Bvh::bounding_box_diagonal() const { return data_->diagonal; }
 
 std::size_t Bvh::memory_bytes() const {
   const Data& d = *data_;
-  return sizeof(Data) + bytes(d.vertices) + bytes(d.source_vertex) + bytes(d.corners) + bytes(d.neighbours) +
+  const std::size_t oriented = d.oriented.made ? bytes(d.oriented.nodes) : 0;
+  return sizeof(Data) + oriented + bytes(d.vertices) + bytes(d.source_vertex) + bytes(d.corners) + bytes(d.neighbours) +
          bytes(d.normals) + bytes(d.triangle_of_slot) + bytes(d.nodes) + bytes(d.level_begin);
 }
 

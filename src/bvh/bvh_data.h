@@ -5,7 +5,9 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "bvh/array.h"
@@ -40,6 +42,20 @@ struct Neighbour {
 /// [k]: across the edge from corner k to corner k + 1.
 using EdgeNeighbours = std::array<Neighbour, 3>;
 
+/// The boxes of the children of a node, in a frame of its own.
+struct OrientedNode {
+  Vec3 centre;
+  std::array<Vec3, 3> axes;  ///< the rows of a rotation, up to roundings
+  BvhNode children;
+};
+
+/// By node of a tree, or none; made when they are first wanted (bvh/oriented_nodes.h).
+struct OrientedNodes {
+  std::mutex making;
+  std::atomic<bool> made{false};
+  std::vector<OrientedNode> nodes;
+};
+
 struct Bvh::Data {
   Data() = default;
   explicit Data(std::size_t arena_bytes) : arena(arena_bytes) {}
@@ -64,6 +80,7 @@ struct Bvh::Data {
   // By level: nodes[level_begin[l] + i] has the children 8 i ... 8 i + 7 of level l - 1; level 0 are the blocks.
   Array<BvhNode> nodes = array_in<BvhNode>(arena);
   std::vector<std::uint32_t> level_begin;
+  mutable OrientedNodes oriented;
 
   [[nodiscard]] std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(corners.size()); }
   /// Number of leaves: block i has the slots 4 i ... 4 i + 3, as far as there are triangles.

@@ -50,6 +50,20 @@ TriangleMesh fan(std::uint32_t n) {
   return mesh;
 }
 
+TriangleMesh needles(std::uint32_t n) {
+  const Eigen::Quaterniond askew = Eigen::Quaterniond(3, 1, 2, 1).normalized();
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / n;
+    for (const double end : {-10, 10})
+      mesh.vertices.push_back(askew * Eigen::Vector3d(std::cos(angle), std::sin(angle), end));
+    const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % n);
+    mesh.triangles.push_back({a, b, b + 1});
+    mesh.triangles.push_back({a, b + 1, a + 1});
+  }
+  return mesh;
+}
+
 TriangleMesh cube(double half) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)

@@ -20,6 +20,9 @@ namespace meshbound::reference {
 /// A disc of radius 1, `n` triangles around one vertex, which is the last.
 [[nodiscard]] TriangleMesh fan(std::uint32_t n);
 
+/// The wall of a tube of radius 1 and length 20 whose axis is askew to all coordinates: 2 n needles.
+[[nodiscard]] TriangleMesh needles(std::uint32_t n);
+
 /// The surface of [-half, half]^3, 12 triangles.
 [[nodiscard]] TriangleMesh cube(double half);
 

@@ -89,7 +89,7 @@ inline Vec<Doubles> broadcast_doubles(const Vec3& v) {
   return {broadcast_doubles(v.x), broadcast_doubles(v.y), broadcast_doubles(v.z)};
 }
 
-/// `Query`: `FloatQuery`, or `FarQuery` where the point is far.
+/// `Query`: as `with_query` gives.
 template <class Query>
 class PointSearch {
  public:
@@ -260,8 +260,7 @@ class PointSearch {
 
 inline PointDistance measure_point(const Bvh::Data& data, const Vec3& p, const PointRoundings& roundings,
                                    std::uint32_t hint) {
-  if (is_far(p)) return PointSearch(data, p, FarQuery(data.working_box, p), roundings).run(hint);
-  return PointSearch(data, p, FloatQuery(p), roundings).run(hint);
+  return with_query(data, p, [&](const auto& query) { return PointSearch(data, p, query, roundings).run(hint); });
 }
 
 }  // namespace MESHBOUND_ISA
