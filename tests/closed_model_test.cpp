@@ -14,6 +14,7 @@
 #include "penetration/closed_model_data.h"
 #include "penetration/contact.h"
 #include "penetration/placed_pair.h"
+#include "reference/point_triangle_cases.h"
 #include "reference/small_meshes.h"
 #include "solids.h"
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bvh/build.h"
+#include "bvh/nearest.h"
 #include "datasets/analytic_meshes.h"
 #include "geometry/eigen_vec3.h"
 #include "meshbound/bvh.h"

@@ -7,6 +7,7 @@
 #include "bvh/build.h"
 #include "bvh/node_boxes.h"
 #include "geometry/eigen_vec3.h"
+#include "geometry/vec_lanes.h"
 
 namespace meshbound {
 namespace {
