@@ -13,12 +13,12 @@ namespace meshbound {
 namespace {
 
 /// A line through the mesh meets as many boxes of blocks as their areas are together, in areas of the whole box
-/// (Cauchy and Crofton): 3 to 30 on scans and CAD parts, 80 where 40 layers lie on one another, 200 to 2,000 where
-/// thousands of needles are askew.
+/// (Cauchy and Crofton): less than 60 on 92 of 96 shared meshes, 78 on a cube of many layers, 200 to 2,000 with
+/// thousands of needles askew or of large triangles at random.
 constexpr double max_boxes_on_line = 64;
 
-/// Oriented boxes are of use where their areas are a smaller share than this of the others: it takes twice as long to
-/// look at them.
+/// Oriented boxes are of use where their areas are a smaller share than this of the others, as each takes a rotation
+/// to look at.
 constexpr double max_share_of_areas = 0.25;
 
 /// How far the axes of a frame may be from a rotation: Eigen misses it by some 2^-50.

@@ -30,8 +30,8 @@ inline Vec3 in_frame_of(const OrientedNode& node, const Vec3& p) {
   return {dot(node.axes[0], from_centre), dot(node.axes[1], from_centre), dot(node.axes[2], from_centre)};
 }
 
-/// A query point that is not far, for oriented boxes. That rotations are not exact, by 2^-40 (`oriented_nodes.cpp`), is
-/// covered by what `prune_limit` allows for.
+/// A query point that is not far, for oriented boxes; asked for nodes of the tree. That rotations are not exact, by
+/// 2^-42 (`oriented_nodes.cpp`), is covered by what `prune_limit` allows for.
 class OrientedQuery {
  public:
   OrientedQuery(const Bvh::Data& data, const std::vector<OrientedNode>& oriented, const Vec3& p)
