@@ -68,6 +68,11 @@ bool build_nodes_and_normals(Bvh::Data& data);
 /// O(m log m) for m segments.
 void link_segments(Bvh::Data& data);
 
+inline void extend(Box& box, const Vec3& p) {
+  box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y), std::min(box.lo.z, p.z)};
+  box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y), std::max(box.hi.z, p.z)};
+}
+
 /// Box of a block's or node's children, for walking the tree top-down as a hierarchy over A.
 Box node_box(const Bvh::Data& data, std::uint32_t level, std::uint32_t index);
 

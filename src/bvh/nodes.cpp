@@ -11,11 +11,6 @@
 namespace meshbound {
 namespace {
 
-void extend(Box& box, const Vec3& p) {
-  box.lo = {std::min(box.lo.x, p.x), std::min(box.lo.y, p.y), std::min(box.lo.z, p.z)};
-  box.hi = {std::max(box.hi.x, p.x), std::max(box.hi.y, p.y), std::max(box.hi.z, p.z)};
-}
-
 Box block_box(const Bvh::Data& data, std::uint32_t block) {
   Box box;
   const std::uint32_t end = std::min(data.triangle_count(), (block + 1) * block_width);

@@ -2,7 +2,6 @@
 #include "bvh/oriented_nodes.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 
 #include "bvh/build.h"
 #include "bvh/node_boxes.h"
@@ -24,9 +23,10 @@ constexpr double max_share_of_areas = 0.25;
 /// How far the axes of a frame may be from a rotation: Eigen misses it by some 2^-50.
 constexpr double rotation_error = 0x1p-42;
 
+/// Half the surface area of a box with these sides.
 double half_area(double x, double y, double z) { return x * y + y * z + z * x; }
 
-/// Of all boxes of a node together.
+/// Half the surface area of the boxes of all children of a node together.
 double half_area(const BvhNode& node) {
   double sum = 0;
   for (std::uint32_t k = 0; k < node_width; ++k) {
@@ -41,27 +41,19 @@ class OrientedBuild {
   explicit OrientedBuild(const Bvh::Data& data) : data_(data) {}
 
   std::vector<OrientedNode> run() {
-    if (data_.levels() < 2 || !are_askew()) return {};
+    double aligned = 0, oriented = 0;  // half the areas of the boxes of blocks
+    for (std::uint32_t i = data_.level_begin[1]; i < data_.level_begin[2]; ++i) aligned += half_area(data_.nodes[i]);
+    const Vec3 whole = data_.working_box.hi - data_.working_box.lo;
+    if (!(aligned > max_boxes_on_line * half_area(whole.x, whole.y, whole.z))) return {};
     nodes_.reserve(data_.nodes.size());
-    for (std::uint32_t level = 1; level < data_.levels(); ++level) {
-      add_level(level);
-      if (level == 1 && !are_better()) return {};
-    }
+    add_level(1);
+    for (const OrientedNode& node : nodes_) oriented += half_area(node.children);
+    if (!(oriented < max_share_of_areas * aligned)) return {};
+    for (std::uint32_t level = 2; level < data_.levels(); ++level) add_level(level);
     return std::move(nodes_);
   }
 
  private:
-  [[nodiscard]] bool are_askew() {
-    for (std::uint32_t i = data_.level_begin[1]; i < data_.level_begin[2]; ++i) areas_ += half_area(data_.nodes[i]);
-    const Vec3 whole = data_.working_box.hi - data_.working_box.lo;
-    return areas_ > max_boxes_on_line * half_area(whole.x, whole.y, whole.z);
-  }
-  [[nodiscard]] bool are_better() const {
-    double areas = 0;
-    for (const OrientedNode& node : nodes_) areas += half_area(node.children);
-    return areas < max_share_of_areas * areas_;
-  }
-
   void add_level(std::uint32_t level) {
     const std::uint32_t count = data_.level_begin[level + 1] - data_.level_begin[level];
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -100,11 +92,7 @@ class OrientedBuild {
   /// The box of child k, which is a node or a block of the level.
   void set_box(OrientedNode& node, std::uint32_t k, std::uint32_t level, std::uint32_t index) const {
     Box box;
-    for_each_corner(level, index, 1, [&](const Vec3& p) {
-      const Vec3 q = in_frame_of(node, p);
-      box.lo = {std::min(box.lo.x, q.x), std::min(box.lo.y, q.y), std::min(box.lo.z, q.z)};
-      box.hi = {std::max(box.hi.x, q.x), std::max(box.hi.y, q.y), std::max(box.hi.z, q.z)};
-    });
+    for_each_corner(level, index, 1, [&](const Vec3& p) { extend(box, in_frame_of(node, p)); });
     if (box.lo.x > box.hi.x) return set_empty(node.children, k);
     constexpr double rounding = 0x1p-48;  // corners are less than 4 from the centre
     const Double4 room = broadcast4(rounding);
@@ -112,7 +100,6 @@ class OrientedBuild {
   }
 
   const Bvh::Data& data_;
-  double areas_ = 0;  ///< of the boxes of blocks along the axes
   std::vector<OrientedNode> nodes_;
 };
 

@@ -264,8 +264,10 @@ class GroupSearch {
     if (!(distance + group_margin * roundings.primal <= double{limit_[i]}))
       return measure_point(data_, point, roundings, best.nearest.slot);
     if (wanted == 0 || best.separated_squared >= wanted * wanted) return {best.nearest, best.offset, wanted};
-    PointSearch alone(data_, point, FloatQuery(point), roundings);
-    return {best.nearest, best.offset, alone.separated_beyond(best.nearest.squared, wanted)};
+    const double separated = with_query(data_, point, [&](const auto& query) {
+      return PointSearch(data_, point, query, roundings).separated_beyond(best.nearest.squared, wanted);
+    });
+    return {best.nearest, best.offset, separated};
   }
 
   const Bvh::Data& data_;
