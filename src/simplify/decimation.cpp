@@ -434,10 +434,12 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
   return ended_by;
 }
 
-/// A vertex that never moved, or went to where another one was, gets the coordinates of the start to the bit: the way
-/// into the frame and back may round.
-Eigen::Vector3d Decimation::in_model(Vec3 p) const {
-  const std::optional<std::uint32_t> start = first_at(p);
+/// Where a vertex of the mesh is. One that never moved, or went to where another one was, gets the coordinates of the
+/// start to the bit: the way into the frame and back may round.
+Eigen::Vector3d Decimation::in_model(std::uint32_t vertex) const {
+  const Vec3 p = state_->mesh.position(vertex);
+  const std::uint32_t source = state_->source_vertex[vertex];
+  const std::optional<std::uint32_t> start = same_position(p, start_points()[source]) ? source : first_at(p);
   if (!start) return as_written(frame_.to_model({p.x, p.y, p.z}));
   return as_written(start_ != nullptr ? start_->mesh.vertices[*start] : in_original(*start));
 }
@@ -446,26 +448,41 @@ Eigen::Vector3d Decimation::as_written(const Eigen::Vector3d& point) const {
   return options_.precision == Precision::Single ? Eigen::Vector3d(point.cast<float>().cast<double>()) : point;
 }
 
+namespace {
+
+/// Items, each with the number of what it comes from in the start.
+class Sourced {
+ public:
+  void add(std::uint32_t source, std::uint32_t item) { keys_.push_back(std::uint64_t{source} << 32 | item); }
+  /// The items in the order of their sources; those of one source ascend.
+  [[nodiscard]] std::vector<std::uint32_t> items_in_order() && {
+    std::sort(keys_.begin(), keys_.end());
+    std::vector<std::uint32_t> items(keys_.size());
+    std::transform(keys_.begin(), keys_.end(), items.begin(),
+                   [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+    return items;
+  }
+
+ private:
+  std::vector<std::uint64_t> keys_;  ///< one number sorts faster than a pair
+};
+
+}  // namespace
+
 /// The faces that are left, by their number in the start.
 std::vector<std::uint32_t> Decimation::faces_in_order() const {
-  std::vector<std::uint32_t> faces;
+  Sourced faces;
   for (std::uint32_t f = 0; f < state_->mesh.face_count(); ++f)
-    if (!state_->mesh.is_removed(f)) faces.push_back(f);
-  const auto source = [&](std::uint32_t f) { return caller_triangle(state_->source_triangle[f]); };
-  std::sort(faces.begin(), faces.end(), [&](std::uint32_t f, std::uint32_t g) { return source(f) < source(g); });
-  return faces;
+    if (!state_->mesh.is_removed(f)) faces.add(caller_triangle(state_->source_triangle[f]), f);
+  return std::move(faces).items_in_order();
 }
 
 void Decimation::current_mesh(SimplifiedLevel& into) const {
   const DecimationState& state = *state_;
-  const auto sorted = [](std::vector<std::pair<std::uint32_t, std::uint32_t>> items) {
-    std::sort(items.begin(), items.end());
-    return items;
-  };
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> vertices, kept;  // by number in the start, in the original
+  Sourced vertices, kept;
   for (std::uint32_t v = 0; v < state.mesh.vertex_count(); ++v)
-    if (state.mesh.is_vertex(v)) vertices.emplace_back(source_of(v), v);
-  for (const std::uint32_t t : state.kept) kept.emplace_back(order_.triangle[t], t);
+    if (state.mesh.is_vertex(v)) vertices.add(source_of(v), v);
+  for (const std::uint32_t t : state.kept) kept.add(order_.triangle[t], t);
   TriangleMesh& mesh = into.mesh;
   mesh = {};
   into.source_vertex.clear();
@@ -473,10 +490,10 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
   into.lines.clear();
   into.texture_coordinates.clear();
   std::vector<std::uint32_t> index(state.mesh.vertex_count());
-  for (const auto& [source, v] : sorted(std::move(vertices))) {
+  for (const std::uint32_t v : std::move(vertices).items_in_order()) {
     index[v] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(in_model(state.mesh.position(v)));
-    into.source_vertex.push_back(source);
+    mesh.vertices.push_back(in_model(v));
+    into.source_vertex.push_back(source_of(v));
   }
   for (const std::uint32_t f : faces_in_order()) {
     const auto corners = state.mesh.corners(f);
@@ -492,7 +509,7 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
         into.lines.push_back({index[state.mesh.start(c)], index[state.mesh.end(c)]});
     }
   }
-  for (const auto& [source, t] : sorted(std::move(kept))) {
+  for (const std::uint32_t t : std::move(kept).items_in_order()) {
     Triangle corners{};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = order_.triangles[t][i];
@@ -501,8 +518,8 @@ void Decimation::current_mesh(SimplifiedLevel& into) const {
       into.source_vertex.push_back(order_.vertex[v]);
     }
     mesh.triangles.push_back(corners);
-    into.source_triangle.push_back(source);
-    if (state.texture) into.texture_coordinates.push_back(options_.texture_coordinates[source]);
+    into.source_triangle.push_back(order_.triangle[t]);
+    if (state.texture) into.texture_coordinates.push_back(options_.texture_coordinates[order_.triangle[t]]);
   }
 }
 

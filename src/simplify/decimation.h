@@ -88,7 +88,7 @@ class Decimation {
   [[nodiscard]] std::uint32_t source_of(std::uint32_t vertex) const;
   [[nodiscard]] std::vector<double> limits_in_frame() const;
   [[nodiscard]] double room() const;
-  [[nodiscard]] Eigen::Vector3d in_model(Vec3 p) const;
+  [[nodiscard]] Eigen::Vector3d in_model(std::uint32_t vertex) const;
   [[nodiscard]] Eigen::Vector3d as_written(const Eigen::Vector3d& point) const;
   [[nodiscard]] double rounding_of_output() const;
 
