@@ -11,14 +11,9 @@
 namespace meshbound {
 namespace {
 
-/// A line through the mesh meets as many boxes of blocks as their areas are together, in areas of the whole box
-/// (Cauchy and Crofton): less than 60 on 92 of 96 shared meshes, 78 on a cube of many layers, 200 to 2,000 with
-/// thousands of needles askew or of large triangles at random.
-constexpr double max_boxes_on_line = 64;
-
-/// Oriented boxes are of use where their areas are a smaller share than this of the others, as each takes a rotation
-/// to look at.
-constexpr double max_share_of_areas = 0.25;
+/// For queries: a line meets less than 60 boxes on 92 of 96 shared meshes, 78 on a cube of many layers, 200 to 2,000
+/// with thousands of needles askew or of large triangles at random. Each oriented box takes a rotation to look at.
+constexpr OrientedUse use_for_queries{64, 0.25};
 
 /// How far the axes of a frame may be from a rotation: Eigen misses it by some 2^-50.
 constexpr double rotation_error = 0x1p-42;
@@ -38,17 +33,17 @@ double half_area(const BvhNode& node) {
 
 class OrientedBuild {
  public:
-  explicit OrientedBuild(const Bvh::Data& data) : data_(data) {}
+  OrientedBuild(const Bvh::Data& data, const OrientedUse& use) : data_(data), use_(use) {}
 
   std::vector<OrientedNode> run() {
     double aligned = 0, oriented = 0;  // half the areas of the boxes of blocks
     for (std::uint32_t i = data_.level_begin[1]; i < data_.level_begin[2]; ++i) aligned += half_area(data_.nodes[i]);
     const Vec3 whole = data_.working_box.hi - data_.working_box.lo;
-    if (!(aligned > max_boxes_on_line * half_area(whole.x, whole.y, whole.z))) return {};
+    if (!(aligned > use_.max_boxes_on_line * half_area(whole.x, whole.y, whole.z))) return {};
     nodes_.reserve(data_.nodes.size());
     add_level(1);
     for (const OrientedNode& node : nodes_) oriented += half_area(node.children);
-    if (!(oriented < max_share_of_areas * aligned)) return {};
+    if (!(oriented < use_.max_share_of_areas * aligned)) return {};
     for (std::uint32_t level = 2; level < data_.levels(); ++level) add_level(level);
     return std::move(nodes_);
   }
@@ -100,15 +95,20 @@ class OrientedBuild {
   }
 
   const Bvh::Data& data_;
+  const OrientedUse use_;
   std::vector<OrientedNode> nodes_;
 };
 
 }  // namespace
 
+std::vector<OrientedNode> oriented_nodes(const Bvh::Data& data, const OrientedUse& use) {
+  return OrientedBuild(data, use).run();
+}
+
 void make_oriented_nodes(const Bvh::Data& data) {
   const std::scoped_lock lock(data.oriented.making);
   if (data.oriented.made.load(std::memory_order_relaxed)) return;
-  data.oriented.nodes = OrientedBuild(data).run();
+  data.oriented.nodes = oriented_nodes(data, use_for_queries);
   data.oriented.made.store(true, std::memory_order_release);
 }
 

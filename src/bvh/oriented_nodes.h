@@ -11,11 +11,22 @@
 
 namespace meshbound {
 
+/// Where oriented boxes are of use: elsewhere boxes along the axes serve as well.
+struct OrientedUse {
+  /// More boxes of blocks than these meet a line through the mesh, which are as many as their areas are together, in
+  /// areas of the whole box (Cauchy and Crofton);
+  double max_boxes_on_line;
+  /// and the areas of oriented ones are a smaller share than this of those.
+  double max_share_of_areas;
+};
+
+/// By node of the tree; empty where they are of no use. O(n) there, and O(n log n) where they are.
+[[nodiscard]] std::vector<OrientedNode> oriented_nodes(const Bvh::Data& data, const OrientedUse& use);
+
 /// Fills `data.oriented` unless another thread has done so, which it waits for.
 void make_oriented_nodes(const Bvh::Data& data);
 
-/// By node of the tree; empty where boxes along the axes serve as well. The first call for a tree takes O(n) there, and
-/// O(n log n) where they do not.
+/// Those for queries, which are kept with the tree.
 inline const std::vector<OrientedNode>& oriented_nodes(const Bvh::Data& data) {
   if (!data.oriented.made.load(std::memory_order_acquire)) make_oriented_nodes(data);
   return data.oriented.nodes;

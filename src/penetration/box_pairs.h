@@ -97,11 +97,12 @@ struct BoxPairMemory {
 };
 
 /// Calls `on_leaves(block_a, block_b)` for all pairs of leaves whose boxes overlap, and possibly for some others, until
-/// it returns false. Returns whether it never did. `map` leads from the working frame of b to that of a. In a tree
-/// compared with itself (`is_same`) each pair comes once, with block_a <= block_b.
-template <class OnLeaves>
-bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map, bool is_same, BoxPairMemory& memory,
-                     std::uint64_t& compared, OnLeaves&& on_leaves) {
+/// it returns false. Returns whether it never did. Leaves out pairs of nodes of which `are_apart(pair)` is true. `map`
+/// leads from the working frame of b to that of a. In a tree compared with itself (`is_same`) each pair comes once,
+/// with block_a <= block_b.
+template <class AreApart, class OnLeaves>
+bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map, bool is_same,
+                     const AreApart& are_apart, BoxPairMemory& memory, std::uint64_t& compared, OnLeaves&& on_leaves) {
   const double scale = std::fabs(map.rows[0].x) + std::fabs(map.rows[0].y) + std::fabs(map.rows[0].z);
   const double margin = map.error + a.frame.error + 2 * scale * b.frame.error + 0x1p-40 * map.magnitude;
   std::vector<NodePair>& stack = memory.stack;
@@ -135,7 +136,8 @@ bool visit_box_pairs(const Bvh::Data& a, const Bvh::Data& b, const Mapping& map,
       unsigned hits = overlapping_children(node_a, box) & lanes_a;
       for (; hits != 0; hits &= hits - 1) {
         const std::uint32_t child_a = first_a + static_cast<std::uint32_t>(std::countr_zero(hits));
-        if (!is_same || child_a <= child_b) stack.push_back({child_level_a, child_a, child_level_b, child_b});
+        const NodePair children{child_level_a, child_a, child_level_b, child_b};
+        if ((!is_same || child_a <= child_b) && !are_apart(children)) stack.push_back(children);
       }
     }
   }

@@ -11,6 +11,7 @@
 #include "numeric/rounding.h"
 #include "penetration/contact.h"
 #include "penetration/exact_point.h"
+#include "penetration/nodes_apart.h"
 #include "penetration/parity.h"
 #include "penetration/placed_pair.h"
 
@@ -159,7 +160,7 @@ void require_no_crossing(const ClosedModel::Data& model, const StopToken& stop) 
   require_area(model, pair);
   BoxPairMemory box_pairs;
   PairCounters counters;
-  visit_triangle_pairs(pair, true, box_pairs, counters, [&](std::uint32_t s, std::uint32_t t) {
+  visit_triangle_pairs(pair, true, NodesApart(model), box_pairs, counters, [&](std::uint32_t s, std::uint32_t t) {
     if (!triangles_cross(pair, model.triangles[s], model.triangles[t])) return true;
     const auto [first, second] = std::minmax(s, t);
     throw InvalidInput("the mesh intersects itself: " + name_of(model, first) + ", at " +

@@ -35,11 +35,11 @@ struct PairCounters {
 };
 
 /// Calls `on_triangles(s, t)` for all pairs of a triangle of each side whose boxes overlap, until it returns false.
-/// Returns whether it never did. `is_same`: both sides are one model at one place, and each pair of its triangles comes
-/// once.
-template <class OnTriangles>
-bool visit_triangle_pairs(PlacedPair& pair, bool is_same, BoxPairMemory& memory, PairCounters& counters,
-                          OnTriangles&& on_triangles) {
+/// Returns whether it never did. Leaves out those below nodes of which `are_apart(pair)` is true. `is_same`: both sides
+/// are one model at one place, and each pair of its triangles comes once.
+template <class AreApart, class OnTriangles>
+bool visit_triangle_pairs(PlacedPair& pair, bool is_same, const AreApart& are_apart, BoxPairMemory& memory,
+                          PairCounters& counters, OnTriangles&& on_triangles) {
   const std::uint32_t side = pair.tree_side();
   const Bvh::Data &a = pair.model(side).tree.data(), &b = pair.model(1 - side).tree.data();
   const auto on_leaves = [&](std::uint32_t block_a, std::uint32_t block_b) {
@@ -61,7 +61,14 @@ bool visit_triangle_pairs(PlacedPair& pair, bool is_same, BoxPairMemory& memory,
     }
     return true;
   };
-  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, memory, counters.node_pairs, on_leaves);
+  return visit_box_pairs(a, b, pair.tree_mapping(), is_same, are_apart, memory, counters.node_pairs, on_leaves);
+}
+
+/// The same for two models.
+template <class OnTriangles>
+bool visit_triangle_pairs(PlacedPair& pair, BoxPairMemory& memory, PairCounters& counters, OnTriangles&& on_triangles) {
+  const auto none = [](const NodePair&) { return false; };
+  return visit_triangle_pairs(pair, false, none, memory, counters, on_triangles);
 }
 
 }  // namespace meshbound

@@ -20,7 +20,7 @@ void CrossingCurves::find(PlacedPair& pair, double node_error) {
   flush_corners.clear();
   node_at_.clear();
   counters = {};
-  visit_triangle_pairs(pair, false, box_pairs_, counters, [&](std::uint32_t s, std::uint32_t t) {
+  visit_triangle_pairs(pair, box_pairs_, counters, [&](std::uint32_t s, std::uint32_t t) {
     cross(pair, s, t);
     return true;
   });

@@ -273,11 +273,10 @@ bool in_contact(const PlacedClosedModel& a, const PlacedClosedModel& b) {
   PlacedPair& pair = memory.pair;
   pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
   PairCounters counters;
-  const bool are_apart =
-      visit_triangle_pairs(pair, false, memory.box_pairs, counters, [&](std::uint32_t s, std::uint32_t t) {
-        const Triangle &p = pair.model(0).triangles[s], &q = pair.model(1).triangles[t];
-        return !triangles_meet(pair, {{{0, p[0]}, {0, p[1]}, {0, p[2]}}}, {{{1, q[0]}, {1, q[1]}, {1, q[2]}}});
-      });
+  const bool are_apart = visit_triangle_pairs(pair, memory.box_pairs, counters, [&](std::uint32_t s, std::uint32_t t) {
+    const Triangle &p = pair.model(0).triangles[s], &q = pair.model(1).triangles[t];
+    return !triangles_meet(pair, {{{0, p[0]}, {0, p[1]}, {0, p[2]}}}, {{{1, q[0]}, {1, q[1]}, {1, q[2]}}});
+  });
   if (!are_apart) return true;
   for (std::uint32_t side = 0; side < 2; ++side)
     for (std::uint32_t i = 0; i < pair.model(side).components.size(); ++i)
