@@ -4,37 +4,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <random>
 #include <vector>
 
-#include "geometry/magnitude.h"
+#include "model_data.h"
 #include "penetration/contact.h"
-#include "penetration/exact_point.h"
 #include "reference/small_meshes.h"
 
 namespace nodes_apart_test {
 
 using namespace meshbound;
 using namespace meshbound::reference;
-
-/// A mesh of vertices at different positions as a model, closed or not.
-ClosedModel::Data model_of(const TriangleMesh& mesh) {
-  ClosedModel::Data model{Bvh(mesh)};
-  model.triangles = mesh.triangles;
-  model.source_triangle.resize(mesh.triangles.size());
-  std::iota(model.source_triangle.begin(), model.source_triangle.end(), 0);
-  const Vec3& center = model.tree.data().frame.center;
-  model.lowest_bit = std::min({lowest_bit(center.x), lowest_bit(center.y), lowest_bit(center.z)});
-  for (const Eigen::Vector3d& p : mesh.vertices) {
-    const Vec3& v = model.positions.emplace_back(Vec3{p.x(), p.y(), p.z()});
-    model.lowest_bit = std::min({model.lowest_bit, lowest_bit(v.x), lowest_bit(v.y), lowest_bit(v.z)});
-    model.reach = std::max(model.reach, largest_magnitude_of(v - center));
-  }
-  return model;
-}
+using test::model_data;
 
 /// Numbers from -1 to 1 with 33 bits.
 class Uniform {
@@ -119,7 +101,7 @@ struct Meeting {
 };
 
 Meeting meeting_in(const TriangleMesh& mesh) {
-  const ClosedModel::Data model = model_of(mesh);
+  const ClosedModel::Data model = model_data(mesh);
   const Bvh::Data& tree = model.tree.data();
   const NodesApart are_apart(model);
   PlacedPair pair;
@@ -169,7 +151,7 @@ std::uint64_t pairs_looked_at(const ClosedModel::Data& model, const AreApart& ar
 
 TEST(NodesApart, SpareNearlyAllPairsOfNeedlesAndAroundHubs) {
   for (const TriangleMesh& mesh : {needles(1500), fan(3000), double_cone(1500)}) {
-    const ClosedModel::Data model = model_of(mesh);
+    const ClosedModel::Data model = model_data(mesh);
     const auto none = [](const NodePair&) { return false; };
     EXPECT_GT(pairs_looked_at(model, none), 3000 * 3000 / 20);
     EXPECT_LT(pairs_looked_at(model, NodesApart(model)), 3000 * 60);

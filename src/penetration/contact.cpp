@@ -48,6 +48,13 @@ bool an_edge_separates(PlacedPair& pair, const PairTriangle& s, const PairTriang
   return false;
 }
 
+/// Whether doubles tell that all corners of s lie strictly on one side of the plane of t.
+bool plane_surely_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
+  const int first = pair.certain_orientation(t[0], t[1], t[2], s[0]);
+  return first != 0 && pair.certain_orientation(t[0], t[1], t[2], s[1]) == first &&
+         pair.certain_orientation(t[0], t[1], t[2], s[2]) == first;
+}
+
 bool are_separate(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
   const double error = pair.largest_error();
   const int axis = dominant_axis(pair.local(s[0]), pair.local(s[1]), pair.local(s[2]));
@@ -154,6 +161,7 @@ bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t) {
   if (shared == 3) return true;
   const auto vertices = [](const Triangle& u) { return PairTriangle{{{0, u[0]}, {0, u[1]}, {0, u[2]}}}; };
   const PairTriangle p = vertices(first), q = vertices(second);
+  if (shared == 0 && (plane_surely_separates(pair, p, q) || plane_surely_separates(pair, q, p))) return false;
   if (shared == 1 && are_apart_around_corner(pair, p, q)) return false;
   if (are_separate(pair, p, q)) return false;
   if (shared == 2) return folded(pair, p[0], p[1], p[2], q[2]);

@@ -188,12 +188,15 @@ Vec3 PlacedPair::to_local(const ExactPoint& numerator, const mpz_class& denomina
   return {coordinate(numerator.x, origin_.x), coordinate(numerator.y, origin_.y), coordinate(numerator.z, origin_.z)};
 }
 
-int PlacedPair::orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s) {
+int PlacedPair::certain_orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s) {
   const Vec3 from = local(p), a = local(q) - from, b = local(r) - from, c = local(s) - from;
   const double volume = dot(a, cross(b, c));
-  int sign = sign_beyond_error(volume);
-  if (sign == 0) sign = certain_sign(volume, a, b, c, largest_error());
-  if (sign != 0) return sign;
+  const int sign = sign_beyond_error(volume);
+  return sign != 0 ? sign : certain_sign(volume, a, b, c, largest_error());
+}
+
+int PlacedPair::orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s) {
+  if (const int sign = certain_orientation(p, q, r, s); sign != 0) return sign;
   ++exact_decisions_;
   return sgn(volume_of(exact(p), exact(q), exact(r), exact(s)));
 }

@@ -74,6 +74,8 @@ class PlacedPair {
 
   /// Sign of `volume_of` without any perturbation.
   [[nodiscard]] int orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s);
+  /// The same; 0 also where doubles cannot tell.
+  [[nodiscard]] int certain_orientation(PairVertex p, PairVertex q, PairVertex r, PairVertex s);
   /// 1 if vertex v of the other side lies on the side of triangle (p, q, r) of `side` that its normal points to, else
   /// -1; never 0 for a triangle with area.
   [[nodiscard]] int side_of_plane(std::uint32_t side, const Triangle& triangle, std::uint32_t vertex);
