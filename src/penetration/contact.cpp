@@ -48,13 +48,6 @@ bool an_edge_separates(PlacedPair& pair, const PairTriangle& s, const PairTriang
   return false;
 }
 
-/// Whether doubles tell that all corners of s lie strictly on one side of the plane of t.
-bool plane_surely_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
-  const int first = pair.certain_orientation(t[0], t[1], t[2], s[0]);
-  return first != 0 && pair.certain_orientation(t[0], t[1], t[2], s[1]) == first &&
-         pair.certain_orientation(t[0], t[1], t[2], s[2]) == first;
-}
-
 bool are_separate(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
   const double error = pair.largest_error();
   const int axis = dominant_axis(pair.local(s[0]), pair.local(s[1]), pair.local(s[2]));
@@ -118,11 +111,19 @@ bool segment_meets(PlacedPair& pair, PairVertex p, PairVertex q, const PairTrian
   return least >= 0 || largest <= 0;
 }
 
+/// `PlacedPair::orientation`, or `certain_orientation` where doubles alone are asked.
+using Orientation = int (PlacedPair::*)(PairVertex, PairVertex, PairVertex, PairVertex);
+
 /// Whether all corners of s lie strictly on one side of the plane of t.
-bool plane_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
-  const int first = pair.orientation(t[0], t[1], t[2], s[0]);
-  return first != 0 && pair.orientation(t[0], t[1], t[2], s[1]) == first &&
-         pair.orientation(t[0], t[1], t[2], s[2]) == first;
+bool plane_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t, Orientation orientation) {
+  const auto side_of = [&](PairVertex v) { return (pair.*orientation)(t[0], t[1], t[2], v); };
+  const int first = side_of(s[0]);
+  return first != 0 && side_of(s[1]) == first && side_of(s[2]) == first;
+}
+
+/// Whether the plane of one of two triangles has all corners of the other strictly on one side.
+bool a_plane_separates(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t, Orientation orientation) {
+  return plane_separates(pair, s, t, orientation) || plane_separates(pair, t, s, orientation);
 }
 
 /// Moves the corners that s shares with t to the front, in their order, and returns their number.
@@ -147,7 +148,7 @@ bool folded(PlacedPair& pair, PairVertex a, PairVertex b, PairVertex c, PairVert
 }  // namespace
 
 bool triangles_meet(PlacedPair& pair, const PairTriangle& s, const PairTriangle& t) {
-  if (plane_separates(pair, s, t) || plane_separates(pair, t, s)) return false;
+  if (a_plane_separates(pair, s, t, &PlacedPair::orientation)) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (segment_meets(pair, s[k], s[next_corner(k)], t) || segment_meets(pair, t[k], t[next_corner(k)], s)) return true;
   return false;
@@ -161,7 +162,7 @@ bool triangles_cross(PlacedPair& pair, const Triangle& s, const Triangle& t) {
   if (shared == 3) return true;
   const auto vertices = [](const Triangle& u) { return PairTriangle{{{0, u[0]}, {0, u[1]}, {0, u[2]}}}; };
   const PairTriangle p = vertices(first), q = vertices(second);
-  if (shared == 0 && (plane_surely_separates(pair, p, q) || plane_surely_separates(pair, q, p))) return false;
+  if (shared == 0 && a_plane_separates(pair, p, q, &PlacedPair::certain_orientation)) return false;
   if (shared == 1 && are_apart_around_corner(pair, p, q)) return false;
   if (are_separate(pair, p, q)) return false;
   if (shared == 2) return folded(pair, p[0], p[1], p[2], q[2]);

@@ -64,7 +64,8 @@ bool visit_triangle_pairs(PlacedPair& pair, bool is_same, const AreApart& are_ap
   return visit_box_pairs(a, b, pair.tree_mapping(), is_same, are_apart, memory, counters.node_pairs, on_leaves);
 }
 
-/// The same for two models.
+/// Calls `on_triangles(s, t)` for all pairs of a triangle of each of two models whose boxes overlap, until it returns
+/// false. Returns whether it never did.
 template <class OnTriangles>
 bool visit_triangle_pairs(PlacedPair& pair, BoxPairMemory& memory, PairCounters& counters, OnTriangles&& on_triangles) {
   const auto none = [](const NodePair&) { return false; };

@@ -50,7 +50,7 @@ Box box_of_arc(const Vec3& from, const Vec3& p, const Vec3& q) {
   return {box.lo - grown, box.hi + grown};
 }
 
-/// Whether the length of a way is such that its direction is accurate.
+/// Whether the direction of a way is accurate: the square of a longer or shorter one may be no normal number.
 bool has_direction(const Vec3& way) {
   const double size = length(way);
   return size > least_accurate_length && size < 1 / least_accurate_length;

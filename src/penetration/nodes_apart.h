@@ -12,7 +12,7 @@
 
 namespace meshbound {
 
-/// Of the tree of one model, compared with itself. Any number of threads may ask.
+/// Tells nodes of the tree of one model apart where the model is compared with itself. Any number of threads may ask.
 class NodesApart {
  public:
   /// `model` must outlive this. O(n), and O(n log n) where it is full of needles.

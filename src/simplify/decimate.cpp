@@ -218,8 +218,9 @@ void Run::propose_together(bool is_first) {
   for (int cut = 1; cut < max_cuts && is_worth_another; ++cut) {
     const std::size_t before = state_.faces;
     const std::size_t regions = propose(cut % 2 == 1 ? 1 : 2, share_together);
-    const double min_gain = cut + 1 < cuts_anyway ? min_gain_for_next_cut : min_gain_of_cut;
-    is_worth_another = (cut + 1 < cuts_anyway || regions > few_regions) && is_gain(before, min_gain);
+    const bool follows_anyway = cut + 1 < cuts_anyway;
+    is_worth_another = follows_anyway ? is_gain(before, min_gain_for_next_cut)
+                                      : regions > few_regions && is_gain(before, min_gain_of_cut);
   }
 }
 
