@@ -199,6 +199,26 @@ TEST(LoopCover, BeginsAtEitherEnd) {
   }
 }
 
+/// A strip above the left part of the square ends before the other end of each edge.
+TEST(LoopCover, ForgetsAWalkThatEndsBeforeItsEdge) {
+  TriangleMesh mesh = reference::unit_square(4);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size()),
+             strip = static_cast<std::uint32_t>(mesh.triangles.size());
+  const double above = tolerance / 2;
+  mesh.vertices.insert(mesh.vertices.end(),
+                       {{0, 0, above}, {0.2, 0, above}, {0.4, 0, above}, {0, 1, above}, {0.4, 1, above}});
+  for (const Triangle& t : {Triangle{0, 1, 3}, Triangle{1, 4, 3}, Triangle{1, 2, 4}})
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  Covered it(mesh, {{{0.05, 0.3, 0}, {0.8, 0.3, 0}, {0.8, 0.36, 0}}});
+  it.loops.set_tolerance(tolerance, 1);
+  const auto on_strip_first = [&](std::uint32_t from, std::uint32_t) {
+    return from == 0 ? LoopCover::Start{strip, false} : it.start_at(from);
+  };
+  ASSERT_TRUE(it.loops.covers(0, on_strip_first, every_face, it.faces));
+  EXPECT_LE(it.distance(), proven);
+  for (const std::uint32_t f : it.faces) EXPECT_LT(f, strip);
+}
+
 TEST(LoopCover, RefusesAStartThatIsTooFarAway) {
   Covered it(reference::unit_square(5), {{{0.3, 0.22, 0.01}, {0.34, 0.22, 0.01}, {0.33, 0.24, 0.01}}});
   it.loops.set_tolerance(tolerance, 1);
@@ -208,9 +228,33 @@ TEST(LoopCover, RefusesAStartThatIsTooFarAway) {
   EXPECT_FALSE(it.loops.covers(0, far_away, every_face, it.faces));
 }
 
-TEST(LoopCover, GivesUpWhereTooManyFacesWouldBeNeeded) {
-  Covered it(reference::unit_square(40), {{{0.03, 0.02, 0}, {0.98, 0.04, 0}, {0.05, 0.95, 0}}});
-  EXPECT_FALSE(it.covers(tolerance / 10));
+/// Each column of the square has two faces, and a needle goes through both.
+TEST(LoopCover, FollowsANeedleAcrossDozensOfFacesButNotMore) {
+  for (const double end : {0.7, 0.98}) {
+    Covered it(reference::unit_square(40), {{{0.03, 0.021, 0}, {end, 0.0211, 0}, {end, 0.0212, 0}}});
+    EXPECT_EQ(it.covers(tolerance / 10), end < 0.8);
+    EXPECT_EQ(it.faces.empty(), end > 0.8);
+    if (!it.faces.empty()) EXPECT_LE(it.distance(), tolerance / 10 * (1 + CandidateFaces::plane_slack));
+  }
+}
+
+/// Needles side by side: their walks have more faces together than are kept.
+TEST(LoopCover, CoversMoreNeedlesThanItRemembers) {
+  constexpr std::uint32_t count = 400;
+  std::vector<Vec3> points;
+  std::vector<Triangle> needles;
+  for (std::uint32_t i = 0; i <= count; ++i) {
+    const double y = 0.2 + 0.6 * i / count;
+    points.insert(points.end(), {{0.03, y, 0}, {0.7, y, 0}});
+    if (i < count) needles.push_back({2 * i, 2 * i + 1, 2 * i + 3});
+  }
+  Covered it(reference::unit_square(40), points, needles);
+  for (std::uint32_t i = 0; i < 2 * count; ++i) {
+    const std::uint32_t t = i % 2 == 0 ? i / 2 : i / 4;  // one that is new and one that was asked for before
+    ASSERT_TRUE(it.covers(tolerance / 10, t)) << t;
+    EXPECT_GE(it.faces.size(), 20U);
+    EXPECT_LE(it.distance(t), tolerance / 10 * (1 + CandidateFaces::plane_slack));
+  }
 }
 
 TEST(LoopCover, TakesUsableFacesOnly) {

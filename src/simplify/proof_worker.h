@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "simplify/cover/loop_cover.h"
 #include "simplify/cover/parity_proof.h"
 #include "simplify/cover/patch_cover.h"
+#include "simplify/cover/reach_of_triangle.h"
 #include "simplify/cover/slab_proof.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/proof_workers.h"
@@ -68,7 +70,7 @@ class ProofWorkers::Worker {
       if (loops_.covers(t, start_at, is_usable, drafted_)) return drafted_;
     }
     if (const std::uint32_t f = across(at, corners, limit); f != no_index) return draft(f);
-    find_around(at, grown(box_of(corners), state_.tolerance));
+    find_around(at, {corners, state_.tolerance});
     cover_by_found(t, corners, limit, is_usable);
     return drafted_;
   }
@@ -81,9 +83,11 @@ class ProofWorkers::Worker {
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return {};
     found_.clear();
-    boxes.find(grown(box_of(corners), state_.tolerance), found_);
-    std::erase_if(found_, [&](std::uint32_t f) { return state_.mesh.is_removed(f); });
-    if (!is_near_found(middle_of(corners))) return {};
+    const ReachOfTriangle reach(corners, state_.tolerance);
+    boxes.find(reach.box(), found_);
+    std::erase_if(found_,
+                  [&](std::uint32_t f) { return state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f)); });
+    if (!is_near_one_of(found_, middle_of(corners))) return {};
     const auto one =
         std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
     if (one != found_.end()) return draft(*one);
@@ -348,6 +352,7 @@ class ProofWorkers::Worker {
   struct SubTriangle {
     Corners corners;
     int halvings = 0;
+    std::span<const std::uint32_t> around;  ///< faces found, those that meet its reach among them
   };
 
   /// The face above or below which a point lies, seen along the normals of the faces, or one on the way there. Walks
@@ -393,11 +398,11 @@ class ProofWorkers::Worker {
     return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
   }
 
-  /// Whether one of the faces found is near a point.
-  [[nodiscard]] bool is_near_found(Vec3 p) const {
+  /// Whether one of these faces is near a point.
+  [[nodiscard]] bool is_near_one_of(std::span<const std::uint32_t> faces, Vec3 p) const {
     const double squared_tolerance = state_.tolerance * state_.tolerance;
     return std::ranges::any_of(
-        found_, [&](std::uint32_t f) { return squared_distance(state_.mesh.triangle(f), p) <= squared_tolerance; });
+        faces, [&](std::uint32_t f) { return squared_distance(state_.mesh.triangle(f), p) <= squared_tolerance; });
   }
 
   /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
@@ -413,11 +418,11 @@ class ProofWorkers::Worker {
       drafted_.push_back(f);
       return true;
     }
-    const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
+    const ReachOfTriangle reach(corners, state_.tolerance);
     found_.clear();
     found_marks_.clear();
     for (const std::uint32_t f : changed) {
-      if (state_.mesh.is_removed(f) || !box_meets(state_.mesh.triangle(f), reach)) continue;
+      if (state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f))) continue;
       found_marks_.insert(f);
       found_.push_back(f);
     }
@@ -426,24 +431,24 @@ class ProofWorkers::Worker {
     return !drafted_.empty();
   }
 
-  /// Finds the faces that hang together with those at the corners and whose boxes meet `reach`.
-  void find_around(const std::array<std::uint32_t, 3>& at, const Eigen::AlignedBox3d& reach) {
+  /// Finds the faces that hang together with those at the corners and that meet `reach`.
+  void find_around(const std::array<std::uint32_t, 3>& at, const ReachOfTriangle& reach) {
     found_.clear();
     found_marks_.clear();
     for (const std::uint32_t f : at)
       if (f != no_index && found_marks_.insert(f)) found_.push_back(f);
     spread(reach, [](std::uint32_t) { return true; });
   }
-  /// Adds the faces that hang together with those found, by faces of which that is true, and whose boxes meet `reach`.
+  /// Adds the faces that hang together with those found, by faces of which that is true, and that meet `reach`.
   template <class Wanted>
-  void spread(const Eigen::AlignedBox3d& reach, const Wanted& is_wanted) {
+  void spread(const ReachOfTriangle& reach, const Wanted& is_wanted) {
     vertex_marks_.clear();
     for (std::size_t i = 0; i < found_.size() && found_.size() < max_found; ++i) {
       for (Corner c = 3 * found_[i]; c < 3 * found_[i] + 3; ++c) {
         if (!vertex_marks_.insert(state_.mesh.vertex(c))) continue;
         state_.mesh.for_each_corner(state_.mesh.vertex(c), [&](Corner d) {
           const std::uint32_t f = d / 3;
-          if (!found_marks_.insert(f) || !is_wanted(f) || !box_meets(state_.mesh.triangle(f), reach)) return true;
+          if (!found_marks_.insert(f) || !is_wanted(f) || !reach.meets(state_.mesh.triangle(f))) return true;
           found_.push_back(f);
           return true;
         });
@@ -465,10 +470,12 @@ class ProofWorkers::Worker {
 
   /// Large sub-triangles come first: a part that is not near any face is found before others are cut into small pieces.
   void cover_in_sub_triangles(const Corners& corners, double limit) {
-    sub_triangles_.assign(1, {corners, 0});
+    around_.clear();
+    sub_triangles_.assign(1, {corners, 0, found_});
     for (std::size_t i = 0, count = 1; i < sub_triangles_.size(); ++i) {
-      const SubTriangle sub_triangle = sub_triangles_[i];
-      if (!is_near_found(middle_of(sub_triangle.corners))) return drafted_.clear();
+      SubTriangle& sub_triangle = sub_triangles_[i];
+      choose_around(sub_triangle);
+      if (!is_near_one_of(chosen_, middle_of(sub_triangle.corners))) return drafted_.clear();
       choose_candidates(sub_triangle.corners);
       enter(chosen_, limit);
       const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);
@@ -476,7 +483,7 @@ class ProofWorkers::Worker {
         drafted_.clear();
         return;
       }
-      if (*used == 0) halve(sub_triangle);
+      if (*used == 0) halve(SubTriangle(sub_triangle));
       take(*used, drafted_);
     }
     sort_unique(drafted_);
@@ -498,12 +505,20 @@ class ProofWorkers::Worker {
     }
   }
 
-  /// Chooses among the faces around those that hold most corners, then those nearest to the middle.
-  void choose_candidates(const Corners& corners) {
-    const Eigen::AlignedBox3d reach = grown(box_of(corners), state_.tolerance);
+  /// Chooses the faces that meet the reach of a sub-triangle. Its halves look among these only, where they are many,
+  /// but not most of those it has looked among.
+  void choose_around(SubTriangle& sub_triangle) {
+    const ReachOfTriangle reach(sub_triangle.corners, state_.tolerance);
     chosen_.clear();
-    for (const std::uint32_t f : found_)
-      if (box_meets(state_.mesh.triangle(f), reach)) chosen_.push_back(f);
+    for (const std::uint32_t f : sub_triangle.around)
+      if (reach.meets(state_.mesh.triangle(f))) chosen_.push_back(f);
+    if (sub_triangle.around.size() > CandidateFaces::capacity && 2 * chosen_.size() <= sub_triangle.around.size())
+      sub_triangle.around = around_.emplace_back(chosen_);
+  }
+
+  /// Chooses among those chosen, if they are too many, the faces that hold most corners, then those nearest to the
+  /// middle.
+  void choose_candidates(const Corners& corners) {
     if (chosen_.size() <= CandidateFaces::capacity) return;
     const double squared_tolerance = state_.tolerance * state_.tolerance;
     std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
@@ -547,6 +562,7 @@ class ProofWorkers::Worker {
   bool meets_seam_ = false;
   std::optional<Vec3> lost_point_;
   std::vector<SubTriangle> sub_triangles_;
+  std::deque<std::vector<std::uint32_t>> around_;  ///< of sub-triangles; not moved as it grows
 
   /// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most
   /// so many sub-triangles, each with candidates of its own. The cuts of sub-triangles and of covers count together.

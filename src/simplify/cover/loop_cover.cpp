@@ -8,7 +8,7 @@ void LoopCover::set_tolerance(double tolerance, double magnitude) {
 }
 
 void LoopCover::append(const Walk& walk, bool forward) {
-  for (std::size_t i = 0; i < walk.count; ++i) append(walk.faces[forward ? i : walk.count - 1 - i]);
+  for (std::size_t i = 0; i < walk.count; ++i) append(faces_[walk.begin + (forward ? i : walk.count - 1 - i)]);
 }
 
 void LoopCover::list_faces(std::vector<std::uint32_t>& faces) const {

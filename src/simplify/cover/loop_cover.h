@@ -44,7 +44,10 @@ class LoopCover {
 
   /// Forgets all walks. Must be called when the mesh, or what `start_at` and `is_usable` tell, has changed, as must
   /// `PreparedFaces::forget`.
-  void forget() { ++round_; }
+  void forget() {
+    ++round_;
+    faces_.clear();
+  }
   /// Sets the distance within which faces hold points. No coordinate may be larger than `magnitude`.
   void set_tolerance(double tolerance, double magnitude);
   /// Whether a face is within the tolerance of a point; false says nothing.
@@ -70,11 +73,13 @@ class LoopCover {
   }
 
  private:
-  /// Most faces along an edge: an original that is so much larger is better tried in another way.
-  static constexpr std::size_t max_faces = 6;
-  static_assert(max_faces <= ForwardCover::deepest_cut);
+  /// Most faces along an edge. A needle crosses dozens: with 6 a disc of 60,000 needles takes 30 times as long, as each
+  /// that crosses more is cut into hundreds of pieces.
+  static constexpr std::size_t max_faces = ForwardCover::deepest_cut;
   /// Edges around a star, so that few walks take the place of others.
   static constexpr std::size_t walk_count = 512;
+  /// All walks are forgotten where they have so many faces together: a proof of everything walks along all edges.
+  static constexpr std::size_t max_faces_kept = 16 * walk_count;
 
   /// The faces along an edge.
   struct Walk {
@@ -82,19 +87,19 @@ class LoopCover {
     std::uint32_t round = 0;          ///< of `forget`
     std::uint32_t from = 0;           ///< where it begins
     double tolerance = 0;
-    std::size_t count = 0;  ///< 0: it does not reach the end
-    std::array<std::uint32_t, max_faces> faces{};
+    std::uint32_t begin = 0, count = 0;  ///< its faces in `faces_`; 0: it does not reach the end
   };
   template <class StartAt, class Usable>
   [[nodiscard]] const Walk& walk_between(std::uint32_t low, std::uint32_t high, const StartAt& start_at,
                                          const Usable& is_usable) {
     Walk& walk = walks_[(7 * low + 3 * high) % walk_count];
     if (walk.round == round_ && walk.low == low && walk.high == high && walk.tolerance == tolerance_) return walk;
-    walk = {low, high, round_, low, tolerance_, 0, {}};
+    if (faces_.size() > max_faces_kept) forget();
+    walk = {low, high, round_, low, tolerance_, static_cast<std::uint32_t>(faces_.size()), 0};
     const Start start = start_at(low, high);
     if (start.holds_both) {
       walk.count = 1;
-      walk.faces[0] = start.face;
+      faces_.push_back(start.face);
       return walk;
     }
     if (!goes(walk, start, is_usable)) {
@@ -109,11 +114,13 @@ class LoopCover {
   [[nodiscard]] bool goes(Walk& walk, const Start& start, const Usable& is_usable) {
     const Vec3 end = vertices_[walk.from == walk.low ? walk.high : walk.low];
     if (!walk_.begin(start.face, vertices_[walk.from])) return false;
-    for (std::size_t count = 0; count < max_faces && is_usable(walk_.face());) {
-      walk.faces[count++] = walk_.face();
+    for (std::uint32_t count = 0; count < max_faces && is_usable(walk_.face());) {
+      faces_.push_back(walk_.face());
+      ++count;
       if (walk_.reaches(end)) return walk.count = count, true;
-      if (!walk_.pass(end)) return false;
+      if (!walk_.pass(end)) break;
     }
+    faces_.resize(walk.begin);
     return false;
   }
 
@@ -131,7 +138,8 @@ class LoopCover {
   SurfaceWalk<MeshSoup> walk_;
   double tolerance_ = 0;
   std::uint32_t round_ = 1;
-  std::vector<Walk> walks_;  ///< by a hash of their vertices
+  std::vector<Walk> walks_;           ///< by a hash of their vertices
+  std::vector<std::uint32_t> faces_;  ///< of the walks
   std::size_t loop_size_ = 0;
   std::array<std::uint32_t, 3 * max_faces> loop_{};  ///< the faces of its parts
 };
