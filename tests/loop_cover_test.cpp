@@ -234,7 +234,9 @@ TEST(LoopCover, FollowsANeedleAcrossDozensOfFacesButNotMore) {
     Covered it(reference::unit_square(40), {{{0.03, 0.021, 0}, {end, 0.0211, 0}, {end, 0.0212, 0}}});
     EXPECT_EQ(it.covers(tolerance / 10), end < 0.8);
     EXPECT_EQ(it.faces.empty(), end > 0.8);
-    if (!it.faces.empty()) EXPECT_LE(it.distance(), tolerance / 10 * (1 + CandidateFaces::plane_slack));
+    if (!it.faces.empty()) {
+      EXPECT_LE(it.distance(), tolerance / 10 * (1 + CandidateFaces::plane_slack));
+    }
   }
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <deque>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "meshbound/proximity.h"
@@ -18,6 +16,7 @@
 #include "simplify/cover/patch_cover.h"
 #include "simplify/cover/reach_of_triangle.h"
 #include "simplify/cover/slab_proof.h"
+#include "simplify/cover/sub_triangle_cover.h"
 #include "simplify/mesh/face_box.h"
 #include "simplify/proof_workers.h"
 #include "simplify/regions.h"
@@ -37,7 +36,8 @@ class ProofWorkers::Worker {
         slab_proof_(original_, state.clustered.clusters, state.clustered.slabs),
         proximity_(state.tree),
         prepared_(MeshSoup{state.mesh}),
-        loops_(state.vertices, state.triangles, prepared_) {}
+        loops_(state.vertices, state.triangles, prepared_),
+        sub_triangles_(state.mesh, cover_) {}
 
   /// Must be called where the mesh may have changed, before `cover` or `cover_anywhere`: what has been prepared of its
   /// faces is kept until then.
@@ -87,11 +87,11 @@ class ProofWorkers::Worker {
     boxes.find(reach.box(), found_);
     std::erase_if(found_,
                   [&](std::uint32_t f) { return state_.mesh.is_removed(f) || !reach.meets(state_.mesh.triangle(f)); });
-    if (!is_near_one_of(found_, middle_of(corners))) return {};
+    if (!sub_triangles_.is_near_one_of(found_, middle_of(corners), limit)) return {};
     const auto one =
         std::find_if(found_.begin(), found_.end(), [&](std::uint32_t f) { return holds(f, corners, limit); });
     if (one != found_.end()) return draft(*one);
-    cover_in_sub_triangles(corners, limit);
+    (void)sub_triangles_.covers(corners, found_, limit, drafted_);
     return drafted_;
   }
 
@@ -315,11 +315,12 @@ class ProofWorkers::Worker {
   template <class Usable>
   void cover_by_found(std::uint32_t t, const Corners& corners, double limit, const Usable& is_usable) {
     if (found_.size() <= CandidateFaces::capacity) {
-      enter(found_, limit);
+      cover_.begin(limit);
+      for (const std::uint32_t f : found_) cover_.add(state_.mesh.triangle(f), f);
       take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
       if (!drafted_.empty() || (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable))) return;
     }
-    cover_in_sub_triangles(corners, limit);
+    (void)sub_triangles_.covers(corners, found_, limit, drafted_);
   }
   /// Enters the faces around the first `count` of those found.
   template <class Owned>
@@ -349,12 +350,6 @@ class ProofWorkers::Worker {
     found_.push_back(face);
     cover_.add(state_.mesh.triangle(face), face);
   }
-  struct SubTriangle {
-    Corners corners;
-    int halvings = 0;
-    std::span<const std::uint32_t> around;  ///< faces found, those that meet its reach among them
-  };
-
   /// The face above or below which a point lies, seen along the normals of the faces, or one on the way there. Walks
   /// from `face` across the edge that the point is furthest beyond: a sample that others go with is not always near
   /// theirs.
@@ -396,13 +391,6 @@ class ProofWorkers::Worker {
   bool holds(std::uint32_t face, const Corners& points, double limit) {
     const PreparedTriangle& triangle = prepared_.triangle(face);
     return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
-  }
-
-  /// Whether one of these faces is near a point.
-  [[nodiscard]] bool is_near_one_of(std::span<const std::uint32_t> faces, Vec3 p) const {
-    const double squared_tolerance = state_.tolerance * state_.tolerance;
-    return std::ranges::any_of(
-        faces, [&](std::uint32_t f) { return squared_distance(state_.mesh.triangle(f), p) <= squared_tolerance; });
   }
 
   /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
@@ -456,82 +444,12 @@ class ProofWorkers::Worker {
     }
   }
 
-  void enter(const std::vector<std::uint32_t>& faces, double limit) {
-    cover_.begin(limit);
-    for (const std::uint32_t f : faces) cover_.add(state_.mesh.triangle(f), f);
-  }
   std::span<const std::uint32_t> draft(std::uint32_t face) {
     drafted_.assign(1, face);
     return drafted_;
   }
   void take(FaceMask used, std::vector<std::uint32_t>& faces) const {
     for (; used != 0; used &= used - 1) faces.push_back(cover_.face(std::countr_zero(used)));
-  }
-
-  /// Large sub-triangles come first: a part that is not near any face is found before others are cut into small pieces.
-  void cover_in_sub_triangles(const Corners& corners, double limit) {
-    around_.clear();
-    sub_triangles_.assign(1, {corners, 0, found_});
-    for (std::size_t i = 0, count = 1; i < sub_triangles_.size(); ++i) {
-      SubTriangle& sub_triangle = sub_triangles_[i];
-      choose_around(sub_triangle);
-      if (!is_near_one_of(chosen_, middle_of(sub_triangle.corners))) return drafted_.clear();
-      choose_candidates(sub_triangle.corners);
-      enter(chosen_, limit);
-      const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);
-      if (!used || (*used == 0 && (sub_triangle.halvings == max_halvings || ++count > max_sub_triangles))) {
-        drafted_.clear();
-        return;
-      }
-      if (*used == 0) halve(SubTriangle(sub_triangle));
-      take(*used, drafted_);
-    }
-    sort_unique(drafted_);
-  }
-
-  void halve(const SubTriangle& sub_triangle) {
-    std::size_t from = 0;
-    double longest = -1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double edge = squared_length(sub_triangle.corners[(i + 1) % 3] - sub_triangle.corners[i]);
-      if (edge > longest) longest = edge, from = i;
-    }
-    const std::size_t to = (from + 1) % 3;
-    const Vec3 middle = 0.5 * (sub_triangle.corners[from] + sub_triangle.corners[to]);
-    for (const std::size_t end : {from, to}) {
-      SubTriangle& half = sub_triangles_.emplace_back(sub_triangle);
-      half.corners[end] = middle;
-      ++half.halvings;
-    }
-  }
-
-  /// Chooses the faces that meet the reach of a sub-triangle. Its halves look among these only, where they are many,
-  /// but not most of those it has looked among.
-  void choose_around(SubTriangle& sub_triangle) {
-    const ReachOfTriangle reach(sub_triangle.corners, state_.tolerance);
-    chosen_.clear();
-    for (const std::uint32_t f : sub_triangle.around)
-      if (reach.meets(state_.mesh.triangle(f))) chosen_.push_back(f);
-    if (sub_triangle.around.size() > CandidateFaces::capacity && 2 * chosen_.size() <= sub_triangle.around.size())
-      sub_triangle.around = around_.emplace_back(chosen_);
-  }
-
-  /// Chooses among those chosen, if they are too many, the faces that hold most corners, then those nearest to the
-  /// middle.
-  void choose_candidates(const Corners& corners) {
-    if (chosen_.size() <= CandidateFaces::capacity) return;
-    const double squared_tolerance = state_.tolerance * state_.tolerance;
-    std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
-    for (const std::uint32_t f : chosen_) {
-      const Corners face = state_.mesh.triangle(f);
-      const auto lost = std::count_if(corners.begin(), corners.end(),
-                                      [&](Vec3 p) { return squared_distance(face, p) > squared_tolerance; });
-      ranked.emplace_back(lost, squared_distance(face, middle_of(corners)), f);
-    }
-    std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
-    std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
-    chosen_.clear();
-    for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) chosen_.push_back(std::get<2>(ranked[k]));
   }
 
   /// Whether clusters as large as that of an original near a face fit into it: else it has no inner ones.
@@ -552,8 +470,9 @@ class ProofWorkers::Worker {
   Proximity proximity_;
   PreparedFaces<MeshSoup> prepared_;
   LoopCover loops_;
+  SubTriangleCover sub_triangles_;
   MarkedIds found_marks_, vertex_marks_;
-  std::vector<std::uint32_t> found_, chosen_, affected_, affected_clusters_, ids_, drafted_;
+  std::vector<std::uint32_t> found_, affected_, affected_clusters_, ids_, drafted_;
   struct Run {
     std::size_t begin = 0, count = 0;
   };
@@ -561,13 +480,6 @@ class ProofWorkers::Worker {
   std::vector<std::size_t> in_pieces_;  ///< indices in `affected_`
   bool meets_seam_ = false;
   std::optional<Vec3> lost_point_;
-  std::vector<SubTriangle> sub_triangles_;
-  std::deque<std::vector<std::uint32_t>> around_;  ///< of sub-triangles; not moved as it grows
-
-  /// A triangle that needs more cuts or candidates than the cover of one has is halved this often at most, into at most
-  /// so many sub-triangles, each with candidates of its own. The cuts of sub-triangles and of covers count together.
-  static constexpr int max_halvings = 16;
-  static constexpr std::size_t max_sub_triangles = 4096;
 
   /// Clusters are asked for as wholes where a face of a change covers so many originals, two clusters, and where so
   /// many of a cluster count: it has some twelve vertices, each original three.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "simplify/cover/sub_triangle_cover.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <tuple>
+
+#include "numeric/sort_unique.h"
+#include "simplify/cover/reach_of_triangle.h"
+#include "simplify/mesh/face_box.h"
+
+namespace meshbound {
+namespace {
+
+/// A triangle is halved this often at most, into at most so many sub-triangles. Their cuts and those of covers count
+/// together.
+constexpr int max_halvings = 16;
+constexpr std::size_t max_sub_triangles = 4096;
+
+Vec3 middle_of(const SubTriangleCover::Corners& c) { return (1.0 / 3) * (c[0] + c[1] + c[2]); }
+
+}  // namespace
+
+bool SubTriangleCover::covers(const Corners& corners, std::span<const std::uint32_t> around, double limit,
+                              std::vector<std::uint32_t>& covering) {
+  covering.clear();
+  around_.clear();
+  sub_triangles_.assign(1, {corners, 0, around});
+  if (!covers_all(limit, covering)) return covering.clear(), false;
+  sort_unique(covering);
+  return true;
+}
+
+/// Large sub-triangles come first: a part that is not near any face is found before others are cut into small pieces.
+bool SubTriangleCover::covers_all(double limit, std::vector<std::uint32_t>& covering) {
+  for (std::size_t i = 0, count = 1; i < sub_triangles_.size(); ++i) {
+    choose_around(sub_triangles_[i], limit);
+    const SubTriangle sub_triangle = sub_triangles_[i];
+    if (!is_near_one_of(chosen_, middle_of(sub_triangle.corners), limit)) return false;
+    choose_candidates(sub_triangle.corners, limit);
+    cover_.begin(limit);
+    for (const std::uint32_t f : chosen_) cover_.add(mesh_.triangle(f), f);
+    const std::optional<FaceMask> used = cover_.cover_sub_triangle(sub_triangle.corners, sub_triangle.halvings);
+    if (!used) return false;
+    if (*used == 0) {
+      if (sub_triangle.halvings == max_halvings || ++count > max_sub_triangles) return false;
+      halve(sub_triangle);
+    }
+    for (FaceMask left = *used; left != 0; left &= left - 1) covering.push_back(cover_.face(std::countr_zero(left)));
+  }
+  return true;
+}
+
+bool SubTriangleCover::is_near_one_of(std::span<const std::uint32_t> faces, Vec3 point, double limit) const {
+  return std::ranges::any_of(
+      faces, [&](std::uint32_t f) { return squared_distance(mesh_.triangle(f), point) <= limit * limit; });
+}
+
+void SubTriangleCover::halve(const SubTriangle& sub_triangle) {
+  std::size_t from = 0;
+  double longest = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double edge = squared_length(sub_triangle.corners[(i + 1) % 3] - sub_triangle.corners[i]);
+    if (edge > longest) longest = edge, from = i;
+  }
+  const std::size_t to = (from + 1) % 3;
+  const Vec3 middle = 0.5 * (sub_triangle.corners[from] + sub_triangle.corners[to]);
+  for (const std::size_t end : {from, to}) {
+    SubTriangle& half = sub_triangles_.emplace_back(sub_triangle);
+    half.corners[end] = middle;
+    ++half.halvings;
+  }
+}
+
+/// Chooses the faces that meet the reach of a sub-triangle. Its halves look among these only, where they are many, but
+/// not most of those it has looked among.
+void SubTriangleCover::choose_around(SubTriangle& sub_triangle, double limit) {
+  const ReachOfTriangle reach(sub_triangle.corners, limit);
+  chosen_.clear();
+  for (const std::uint32_t f : sub_triangle.around)
+    if (reach.meets(mesh_.triangle(f))) chosen_.push_back(f);
+  if (sub_triangle.around.size() > CandidateFaces::capacity && 2 * chosen_.size() <= sub_triangle.around.size())
+    sub_triangle.around = around_.emplace_back(chosen_);
+}
+
+/// Chooses among those chosen, if they are too many, the faces that hold most corners, then those nearest to the
+/// middle.
+void SubTriangleCover::choose_candidates(const Corners& corners, double limit) {
+  if (chosen_.size() <= CandidateFaces::capacity) return;
+  std::vector<std::tuple<std::ptrdiff_t, double, std::uint32_t>> ranked;
+  for (const std::uint32_t f : chosen_) {
+    const Corners face = mesh_.triangle(f);
+    const auto lost = std::count_if(corners.begin(), corners.end(),
+                                    [&](Vec3 p) { return squared_distance(face, p) > limit * limit; });
+    ranked.emplace_back(lost, squared_distance(face, middle_of(corners)), f);
+  }
+  std::nth_element(ranked.begin(), ranked.begin() + CandidateFaces::capacity, ranked.end());
+  std::sort(ranked.begin(), ranked.begin() + CandidateFaces::capacity);
+  chosen_.clear();
+  for (std::size_t k = 0; k < CandidateFaces::capacity; ++k) chosen_.push_back(std::get<2>(ranked[k]));
+}
+
+}  // namespace meshbound
