@@ -25,13 +25,32 @@ namespace oriented_nodes_test {
 using namespace meshbound;
 using namespace meshbound::reference;
 
+/// A winding strip of needles, askew and ten times as long as wide: few of their boxes meet a line through the mesh.
+TriangleMesh ribbon(std::uint32_t steps) {
+  TriangleMesh mesh;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(4, 1, 2, 3).normalized();
+  for (std::uint32_t i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    for (const double across : {0.0, 0.5})
+      mesh.vertices.push_back(turn * Eigen::Vector3d(10 * share, across, 0.3 * std::sin(20 * share)));
+    const std::uint32_t at = 2 * i;
+    if (i < steps) mesh.triangles.insert(mesh.triangles.end(), {{at, at + 2, at + 3}, {at, at + 3, at + 1}});
+  }
+  return mesh;
+}
+
 /// Meshes of many needles, whose trees have oriented nodes.
 std::vector<TriangleMesh> meshes_of_needles() {
   TriangleMesh rough = needles(400), tilted = fan(3000);
   Random random(3);
   for (Eigen::Vector3d& p : rough.vertices) p += 0.01 * random.in_cube();
   for (Eigen::Vector3d& p : tilted.vertices) p = Eigen::Quaterniond(4, 1, 3, 2).normalized() * p;
-  return {needles(400), rough, tilted, moved(scaled(needles(400), 1e-6), {1, 2, 3}), scaled(needles(500), 1e200)};
+  return {needles(400),
+          rough,
+          tilted,
+          ribbon(4000),
+          moved(scaled(needles(400), 1e-6), {1, 2, 3}),
+          scaled(needles(500), 1e200)};
 }
 
 /// Coordinate `axis` of a point in the frame of a node, exactly.
@@ -112,6 +131,7 @@ TEST(OrientedNodes, AreMadeWhereNeedlesAreAskewOnly) {
     EXPECT_TRUE(oriented_nodes(Bvh(mesh).data()).empty()) << mesh.triangles.size();
   EXPECT_FALSE(oriented_nodes(Bvh(needles(400)).data()).empty());
   EXPECT_FALSE(oriented_nodes(Bvh(fan(5000)).data()).empty());
+  EXPECT_FALSE(oriented_nodes(Bvh(ribbon(8000)).data()).empty());
 }
 
 TEST(OrientedNodes, SpareQueriesMostNeedles) {

@@ -13,9 +13,8 @@ namespace meshbound {
 
 /// Where oriented boxes are of use: elsewhere boxes along the axes serve as well.
 struct OrientedUse {
-  /// More boxes of blocks than these meet a line through the mesh, which are as many as their areas are together, in
-  /// areas of the whole box (Cauchy and Crofton);
-  double max_boxes_on_line;
+  /// More boxes of blocks than these hold a point of the mesh, in the mean,
+  int max_boxes_at_point;
   /// and the areas of oriented ones are a smaller share than this of those.
   double max_share_of_areas;
 };

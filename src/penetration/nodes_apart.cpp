@@ -15,9 +15,9 @@ namespace {
 /// A vertex with more triangles is a hub: fewer make some two thousand pairs, which take less than a millisecond.
 constexpr std::uint32_t max_triangles_at_vertex = 64;
 
-/// More is at stake than for queries, as twice as many boxes on a line make four times as many pairs. Of 122 shared
-/// meshes of 1,000 to 400,000 triangles 7 have more than 16.
-constexpr OrientedUse use_for_pairs{16, 0.5};
+/// More is at stake than for queries, as a pair takes longer to decide than a triangle of a query. Of 122 shared meshes
+/// of 1,000 to 400,000 triangles 14 have points in more than 8 boxes.
+constexpr OrientedUse use_for_pairs{8, 0.5};
 
 /// Rotations of oriented boxes miss by 2^-42, coordinates by less than 2^-48, both of at most 4; what is computed from
 /// them here is off by less than 2^-44.
