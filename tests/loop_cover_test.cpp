@@ -242,7 +242,7 @@ TEST(LoopCover, FollowsANeedleAcrossDozensOfFacesButNotMore) {
 
 /// Needles side by side: their walks have more faces together than are kept.
 TEST(LoopCover, CoversMoreNeedlesThanItRemembers) {
-  constexpr std::uint32_t count = 400;
+  constexpr std::uint32_t count = 250;
   std::vector<Vec3> points;
   std::vector<Triangle> needles;
   for (std::uint32_t i = 0; i <= count; ++i) {
