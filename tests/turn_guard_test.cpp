@@ -370,13 +370,14 @@ TEST(Rivals, AreTheNearestThatLookElsewhere) {
   EXPECT_EQ(rivals_of(near, 0), (Numbers{4, 5}));
 }
 
-/// Triangles of a tenth in a cube of 0.4; where they are `thinner`, their second edge is so many times shorter.
-std::vector<FacedTriangle> random_triangles(std::size_t count, double thinner = 1) {
+/// Triangles in a cube of 0.4, with two edges of up to these lengths or a little more.
+std::vector<FacedTriangle> random_triangles(std::size_t count, double length_of_one = 0.1,
+                                            double length_of_next = 0.1) {
   std::mt19937 random(3);
   std::vector<FacedTriangle> triangles;
   while (triangles.size() < count) {
-    const Vec3 at = 0.2 * random_point(random), u = 0.1 * random_point(random),
-               v = (0.1 / thinner) * random_point(random);
+    const Vec3 at = 0.2 * random_point(random), u = length_of_one * random_point(random),
+               v = length_of_next * random_point(random);
     const Vec3 normal = cross(u, v);
     triangles.push_back({{at, at + u, at + v}, (1 / length(normal)) * normal});
   }
@@ -385,8 +386,13 @@ std::vector<FacedTriangle> random_triangles(std::size_t count, double thinner = 
 
 /// By looking at all, with few and with many within half the reach, and with needles, which are searched in slices.
 TEST(Rivals, AreThoseThatALookAtAllFinds) {
-  for (const auto& [size, thinner] : {std::pair<std::size_t, double>{50, 1}, {1000, 1}, {1000, 30}, {1000, 1000}}) {
-    const std::vector<FacedTriangle> triangles = random_triangles(size, thinner);
+  struct Case {
+    std::size_t size;
+    double length_of_one, length_of_next;
+  };
+  for (const auto& [size, of_one, of_next] :
+       {Case{50, 0.1, 0.1}, {1000, 0.1, 0.1}, {1000, 0.1, 1e-3}, {1000, 2, 0.01}, {1000, 2, 1e-3}}) {
+    const std::vector<FacedTriangle> triangles = random_triangles(size, of_one, of_next);
     const meshbound::Rivals rivals(triangles, {1, 0.5, 1});
     for (std::uint32_t t = 0; t < size; ++t) {
       const auto& [a, b, c] = triangles[t].corners;
