@@ -67,8 +67,8 @@ class RivalSearch {
     return near_.size() == Rivals::max_rivals;
   }
 
-  /// Triangles that face elsewhere, with the squared distances of their boxes or planes: the nearest ones first. Boxes
-  /// of needles contain points that are far from their planes.
+  /// Triangles that face elsewhere, once for each slice that is near, with the squared distances of their boxes or
+  /// planes: the nearest ones first. Boxes of needles contain points that are far from their planes.
   void find_boxes(const FacedTriangle& triangle, Vec3 middle, double reach) {
     found_.clear();
     boxes_within_.clear();
