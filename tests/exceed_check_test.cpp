@@ -4,9 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <random>
+
 #include "datasets/analytic_meshes.h"
 #include "decimation_fixture.h"
 #include "reference/small_meshes.h"
+#include "sheets.h"
 #include "simplify/change_prover.h"
 #include "simplify/proof_workers.h"
 #include "simplify/region_collapses.h"
@@ -22,13 +27,31 @@ struct Case {
   double tolerance;
 };
 
+/// A wheel with teeth that are closer than the tolerance, and a vertex in the middle of each cap.
+TriangleMesh gear(std::uint32_t corners) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0, 0, 0.3}};
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners, radius = i % 2 == 0 ? 1 : 0.97;
+    for (const double z : {0.0, 0.3}) mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    const std::uint32_t at = 2 + 2 * i, next = 2 + 2 * ((i + 1) % corners);
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {{at, next, next + 1}, {at, next + 1, at + 1}, {0, next, at}, {1, at + 1, next + 1}});
+  }
+  return mesh;
+}
+
 std::vector<Case> cases() {
+  std::mt19937 random(1);
+  const TriangleMesh rough = test::bumpy_sheet(12, 0.012, random);
   return {{"terrain", datasets::terrain(1, 16, 7), 0.01},
           {"thin sheet", datasets::thin_sheet(1, 0.01, 10), 0.02},
           {"two sheets within the tolerance",
            reference::both(datasets::terrain(1, 12, 7), reference::moved(datasets::terrain(1, 12, 7), {0, 0, 0.004})),
            0.01},
-          {"box", datasets::cube(1, 5), 0.05}};
+          {"box", datasets::cube(1, 5), 0.05},
+          {"large faces in a rough sheet", reference::both(reference::unit_square(2), rough), 0.02},
+          {"hubs", gear(100), 0.02}};
 }
 
 /// The distance of the whole mesh after the collapse, in one piece.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meshbound/distance.h"
@@ -16,9 +17,9 @@ namespace meshbound {
 /// faces turn at the best placement, an end of the edge may do.
 ///
 /// The state is proven except for that collapse, so only what the collapse touches is compared: the originals that
-/// relied on its faces with all faces within the tolerance of their box, which are found by boxes, and its new faces
-/// with the original. The boxes are those of an earlier mesh; faces that have changed since then are tested one by one,
-/// and the boxes are built again when these become too many.
+/// relied on its faces with a few likely faces first, and then with all faces within the tolerance of their box, which
+/// are found by boxes; and its new faces with the original. The boxes are those of an earlier mesh; faces that have
+/// changed since then are tested one by one, and the boxes are built again when these become too many.
 class ExceedCheck {
  public:
   /// `state` must outlive this.
@@ -33,8 +34,20 @@ class ExceedCheck {
   void note_change(std::uint32_t kept);
 
  private:
+  /// What a collapse changes. All triangles have vertices of their own.
+  struct Compared {
+    TriangleMesh originals, new_faces;
+    TriangleMesh faces;  ///< of the mesh after the collapse, and triangles that are kept
+  };
+  /// All that are within the tolerance of the originals, or those that mostly hold them: new ones, those beside these,
+  /// and those that have held the originals.
+  enum class Faces { Likely, All };
   [[nodiscard]] bool exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
                                 const DistanceOptions& options);
+  [[nodiscard]] Compared compared_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
+                                     Faces wanted);
+  void add_faces_near_corners(std::span<const std::uint32_t> originals, double tolerance,
+                              std::vector<std::uint32_t>& faces);
   void make_boxes();
   [[nodiscard]] std::vector<std::uint32_t> faces_near(const Eigen::AlignedBox3d& box, double tolerance);
 
