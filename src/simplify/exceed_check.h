@@ -40,7 +40,7 @@ class ExceedCheck {
     TriangleMesh faces;  ///< of the mesh after the collapse, and triangles that are kept
   };
   /// All that are within the tolerance of the originals, or those that mostly hold them: new ones, those beside these,
-  /// and those that have held the originals.
+  /// those that have held the originals, and those near their corners.
   enum class Faces { Likely, All };
   [[nodiscard]] bool exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
                                 const DistanceOptions& options);
