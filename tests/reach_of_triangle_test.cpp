@@ -13,7 +13,8 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr double distance = 0.1;
 
-/// Of needles, compact triangles and edges. The triangles that meet them have a corner that is just near enough.
+/// The reach of needles, of compact triangles and of triangles without area, and triangles with one corner just within
+/// the distance.
 TEST(ReachOfTriangle, MeetsWhatIsWithinTheDistance) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> anywhere(-1, 1), share(0, 1);

@@ -11,9 +11,9 @@
 namespace meshbound {
 namespace {
 
-/// For queries: a point of the mesh lies in 3 boxes on half of 122 shared meshes, in more than 16 on six of them, and in
-/// 50 to 1,000 with thousands of needles askew or of large triangles at random. Each oriented box takes a rotation to
-/// look at.
+/// For queries: a point of the mesh lies in 3 boxes on half of 122 shared meshes, in more than 16 on six of them, and
+/// in 50 to 1,000 with thousands of needles askew or of large triangles at random. Each oriented box takes a rotation
+/// to look at.
 constexpr OrientedUse use_for_queries{16, 0.25};
 
 /// Triangles whose middles stand for the points of the mesh.

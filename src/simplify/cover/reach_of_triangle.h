@@ -2,7 +2,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cstddef>
 
 #include "simplify/mesh/face_box.h"
 
