@@ -12,17 +12,40 @@
 namespace meshbound {
 namespace {
 
+/// A collapse of the edge that was proposed last, taken back at the end of its life.
+class Trial {
+ public:
+  Trial(DecimationState& state, Region& region, Proposer& proposer, Vec3 placement) : state_(state), region_(region) {
+    proposer.collapse(region, placement);
+  }
+  ~Trial() { undo_last(state_, region_); }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+
+ private:
+  DecimationState& state_;
+  Region& region_;
+};
+
 using Corners = std::array<Vec3, 3>;
 
+Corners original_triangle(const DecimationState& state, std::uint32_t t) {
+  const auto& v = state.triangles[t];
+  return {state.vertices[v[0]], state.vertices[v[1]], state.vertices[v[2]]};
+}
+
+/// All triangles of a soup have vertices of their own.
 void add(TriangleMesh& soup, const Corners& corners) {
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
   for (const Vec3 p : corners) soup.vertices.emplace_back(p.x, p.y, p.z);
   soup.triangles.push_back({first, first + 1, first + 2});
 }
 
-Corners original_triangle(const DecimationState& state, std::uint32_t t) {
-  const auto& v = state.triangles[t];
-  return {state.vertices[v[0]], state.vertices[v[1]], state.vertices[v[2]]};
+void add_faces(const DecimationState& state, std::span<const std::uint32_t> faces, TriangleMesh& soup) {
+  for (const std::uint32_t f : faces) add(soup, state.mesh.triangle(f));
+}
+void add_originals(const DecimationState& state, std::span<const std::uint32_t> originals, TriangleMesh& soup) {
+  for (const std::uint32_t t : originals) add(soup, original_triangle(state, t));
 }
 
 /// A corner with more faces near it is a hub, or at one.
@@ -91,47 +114,47 @@ bool ExceedCheck::exceeds(Region& region, Proposer& proposer, double tolerance, 
 
 bool ExceedCheck::exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
                              const DistanceOptions& options) {
-  const Compared likely = compared_at(placement, region, proposer, tolerance, Faces::Likely);
-  if (!is_within(likely.new_faces, state_.tree, tolerance, options)) return true;
-  if (is_within(likely.originals, likely.faces, tolerance, options)) return false;
-  const Compared all = compared_at(placement, region, proposer, tolerance, Faces::All);
-  return !is_within(all.originals, all.faces, tolerance, options);
+  const Trial trial(state_, region, proposer, placement);
+  const Affected affected = affected_by(proposer.star());
+  TriangleMesh new_faces, originals, likely, all;
+  add_faces(state_, affected.faces, new_faces);
+  if (!is_within(new_faces, state_.tree, tolerance, options)) return true;
+  add_originals(state_, affected.originals, originals);
+  if (originals.triangles.empty()) return false;
+  add_faces(state_, likely_faces(affected, tolerance), likely);
+  if (is_within(originals, likely, tolerance, options)) return false;
+  // Rounding of the box is far below the tolerance that it grows by, of which the engine decides the rest.
+  add_faces(state_, faces_near(affected.box, 2 * tolerance), all);
+  add_originals(state_, state_.kept, all);
+  return !is_within(originals, all, tolerance, options);
 }
 
-ExceedCheck::Compared ExceedCheck::compared_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
-                                               Faces wanted) {
-  proposer.collapse(region, placement);
-  Compared compared;
-  Eigen::AlignedBox3d box;
-  std::vector<std::uint32_t> affected, faces;
-  std::vector<std::uint32_t> star = proposer.star().removed;
-  for (const Corner c : proposer.star().moved) star.push_back(c / 3);
+ExceedCheck::Affected ExceedCheck::affected_by(const EdgeStar& collapsed) {
+  Affected affected;
+  std::vector<std::uint32_t> star = collapsed.removed;
+  for (const Corner c : collapsed.moved) star.push_back(c / 3);
   for (const std::uint32_t face : star) {
     if (is_changed_.insert(face)) changed_.push_back(face);
+    if (!state_.mesh.is_removed(face)) affected.faces.push_back(face);
     const auto of_face = state_.cover.originals_of(face);
-    affected.insert(affected.end(), of_face.begin(), of_face.end());
-    if (state_.mesh.is_removed(face)) continue;
-    add(compared.new_faces, state_.mesh.triangle(face));
-    faces.push_back(face);
+    affected.originals.insert(affected.originals.end(), of_face.begin(), of_face.end());
+  }
+  sort_unique(affected.originals);
+  for (const std::uint32_t t : affected.originals) affected.box.extend(box_of(original_triangle(state_, t)));
+  return affected;
+}
+
+std::vector<std::uint32_t> ExceedCheck::likely_faces(const Affected& affected, double tolerance) {
+  std::vector<std::uint32_t> faces = affected.faces;
+  for (const std::uint32_t face : affected.faces)
     for (Corner c = 3 * face; c < 3 * face + 3; ++c)
       if (const Corner twin = state_.mesh.twin(c); twin != no_index) faces.push_back(twin / 3);
-  }
-  sort_unique(affected);
-  for (const std::uint32_t t : affected) {
-    add(compared.originals, original_triangle(state_, t));
-    box.extend(box_of(original_triangle(state_, t)));
+  for (const std::uint32_t t : affected.originals)
     for (const std::uint32_t f : state_.cover.faces_of(t))
       if (!state_.mesh.is_removed(f)) faces.push_back(f);
-  }
-  if (wanted == Faces::Likely) add_faces_near_corners(affected, tolerance, faces);
-  // Rounding of the box is far below the tolerance that it grows by, of which the engine decides the rest.
-  if (wanted == Faces::All && !affected.empty()) faces = faces_near(box, 2 * tolerance);
+  add_faces_near_corners(affected.originals, tolerance, faces);
   sort_unique(faces);
-  for (const std::uint32_t f : faces) add(compared.faces, state_.mesh.triangle(f));
-  if (wanted == Faces::All)
-    for (const std::uint32_t t : state_.kept) add(compared.faces, original_triangle(state_, t));
-  undo_last(state_, region);
-  return compared;
+  return faces;
 }
 
 }  // namespace meshbound

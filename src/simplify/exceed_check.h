@@ -34,18 +34,17 @@ class ExceedCheck {
   void note_change(std::uint32_t kept);
 
  private:
-  /// What a collapse changes. All triangles have vertices of their own.
-  struct Compared {
-    TriangleMesh originals, new_faces;
-    TriangleMesh faces;  ///< of the mesh after the collapse, and triangles that are kept
+  /// What a collapse changes: faces around its vertex, and originals that relied on these or on faces that are gone.
+  struct Affected {
+    std::vector<std::uint32_t> faces, originals;
+    Eigen::AlignedBox3d box;  ///< of the originals
   };
-  /// All that are within the tolerance of the originals, or those that mostly hold them: new ones, those beside these,
-  /// those that have held the originals, and those near their corners.
-  enum class Faces { Likely, All };
   [[nodiscard]] bool exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
                                 const DistanceOptions& options);
-  [[nodiscard]] Compared compared_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
-                                     Faces wanted);
+  [[nodiscard]] Affected affected_by(const EdgeStar& collapsed);
+  /// Those that mostly hold the originals: new ones, those beside these, those that have held the originals, and those
+  /// near their corners.
+  [[nodiscard]] std::vector<std::uint32_t> likely_faces(const Affected& affected, double tolerance);
   void add_faces_near_corners(std::span<const std::uint32_t> originals, double tolerance,
                               std::vector<std::uint32_t>& faces);
   void make_boxes();

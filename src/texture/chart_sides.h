@@ -11,8 +11,10 @@
 namespace meshbound {
 
 /// Weights of the first corners of a polygon, against 1 for the others, of inner points to be tried in turn: a point on
-/// an edge of a triangle does not tell whether that covers what is around it.
-inline constexpr std::array<std::array<double, 3>, 3> weights_of_inner_points = {{{1, 1, 1}, {3, 2, 1}, {1, 3, 5}}};
+/// an edge of a triangle does not tell whether that covers what is around it. The last one lies on no line of a regular
+/// grid between whose points the polygon spans.
+inline constexpr std::array<std::array<double, 3>, 3> weights_of_inner_points = {
+    {{1, 1, 1}, {3, 2, 1}, {0.618034, 1, 1.414214}}};
 
 /// Twice the area of the triangle that a point makes with an edge, positive on the inner side.
 [[nodiscard]] inline Approximate inner_area(const ChartTriangle& t, std::size_t edge, const Eigen::Vector2d& p) {

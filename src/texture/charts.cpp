@@ -37,6 +37,27 @@ double squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d&
   return (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0).squaredNorm();
 }
 
+/// The plane of a triangle in space.
+struct Plane {
+  explicit Plane(const TexturedTriangle& t)
+      : at(t.corners[0]), normal((t.corners[1] - at).cross(t.corners[2] - at)), length(normal.norm()) {}
+
+  /// Whether all of a triangle seems to lie farther than `distance` from the plane, on one side of it. Rounding may
+  /// decide. False where the plane is none.
+  [[nodiscard]] bool seems_apart_from(const TexturedTriangle& t, double distance) const {
+    double lowest = HUGE_VAL, highest = -HUGE_VAL;
+    for (const Eigen::Vector3d& p : t.corners) {
+      const double height = normal.dot(p - at);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+    }
+    return std::max(lowest, -highest) > distance * length;
+  }
+
+  Eigen::Vector3d at, normal;
+  double length;  ///< of the normal
+};
+
 /// The corner of `b` with a texture coordinate; 3 if there is none.
 std::size_t corner_at(const TexturedTriangle& b, const Eigen::Vector2d& coordinate) {
   return static_cast<std::size_t>(std::find(b.coordinates.begin(), b.coordinates.end(), coordinate) -
@@ -163,6 +184,7 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
   if (a.chart != Chart::Area) return find_near_without_area(a, reach, found);
   find_in_texture(a, found.indices);
   const Eigen::AlignedBox3d place = place_of(*a.source);
+  const Plane plane(*a.source);
   const Eigen::Vector2d& origin = a.source->coordinates[0];
   const Outline outline(a, origin);
   const auto seems_to_share_area = [&](const ChartTriangle& b) {
@@ -170,10 +192,14 @@ void Charts::find_candidates(const ChartTriangle& a, double reach, ChartCandidat
     const Outline of_b(b, origin);
     return seems_to_overlap(outline, of_b) && seems_to_overlap(of_b, outline);
   };
+  const auto seems_within_reach = [&](const ChartTriangle& b) {
+    return squared_distance(places_[b.number], place) <= reach * reach && !plane.seems_apart_from(*b.source, reach) &&
+           !Plane(*b.source).seems_apart_from(*a.source, reach);
+  };
   found.is_near.clear();
   for (const std::uint32_t i : found.indices) {
     const ChartTriangle& b = triangles_[i];
-    const bool is_near = squared_distance(places_[i], place) <= reach * reach && seems_to_share_area(b);
+    const bool is_near = seems_within_reach(b) && seems_to_share_area(b);
     found.is_near.push_back(is_near ? 1 : 0);
     if (!is_near) continue;
     const std::optional<double> upper = upper_at_equal_corners(*a.source, *b.source);

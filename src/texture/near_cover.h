@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "numeric/marked_ids.h"
 #include "texture/overlay.h"
@@ -10,22 +11,31 @@ namespace meshbound {
 
 /// Bounds the texture deviation of a triangle A by candidates that are known to cover all of it, in doubles and pair by
 /// pair, without an overlay. What it cannot decide it leaves open. Not thread-safe: each thread has its own.
+///
+/// Triangles that hang together across edges which may run through the inside of A are a *sheet*: the candidates are
+/// where it is entered. Several layers of a mesh may have the same texture. Each is a sheet by itself.
 class NearCover {
  public:
   using Candidates = std::span<const ChartTriangle* const>;
 
-  /// An upper bound over all of A: that of the candidate that covers all of it, else that of the farthest one; not
-  /// below `min_upper`. Absent where the candidates are not known to cover A, or a distance is not known to within
-  /// `precision`. A and all candidates must have an area in the texture. Lengths in model units. O(candidates).
+  /// An upper bound over all of A: the least of those of single candidates that cover all of it, else of sheets that
+  /// do, whose bound is that of their farthest triangle; not below `min_upper`. Absent where none is known to cover A,
+  /// or a distance is not known to within `precision`. A and all candidates must have an area in the texture. Lengths
+  /// in model units. O(k) for k triangles of sheets.
   [[nodiscard]] std::optional<double> upper(const ChartTriangle& a, Candidates candidates, double min_upper,
                                             double precision);
 
-  /// True only if the candidates cover all of A: as `Covering` tells it, where no open edge runs through the inside of
-  /// A. False also where doubles do not know.
+  /// True only if one sheet covers all of A: as `Covering` tells it, where no open edge of it runs through the inside
+  /// of A. False also where doubles do not know.
   [[nodiscard]] bool is_complete(const ChartTriangle& a, Candidates candidates);
 
  private:
-  MarkedIds candidates_;  ///< their numbers
+  template <class OnSheet>
+  void for_each_complete_sheet(const ChartTriangle& a, Candidates candidates, const OnSheet& on_sheet);
+  [[nodiscard]] bool gather_closed_sheet(const ChartTriangle& a, const ChartTriangle& first);
+
+  MarkedIds candidates_, gathered_;  ///< numbers of triangles: the candidates, and those of sheets so far
+  std::vector<const ChartTriangle*> sheet_;
 };
 
 }  // namespace meshbound

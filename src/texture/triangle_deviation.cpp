@@ -107,10 +107,10 @@ class PieceSearch {
       search_beside_near_ones();
     else
       search_without_area();
-    const std::vector<std::uint32_t> touching = uncovered_.empty() ? std::vector<std::uint32_t>() : not_bounded();
+    const std::vector<std::uint8_t> is_bounded = is_bounded_;  // not by pieces of what is touched below
     for (const Polygon& polygon : std::exchange(uncovered_, {})) {
       result_.uncovered = result_.uncovered + overlay_.share(polygon);
-      for (const std::uint32_t c : touching) search_where_touched(polygon, c);
+      search_where_touched(polygon, is_bounded);
     }
     if (!result_.far && result_.bounds.upper > goal_.silent) look_at_corners();
     return std::move(result_);
@@ -178,34 +178,27 @@ class PieceSearch {
     return {spanning.begin(), std::lower_bound(spanning.begin(), spanning.end(), likely_)};
   }
 
-  /// The candidates that may cover points of A which lie in no piece with a bound.
-  [[nodiscard]] std::vector<std::uint32_t> not_bounded() {
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
-      if (is_bounded_[c] == 0 && !lies_in_bounded(c)) found.push_back(c);
-    return found;
+  /// Bounds what candidates cover of an uncovered polygon, which is of its border: but for what lies in pieces with a
+  /// bound.
+  void search_where_touched(const Polygon& uncovered, const std::vector<std::uint8_t>& is_bounded) {
+    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
+      if (is_bounded[c] != 0) continue;
+      overlay_.clip(uncovered, c, covered_);
+      if (covered_.empty() || lies_in_one(covered_, is_bounded)) continue;
+      Piece piece{covered_, {c}, {}, true};
+      for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
+        if (other != c) piece.part.push_back(other);
+      search(std::move(piece));
+    }
   }
 
-  /// Whether all that the candidate covers of A, often a corner, is also covered by one that is bounded.
-  [[nodiscard]] bool lies_in_bounded(std::uint32_t candidate) {
-    overlay_.clip(overlay_.whole(), candidate, covered_);
-    const auto covers_it = [&](std::uint32_t other) {
-      return std::all_of(covered_.begin(), covered_.end(),
-                         [&](const auto& corner) { return overlay_.covers(other, corner.node); });
-    };
-    if (covered_.empty()) return true;
-    for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
-      if (is_bounded_[other] != 0 && covers_it(other)) return true;
+  /// Whether one of some candidates covers all of a polygon.
+  [[nodiscard]] bool lies_in_one(const Polygon& polygon, const std::vector<std::uint8_t>& is_one) {
+    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
+      const auto covers = [&](const auto& corner) { return overlay_.covers(c, corner.node); };
+      if (is_one[c] != 0 && std::all_of(polygon.begin(), polygon.end(), covers)) return true;
+    }
     return false;
-  }
-
-  void search_where_touched(const Polygon& uncovered, std::uint32_t candidate) {
-    overlay_.clip(uncovered, candidate, covered_);
-    if (covered_.empty()) return;
-    Piece piece{covered_, {candidate}, {}, true};
-    for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
-      if (other != candidate) piece.part.push_back(other);
-    search(std::move(piece));
   }
 
   void search(Piece piece) {

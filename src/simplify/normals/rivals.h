@@ -6,18 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "geometry/vec3.h"
 #include "numeric/buckets.h"
+#include "simplify/normals/faced_triangle.h"
 
 namespace meshbound {
-
-/// A triangle that has an area, with its unit normal.
-struct FacedTriangle {
-  std::array<Vec3, 3> corners;
-  Vec3 normal;
-
-  [[nodiscard]] Vec3 middle() const { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
-};
 
 /// Which triangles could become the nearest one to the middle of another, though they face elsewhere: those of other
 /// sheets beside it, and across creases.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simplify/cover/box_tree.h"
-#include "simplify/normals/rivals.h"
+#include "simplify/normals/faced_triangle.h"
 
 namespace meshbound {
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+
+#include "geometry/vec3.h"
+
+namespace meshbound {
+
+/// A triangle that has an area, with its unit normal.
+struct FacedTriangle {
+  std::array<Vec3, 3> corners;
+  Vec3 normal;
+
+  [[nodiscard]] Vec3 middle() const { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
+};
+
+}  // namespace meshbound
