@@ -13,6 +13,7 @@
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
 #include "texture/charts.h"
+#include "texture/line_cover.h"
 #include "texture/near_cover.h"
 #include "texture/single_coordinates.h"
 #include "texture/surface_area.h"
@@ -80,10 +81,11 @@ class Direction {
  private:
   /// What one thread works with.
   struct Workspace {
-    explicit Workspace(const ExactUnits& units) : overlay(units) {}
+    explicit Workspace(const ExactUnits& units) : overlay(units), line_cover(units) {}
     Overlay overlay;
     Covering covering;
     NearCover near_cover;
+    LineCover line_cover;
     ChartCandidates candidates;
   };
 
@@ -135,7 +137,8 @@ class Direction {
   void look_at_near(const std::vector<std::size_t>& triangles) {
     for_triangles(triangles.size(), grain, [&](std::size_t k, Workspace& work) {
       const std::size_t i = triangles[k];
-      if (a_.triangles()[i].chart != Chart::Area) return;
+      const ChartTriangle& a = a_.triangles()[i];
+      if (a.chart == Chart::Point) return;
       find_candidates(i, work);
       if (const auto& copy = work.candidates.copy) {
         upper_[i] = copy->upper;
@@ -143,9 +146,10 @@ class Direction {
         return;
       }
       pairs_[i] = static_cast<std::uint32_t>(work.candidates.near.size());
-      if (const auto upper =
-              work.near_cover.upper(a_.triangles()[i], work.candidates.near, min_upper(), goal_.precision))
-        upper_[i] = *upper;
+      const auto upper = a.chart == Chart::Area
+                             ? work.near_cover.upper(a, work.candidates.near, min_upper(), goal_.precision)
+                             : work.line_cover.upper(a, work.candidates.near, min_upper(), goal_.precision);
+      if (upper) upper_[i] = *upper;
     });
   }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "texture/near_cover.h"
+#include "texture/overlay.h"
+
+namespace meshbound {
+
+/// Bounds the texture deviation of a triangle A whose texture coordinates lie on a line, as on walls under a texture
+/// projected from above, or where a height is shown by a strip of colours.
+///
+/// Of the points of A with one texture coordinate, a segment, each is compared with that of another triangle with the
+/// same coordinate which lies as far in the direction of that segment. So both get charts with an area: the coordinate
+/// along the line, and the place in that direction. `NearCover` bounds the deviation in these; points are compared that
+/// do have the same texture coordinate, however the place is rounded, so it is an upper bound. Not thread-safe: each
+/// thread has its own.
+class LineCover {
+ public:
+  using Candidates = std::span<const ChartTriangle* const>;
+
+  explicit LineCover(const ExactUnits& units) : units_(units) {}
+
+  /// An upper bound over all of A, not below `min_upper`. Absent where the candidates with coordinates on the same line
+  /// are not known to cover A in those charts, or a distance is not known to within `precision`. Lengths in model
+  /// units. O(k log k) for k candidates.
+  [[nodiscard]] std::optional<double> upper(const ChartTriangle& a, Candidates candidates, double min_upper,
+                                            double precision);
+
+ private:
+  struct Directions;  ///< of the charts
+  void unfold(const ChartTriangle& t, const Directions& directions);
+
+  ExactUnits units_;
+  std::vector<TexturedTriangle> unfolded_;  ///< A first, with coordinates in these charts
+  std::vector<ChartTriangle> charts_;
+  std::vector<const ChartTriangle*> candidates_;
+  NearCover near_cover_;
+};
+
+}  // namespace meshbound
