@@ -51,9 +51,10 @@ struct LineCover::Directions {
     const Eigen::Vector3d opposite = corners[first] + share * (corners[last] - corners[first]);
     across = (corners[middle] - opposite).stableNormalized();
   }
-  Eigen::Index axis = 0;   ///< of texture coordinates: differs along the line
-  Eigen::Vector3d at;      ///< a point of the triangle
-  Eigen::Vector3d across;  ///< the direction in which it has one texture coordinate; not of length 1 where it has no area
+  Eigen::Index axis = 0;  ///< of texture coordinates: differs along the line
+  Eigen::Vector3d at;     ///< a point of the triangle
+  Eigen::Vector3d
+      across;  ///< the direction in which it has one texture coordinate; not of length 1 where it has no area
 };
 
 void LineCover::unfold(const ChartTriangle& t, const Directions& directions) {
