@@ -263,13 +263,12 @@ class Direction {
   void find_witness() {
     const auto worst = std::max_element(upper_.begin(), upper_.end());
     if (worst == upper_.end() || *worst < 0) return;
-    DeviationGoal goal = goal_;
-    goal.silent = -1;
     Workspace& work = workspaces_.front();
     const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
-    const TriangleDeviation found = deviation_by_pieces(work.overlay, work.covering, others_of(triangle, work), goal);
+    const TriangleDeviation found =
+        deviation_at_corners(work.overlay, work.covering, others_of(triangle, work), goal_);
     if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
   }
 

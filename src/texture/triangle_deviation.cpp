@@ -116,6 +116,11 @@ class PieceSearch {
     return std::move(result_);
   }
 
+  TriangleDeviation at_corners() {
+    look_at_corners();
+    return std::move(result_);
+  }
+
  private:
   /// Accepts what candidates cover that are within the limit everywhere, and searches the rest.
   void search_beside_near_ones() {
@@ -519,6 +524,11 @@ class PieceSearch {
 TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering, const FindOthers& find_others,
                                       const DeviationGoal& goal) {
   return PieceSearch(overlay, covering, find_others, goal).run();
+}
+
+TriangleDeviation deviation_at_corners(Overlay& overlay, Covering& covering, const FindOthers& find_others,
+                                       const DeviationGoal& goal) {
+  return PieceSearch(overlay, covering, find_others, goal).at_corners();
 }
 
 }  // namespace meshbound

@@ -24,14 +24,15 @@ std::array<std::size_t, 3> order_along_line(const CornerCoordinates& t) {
 
 std::optional<Vec3> nearest_with_coordinate(const std::array<Vec3, 3>& at, const CornerCoordinates& t,
                                             const Eigen::Vector2d& coordinate, Vec3 p) {
+  if (t[0] == t[1] && t[0] == t[2]) {
+    if (!((coordinate - t[0]).norm() <= rounding_of_coordinates * t[0].norm())) return std::nullopt;
+    const CornerTriangle<double> corners{at[0], at[1] - at[0], at[2] - at[0]};
+    return p - closest_on_triangle(corners, p).offset;
+  }
   const auto [first, middle, last] = order_along_line(t);
   const double share = closest_share(t[first], t[last], coordinate),
                off = (t[first] + share * (t[last] - t[first]) - coordinate).norm();
   if (!(off <= rounding_of_coordinates * std::max(t[first].norm(), t[last].norm()))) return std::nullopt;
-  if (t[first] == t[last]) {
-    const CornerTriangle<double> corners{at[0], at[1] - at[0], at[2] - at[0]};
-    return p - closest_on_triangle(corners, p).offset;
-  }
   const double turn = closest_share(t[first], t[last], t[middle]);
   const bool is_before = share < turn || turn == 1;
   const Vec3 across = at[first] + share * (at[last] - at[first]),

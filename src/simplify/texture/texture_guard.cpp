@@ -15,7 +15,7 @@
 namespace meshbound {
 namespace {
 
-/// Share of the limit: a coordinate whose worst sample is below it needs no improvement.
+/// Share of the limit: a coordinate whose worst sample is below it needs no improvement, nor does a match in a palette.
 constexpr double good_share = 0.5;
 /// In multiples of the limit: where a sample is farther away than this, no coordinate of the vertex helps.
 constexpr double hopeful_share = 4;
@@ -209,11 +209,26 @@ bool TextureGuard::match_inside(const TextureMap::Sample& sample, std::uint32_t 
   return true;
 }
 
+/// Whether no other face needs to be looked at: in charts with an area hardly one has the coordinate as well. Where all
+/// of the faces have one coordinate, one that is near enough will do.
+bool TextureGuard::suffices(const Match& match) const {
+  const Face& face = faces_[match.face];
+  const double near = good_share * map_.limit;
+  return face.has_area || (face.has_one_coordinate && squared_length(match.offset) <= near * near);
+}
+
+/// Whether the face that a sample was matched with last suffices again.
+bool TextureGuard::matches_again(const TextureMap::Sample& sample, Match& match) const {
+  if (!match.is_inside) return false;
+  const Face& face = faces_[match.face];
+  return (face.has_area || face.has_one_coordinate) && match_inside(sample, match.face, match) && suffices(match);
+}
+
 TextureGuard::Match TextureGuard::match(const TextureMap::Sample& sample, std::uint32_t chart) const {
   Match match, nearest;
   for (std::uint32_t i = 0; i < faces_.size(); ++i) {
     if (faces_[i].chart != chart || !match_inside(sample, i, match)) continue;
-    if (faces_[i].has_area) return match;
+    if (suffices(match)) return match;
     if (nearest.face == no_index || squared_length(match.offset) < squared_length(nearest.offset)) nearest = match;
   }
   return nearest.face == no_index ? match_outside(sample, chart) : nearest;
@@ -239,6 +254,7 @@ void TextureGuard::prepare_faces() {
     Eigen::Matrix2d sides;
     sides << face.coordinates[1] - face.coordinates[0], face.coordinates[2] - face.coordinates[0];
     face.has_area = sides.determinant() != 0;
+    face.has_one_coordinate = face.coordinates[0] == face.coordinates[1] && face.coordinates[0] == face.coordinates[2];
     if (!face.has_area) continue;
     face.to_weights = sides.inverse();
     const double by_limit = 1 / map_.limit;
@@ -257,8 +273,7 @@ bool TextureGuard::match(std::size_t count, double max_squared) {
   for (std::size_t i = 0; i < count; ++i) {
     const TextureMap::Sample& sample = map_.sample(samples_[i]);
     Match& match = matches_[i];
-    const bool is_again = match.is_inside && faces_[match.face].has_area && match_inside(sample, match.face, match);
-    if (!is_again) match = this->match(sample, charts_[i]);
+    if (!matches_again(sample, match)) match = this->match(sample, charts_[i]);
     const double squared = match.face == no_index ? HUGE_VAL : squared_length(match.offset);
     if (squared <= max_squared) continue;
     exceeding_squared_ = squared;

@@ -59,7 +59,7 @@ class TextureGuard {
     /// vv.
     std::array<Vec3, 2> derivative;
     std::array<double, 3> squared_derivative;
-    bool has_area = false;
+    bool has_area = false, has_one_coordinate = false;
   };
   /// The point of a face that a sample is compared with.
   struct Match {
@@ -88,6 +88,8 @@ class TextureGuard {
   [[nodiscard]] bool are_near(std::size_t count);
   [[nodiscard]] bool match(std::size_t count, double max_squared);
   [[nodiscard]] bool match_inside(const TextureMap::Sample& sample, std::uint32_t number, Match& match) const;
+  [[nodiscard]] bool matches_again(const TextureMap::Sample& sample, Match& match) const;
+  [[nodiscard]] bool suffices(const Match& match) const;
   [[nodiscard]] Match match(const TextureMap::Sample& sample, std::uint32_t chart) const;
   [[nodiscard]] Match match_outside(const TextureMap::Sample& sample, std::uint32_t chart) const;
   void add_slope(const Face& face, const Match& match, Slope& sum) const;
