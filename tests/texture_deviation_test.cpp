@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "reference/texture_oracle.h"
 #include "texture/approximate.h"
+#include "texture/charts.h"
 #include "texture/surface_area.h"
 #include "textured_shapes.h"
 
@@ -418,6 +420,28 @@ TEST(TextureDeviation, LooksAtFewPiecesOfMirroredCharts) {
   const std::uint64_t many = measured(mirrored(32), mirrored(28)).a_to_b.pieces;
   EXPECT_GT(many, 0U);
   EXPECT_LT(many, 2 * few);
+}
+
+/// Two rough sheets with one texture, askew so that the box of a large triangle holds much of both.
+TEST(Charts, FindNoCandidatesInTheSheetBeside) {
+  const auto sheet = [](int n, double above) {
+    return grid(n, [=](double s, double t) {
+      const double rough = 0.04 * std::cos(std::numbers::pi * n * s) * std::cos(std::numbers::pi * n * t);
+      return Corner{{s, t, s + t + above + rough}, {s, t}};
+    });
+  };
+  const TexturedMesh large = grid(1, [](double s, double t) { return Corner{{s, t, s + t}, {s, t}}; });
+  const TexturedMesh small = joined(sheet(8, 0), sheet(8, 0.5));
+  const Charts of_large(large), of_small(small);
+  ChartCandidates found;
+  of_small.find_candidates(of_large.triangles()[0], 0.01, found);
+  EXPECT_EQ(found.near.size(), 64U);
+  of_large.find_candidates(of_small.triangles()[0], 0.01, found);
+  EXPECT_EQ(found.near.size(), 1U);
+  for (const ChartTriangle& beside : std::span(of_small.triangles()).last(128)) {
+    of_large.find_candidates(beside, 0.01, found);
+    EXPECT_TRUE(found.near.empty());
+  }
 }
 
 /// Two large triangles on 20,000 small ones. Across these the second kind shares slivers with many, by rounding alone.

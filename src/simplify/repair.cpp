@@ -10,6 +10,7 @@
 #include "numeric/no_index.h"
 #include "numeric/sort_unique.h"
 #include "simplify/mesh/face_box.h"
+#include "simplify/mesh/faces_of_originals.h"
 #include "simplify/normals/refuted_turns.h"
 #include "simplify/star_samples.h"
 #include "simplify/texture/refuted_texture.h"
@@ -317,14 +318,19 @@ Repair repair_proven(DecimationState& state, const Unproven& unproven) {
 
 namespace {
 
-/// Undoes the last change around each.
+/// Undoes the last change around each. Faces nearby may all be those of the start where the face that the original was
+/// is gone: then it is the change that has removed it.
 Repair undo_last_around(DecimationState& state, std::span<const Refuted> refuted) {
   ProvenChanges& changes = *state.proven_changes;
   Undoing undoing(state, changes.last, changes.logs);
   NearestFaces nearest(state);
+  std::vector<std::uint32_t> at_start;  // by original, once it is needed
   for (const Refuted& r : refuted) {
     if (r.original != no_index && blame_around(undoing, nearest, state, r.original)) continue;
-    if (r.face != no_index) (void)undoing.blame(r.face);
+    if (r.face != no_index && undoing.blame(r.face)) continue;
+    if (r.original == no_index) continue;
+    if (at_start.empty()) at_start = faces_of_originals(state.source_triangle, state.triangles.size());
+    if (at_start[r.original] != no_index) (void)undoing.blame(at_start[r.original]);
   }
   const std::vector<Corner> edges = undoing.blamed_edges();
   const Repair repair = undo_proven(state, undoing);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "simplify/mesh/face_box.h"
+#include "simplify/mesh/faces_of_originals.h"
 
 namespace meshbound {
 namespace {
@@ -23,13 +24,6 @@ bool holds(const FaceTurns& turns, const ArrayMesh& mesh, const FaceTurns::Sampl
     is_allowed = turns.allows(sample.normal, turns.normal(face, corners)) || (is_as_near && is_allowed);
   }
   return is_allowed;
-}
-
-/// By triangle of the original: the face that it was at the start; `no_index` where it was none.
-std::vector<std::uint32_t> faces_of_originals(std::span<const std::uint32_t> source_triangle, std::size_t originals) {
-  std::vector<std::uint32_t> face_of(originals, no_index);
-  for (std::uint32_t f = 0; f < source_triangle.size(); ++f) face_of[source_triangle[f]] = f;
-  return face_of;
 }
 
 }  // namespace
