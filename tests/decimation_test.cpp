@@ -232,8 +232,8 @@ TEST_P(Decimation, TakesEverythingBackWhereEveryFaceIsRefutedAgainAndAgain) {
   EXPECT_EQ(level.faces(), sphere.triangles.size());
 }
 
-/// The faces near an original that is gone may all be as they were at the start, within a tolerance beyond the length of
-/// edges. What has removed it is taken back all the same.
+/// The faces near an original that is gone may all be as they were at the start, within a tolerance beyond the length
+/// of edges. What has removed it is taken back all the same.
 TEST_P(Decimation, TakesBackWhatHasRemovedAnOriginal) {
   TriangleMesh sphere = datasets::icosphere(1, 4);
   std::mt19937 random(3);

@@ -193,12 +193,9 @@ class Direction {
     return found;
   }
 
-  /// Looks for a lower bound where the upper bounds are largest, so that the rest need not be bounded below it: among
-  /// triangles with an area in the texture first, as those of others are rough.
+  /// Looks for a lower bound where the upper bounds are largest, so that the rest need not be bounded below it.
   void find_lower_bound() {
     std::vector<std::size_t> worst = open();
-    std::stable_partition(worst.begin(), worst.end(),
-                          [this](std::size_t i) { return a_.triangles()[i].chart == Chart::Area; });
     worst.resize(std::min(worst.size(), batch_for_lower));
     refine(worst, rough_error_bound());
   }
@@ -267,8 +264,7 @@ class Direction {
     const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
-    const TriangleDeviation found =
-        deviation_at_corners(work.overlay, work.covering, others_of(triangle, work), goal_);
+    const TriangleDeviation found = deviation_at_corners(work.overlay, work.covering, others_of(triangle, work), goal_);
     if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
   }
 
