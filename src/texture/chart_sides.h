@@ -11,8 +11,8 @@
 namespace meshbound {
 
 /// Weights of the first corners of a polygon, against 1 for the others, of inner points to be tried in turn: a point on
-/// an edge of a triangle does not tell whether that covers what is around it. The last one lies on no line of a regular
-/// grid between whose points the polygon spans.
+/// an edge of a triangle does not tell whether that covers what is around it. Where the corners are points
+/// of a regular grid, the last one lies on none of its lines.
 inline constexpr std::array<std::array<double, 3>, 3> weights_of_inner_points = {
     {{1, 1, 1}, {3, 2, 1}, {0.618034, 1, 1.414214}}};
 

@@ -10,7 +10,7 @@
 namespace meshbound {
 namespace {
 
-/// Twice the area of the line from the first corner of a triangle to its last one, and a point: whether it is 0.
+/// Whether a point of the texture lies on the line of the coordinates of a triangle, decided exactly.
 bool is_on_line(const ChartTriangle& of_line, const Eigen::Vector2d& p, const ExactUnits& units) {
   const Eigen::Vector2d &from = of_line.source->coordinates[of_line.along[0]],
                         &to = of_line.source->coordinates[of_line.along[2]];
@@ -51,10 +51,9 @@ struct LineCover::Directions {
     const Eigen::Vector3d opposite = corners[first] + share * (corners[last] - corners[first]);
     across = (corners[middle] - opposite).stableNormalized();
   }
-  Eigen::Index axis = 0;  ///< of texture coordinates: differs along the line
-  Eigen::Vector3d at;     ///< a point of the triangle
-  Eigen::Vector3d
-      across;  ///< the direction in which it has one texture coordinate; not of length 1 where it has no area
+  Eigen::Index axis = 0;   ///< of texture coordinates: differs along the line
+  Eigen::Vector3d at;      ///< a point of the triangle
+  Eigen::Vector3d across;  ///< where the coordinate stays the same; not of length 1 without an area in space
 };
 
 void LineCover::unfold(const ChartTriangle& t, const Directions& directions) {
