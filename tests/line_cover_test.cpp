@@ -151,5 +151,48 @@ TEST(LineCover, SparesPieces) {
   EXPECT_LT(pieces(48), 2 * pieces(16));
 }
 
+/// A rough surface whose layers have one texture: a floor, walls under a texture from above, and a height shown by a
+/// strip of colours.
+TexturedMesh layers(reference::Random& random, int kind, int n) {
+  const auto rough = [&] { return random.below(5) / 64.0; };
+  TexturedMesh mesh;
+  for (int layer = 0; layer <= kind % 2; ++layer) {
+    mesh = joined(mesh, grid(n, [&](double s, double t) {
+                    Corner corner{{s, t + 0.2 * layer, 0.25 * s * t + 0.3 * layer + rough()}, {s, t}};
+                    if (kind / 2 == 1) corner = {{s, 0.1 * layer + rough(), t}, {s, 0.5 * s}};
+                    if (kind / 2 == 2) corner.uv = {s + 0.5 * s * t, 0.5};
+                    return corner;
+                  }));
+  }
+  return mesh;
+}
+
+/// With a tolerance all points of A are compared, by sheets and charts of lines first.
+TEST(LineCover, LeavesBoundsOfMeshesRight) {
+  reference::Random random(7);
+  for (int run = 0; run < 120; ++run) {
+    const TexturedMesh a = layers(random, run % 6, 2 + random.below(3)),
+                       b = layers(random, run % 6, 2 + random.below(4));
+    TextureDeviationOptions options;
+    options.tolerance = (1 + random.below(20)) / 32.0;
+    options.error_bound = *options.tolerance / 16;
+    options.threads = 1;
+    const OneSidedTextureDeviation found = texture_deviation(a, b, options).a_to_b;
+    EXPECT_LE(found.bounds.lower, found.bounds.upper) << run;
+    for (int k = 0; k < 40; ++k) {
+      const TexturedTriangle& t =
+          a.triangles[static_cast<std::size_t>(random.below(static_cast<int>(a.triangles.size())))];
+      const int p = random.below(9), q = random.below(9 - p);
+      const reference::RationalWeights weights = {mpq_class(p / 8.0), mpq_class(q / 8.0), mpq_class((8 - p - q) / 8.0)};
+      const auto squared = reference::squared_deviation_at(t, weights, b);
+      if (squared) ASSERT_LE(reference::compare_root(*squared, found.bounds.upper), 0) << run;
+    }
+    if (!found.witness) continue;
+    const auto& uv = found.witness->coordinate;
+    EXPECT_TRUE(uv.allFinite()) << run;
+    EXPECT_LE(found.bounds.lower, found.witness->distance * (1 + 1e-9)) << run;
+  }
+}
+
 }  // namespace line_cover_test
 }  // namespace meshbound
