@@ -193,9 +193,13 @@ class Direction {
     return found;
   }
 
-  /// Looks for a lower bound where the upper bounds are largest, so that the rest need not be bounded below it.
+  /// Looks for a lower bound where the upper bounds are largest, so that the rest need not be bounded below it: among
+  /// triangles with an area in the texture first. Those of others are rough where pieces had to bound them: on a
+  /// lattice of bars mapped from above a run takes 15 s, and more than 100 where these are looked at first.
   void find_lower_bound() {
     std::vector<std::size_t> worst = open();
+    std::stable_partition(worst.begin(), worst.end(),
+                          [this](std::size_t i) { return a_.triangles()[i].chart == Chart::Area; });
     worst.resize(std::min(worst.size(), batch_for_lower));
     refine(worst, rough_error_bound());
   }
