@@ -49,7 +49,7 @@ TEST(LineCover, IsTheWayBetweenTwoWalls) {
 
 /// Coordinates on a line askew, of which doubles do not know that they are on it.
 TEST(LineCover, IsKnownOnAnyLine) {
-  for (const Eigen::Vector2d way : {Eigen::Vector2d(0, 1), Eigen::Vector2d(0.75, 0.25), Eigen::Vector2d(-1, 3)}) {
+  for (const Eigen::Vector2d& way : {Eigen::Vector2d(0, 1), Eigen::Vector2d(0.75, 0.25), Eigen::Vector2d(-1, 3)}) {
     TexturedTriangle a = half;
     a.coordinates[1] = way;
     const std::optional<double> upper = upper_of(a, wall(8, 0.5, way));
@@ -185,7 +185,7 @@ TEST(LineCover, LeavesBoundsOfMeshesRight) {
       const int p = random.below(9), q = random.below(9 - p);
       const reference::RationalWeights weights = {mpq_class(p / 8.0), mpq_class(q / 8.0), mpq_class((8 - p - q) / 8.0)};
       const auto squared = reference::squared_deviation_at(t, weights, b);
-      if (squared) ASSERT_LE(reference::compare_root(*squared, found.bounds.upper), 0) << run;
+      ASSERT_LE(squared ? reference::compare_root(*squared, found.bounds.upper) : 0, 0) << run;
     }
     if (!found.witness) continue;
     const auto& uv = found.witness->coordinate;

@@ -32,7 +32,11 @@ struct Case {
     for (const ChartTriangle& t : charts)
       if (t.chart == Chart::Area) candidates.push_back(&t);
   }
-  [[nodiscard]] bool is_complete() const { return NearCover().is_complete(a, candidates); }
+  /// Whether the first `count` candidates, or the sheets of these, are known to cover the triangle.
+  [[nodiscard]] bool is_complete(std::size_t count) const {
+    return NearCover().upper(a, NearCover::Candidates(candidates).first(count), 0, HUGE_VAL).has_value();
+  }
+  [[nodiscard]] bool is_complete() const { return is_complete(candidates.size()); }
   [[nodiscard]] std::optional<double> upper(double least = 0, double precision = 1e-9) const {
     return NearCover().upper(a, candidates, least, precision);
   }
@@ -74,7 +78,7 @@ TEST(NearCover, IsThatByASheetOfWhichSomeAreNoCandidates) {
   Case test(in_texture(low, right, up), fan());
   for (int k = 0; k < 3; ++k) {
     std::rotate(test.candidates.begin(), test.candidates.begin() + 1, test.candidates.end());
-    EXPECT_TRUE(NearCover().is_complete(test.a, NearCover::Candidates(test.candidates).first(1))) << k;
+    EXPECT_TRUE(test.is_complete(1)) << k;
   }
 }
 
@@ -92,7 +96,7 @@ TEST(NearCover, IsNotThatOfAFold) {
   EXPECT_FALSE(is_covered({in_texture({0.5, 0}, up, low), in_texture({0.5, 0}, up, {-1, 0})}));
 }
 
-/// Of two sheets one suffices, whichever has a hole.
+/// Two sheets with the same texture: the triangle is covered as long as one of them has no hole.
 TEST(NearCover, IsThatByOneOfTwoSheets) {
   for (const std::size_t hole : {0, 3}) {
     std::vector<TexturedTriangle> triangles = fan();

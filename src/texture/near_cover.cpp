@@ -26,16 +26,6 @@ bool has_covered_point(const ChartTriangle& a, NearCover::Candidates candidates)
 
 }  // namespace
 
-/// Calls on_sheet(triangles) for each sheet that covers A.
-template <class OnSheet>
-void NearCover::for_each_complete_sheet(const ChartTriangle& a, Candidates candidates, const OnSheet& on_sheet) {
-  candidates_.clear();
-  gathered_.clear();
-  for (const ChartTriangle* b : candidates) candidates_.insert(b->number);
-  for (const ChartTriangle* b : candidates)
-    if (gathered_.insert(b->number) && gather_closed_sheet(a, *b) && has_covered_point(a, sheet_)) on_sheet(sheet_);
-}
-
 /// Gathers the sheet of a triangle. False if an edge of it may run through the inside of A with nothing beyond.
 bool NearCover::gather_closed_sheet(const ChartTriangle& a, const ChartTriangle& first) {
   bool is_closed = true;
@@ -55,12 +45,8 @@ bool NearCover::gather_closed_sheet(const ChartTriangle& a, const ChartTriangle&
   return is_closed;
 }
 
-bool NearCover::is_complete(const ChartTriangle& a, Candidates candidates) {
-  bool is_complete = false;
-  for_each_complete_sheet(a, candidates, [&](const auto&) { is_complete = true; });
-  return is_complete;
-}
-
+/// A sheet that has no open edge through the inside of A covers all of A where it covers a point of it, as `Covering`
+/// tells it.
 std::optional<double> NearCover::upper(const ChartTriangle& a, Candidates candidates, double min_upper,
                                        double precision) {
   double upper = HUGE_VAL;
@@ -68,11 +54,15 @@ std::optional<double> NearCover::upper(const ChartTriangle& a, Candidates candid
   for (const ChartTriangle* b : candidates)
     if (is_part_of(a, *b)) upper = std::min(upper, upper_of(b));
   if (upper < HUGE_VAL) return upper;
-  for_each_complete_sheet(a, candidates, [&](const std::vector<const ChartTriangle*>& sheet) {
+  candidates_.clear();
+  gathered_.clear();
+  for (const ChartTriangle* b : candidates) candidates_.insert(b->number);
+  for (const ChartTriangle* first : candidates) {
+    if (!gathered_.insert(first->number) || !gather_closed_sheet(a, *first) || !has_covered_point(a, sheet_)) continue;
     double of_sheet = min_upper;
-    for (const ChartTriangle* b : sheet) of_sheet = std::max(of_sheet, upper_of(b));
+    for (const ChartTriangle* b : sheet_) of_sheet = std::max(of_sheet, upper_of(b));
     upper = std::min(upper, of_sheet);
-  });
+  }
   return upper < HUGE_VAL ? std::optional(upper) : std::nullopt;
 }
 

@@ -25,13 +25,7 @@ class NearCover {
   [[nodiscard]] std::optional<double> upper(const ChartTriangle& a, Candidates candidates, double min_upper,
                                             double precision);
 
-  /// True only if one sheet covers all of A: as `Covering` tells it, where no open edge of it runs through the inside
-  /// of A. False also where doubles do not know.
-  [[nodiscard]] bool is_complete(const ChartTriangle& a, Candidates candidates);
-
  private:
-  template <class OnSheet>
-  void for_each_complete_sheet(const ChartTriangle& a, Candidates candidates, const OnSheet& on_sheet);
   [[nodiscard]] bool gather_closed_sheet(const ChartTriangle& a, const ChartTriangle& first);
 
   MarkedIds candidates_, gathered_;  ///< numbers of triangles: the candidates, and those of sheets so far
