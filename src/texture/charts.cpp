@@ -141,10 +141,8 @@ void Charts::find_in_texture(const ChartTriangle& a, std::vector<std::uint32_t>&
   find_without_area(box, *without_area_in_texture_, found);
 }
 
-void Charts::add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const {
-  found.clear();
-  find_in_texture(a, found);
-  for (const std::uint32_t b : found) overlay.add(triangles_[b]);
+bool Charts::seems_to_meet_without_area(const ChartTriangle& a) const {
+  return without_area_in_texture_->meets(box_in_texture(*a.source));
 }
 
 bool Charts::may_have_among_others(const ChartTriangle& a) const {

@@ -47,13 +47,12 @@ class Charts {
   [[nodiscard]] const ExactUnits& units() const { return units_; }
   [[nodiscard]] const std::vector<ChartTriangle>& triangles() const { return triangles_; }
 
-  /// Adds the triangles that may overlap `a` in the texture as candidates of the overlay. `found` is set to the indices
-  /// of those whose boxes of texture coordinates meet.
-  void add_candidates(const ChartTriangle& a, Overlay& overlay, std::vector<std::uint32_t>& found) const;
-
   /// Sorts the triangles that may overlap `a` in the texture. Expected O(log n + k) for k of them. Where `a` has no
   /// area in the texture, all may: in a palette many have one coordinate. Then only the near ones are looked for.
   void find_candidates(const ChartTriangle& a, double reach, ChartCandidates& found) const;
+  /// Whether the box in the texture of a triangle without an area there seems to meet that of `a`: true if it does.
+  /// O(log n).
+  [[nodiscard]] bool seems_to_meet_without_area(const ChartTriangle& a) const;
   /// Whether triangles may have the only texture coordinate of `a` and others besides. O(n).
   [[nodiscard]] bool may_have_among_others(const ChartTriangle& a) const;
   /// Where `a` has no area in the texture: sets `others` to those that are not near, by the last `find_candidates`.

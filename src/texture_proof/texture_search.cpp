@@ -25,6 +25,8 @@ constexpr double reach_growth = 1 + 1e-9;
 
 }  // namespace
 
+double TextureSearch::reach() const { return tolerance_ * reach_growth; }
+
 /// Clips to the inside of a line, the line included; with `flip` to what lies strictly outside, with its border. False,
 /// the polygon then being of no use, where nothing but a part of the polygon's border lies there. A triangle without
 /// area in the texture may lie on a line as a whole: inside.
@@ -49,36 +51,48 @@ bool TextureSearch::clip(Polygon& polygon, std::uint32_t candidate) {
 
 /// Takes what a candidate covers away from each polygon. Returns whether that was anything.
 bool TextureSearch::subtract(std::vector<Polygon>& rest, std::uint32_t candidate) {
+  const auto lines = overlay_.lines_of(candidate);
   std::vector<Polygon> left;
   bool is_changed = false;
   for (Polygon& polygon : rest) {
-    Polygon covered = polygon;
-    if (!clip(covered, candidate)) {
-      left.push_back(std::move(polygon));
-      continue;
-    }
-    is_changed = true;
-    for (const Overlay::Line line : overlay_.lines_of(candidate)) {
-      Polygon beyond = polygon;
+    const std::size_t before = left.size();
+    Polygon inside = polygon;
+    const bool is_covered = std::all_of(lines.begin(), lines.end(), [&](Overlay::Line line) {
+      Polygon beyond = inside;
       if (clip(beyond, line, true)) left.push_back(std::move(beyond));
-      (void)clip(polygon, line, false);
-    }
+      return clip(inside, line, false);
+    });
+    is_changed = is_changed || is_covered;
+    if (is_covered) continue;
+    left.resize(before);
+    left.push_back(std::move(polygon));
   }
   rest = std::move(left);
   return is_changed;
 }
 
+bool TextureSearch::is_near(const Overlay::Node& point, std::uint32_t candidate) {
+  const Bounds rough = overlay_.distance(candidate, point, first_precision * tolerance_);
+  if (rough.upper <= tolerance_ || rough.lower > tolerance_) return rough.upper <= tolerance_;
+  return overlay_.distance(candidate, point, 0).upper <= tolerance_;
+}
+
 bool TextureSearch::cell_is_near(const Polygon& cell, std::uint32_t candidate) {
-  return std::all_of(cell.begin(), cell.end(), [&](const Overlay::PolygonCorner& corner) {
-    const Bounds rough = overlay_.distance(candidate, corner.node, first_precision * tolerance_);
-    if (rough.upper <= tolerance_ || rough.lower > tolerance_) return rough.upper <= tolerance_;
-    return overlay_.distance(candidate, corner.node, 0).upper <= tolerance_;
+  return std::all_of(cell.begin(), cell.end(),
+                     [&](const Overlay::PolygonCorner& corner) { return is_near(corner.node, candidate); });
+}
+
+/// Whether each corner has a candidate that covers it and is near there. No cut helps where one has none.
+bool TextureSearch::is_near_at_corners(const Polygon& piece) {
+  return std::all_of(piece.begin(), piece.end(), [&](const Overlay::PolygonCorner& corner) {
+    for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
+      if (is_far_[c] == 0 && overlay_.covers(c, corner.node) && is_near(corner.node, c)) return true;
+    return false;
   });
 }
 
 /// Whether no triangle of the target has a point with the texture coordinate of a point of the piece.
 bool TextureSearch::is_untouched(const Polygon& piece) {
-  if (meets_degenerate_) return false;
   for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
     Polygon covered;
     overlay_.clip(piece, c, covered);
@@ -90,8 +104,9 @@ bool TextureSearch::is_untouched(const Polygon& piece) {
 bool TextureSearch::prove_leaf(const Polygon& piece, std::vector<std::uint32_t>& chosen) {
   std::vector<Polygon> rest = {piece};
   std::vector<std::uint32_t> far;
-  for (std::uint32_t c = 0; c < overlay_.candidates() && !rest.empty(); ++c) {
-    if (overlay_.candidate(c).chart != Chart::Area) continue;
+  for (std::uint32_t c = 0; !rest.empty(); ++c) {
+    if (c == overlay_.candidates() && !std::exchange(has_others_, true)) add(found_.others);
+    if (c == overlay_.candidates()) break;
     if (is_far_[c] != 0) {
       far.push_back(c);
       continue;
@@ -105,7 +120,11 @@ bool TextureSearch::prove_leaf(const Polygon& piece, std::vector<std::uint32_t>&
     if (rest.size() > max_rest) return false;
   }
   if (rest.empty()) return true;
-  if (overlay_.triangle().chart != Chart::Area) return chosen.empty() && is_untouched(piece);
+  if (const ChartTriangle& a = overlay_.triangle(); a.chart != Chart::Area) {
+    if (!target_.seems_to_meet_without_area(a)) return chosen.empty() && is_untouched(piece);
+    is_hopeless_ = !is_near_at_corners(piece);
+    return false;
+  }
   return std::none_of(far.begin(), far.end(), [&](std::uint32_t c) {
     return std::any_of(rest.begin(), rest.end(), [&](Polygon polygon) { return clip(polygon, c); });
   });
@@ -117,7 +136,7 @@ bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, s
     nodes.push_back(std::move(leaf));
     return true;
   }
-  if (depth == max_depth || nodes.size() - first_node_ > max_nodes) return false;
+  if (is_hopeless_ || depth == max_depth || nodes.size() - first_node_ > max_nodes) return false;
   nodes.push_back({true, {}});
   const auto corner = static_cast<std::size_t>(depth % 3);
   const std::int64_t half = range.size[corner] / 2;
@@ -135,17 +154,29 @@ bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, s
   return true;
 }
 
+/// Adds those with an area in the texture as candidates.
+void TextureSearch::add(const std::vector<const ChartTriangle*>& triangles) {
+  const Eigen::AlignedBox3d place = place_of(*overlay_.triangle().source);
+  for (const ChartTriangle* b : triangles) {
+    if (b->chart != Chart::Area) continue;
+    overlay_.add(*b);
+    if (overlay_.candidates() > is_far_.size())
+      is_far_.push_back(place.exteriorDistance(place_of(*b->source)) > reach() ? 1 : 0);
+  }
+}
+
 bool TextureSearch::prove(const ChartTriangle& source, std::vector<Node>& nodes) {
   first_node_ = nodes.size();
   overlay_.begin(source);
-  target_.add_candidates(source, overlay_, found_);
-  meets_degenerate_ = std::any_of(found_.begin(), found_.end(),
-                                  [&](std::uint32_t b) { return target_.triangles()[b].chart != Chart::Area; });
+  target_.find_candidates(source, reach(), found_);
+  if (found_.copy && found_.copy->upper <= tolerance_) {
+    nodes.push_back({false, {found_.copy->triangle->source->triangle}});
+    return true;
+  }
   is_far_.clear();
-  const Eigen::AlignedBox3d place = place_of(*source.source);
-  const double reach = tolerance_ * reach_growth;
-  for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
-    is_far_.push_back(place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > reach ? 1 : 0);
+  has_others_ = false;
+  is_hopeless_ = false;
+  add(found_.near);
   return prove(overlay_.whole(), {{0, 0, 0}, {whole, whole, whole}}, 0, nodes);
 }
 

@@ -36,6 +36,10 @@ class TextureSearch {
   [[nodiscard]] bool prove(const Overlay::Polygon& piece, const Range& range, int depth, std::vector<Node>& nodes);
   [[nodiscard]] bool prove_leaf(const Overlay::Polygon& piece, std::vector<std::uint32_t>& chosen);
   [[nodiscard]] bool is_untouched(const Overlay::Polygon& piece);
+  [[nodiscard]] bool is_near_at_corners(const Overlay::Polygon& piece);
+  [[nodiscard]] bool is_near(const Overlay::Node& point, std::uint32_t candidate);
+  void add(const std::vector<const ChartTriangle*>& triangles);
+  [[nodiscard]] double reach() const;
   [[nodiscard]] bool cell_is_near(const Overlay::Polygon& cell, std::uint32_t candidate);
   [[nodiscard]] bool clip(Overlay::Polygon& polygon, Overlay::Line line, bool flip);
   [[nodiscard]] bool clip(Overlay::Polygon& polygon, std::uint32_t candidate);
@@ -44,9 +48,10 @@ class TextureSearch {
   const Charts& target_;
   double tolerance_;
   Overlay overlay_;
-  std::vector<std::uint32_t> found_;
+  ChartCandidates found_;
+  bool has_others_ = false;           ///< all of `found_` are candidates of the overlay, not only the near ones
   std::vector<std::uint8_t> is_far_;  ///< by candidate: no point of it is within the tolerance of the source
-  bool meets_degenerate_ = false;     ///< the box of the source meets one of a triangle without area in the texture
+  bool is_hopeless_ = false;          ///< a point of the source was found that no candidate is near
   std::size_t first_node_ = 0;        ///< of the tree at hand
   Overlay::Polygon clipped_;
 };

@@ -20,25 +20,28 @@ class Interval {
 
   /// GMP rounds to doubles towards zero, so less than a unit in the last place is cut off: see `rounded`. The rational
   /// must be within the range of doubles.
-  static Interval around(const Exact& x) { return rounded(x.get_d(), x.get_d()); }
+  static Interval around(const Exact& x) { return sgn(x) == 0 ? Interval(0) : rounded(x.get_d(), x.get_d()); }
 
   [[nodiscard]] double lower() const { return lo_; }
   [[nodiscard]] double upper() const { return hi_; }
   [[nodiscard]] double middle() const { return 0.5 * lo_ + 0.5 * hi_; }
+  /// Nothing but 0: products with it are exact, and free of the smallest doubles, with which processors are slow.
+  [[nodiscard]] bool is_zero() const { return lo_ == 0 && hi_ == 0; }
 
-  friend Interval operator+(const Interval& a, const Interval& b) { return rounded(a.lo_ + b.lo_, a.hi_ + b.hi_); }
-  friend Interval operator-(const Interval& a, const Interval& b) { return rounded(a.lo_ - b.hi_, a.hi_ - b.lo_); }
+  friend Interval operator+(const Interval& a, const Interval& b) { return rounded_sum(a.lo_ + b.lo_, a.hi_ + b.hi_); }
+  friend Interval operator-(const Interval& a, const Interval& b) { return rounded_sum(a.lo_ - b.hi_, a.hi_ - b.lo_); }
   friend Interval operator*(const Interval& a, const Interval& b) {
+    if (a.is_zero() || b.is_zero()) return Interval(0);
     const double p = a.lo_ * b.lo_, q = a.lo_ * b.hi_, r = a.hi_ * b.lo_, s = a.hi_ * b.hi_;
     if (!(std::fabs(p) + std::fabs(q) + std::fabs(r) + std::fabs(s) < infinity)) return everything();
-    return rounded(std::min({p, q, r, s}), std::max({p, q, r, s}));
+    return rounded(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
   }
   /// Everything when b may be 0.
   friend Interval operator/(const Interval& a, const Interval& b) {
     if (!(b.lo_ > 0 || b.hi_ < 0)) return everything();
     const double p = a.lo_ / b.lo_, q = a.lo_ / b.hi_, r = a.hi_ / b.lo_, s = a.hi_ / b.hi_;
     if (!(std::fabs(p) + std::fabs(q) + std::fabs(r) + std::fabs(s) < infinity)) return everything();
-    return rounded(std::min({p, q, r, s}), std::max({p, q, r, s}));
+    return rounded(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
   }
 
  private:
@@ -51,7 +54,13 @@ class Interval {
   /// included.
   static Interval rounded(double lo, double hi) {
     constexpr double smallest = std::numeric_limits<double>::denorm_min();
-    const double below = lo - (std::fabs(lo) * 0x1p-52 + smallest), above = hi + (std::fabs(hi) * 0x1p-52 + smallest);
+    return finite(lo - (std::fabs(lo) * 0x1p-52 + smallest), hi + (std::fabs(hi) * 0x1p-52 + smallest));
+  }
+  /// Sums and differences of doubles are exact where they underflow, as all doubles are multiples of the smallest one.
+  static Interval rounded_sum(double lo, double hi) {
+    return finite(lo - std::fabs(lo) * 0x1p-52, hi + std::fabs(hi) * 0x1p-52);
+  }
+  static Interval finite(double below, double above) {
     if (!(std::fabs(below) < infinity && std::fabs(above) < infinity)) return everything();
     return {below, above};
   }

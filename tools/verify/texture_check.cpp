@@ -18,12 +18,20 @@ constexpr std::size_t block_size = 32;   ///< triangles of a block of the index
 /// Clips that a proof may cost: few bytes could ask for many. Real proofs needed 5 to 23 for each byte and triangle.
 constexpr std::uint64_t min_work = 65536, work_per_unit = 256;
 
+/// The first two weights of a point, rounded.
+std::array<double, 2> rough_place(const DomainPoint& point) {
+  const auto& w = point.rough;
+  const double all = w[0].middle() + w[1].middle() + w[2].middle();
+  return {w[0].middle() / all, w[1].middle() / all};
+}
+
 /// The area of a polygon in the plane of the first two weights, of which the whole triangle has 1/2; rounded.
 double rough_area(const DomainPolygon& polygon) {
   double doubled = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const auto &p = polygon[i].rough, &q = polygon[(i + 1) % polygon.size()].rough;
-    doubled += p[0].middle() * q[1].middle() - p[1].middle() * q[0].middle();
+    const std::array<double, 2> p = rough_place(polygon[i].point),
+                                q = rough_place(polygon[(i + 1) % polygon.size()].point);
+    doubled += p[0] * q[1] - p[1] * q[0];
   }
   return std::fabs(doubled) / 2;
 }
@@ -52,7 +60,7 @@ class TextureCheck {
         left_out_area_ += area_of(triangle);
         continue;
       }
-      check(TextureDomain::whole(), {}, 0);
+      check(domain.whole(), {}, 0);
       work_ += domain.work();
       require_work();
     }
@@ -92,7 +100,7 @@ class TextureCheck {
     ++result_.cuts;
     const auto corner = static_cast<std::size_t>(depth % 3);
     const std::int64_t middle = low[corner] + (std::int64_t{1} << (weight_bits - 1 - depth / 3));
-    DomainLine line = TextureDomain::level(corner, middle, weight_bits);
+    DomainLine* const line = domain_->level(corner, middle, weight_bits);
     for (const int side : {-1, 1}) {
       bool has_area = false;
       DomainPolygon part = domain_->clipped(piece, line, side, has_area);
@@ -108,14 +116,14 @@ class TextureCheck {
     std::vector<DomainPolygon> rest;
     if (!piece.empty()) rest.push_back(piece);
     for (std::uint64_t i = 0; i < count; ++i) {
-      CoveringTriangle b = domain_->covering(next_target());
+      const CoveringTriangle b = domain_->covering(next_target());
       if (b.turn == 0) fail("names a triangle without area in the texture");
       const DomainPolygon cell = covered(piece, b);
       if (cell.empty()) continue;
-      for (const DomainPoint& corner : cell)
-        if (!domain_->is_near(corner, b, tolerance_))
+      for (const DomainCorner& corner : cell)
+        if (!domain_->is_near(corner.point, b, tolerance_))
           fail("has a piece whose texture moves by more than the tolerance");
-      rest = without(rest, b);
+      rest = without(std::move(rest), b);
       if (rest.size() > max_rest) fail("is covered by too many pieces");
       require_work();
     }
@@ -123,8 +131,8 @@ class TextureCheck {
   }
 
   /// What of a polygon with an area a triangle covers; empty where that has no area.
-  [[nodiscard]] DomainPolygon covered(DomainPolygon polygon, CoveringTriangle& b) const {
-    for (DomainLine& line : b.lines) {
+  [[nodiscard]] DomainPolygon covered(DomainPolygon polygon, const CoveringTriangle& b) const {
+    for (DomainLine* line : b.lines) {
       bool has_area = false;
       polygon = domain_->clipped(polygon, line, 1, has_area);
       if (!has_area) return {};
@@ -132,20 +140,24 @@ class TextureCheck {
     return polygon;
   }
 
-  [[nodiscard]] std::vector<DomainPolygon> without(const std::vector<DomainPolygon>& polygons,
-                                                   CoveringTriangle& b) const {
+  /// What a triangle does not cover of polygons.
+  [[nodiscard]] std::vector<DomainPolygon> without(std::vector<DomainPolygon> polygons,
+                                                   const CoveringTriangle& b) const {
     std::vector<DomainPolygon> left;
-    for (DomainPolygon polygon : polygons) {
-      if (covered(polygon, b).empty()) {
-        left.push_back(std::move(polygon));
-        continue;
-      }
-      for (DomainLine& line : b.lines) {
+    for (DomainPolygon& polygon : polygons) {
+      const std::size_t before = left.size();
+      DomainPolygon inside = polygon;
+      bool is_covered = true;  // a part of it with an area
+      for (DomainLine* line : b.lines) {
         bool has_area = false;
-        DomainPolygon beyond = domain_->clipped(polygon, line, -1, has_area);
+        DomainPolygon beyond = domain_->clipped(inside, line, -1, has_area);
         if (has_area) left.push_back(std::move(beyond));
-        polygon = domain_->clipped(polygon, line, 1, has_area);
+        inside = domain_->clipped(inside, line, 1, is_covered);
+        if (!is_covered) break;
       }
+      if (is_covered) continue;
+      left.resize(before);
+      left.push_back(std::move(polygon));
     }
     return left;
   }
@@ -154,7 +166,7 @@ class TextureCheck {
     if (!near_) near_ = index_.near(*at_);
     for (const TextureSurface::Triangle* const triangle : *near_) {
       require_work();
-      CoveringTriangle b = domain_->covering(*triangle);
+      const CoveringTriangle b = domain_->covering(*triangle);
       const bool touches =
           is_flat_ ? b.turn == 0 || touches_piece(piece, b)
                    : b.turn != 0 && std::any_of(rest.begin(), rest.end(), [&](const DomainPolygon& polygon) {
@@ -168,9 +180,9 @@ class TextureCheck {
   }
 
   /// Whether a triangle covers any point of the piece, its border included.
-  [[nodiscard]] bool touches_piece(DomainPolygon piece, CoveringTriangle& b) const {
+  [[nodiscard]] bool touches_piece(DomainPolygon piece, const CoveringTriangle& b) const {
     bool has_area = false;
-    for (DomainLine& line : b.lines) piece = domain_->clipped(piece, line, 1, has_area);
+    for (DomainLine* line : b.lines) piece = domain_->clipped(piece, line, 1, has_area);
     return !piece.empty();
   }
 
@@ -203,7 +215,7 @@ class TextureCheck {
   TokenReader tokens_;
   TextureIndex index_;
   const TextureSurface::Triangle* at_ = nullptr;
-  const TextureDomain* domain_ = nullptr;
+  TextureDomain* domain_ = nullptr;
   bool is_flat_ = false;  ///< the triangle at hand has no area in the texture
   std::optional<std::vector<const TextureSurface::Triangle*>> near_;  ///< of the triangle at hand
   std::int64_t last_ = 0;                                             ///< the target named before

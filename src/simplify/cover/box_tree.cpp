@@ -133,7 +133,8 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_o
     around = add_level(around.size(), [&](std::size_t i) -> const Eigen::AlignedBox3d& { return around[i]; });
 }
 
-void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
+template <class Visit>
+void BoxTree::visit_meeting(const Eigen::AlignedBox3d& box, const Visit& visit) const {
   if (order_.empty()) return;
   const Wanted wanted(rounded(box));
   std::array<unsigned, max_levels> open;           // by level above the lowest: lanes of a node that are left
@@ -142,8 +143,7 @@ void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& f
   for (std::size_t level = top, node = 0;;) {
     const unsigned meeting = levels_[level][node].meeting(wanted);
     if (level == 0) {
-      for (unsigned lanes = meeting; lanes != 0; lanes &= lanes - 1)
-        found.push_back(order_[width * node + static_cast<std::size_t>(std::countr_zero(lanes))]);
+      if (meeting != 0 && !visit(node, meeting)) return;
       ++level;
     } else {
       open[level] = meeting;
@@ -155,6 +155,23 @@ void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& f
     open[level] &= open[level] - 1;
     --level;
   }
+}
+
+void BoxTree::find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const {
+  visit_meeting(box, [&](std::size_t node, unsigned meeting) {
+    for (unsigned lanes = meeting; lanes != 0; lanes &= lanes - 1)
+      found.push_back(order_[width * node + static_cast<std::size_t>(std::countr_zero(lanes))]);
+    return true;
+  });
+}
+
+bool BoxTree::meets(const Eigen::AlignedBox3d& box) const {
+  bool is_met = false;
+  visit_meeting(box, [&](std::size_t, unsigned) {
+    is_met = true;
+    return false;
+  });
+  return is_met;
 }
 
 }  // namespace meshbound

@@ -18,6 +18,9 @@ class BoxTree {
   /// Appends the indices of the boxes that meet `box`, in an order that depends on the boxes alone.
   void find(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& found) const;
 
+  /// Whether `find` would find any.
+  [[nodiscard]] bool meets(const Eigen::AlignedBox3d& box) const;
+
  private:
   static constexpr std::size_t width = 8;
   static constexpr std::size_t max_levels = 11;  ///< 8^11 is more than there are indices
@@ -36,6 +39,10 @@ class BoxTree {
   };
 
   [[nodiscard]] Box rounded(const Eigen::AlignedBox3d& box) const;
+  /// Calls `visit(node, lanes)` for the nodes of the lowest level with boxes that meet `box`, a bit of `lanes` for each,
+  /// until it returns false.
+  template <class Visit>
+  void visit_meeting(const Eigen::AlignedBox3d& box, const Visit& visit) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> order_;  ///< indices of the boxes
