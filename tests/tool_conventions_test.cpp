@@ -327,6 +327,24 @@ TEST_F(ToolConventions, ToolsThatDecimateTellRoundingFromWrongProofs) {
   EXPECT_FALSE(std::filesystem::exists(in("none.stl")));
 }
 
+/// Rounding to floats may move a seam where the surface stays as it is: here only its vertices are none of floats.
+TEST_F(ToolConventions, ToolsThatDecimateTellRoundingOfSeamsFromWrongProofs) {
+  std::ofstream(in("seam.obj")) << "v 1000 0 0\nv 1000.3 0 0\nv 1001 0 0\nv 1000 1 0\nv 1000.3 1 0\nv 1001 1 0\n"
+                                   "usemtl red\nf 1 2 5 4\nusemtl blue\nf 2 3 6 5\n";
+  const std::vector<std::string> words = {in("seam.obj"), in("out.obj"), "--tolerance", "1e-6"};
+  ASSERT_EQ(run_tool(SIMPLIFY_WITH_BOUND, words).exit_code, 0);
+  std::vector<std::string> in_floats = words;
+  in_floats.emplace_back("--single-precision");
+  const ToolRun run = run_tool(SIMPLIFY_WITH_BOUND, in_floats);
+  EXPECT_EQ(run.exit_code, 1);
+  const std::string why = "the tolerance is smaller than the rounding of the output format; raise it to ";
+  ASSERT_NE(run.err.find(why), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(", or use PLY, OFF or OBJ, without --single-precision"), std::string::npos) << run.err;
+  const std::string enough = run.err.substr(run.err.find(why) + why.size());
+  in_floats[3] = enough.substr(0, enough.find(','));
+  EXPECT_EQ(run_tool(SIMPLIFY_WITH_BOUND, in_floats).exit_code, 0) << enough;
+}
+
 /// A sheet of two materials: both tools that decimate carry them to OBJ, and say what other formats lose.
 TEST_F(ToolConventions, AttributesComeAlongBetweenObjFiles) {
   std::string text = "mtllib sheet.mtl\n";

@@ -242,7 +242,9 @@ DecidedBy DecimationRun::make_output(GatedOutput& output, double tolerance, cons
 
 /// What keeps an output from its tolerances where rounding to its format alone exceeds them; else empty.
 std::string DecimationRun::obstacle_of(const GatedOutput& output, double tolerance, bool is_original) const {
-  const std::string is_small = " is smaller than the rounding of the output format", advice = "use PLY, OFF or OBJ";
+  const std::string is_small = " is smaller than the rounding of the output format",
+                    advice = std::string("use PLY, OFF or OBJ") +
+                             (shared_.write.single_precision ? ", without --single-precision" : "");
   if (verdict_of(output.distance().bounds, tolerance) != Verdict::Within)
     return is_original ? "the tolerance" + is_small + "; " + advice : "";
   if (!original_lines_) return "";
@@ -255,11 +257,12 @@ std::string DecimationRun::obstacle_of(const GatedOutput& output, double toleran
                         has_floats ? (rounded_to_float(p) - p).stableNorm() : 0});
     }
   }
-  if (moved <= original_lines_->tolerance) return "";
+  if (moved <= std::min(original_lines_->tolerance, tolerance)) return "";
   constexpr double more = 1.01;  // so that a measurement of it can be decided
-  const std::string enough = "; raise it to " + short_number(more * moved);
-  return has_floats ? "--line-tolerance" + is_small + enough + ", or " + advice
-                    : "--line-tolerance is smaller than the rounding of the coordinates" + enough;
+  const std::string which = original_lines_->tolerance < tolerance ? "--line-tolerance" : "the tolerance",
+                    enough = "; raise it to " + short_number(more * moved);
+  return has_floats ? which + is_small + enough + ", or " + advice
+                    : which + " is smaller than the rounding of the coordinates" + enough;
 }
 
 /// Whether a level moves the texture too far or turns faces too much. What is seen before it is written need not be
