@@ -89,6 +89,48 @@ TEST_F(TextureTool, DecidesAboutATolerance) {
             0);
 }
 
+/// A sheet of n x m squares with a hole of a triangle where wanted. The texture coordinate runs across it alone.
+void write_striped(const std::string& path, int n, int m, bool has_hole) {
+  std::ofstream out(path);
+  out.precision(9);
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= n; ++i)
+      out << "v " << i / double(n) << ' ' << j / double(m) << " 0\nvt " << i / double(n) << " 0.5\n";
+  const auto corner = [&](int i, int j) {
+    const std::string index = std::to_string(j * (n + 1) + i + 1);
+    return " " + index + "/" + index;
+  };
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      out << "f" << corner(i, j) << corner(i + 1, j) << corner(i + 1, j + 1) << '\n';
+      if (!has_hole || i != 1 || j != 1) out << "f" << corner(i, j) << corner(i + 1, j + 1) << corner(i, j + 1) << '\n';
+    }
+}
+
+TEST_F(TextureTool, MeasuresAsNarrowlyAsAToleranceTakes) {
+  const std::string holed = folder_ / "holed.obj", striped = folder_ / "striped.obj";
+  write_striped(holed, 3, 4, true);
+  write_striped(striped, 6, 1, false);
+  constexpr double deviation = 0.125;  // the hole is 1/4 long where a coordinate is in it alone, and 1/8 from its ends
+  const auto width_of = [&](double tolerance, const std::vector<std::string>& more, int exit_code) {
+    std::vector<std::string> words = {holed,    striped, "--texture", "--texture-tolerance", std::to_string(tolerance),
+                                      "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ToolRun run = measure(words);
+    EXPECT_EQ(run.exit_code, exit_code) << tolerance << ' ' << run.err;
+    const json texture = checked_document(run.out)["texture"];
+    const double lower = texture["lower"], upper = texture["upper"];
+    EXPECT_LE(lower, deviation);
+    EXPECT_GE(upper, deviation);
+    return upper - lower;
+  };
+  EXPECT_LE(width_of(1, {}, 0), 0.01);
+  EXPECT_GT(width_of(1, {}, 0), 1e-5);
+  EXPECT_LE(width_of(1, {"--worst"}, 0), 1e-5);
+  for (const double share : {0.99, 0.999, 1.0005, 1.001, 1.002, 1.005, 1.01})
+    width_of(share * deviation, {}, share < 1 ? 1 : 0);
+}
+
 TEST_F(TextureTool, WidensByTheRoundingOfAMap) {
   const std::string shift = "1 0 0 0.1  0 1 0 0  0 0 1 0  0 0 0 1";
   const ToolRun result = measure({even_, even_, "--texture", "--transform-b", shift, "--json", "-"});

@@ -241,6 +241,22 @@ void join(Answer& answer, Verdict texture) {
   if (texture == Verdict::Exceeds) answer.outcome = Outcome::ExceedsTolerance;
 }
 
+/// Width of the interval that a texture deviation with a tolerance is measured to, as a share of that.
+constexpr double share_of_texture_tolerance = 0.01;
+
+/// To the error bound that is wanted. Where only a tolerance counts, to a small share of that, and where this does not
+/// tell, to the error bound of measurements without a tolerance.
+TextureDeviation deviation_of(const std::array<TexturedMesh, 2>& meshes, const TextureDeviationOptions& options,
+                              const std::optional<double>& tolerance) {
+  if (tolerance && !options.error_bound) {
+    TextureDeviationOptions rough = options;
+    rough.error_bound = share_of_texture_tolerance * *tolerance;
+    const TextureDeviation deviation = texture_deviation(meshes[0], meshes[1], rough);
+    if (verdict_of(deviation.bounds, *tolerance) != Verdict::Undecided) return deviation;
+  }
+  return texture_deviation(meshes[0], meshes[1], options);
+}
+
 void measure_texture(DistanceReport& report, const Arguments& arguments, const TypedLengths& lengths,
                      const Meshes& compared, const Stopwatch& watch, Answer& answer) {
   TextureReport texture;
@@ -255,8 +271,9 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
   options.threads = arguments.common.threads;
   options.stop = stop_of_run(arguments.common, watch, patience);
   if (lengths.error_bound) options.error_bound = lengths.error_bound->in_model_units(diagonal);
+  const bool decides = texture.tolerance && !arguments.worst;
   try {
-    texture.deviation = texture_deviation(meshes[0], meshes[1], options);
+    texture.deviation = deviation_of(meshes, options, decides ? texture.tolerance : std::nullopt);
   } catch (const Stopped&) {
     if (interrupted()) throw_interrupted(answer.bounds);
     join(answer, Verdict::Undecided);

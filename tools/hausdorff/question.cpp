@@ -62,7 +62,8 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
       "one of the other mesh with the same texture coordinate");
   app.add_option("--texture-tolerance", arguments.texture_tolerance,
                  "With --texture: also decide whether the texture moves at most this far: a length as above, or "
-                 "'2texels' with --texture-size");
+                 "'2texels' with --texture-size. How far it moves is found to 1% of that then, unless --error-bound or "
+                 "--worst is given too");
   app.add_option("--texture-size", arguments.texture_size,
                  "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels "
                  "of A as well")
