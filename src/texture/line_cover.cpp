@@ -10,6 +10,11 @@
 namespace meshbound {
 namespace {
 
+/// Share of its width by which a triangle is let lie inside of what covers it, where borders of both lie on one another
+/// but for rounding: more than places round, if these are not more than a thousand widths of the triangle from the
+/// origin, and far less than counts for a bound.
+constexpr double growth_of_candidates = 0x1p-36;
+
 /// Whether a point of the texture lies on the line of the coordinates of a triangle, decided exactly.
 bool is_on_line(const ChartTriangle& of_line, const Eigen::Vector2d& p, const ExactUnits& units) {
   const Eigen::Vector2d &from = of_line.source->coordinates[of_line.along[0]],
@@ -39,39 +44,95 @@ std::optional<ChartTriangle> chart_with_area(const TexturedTriangle& t, std::uin
 
 }  // namespace
 
+/// How the charts of A and of what it is compared with are made.
 struct LineCover::Directions {
-  /// `of` has texture coordinates on a line, and not one alone.
-  explicit Directions(const ChartTriangle& of) : at(of.source->corners[of.along[0]]) {
-    const auto& uv = of.source->coordinates;
-    const auto& corners = of.source->corners;
-    const auto [first, middle, last] = of.along;
+  /// `a` has texture coordinates on a line, and not one alone.
+  explicit Directions(const ChartTriangle& a) : along(a.along), at(a.source->corners[along[0]]) {
+    const auto& uv = a.source->coordinates;
+    const auto& corners = a.source->corners;
+    const auto [first, middle, last] = along;
     const Eigen::Vector2d way = uv[last] - uv[first];
     axis = std::fabs(way.x()) > std::fabs(way.y()) ? 0 : 1;
-    const double share = (uv[middle][axis] - uv[first][axis]) / way[axis];
-    const Eigen::Vector3d opposite = corners[first] + share * (corners[last] - corners[first]);
-    across = (corners[middle] - opposite).stableNormalized();
+    start = uv[first][axis];
+    length = way[axis];
+    share_of_middle = (uv[middle][axis] - start) / length;
+    const Eigen::Vector3d opposite = at + share_of_middle * (corners[last] - at),
+                          way_across = corners[middle] - opposite;
+    const double width = way_across.stableNorm();
+    across = width > 0 ? ((std::fabs(length) / width) * (way_across / width)).eval() : way_across;
+    for (std::size_t k = 0; k < 3; ++k) places[k] = place(corners[k]);
   }
-  Eigen::Index axis = 0;   ///< of texture coordinates: differs along the line
-  Eigen::Vector3d at;      ///< a point of the triangle
-  Eigen::Vector3d across;  ///< where the coordinate stays the same; not of length 1 without an area in space
+
+  [[nodiscard]] double place(const Eigen::Vector3d& p) const { return across.dot(p - at); }
+
+  /// The middle of the places that points of A with a coordinate have: rounded, but exact at its ends. It goes on
+  /// beyond these.
+  [[nodiscard]] double middle_place(double coordinate) const {
+    const double first = places[along[0]], last = places[along[2]], share = (coordinate - start) / length;
+    const double middle = 0.5 * (between(first, last, share_of_middle) + places[along[1]]);
+    if (share <= share_of_middle && share_of_middle > 0) return between(first, middle, share / share_of_middle);
+    if (share_of_middle >= 1) return middle;
+    return between(middle, last, (share - share_of_middle) / (1 - share_of_middle));
+  }
+  [[nodiscard]] static double between(double from, double to, double share) { return (1 - share) * from + share * to; }
+
+  std::array<std::uint8_t, 3> along;  ///< the first, middle and last corner of A on the line
+  Eigen::Index axis = 0;              ///< of texture coordinates: differs along the line
+  double start = 0, length = 0;       ///< of the coordinates of A along this axis
+  double share_of_middle = 0;         ///< the coordinate of the middle corner, as a share of the length
+  std::array<double, 3> places{};     ///< of the corners of A: their second coordinate
+  Eigen::Vector3d at;                 ///< where the place is 0
+  /// Where the coordinate stays the same, so long that A is as wide in the second coordinate as in the first, whatever
+  /// the units of both; 0 without an area in space.
+  Eigen::Vector3d across;
 };
 
-void LineCover::unfold(const ChartTriangle& t, const Directions& directions) {
-  TexturedTriangle& unfolded = unfolded_.emplace_back(*t.source);
-  for (std::size_t k = 0; k < 3; ++k)
-    unfolded.coordinates[k] = {t.source->coordinates[k][directions.axis],
-                               directions.across.dot(t.source->corners[k] - directions.at)};
+/// Gives corners of A the places of corners of candidates that they are but for rounding.
+void LineCover::join_corners(const ChartTriangle& a, Directions& directions) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double own = directions.places[k];
+    double nearest = growth_of_candidates * std::fabs(directions.length);
+    for (const ChartTriangle* b : on_line_)
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (b->source->coordinates[j] != a.source->coordinates[k]) continue;
+        const double place = directions.place(b->source->corners[j]);
+        if (!(std::fabs(place - own) < nearest)) continue;
+        nearest = std::fabs(place - own);
+        directions.places[k] = place;
+      }
+  }
+}
+
+/// `growth`: moves the place away from the middle of those of A by this share of the way from there.
+void LineCover::unfold(const ChartTriangle& b, const Directions& directions, double growth) {
+  TexturedTriangle& unfolded = unfolded_.emplace_back(*b.source);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double coordinate = b.source->coordinates[k][directions.axis], place = directions.place(b.source->corners[k]);
+    const double out = growth > 0 ? growth * (place - directions.middle_place(coordinate)) : 0;
+    unfolded.coordinates[k] = {coordinate, place + out};
+  }
 }
 
 std::optional<double> LineCover::upper(const ChartTriangle& a, Candidates candidates, double min_upper,
                                        double precision) {
-  const Directions directions(a);
-  unfolded_.clear();
-  unfold(a, directions);
+  on_line_.clear();
   for (const ChartTriangle* b : candidates) {
     const auto is_on_it = [&](const Eigen::Vector2d& p) { return is_on_line(a, p, units_); };
-    if (b->chart == Chart::Segment && std::ranges::all_of(b->source->coordinates, is_on_it)) unfold(*b, directions);
+    if (b->chart == Chart::Segment && std::ranges::all_of(b->source->coordinates, is_on_it)) on_line_.push_back(b);
   }
+  Directions directions(a);
+  if (const auto found = upper_in_charts(a, directions, 0, min_upper, precision)) return found;
+  join_corners(a, directions);
+  return upper_in_charts(a, directions, growth_of_candidates, min_upper, precision);
+}
+
+std::optional<double> LineCover::upper_in_charts(const ChartTriangle& a, const Directions& directions, double growth,
+                                                 double min_upper, double precision) {
+  unfolded_.clear();
+  TexturedTriangle& own = unfolded_.emplace_back(*a.source);
+  for (std::size_t k = 0; k < 3; ++k)
+    own.coordinates[k] = {a.source->coordinates[k][directions.axis], directions.places[k]};
+  for (const ChartTriangle* b : on_line_) unfold(*b, directions, growth);
   const std::optional<ChartTriangle> unfolded_a = chart_with_area(unfolded_.front(), 0);
   if (!unfolded_a) return std::nullopt;
   charts_.clear();

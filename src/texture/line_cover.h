@@ -15,8 +15,8 @@ namespace meshbound {
 /// The points of A with one texture coordinate form a segment, in a direction that is the same for all of A. A point of
 /// A is compared with a point of another triangle that has the same texture coordinate and lies as far in that
 /// direction. So both triangles get charts with an area: the coordinate along the line, and the place in the direction.
-/// `NearCover` bounds the deviation in these charts. It is an upper bound however the place is rounded, as points with
-/// the same texture coordinate are compared. Not thread-safe: each thread has its own.
+/// `NearCover` bounds the deviation in these charts. It is an upper bound however the place is rounded or changed, as
+/// points with the same texture coordinate are compared. Not thread-safe: each thread has its own.
 class LineCover {
  public:
   using Candidates = std::span<const ChartTriangle* const>;
@@ -30,11 +30,15 @@ class LineCover {
                                             double precision);
 
  private:
-  struct Directions;  ///< of the charts
-  void unfold(const ChartTriangle& t, const Directions& directions);
+  struct Directions;
+  void join_corners(const ChartTriangle& a, Directions& directions) const;
+  void unfold(const ChartTriangle& b, const Directions& directions, double growth);
+  [[nodiscard]] std::optional<double> upper_in_charts(const ChartTriangle& a, const Directions& directions,
+                                                      double growth, double min_upper, double precision);
 
   ExactUnits units_;
-  std::vector<TexturedTriangle> unfolded_;  ///< A first, with coordinates in these charts
+  std::vector<const ChartTriangle*> on_line_;  ///< the candidates with coordinates on the line of those of A
+  std::vector<TexturedTriangle> unfolded_;     ///< A first, with coordinates in these charts
   std::vector<ChartTriangle> charts_;
   std::vector<const ChartTriangle*> candidates_;
   NearCover near_cover_;
