@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "texture/chart_edges.h"
+#include "texture/line_chart.h"
 #include "texture/overlay_numbers.h"
 
 namespace meshbound {
@@ -44,61 +45,46 @@ std::optional<ChartTriangle> chart_with_area(const TexturedTriangle& t, std::uin
 
 }  // namespace
 
-/// How the charts of A and of what it is compared with are made.
+/// What tells how charts are made.
 struct LineCover::Directions {
   /// `a` has texture coordinates on a line, and not one alone.
-  explicit Directions(const ChartTriangle& a) : along(a.along), at(a.source->corners[along[0]]) {
-    const auto& uv = a.source->coordinates;
-    const auto& corners = a.source->corners;
-    const auto [first, middle, last] = along;
-    const Eigen::Vector2d way = uv[last] - uv[first];
-    axis = std::fabs(way.x()) > std::fabs(way.y()) ? 0 : 1;
-    start = uv[first][axis];
-    length = way[axis];
-    share_of_middle = (uv[middle][axis] - start) / length;
-    const Eigen::Vector3d opposite = at + share_of_middle * (corners[last] - at),
-                          way_across = corners[middle] - opposite;
-    const double width = way_across.stableNorm();
-    across = width > 0 ? ((std::fabs(length) / width) * (way_across / width)).eval() : way_across;
-    for (std::size_t k = 0; k < 3; ++k) places[k] = place(corners[k]);
+  explicit Directions(const ChartTriangle& a) : chart(a), along(a.along) {
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = chart.corner(*a.source, k);
+    start = corners[along[0]].x();
+    length = corners[along[2]].x() - start;
+    share_of_middle = (corners[along[1]].x() - start) / length;
   }
-
-  [[nodiscard]] double place(const Eigen::Vector3d& p) const { return across.dot(p - at); }
 
   /// The middle of the places that points of A with a coordinate have: rounded, but exact at its ends. It goes on
   /// beyond these.
   [[nodiscard]] double middle_place(double coordinate) const {
-    const double first = places[along[0]], last = places[along[2]], share = (coordinate - start) / length;
-    const double middle = 0.5 * (between(first, last, share_of_middle) + places[along[1]]);
+    const double first = corners[along[0]].y(), last = corners[along[2]].y(), share = (coordinate - start) / length;
+    const double middle = 0.5 * (between(first, last, share_of_middle) + corners[along[1]].y());
     if (share <= share_of_middle && share_of_middle > 0) return between(first, middle, share / share_of_middle);
     if (share_of_middle >= 1) return middle;
     return between(middle, last, (share - share_of_middle) / (1 - share_of_middle));
   }
   [[nodiscard]] static double between(double from, double to, double share) { return (1 - share) * from + share * to; }
 
-  std::array<std::uint8_t, 3> along;  ///< the first, middle and last corner of A on the line
-  Eigen::Index axis = 0;              ///< of texture coordinates: differs along the line
-  double start = 0, length = 0;       ///< of the coordinates of A along this axis
-  double share_of_middle = 0;         ///< the coordinate of the middle corner, as a share of the length
-  std::array<double, 3> places{};     ///< of the corners of A: their second coordinate
-  Eigen::Vector3d at;                 ///< where the place is 0
-  /// Where the coordinate stays the same, so long that A is as wide in the second coordinate as in the first, whatever
-  /// the units of both; 0 without an area in space.
-  Eigen::Vector3d across;
+  LineChart chart;
+  std::array<std::uint8_t, 3> along;       ///< the first, middle and last corner of A on the line
+  std::array<Eigen::Vector2d, 3> corners;  ///< of A in the chart
+  double start = 0, length = 0;            ///< of A along the line
+  double share_of_middle = 0;              ///< where the middle corner is, as a share of the length
 };
 
 /// Gives corners of A the places of corners of candidates that they are but for rounding.
 void LineCover::join_corners(const ChartTriangle& a, Directions& directions) const {
   for (std::size_t k = 0; k < 3; ++k) {
-    const double own = directions.places[k];
+    const double own = directions.corners[k].y();
     double nearest = growth_of_candidates * std::fabs(directions.length);
     for (const ChartTriangle* b : on_line_)
       for (std::size_t j = 0; j < 3; ++j) {
         if (b->source->coordinates[j] != a.source->coordinates[k]) continue;
-        const double place = directions.place(b->source->corners[j]);
+        const double place = directions.chart.place(b->source->corners[j]);
         if (!(std::fabs(place - own) < nearest)) continue;
         nearest = std::fabs(place - own);
-        directions.places[k] = place;
+        directions.corners[k].y() = place;
       }
   }
 }
@@ -107,9 +93,8 @@ void LineCover::join_corners(const ChartTriangle& a, Directions& directions) con
 void LineCover::unfold(const ChartTriangle& b, const Directions& directions, double growth) {
   TexturedTriangle& unfolded = unfolded_.emplace_back(*b.source);
   for (std::size_t k = 0; k < 3; ++k) {
-    const double coordinate = b.source->coordinates[k][directions.axis], place = directions.place(b.source->corners[k]);
-    const double out = growth > 0 ? growth * (place - directions.middle_place(coordinate)) : 0;
-    unfolded.coordinates[k] = {coordinate, place + out};
+    Eigen::Vector2d& at = unfolded.coordinates[k] = directions.chart.corner(*b.source, k);
+    if (growth > 0) at.y() += growth * (at.y() - directions.middle_place(at.x()));
   }
 }
 
@@ -129,9 +114,7 @@ std::optional<double> LineCover::upper(const ChartTriangle& a, Candidates candid
 std::optional<double> LineCover::upper_in_charts(const ChartTriangle& a, const Directions& directions, double growth,
                                                  double min_upper, double precision) {
   unfolded_.clear();
-  TexturedTriangle& own = unfolded_.emplace_back(*a.source);
-  for (std::size_t k = 0; k < 3; ++k)
-    own.coordinates[k] = {a.source->coordinates[k][directions.axis], directions.places[k]};
+  unfolded_.emplace_back(*a.source).coordinates = directions.corners;
   for (const ChartTriangle* b : on_line_) unfold(*b, directions, growth);
   const std::optional<ChartTriangle> unfolded_a = chart_with_area(unfolded_.front(), 0);
   if (!unfolded_a) return std::nullopt;

@@ -12,11 +12,10 @@ namespace meshbound {
 /// Bounds the texture deviation of a triangle A whose texture coordinates lie on a line, as on walls under a texture
 /// projected from above, or where a height is shown by a strip of colours.
 ///
-/// The points of A with one texture coordinate form a segment, in a direction that is the same for all of A. A point of
-/// A is compared with a point of another triangle that has the same texture coordinate and lies as far in that
-/// direction. So both triangles get charts with an area: the coordinate along the line, and the place in the direction.
-/// `NearCover` bounds the deviation in these charts. It is an upper bound however the place is rounded or changed, as
-/// points with the same texture coordinate are compared. Not thread-safe: each thread has its own.
+/// A point of A is compared with a point of another triangle that has the same texture coordinate and the same place in
+/// the direction in which that stays the same on A. So both triangles have an area in the chart of these two
+/// (`LineChart`). `NearCover` bounds the deviation in these charts. It is an upper bound however the place is rounded
+/// or changed, as points with the same texture coordinate are compared. Not thread-safe: each thread has its own.
 class LineCover {
  public:
   using Candidates = std::span<const ChartTriangle* const>;

@@ -176,6 +176,18 @@ Overlay::Line Overlay::add_level(std::size_t corner, std::int64_t numerator) {
   return add_line(at, std::move(weights));
 }
 
+Overlay::Line Overlay::add_cut(const std::array<double, 3>& at) {
+  const double largest = std::max({std::fabs(at[0]), std::fabs(at[1]), std::fabs(at[2])});
+  Weights rounded;
+  ExactWeights weights;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double value = std::round(0x1p40 * (at[i] / largest));
+    rounded[i] = {value, 0};
+    weights[i] = value;
+  }
+  return add_line(rounded, std::move(weights));
+}
+
 /// Adds a line that belongs to no candidate.
 Overlay::Line Overlay::add_line(const Weights& at, ExactWeights exact) {
   LineData& line = lines_.emplace_back();

@@ -123,6 +123,9 @@ class Overlay {
   [[nodiscard]] Node corner_of(std::uint32_t candidate, std::size_t corner);
   /// The line on which the weight of `corner` is `numerator` / 2^40.
   [[nodiscard]] Line add_level(std::size_t corner, std::int64_t numerator);
+  /// The line where a linear function with these values at the corners of A is 0. They are rounded to 2^-40 of the
+  /// largest, which must not be 0.
+  [[nodiscard]] Line add_cut(const std::array<double, 3>& at);
   /// A line of points with one texture coordinate that parts the corners of a polygon by theirs; absent if all have the
   /// same one. A must be a segment in the texture.
   [[nodiscard]] std::optional<Line> add_middle_coordinate(const Polygon& polygon);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "texture/charts.h"
+#include "texture/line_chart.h"
 #include "texture/pair_bound.h"
 
 namespace meshbound {
@@ -292,7 +293,7 @@ class PieceSearch {
     probe(piece, *bound.where);
     if (bound.upper <= limit() || piece.full.size() == 1) return accept(bound.upper);
     if (has_no_area()) drop_far(piece, bound.upper);
-    if (const auto middle = halving_line(piece)) return split(piece, *middle);
+    if (const auto line = parting_line(piece, *bound.where)) return split(piece, *line);
     accept(bound.upper);
   }
 
@@ -465,6 +466,44 @@ class PieceSearch {
     if (!std::all_of(piece.full.begin(), piece.full.end(), is_far)) std::erase_if(piece.full, is_far);
   }
 
+  /// A line that parts what different candidates are near, else one that halves the piece.
+  std::optional<Line> parting_line(const Piece& piece, const Node& worst) {
+    if (overlay_.triangle().chart == Chart::Segment)
+      if (const auto line = line_along_edge(piece, worst)) return line;
+    return halving_line(piece);
+  }
+
+  /// A line along an edge of a candidate that is near the worst corner of the piece, in the chart where a point is
+  /// compared with that of the same place (`LineChart`). Halving alone would come near the edges of candidates in steps
+  /// as small as the limit.
+  std::optional<Line> line_along_edge(const Piece& piece, const Node& worst) {
+    constexpr double margin = 0x1p-36;  // of the largest value: more than lines and weights are rounded
+    if (!chart_) chart_.emplace(overlay_.triangle());
+    const TexturedTriangle& a = *overlay_.triangle().source;
+    for (const std::uint32_t c : piece.full) {
+      if (overlay_.candidate(c).chart != Chart::Segment || overlay_.rough_distance(c, worst).upper > limit()) continue;
+      const TexturedTriangle& b = *overlay_.candidate(c).source;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Vector2d from = chart_->corner(b, k), way = chart_->corner(b, (k + 1) % 3) - from;
+        Eigen::Vector3d at;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Eigen::Vector2d step = chart_->corner(a, i) - from;
+          at[static_cast<Eigen::Index>(i)] = way.x() * step.y() - way.y() * step.x();
+        }
+        const double largest = at.cwiseAbs().maxCoeff();
+        if (!(largest > 0 && largest < HUGE_VAL)) continue;
+        double low = 0, high = 0;
+        for (const auto& corner : piece.polygon) {
+          const std::array<double, 3> w = Overlay::rounded(corner.node);
+          const double value = at.dot(Eigen::Vector3d(w[0], w[1], w[2]));
+          low = std::min(low, value), high = std::max(high, value);
+        }
+        if (low < -margin * largest && high > margin * largest) return overlay_.add_cut({at[0], at[1], at[2]});
+      }
+    }
+    return std::nullopt;
+  }
+
   /// A line that halves the piece where the way to candidates varies most. Across the coordinates of a segment what a
   /// candidate has there may move as far as the candidate is long, however thin the piece is: where coordinates are
   /// rounded, a candidate may have all of its own within a few units of the last place.
@@ -516,6 +555,7 @@ class PieceSearch {
   std::vector<Line> cuts_;
   Polygon covered_;
   std::vector<Polygon> uncovered_;
+  std::optional<LineChart> chart_;        ///< once asked for; only where A is a segment in the texture
   std::vector<std::uint8_t> is_bounded_;  ///< by candidate: what it covers of A is known to lie in pieces with a bound
 };
 
