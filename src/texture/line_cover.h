@@ -29,15 +29,8 @@ class LineCover {
                                             double precision);
 
  private:
-  struct Directions;
-  void join_corners(const ChartTriangle& a, Directions& directions) const;
-  void unfold(const ChartTriangle& b, const Directions& directions, double growth);
-  [[nodiscard]] std::optional<double> upper_in_charts(const ChartTriangle& a, const Directions& directions,
-                                                      double growth, double min_upper, double precision);
-
   ExactUnits units_;
-  std::vector<const ChartTriangle*> on_line_;  ///< the candidates with coordinates on the line of those of A
-  std::vector<TexturedTriangle> unfolded_;     ///< A first, with coordinates in these charts
+  std::vector<TexturedTriangle> unfolded_;  ///< A first, with coordinates in these charts
   std::vector<ChartTriangle> charts_;
   std::vector<const ChartTriangle*> candidates_;
   NearCover near_cover_;
