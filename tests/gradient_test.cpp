@@ -56,6 +56,32 @@ TEST(Gradient, IsFarInAThinGap) {
   EXPECT_NEAR(found.a_to_b.witness->distance, 5, 1e-6);
 }
 
+/// The square in 2 n^2 triangles, less one in the middle. The coordinate is the same along y.
+TexturedMesh holed_square(int n) {
+  TexturedMesh mesh;
+  const auto corner = [n](int i, int j) {
+    const double x = i / double(n);
+    return test::Corner{{x, j / double(n), 0}, {2 * x - 1, 0}};
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      mesh.triangles.push_back(triangle(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)));
+      if (i != n / 2 || j != n / 2)
+        mesh.triangles.push_back(triangle(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)));
+    }
+  return numbered(mesh);
+}
+
+/// Cuts that only halve come near the edges of the small triangles in steps as small as the error bound.
+TEST(Gradient, IsCutAlongEdges) {
+  for (const int n : {5, 10}) {
+    const TextureDeviation found = measured(square(0), holed_square(n), 1e-6);
+    expect_value(found.a_to_b.bounds, 0.5 / n, 1e-6);  // in the middle of the longest way across the hole
+    EXPECT_EQ(found.a_to_b.outcome, Outcome::Converged);
+    EXPECT_LT(found.a_to_b.pieces, 6U * 2 * static_cast<unsigned>(n * n));
+  }
+}
+
 /// One candidate rises from the square to 1 above it between the two coordinates, the other one comes down: the nearer
 /// one is farthest in the middle.
 TEST(Gradient, FollowsCandidatesThroughAThinGap) {

@@ -42,11 +42,11 @@ std::optional<ChartTriangle> chart_with_area(const TexturedTriangle& t, std::uin
 
 std::optional<double> LineCover::upper(const ChartTriangle& a, Candidates candidates, double min_upper,
                                        double precision) {
-  const LineChart chart(a);
+  const LineChart line_chart(a);
   unfolded_.clear();
   const auto unfold = [&](const ChartTriangle& t) {
     TexturedTriangle& unfolded = unfolded_.emplace_back(*t.source);
-    for (std::size_t k = 0; k < 3; ++k) unfolded.coordinates[k] = chart.corner(*t.source, k);
+    for (std::size_t k = 0; k < 3; ++k) unfolded.coordinates[k] = line_chart.corner(*t.source, k);
   };
   unfold(a);
   for (const ChartTriangle* b : candidates) {
