@@ -199,6 +199,28 @@ TEST(TextureCertificate, TellsWhichTrianglesWithoutAreaInTheTextureAreLeftOut) {
   EXPECT_NE(c.rejection(with(bytes, at, 2, 1)).find("neither a proof nor none"), std::string::npos);
 }
 
+/// A slope on a line of the texture, between two sheets that are near to a half of it each. Other triangles without
+/// area there are beyond, so that all of the slope must be covered.
+TEST(TextureCertificate, CutsTrianglesWithoutAreaInTheTexture) {
+  const Chart line = [](double s, double) { return Eigen::Vector2d(s, 0.5); };
+  Case c{grid(
+             1, [](double s, double t) { return Eigen::Vector3d(s, t, s); }, line),
+         grid(1, lifted(0)), 4, 0.75};
+  add_grid(c.b, 1, lifted(1));
+  add_grid(c.b, 1, lifted(3), line);
+  const TextureCertificate certificate = c.certificate();
+  EXPECT_GT(certificate.original_to_simplified.cuts, 0U);
+  EXPECT_EQ(c.check(certificate.certificate.bytes).texture->original_to_simplified.left_out_share, 0);
+}
+
+/// What it takes to check a leaf grows with the square of the triangles that it names.
+TEST(TextureCertificate, NamesFewTrianglesInALeaf) {
+  constexpr std::uint32_t n = 24;
+  const Case c{grid(n, lifted(0)), grid(1, lifted(0)), 0.01, 0.01};
+  const Bytes bytes = c.certificate().certificate.bytes;
+  EXPECT_GE(c.check(bytes).texture->simplified_to_original.pieces, 2 * n * n / 64);
+}
+
 TEST(TextureCertificate, RefusesTrianglesWithoutAreaInTheTextureThatSomethingCovers) {
   const Chart line = [](double s, double) { return Eigen::Vector2d(s, 0.5); };
   const Case covered{grid(2, lifted(0), line), grid(2, lifted(0)), 1, 1};

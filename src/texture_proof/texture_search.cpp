@@ -2,6 +2,7 @@
 #include "texture_proof/texture_search.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace meshbound {
@@ -16,8 +17,11 @@ constexpr double first_precision = 1e-6;  ///< of the tolerance; what that canno
 /// Pieces into which what is not covered may fall; a verifier refuses more.
 constexpr std::size_t max_rest = 256;
 
-/// Nodes of the tree of a triangle, after which the search ends: where the deviation exceeds the tolerance, cuts go on
-/// without end.
+/// Triangles that a leaf names: what it takes to check one grows with their square.
+constexpr std::size_t max_chosen = 64;
+
+/// Nodes of the tree of a triangle, beside one for each candidate, after which the search ends: where the deviation
+/// exceeds the tolerance, cuts go on without end.
 constexpr std::size_t max_nodes = 4096;
 
 /// In space, by the tolerance times this, triangles are far apart whatever rounding does.
@@ -59,8 +63,9 @@ bool TextureSearch::subtract(std::vector<Polygon>& rest, std::uint32_t candidate
     Polygon inside = polygon;
     const bool is_covered = std::all_of(lines.begin(), lines.end(), [&](Overlay::Line line) {
       Polygon beyond = inside;
+      if (!clip(inside, line, false)) return false;
       if (clip(beyond, line, true)) left.push_back(std::move(beyond));
-      return clip(inside, line, false);
+      return true;
     });
     is_changed = is_changed || is_covered;
     if (is_covered) continue;
@@ -91,6 +96,13 @@ bool TextureSearch::is_near_at_corners(const Polygon& piece) {
   });
 }
 
+/// Whether a candidate covers a part of the polygon that has an area.
+bool TextureSearch::is_covered_in_part(const Polygon& polygon) {
+  for (std::uint32_t c = 0; c < overlay_.candidates(); ++c)
+    if (Polygon covered = polygon; clip(covered, c)) return true;
+  return false;
+}
+
 /// Whether no triangle of the target has a point with the texture coordinate of a point of the piece.
 bool TextureSearch::is_untouched(const Polygon& piece) {
   for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
@@ -101,42 +113,50 @@ bool TextureSearch::is_untouched(const Polygon& piece) {
   return true;
 }
 
-bool TextureSearch::prove_leaf(const Polygon& piece, std::vector<std::uint32_t>& chosen) {
-  std::vector<Polygon> rest = {piece};
-  std::vector<std::uint32_t> far;
-  for (std::uint32_t c = 0; !rest.empty(); ++c) {
-    if (c == overlay_.candidates() && !std::exchange(has_others_, true)) add(found_.others);
-    if (c == overlay_.candidates()) break;
-    if (is_far_[c] != 0) {
-      far.push_back(c);
-      continue;
-    }
+/// Names candidates while any of the piece is left: where what they cover of it is near, that is taken away from the
+/// rest. False if there are too many of them, or too many parts of the rest.
+bool TextureSearch::take(const Polygon& piece, const std::vector<std::uint32_t>& candidates, std::vector<Polygon>& rest,
+                         std::vector<std::uint32_t>& chosen) {
+  for (const std::uint32_t c : candidates) {
+    if (rest.empty()) break;
     Polygon cell = piece;
-    if (!clip(cell, c)) continue;
-    if (!cell_is_near(cell, c))
-      far.push_back(c);
-    else if (subtract(rest, c))
-      chosen.push_back(overlay_.candidate(c).source->triangle);
-    if (rest.size() > max_rest) return false;
+    if (is_far_[c] != 0 || !clip(cell, c) || !cell_is_near(cell, c) || !subtract(rest, c)) continue;
+    chosen.push_back(overlay_.candidate(c).source->triangle);
+    if (chosen.size() > max_chosen || rest.size() > max_rest) return false;
   }
+  return true;
+}
+
+/// The others are looked at where near candidates do not cover the piece.
+bool TextureSearch::prove_leaf(const Polygon& piece, const std::vector<std::uint32_t>& near,
+                               std::vector<std::uint32_t>& chosen) {
+  std::vector<Polygon> rest = {piece};
+  if (!take(piece, near, rest, chosen)) return false;
+  if (rest.empty()) return true;
+  add_others();
+  if (!take(piece, others_, rest, chosen)) return false;
   if (rest.empty()) return true;
   if (const ChartTriangle& a = overlay_.triangle(); a.chart != Chart::Area) {
     if (!target_.seems_to_meet_without_area(a)) return chosen.empty() && is_untouched(piece);
     is_hopeless_ = !is_near_at_corners(piece);
     return false;
   }
-  return std::none_of(far.begin(), far.end(), [&](std::uint32_t c) {
-    return std::any_of(rest.begin(), rest.end(), [&](Polygon polygon) { return clip(polygon, c); });
-  });
+  return std::none_of(rest.begin(), rest.end(), [&](const Polygon& polygon) { return is_covered_in_part(polygon); });
 }
 
-bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, std::vector<Node>& nodes) {
+bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, std::vector<std::uint32_t> near,
+                          std::vector<Node>& nodes) {
   Node leaf;
-  if (prove_leaf(piece, leaf.triangles)) {
+  if (prove_leaf(piece, near, leaf.triangles)) {
     nodes.push_back(std::move(leaf));
     return true;
   }
-  if (is_hopeless_ || depth == max_depth || nodes.size() - first_node_ > max_nodes) return false;
+  if (is_hopeless_ || depth == max_depth || nodes.size() - first_node_ > max_nodes + overlay_.candidates())
+    return false;
+  std::erase_if(near, [&](std::uint32_t c) {
+    Polygon covered = piece;
+    return !clip(covered, c);
+  });
   nodes.push_back({true, {}});
   const auto corner = static_cast<std::size_t>(depth % 3);
   const std::int64_t half = range.size[corner] / 2;
@@ -148,7 +168,7 @@ bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, s
     Polygon polygon = piece;
     if (!clip(polygon, line, !is_upper))
       nodes.emplace_back();
-    else if (!prove(polygon, part, depth + 1, nodes))
+    else if (!prove(polygon, part, depth + 1, near, nodes))
       return false;
   }
   return true;
@@ -165,6 +185,14 @@ void TextureSearch::add(const std::vector<const ChartTriangle*>& triangles) {
   }
 }
 
+void TextureSearch::add_others() {
+  if (std::exchange(has_others_, true)) return;
+  const std::uint32_t first = overlay_.candidates();
+  add(found_.others);
+  others_.resize(overlay_.candidates() - first);
+  std::iota(others_.begin(), others_.end(), first);
+}
+
 bool TextureSearch::prove(const ChartTriangle& source, std::vector<Node>& nodes) {
   first_node_ = nodes.size();
   overlay_.begin(source);
@@ -175,9 +203,12 @@ bool TextureSearch::prove(const ChartTriangle& source, std::vector<Node>& nodes)
   }
   is_far_.clear();
   has_others_ = false;
+  others_.clear();
   is_hopeless_ = false;
   add(found_.near);
-  return prove(overlay_.whole(), {{0, 0, 0}, {whole, whole, whole}}, 0, nodes);
+  std::vector<std::uint32_t> near(overlay_.candidates());
+  std::iota(near.begin(), near.end(), 0U);
+  return prove(overlay_.whole(), {{0, 0, 0}, {whole, whole, whole}}, 0, near, nodes);
 }
 
 }  // namespace meshbound

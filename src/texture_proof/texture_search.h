@@ -33,12 +33,19 @@ class TextureSearch {
     std::array<std::int64_t, 3> low, size;
   };
 
-  [[nodiscard]] bool prove(const Overlay::Polygon& piece, const Range& range, int depth, std::vector<Node>& nodes);
-  [[nodiscard]] bool prove_leaf(const Overlay::Polygon& piece, std::vector<std::uint32_t>& chosen);
+  /// `near`: numbers of near candidates that may cover a part of the piece.
+  [[nodiscard]] bool prove(const Overlay::Polygon& piece, const Range& range, int depth,
+                           std::vector<std::uint32_t> near, std::vector<Node>& nodes);
+  [[nodiscard]] bool prove_leaf(const Overlay::Polygon& piece, const std::vector<std::uint32_t>& near,
+                                std::vector<std::uint32_t>& chosen);
+  [[nodiscard]] bool take(const Overlay::Polygon& piece, const std::vector<std::uint32_t>& candidates,
+                          std::vector<Overlay::Polygon>& rest, std::vector<std::uint32_t>& chosen);
+  [[nodiscard]] bool is_covered_in_part(const Overlay::Polygon& polygon);
   [[nodiscard]] bool is_untouched(const Overlay::Polygon& piece);
   [[nodiscard]] bool is_near_at_corners(const Overlay::Polygon& piece);
   [[nodiscard]] bool is_near(const Overlay::Node& point, std::uint32_t candidate);
   void add(const std::vector<const ChartTriangle*>& triangles);
+  void add_others();
   [[nodiscard]] double reach() const;
   [[nodiscard]] bool cell_is_near(const Overlay::Polygon& cell, std::uint32_t candidate);
   [[nodiscard]] bool clip(Overlay::Polygon& polygon, Overlay::Line line, bool flip);
@@ -49,10 +56,11 @@ class TextureSearch {
   double tolerance_;
   Overlay overlay_;
   ChartCandidates found_;
-  bool has_others_ = false;           ///< all of `found_` are candidates of the overlay, not only the near ones
-  std::vector<std::uint8_t> is_far_;  ///< by candidate: no point of it is within the tolerance of the source
-  bool is_hopeless_ = false;          ///< a point of the source was found that no candidate is near
-  std::size_t first_node_ = 0;        ///< of the tree at hand
+  bool has_others_ = false;            ///< all of `found_` are candidates of the overlay, not only the near ones
+  std::vector<std::uint32_t> others_;  ///< candidates that are not near ones
+  std::vector<std::uint8_t> is_far_;   ///< by candidate: no point of it is within the tolerance of the source
+  bool is_hopeless_ = false;           ///< a point of the source was found that no candidate is near
+  std::size_t first_node_ = 0;         ///< of the tree at hand
   Overlay::Polygon clipped_;
 };
 

@@ -266,9 +266,9 @@ std::string DecimationRun::obstacle_of(const GatedOutput& output, double toleran
 }
 
 /// Whether a level moves the texture too far or turns faces too much. What is seen before it is written need not be
-/// written again.
+/// written again. Where rounding alone is too much for the tolerance of the surface, nothing can be taken back.
 bool DecimationRun::looks_wrong(GatedOutput& output, const SimplifiedLevel& level) {
-  if (!scene_ || !bounds_appearance()) return false;
+  if (!scene_ || !bounds_appearance() || level.ended_by == EndedBy::Rounding) return false;
   look_at(output, level);
   return !output.keeps_appearance();
 }

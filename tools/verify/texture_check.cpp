@@ -149,11 +149,12 @@ class TextureCheck {
       DomainPolygon inside = polygon;
       bool is_covered = true;  // a part of it with an area
       for (DomainLine* line : b.lines) {
+        DomainPolygon within = domain_->clipped(inside, line, 1, is_covered);
+        if (!is_covered) break;
         bool has_area = false;
         DomainPolygon beyond = domain_->clipped(inside, line, -1, has_area);
         if (has_area) left.push_back(std::move(beyond));
-        inside = domain_->clipped(inside, line, 1, is_covered);
-        if (!is_covered) break;
+        inside = std::move(within);
       }
       if (is_covered) continue;
       left.resize(before);
