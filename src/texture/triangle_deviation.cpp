@@ -185,12 +185,14 @@ class PieceSearch {
   }
 
   /// Bounds what candidates cover of an uncovered polygon, which is of its border: but for what lies in pieces with a
-  /// bound.
+  /// bound, or was covered by one of the candidates before. Many may lie on one line.
   void search_where_touched(const Polygon& uncovered, const std::vector<std::uint8_t>& is_bounded) {
+    std::vector<std::uint8_t> is_searched(overlay_.candidates(), 0);
     for (std::uint32_t c = 0; c < overlay_.candidates(); ++c) {
       if (is_bounded[c] != 0) continue;
       overlay_.clip(uncovered, c, covered_);
-      if (covered_.empty() || lies_in_one(covered_, is_bounded)) continue;
+      if (covered_.empty() || lies_in_one(covered_, is_bounded) || lies_in_one(covered_, is_searched)) continue;
+      is_searched[c] = 1;
       Piece piece{covered_, {c}, {}, true};
       for (std::uint32_t other = 0; other < overlay_.candidates(); ++other)
         if (other != c) piece.part.push_back(other);
