@@ -25,15 +25,28 @@ constexpr double smooth_cosine = 0.9962;
 /// Cosine of 20 degrees: triangles of level and original within this angle have the same direction.
 constexpr double min_alignment = 0.9397;
 
+/// Weights below this are what rounding leaves of 0: that of points on an edge, some thousand units of the last place.
+constexpr double rounding_of_weights = 0x1p-40;
+
+/// The interpolated value at a point, by values at corners. Between corners with one value it is this value exactly:
+/// where a wall has its texture from above, all of a vertical edge keeps one texture coordinate.
+template <class Value, class ValueAtCorner>
+Value interpolated(const WeightedPoint& at, const ValueAtCorner& value) {
+  const std::size_t nearest = at.nearest_corner();
+  const Value base = value(nearest);
+  Value sum = base;
+  for (const std::size_t k : {(nearest + 1) % 3, (nearest + 2) % 3})
+    if (const double weight = at.weights[static_cast<Eigen::Index>(k)]; weight > rounding_of_weights)
+      sum += weight * (value(k) - base);
+  return sum;
+}
+
 /// The interpolated value at a point; absent if a corner of its triangle has none.
 std::optional<Eigen::Vector3d> value_at(const CornerAttribute& attribute, const WeightedPoint& at) {
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t index = attribute.index[at.triangle][k];
-    if (index == no_value) return std::nullopt;
-    value += at.weights[static_cast<Eigen::Index>(k)] * attribute.values[index];
-  }
-  return value;
+  const Triangle& index = attribute.index[at.triangle];
+  if (!all_have_values(index)) return std::nullopt;
+  return interpolated<Eigen::Vector3d>(
+      at, [&](std::size_t k) -> const Eigen::Vector3d& { return attribute.values[index[k]]; });
 }
 
 /// Appends the value of an attribute at a point to `values`; false if a corner of its triangle has none.
@@ -45,11 +58,10 @@ bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std:
   };
   const std::size_t nearest = at.nearest_corner(), first = values.size();
   for (std::size_t i = 0; i < attribute.width; ++i) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += at.weights[static_cast<Eigen::Index>(k)] * number(k, i);
     const bool is_mean = attribute.interpolation == Interpolation::Linear ||
                          (attribute.interpolation == Interpolation::Direction && i < 3);
-    values.push_back(is_mean ? sum : number(nearest, i));
+    values.push_back(is_mean ? interpolated<double>(at, [&](std::size_t k) { return number(k, i); })
+                             : number(nearest, i));
   }
   if (attribute.interpolation != Interpolation::Direction || attribute.width < 3) return true;
   Eigen::Map<Eigen::Vector3d> direction(values.data() + first);

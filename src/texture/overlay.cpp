@@ -54,6 +54,10 @@ void negate(std::array<Number, 3>& x) {
   for (Number& k : x) k = -k;
 }
 
+/// Weights whose sum is not this many times their error are made of integers: where lines hardly cross, their point may
+/// be far from where doubles see it, and a cut that seems to halve a piece leaves all of it on one side.
+constexpr double precise_enough = 0x1p20;
+
 /// Approximations of three integers up to a common factor that brings the largest below 1.
 std::array<Approximate, 3> near(const std::array<mpz_class, 3>& exact) {
   std::array<double, 3> leading{};
@@ -302,10 +306,11 @@ Overlay::Node Overlay::crossing(Line line, Line other) {
   node.weights = cross_of_lines(lines_[line].at, lines_[other].at);
   for (const Eigen::Vector2d* end : lines_[line].ends)
     if (end != nullptr && is_end(lines_[other].ends, *end)) node.at = end;
-  int sign = 0;
-  if (!sign_is_known(sum(node.weights), sign))
+  const Approximate total = sum(node.weights);
+  const double error = node.weights[0].error + node.weights[1].error + node.weights[2].error;
+  if (!(std::fabs(total.value) > precise_enough * error))
     node.weights = near(exact(node));
-  else if (sign < 0)
+  else if (total.value < 0)
     negate(node.weights);
   return node;
 }
