@@ -236,6 +236,26 @@ TEST(TransferredAttributes, DoNotDependOnTheUnitOfLength) {
   }
 }
 
+/// A round wall with its texture from above. What rounding makes of a coordinate would not be that of the edge any
+/// more, so that no other point has it.
+TEST(TransferredAttributes, StayTheSameAlongAnEdgeThatHasOneValue) {
+  Textured wall = tube(21, 9);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t t = 0; t < wall.mesh.triangles.size(); ++t)
+      wall.attributes.texture_coordinates.index[t][k] = wall.mesh.triangles[t][k];
+  std::vector<Eigen::Vector3d>& values = wall.attributes.texture_coordinates.values;
+  values.clear();
+  for (const Eigen::Vector3d& p : wall.mesh.vertices) values.emplace_back(p.x(), p.y(), 0);
+  SimplifiedLevel level = level_of(wall, 0);
+  for (Eigen::Vector3d& p : level.mesh.vertices) p.z() *= 0.9;  // most are between two vertices then, above one another
+  const CornerAttribute uv = transferred_attributes(wall.mesh, wall.attributes, level).texture_coordinates;
+  for (std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& p = level.mesh.vertices[level.mesh.triangles[t][k]];
+      EXPECT_EQ(uv.values[uv.index[t][k]], Eigen::Vector3d(p.x(), p.y(), 0));
+    }
+}
+
 TEST(TransferredAttributes, DoNotWrapAroundWhereAChartMeetsItself) {
   const Textured around = tube(48, 12);
   const SimplifiedLevel level = level_of(around, 0.03);

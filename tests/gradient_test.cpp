@@ -72,6 +72,30 @@ TexturedMesh holed_square(int n) {
   return numbered(mesh);
 }
 
+/// A facet of a wall in rows of triangles, all with the texture coordinates of two points, and a larger triangle with
+/// these coordinates but for their last digits: their lines cross it along one line, which they hardly cross each other
+/// on. Cuts that were chosen by rounded places of such points left the same piece over and over.
+TEST(Gradient, IsBoundedWhereLinesHardlyCross) {
+  const Eigen::Vector2d left(-0.00191055253, -0.000920073605), right(-0.00155447558, -0.00144234256);
+  const auto at = [](const Eigen::Vector2d& uv, double z) { return Eigen::Vector3d(uv.x(), uv.y(), z); };
+  TexturedMesh wall;
+  constexpr int rows = 19;
+  constexpr double height = 0.00022321613925321821;
+  for (int j = 0; j < rows; ++j) {
+    const double low_z = j * height, high_z = (j + 1) * height;
+    wall.triangles.push_back(triangle({at(left, low_z), left}, {at(right, low_z), right}, {at(right, high_z), right}));
+    wall.triangles.push_back(triangle({at(left, low_z), left}, {at(right, high_z), right}, {at(left, high_z), left}));
+  }
+  TexturedMesh large;
+  large.triangles.push_back(triangle(
+      {at(left, 0), left}, {at(right, 0.0015067089399592229), {-0.0015544755800000008, -0.0014423425599999987}},
+      {at(left, 0.001213737757189374), {-0.0019105525300000003, -0.00092007360500000006}}));
+  const TextureDeviation found = measured(numbered(large), numbered(wall), 1e-5);
+  EXPECT_EQ(found.a_to_b.outcome, Outcome::Converged);
+  EXPECT_LE(found.a_to_b.bounds.upper, 1e-5);
+  EXPECT_LT(found.a_to_b.pieces, 1000U);
+}
+
 /// Cuts that only halve come near the edges of the small triangles in steps as small as the error bound.
 TEST(Gradient, IsCutAlongEdges) {
   for (const int n : {5, 10}) {
