@@ -16,7 +16,7 @@ constexpr std::size_t max_rest = 256;    ///< pieces of what is not covered
 constexpr std::size_t block_size = 32;   ///< triangles of a block of the index
 
 /// Clips that a proof may cost: few bytes could ask for many. Real proofs needed 5 to 23 for each byte and triangle.
-constexpr std::uint64_t min_work = 65536, work_per_unit = 256;
+constexpr std::uint64_t min_work = 65536, work_per_unit = 1024;
 
 /// The first two weights of a point, rounded.
 std::array<double, 2> rough_place(const DomainPoint& point) {

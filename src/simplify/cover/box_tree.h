@@ -39,8 +39,8 @@ class BoxTree {
   };
 
   [[nodiscard]] Box rounded(const Eigen::AlignedBox3d& box) const;
-  /// Calls `visit(node, lanes)` for the nodes of the lowest level with boxes that meet `box`, a bit of `lanes` for each,
-  /// until it returns false.
+  /// Calls `visit(node, lanes)` for the nodes of the lowest level with boxes that meet `box`, a bit of `lanes` for
+  /// each, until it returns false.
   template <class Visit>
   void visit_meeting(const Eigen::AlignedBox3d& box, const Visit& visit) const;
 
