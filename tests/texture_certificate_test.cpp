@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "forged_bytes.h"
@@ -211,6 +212,19 @@ TEST(TextureCertificate, CutsTrianglesWithoutAreaInTheTexture) {
   const TextureCertificate certificate = c.certificate();
   EXPECT_GT(certificate.original_to_simplified.cuts, 0U);
   EXPECT_EQ(c.check(certificate.certificate.bytes).texture->original_to_simplified.left_out_share, 0);
+}
+
+/// No cut parts the triangles around a vertex.
+TEST(TextureCertificate, HoldsAroundAVertexOfManyTriangles) {
+  constexpr std::uint32_t n = 200;
+  Case c{grid(1, lifted(0)), {}, 10, 0};
+  c.b.add({0.5, 0.4, 0}, {0.5, 0.4});
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double angle = 2 * std::numbers::pi * k / n, x = 0.5 + 2 * std::cos(angle), y = 0.4 + 2 * std::sin(angle);
+    c.b.add({x, y, 0}, {x, y});
+    c.b.add(Triangle{0, 1 + k, 1 + (k + 1) % n});
+  }
+  EXPECT_EQ(c.check(c.certificate().certificate.bytes).texture->original_to_simplified.uncovered_share, 0);
 }
 
 /// What it takes to check a leaf grows with the square of the triangles that it names.

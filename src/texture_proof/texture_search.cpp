@@ -2,6 +2,7 @@
 #include "texture_proof/texture_search.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -17,8 +18,10 @@ constexpr double first_precision = 1e-6;  ///< of the tolerance; what that canno
 /// Pieces into which what is not covered may fall; a verifier refuses more.
 constexpr std::size_t max_rest = 256;
 
-/// Triangles that a leaf names: what it takes to check one grows with their square.
+/// Triangles that a leaf names, as what it takes to check one grows with their square; but for small pieces, from four
+/// halvings of each weight on, since a vertex may have any number of triangles around it.
 constexpr std::size_t max_chosen = 64;
+constexpr int depth_of_small_pieces = 12;
 
 /// Nodes of the tree of a triangle, beside one for each candidate, after which the search ends: where the deviation
 /// exceeds the tolerance, cuts go on without end.
@@ -122,7 +125,7 @@ bool TextureSearch::take(const Polygon& piece, const std::vector<std::uint32_t>&
     Polygon cell = piece;
     if (is_far_[c] != 0 || !clip(cell, c) || !cell_is_near(cell, c) || !subtract(rest, c)) continue;
     chosen.push_back(overlay_.candidate(c).source->triangle);
-    if (chosen.size() > max_chosen || rest.size() > max_rest) return false;
+    if (chosen.size() > max_chosen_ || rest.size() > max_rest) return false;
   }
   return true;
 }
@@ -147,6 +150,7 @@ bool TextureSearch::prove_leaf(const Polygon& piece, const std::vector<std::uint
 bool TextureSearch::prove(const Polygon& piece, const Range& range, int depth, std::vector<std::uint32_t> near,
                           std::vector<Node>& nodes) {
   Node leaf;
+  max_chosen_ = depth < depth_of_small_pieces ? max_chosen : std::numeric_limits<std::size_t>::max();
   if (prove_leaf(piece, near, leaf.triangles)) {
     nodes.push_back(std::move(leaf));
     return true;

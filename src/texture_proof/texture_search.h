@@ -61,6 +61,7 @@ class TextureSearch {
   std::vector<std::uint8_t> is_far_;   ///< by candidate: no point of it is within the tolerance of the source
   bool is_hopeless_ = false;           ///< a point of the source was found that no candidate is near
   std::size_t first_node_ = 0;         ///< of the tree at hand
+  std::size_t max_chosen_ = 0;         ///< triangles that the leaf at hand may name
   Overlay::Polygon clipped_;
 };
 
