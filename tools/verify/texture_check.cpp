@@ -113,13 +113,18 @@ class TextureCheck {
 
   /// What the named triangles cover of the piece must be near; what they do not cover, no triangle may cover.
   void check_leaf(const DomainPolygon& piece, std::uint64_t count) {
+    const std::size_t lines_before = domain_->line_count();
     std::vector<DomainPolygon> rest;
     if (!piece.empty()) rest.push_back(piece);
     for (std::uint64_t i = 0; i < count; ++i) {
+      const std::size_t lines_of_others = domain_->line_count();
       const CoveringTriangle b = domain_->covering(next_target());
       if (b.turn == 0) fail("names a triangle without area in the texture");
       const DomainPolygon cell = covered(piece, b);
-      if (cell.empty()) continue;
+      if (cell.empty()) {
+        domain_->forget_lines_from(lines_of_others);
+        continue;
+      }
       for (const DomainCorner& corner : cell)
         if (!domain_->is_near(corner.point, b, tolerance_))
           fail("has a piece whose texture moves by more than the tolerance");
@@ -128,6 +133,7 @@ class TextureCheck {
       require_work();
     }
     if (!rest.empty()) check_uncovered(piece, rest);
+    domain_->forget_lines_from(lines_before);
   }
 
   /// What of a polygon with an area a triangle covers; empty where that has no area.
@@ -167,6 +173,7 @@ class TextureCheck {
     if (!near_) near_ = index_.near(*at_);
     for (const TextureSurface::Triangle* const triangle : *near_) {
       require_work();
+      const std::size_t lines_of_others = domain_->line_count();
       const CoveringTriangle b = domain_->covering(*triangle);
       const bool touches =
           is_flat_ ? b.turn == 0 || touches_piece(piece, b)
@@ -176,6 +183,7 @@ class TextureCheck {
       if (touches)
         fail(("is not shown to be near triangle " + std::to_string(triangle->index) + ", which covers a part of it")
                  .c_str());
+      domain_->forget_lines_from(lines_of_others);
     }
     for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * area_of(*at_) * rough_area(polygon);
   }

@@ -45,7 +45,7 @@ struct CoveringTriangle {
   int turn = 0;  ///< 1: the coordinates go round counter-clockwise; -1: clockwise; 0: they have no area
 };
 
-/// Lines, and what is made of them, are valid as long as the domain.
+/// Lines, and what is made of them, are valid until they are forgotten.
 class TextureDomain {
  public:
   /// `a` must outlive this.
@@ -55,6 +55,10 @@ class TextureDomain {
 
   [[nodiscard]] const DomainPolygon& whole() const { return whole_; }
   [[nodiscard]] CoveringTriangle covering(const TextureSurface::Triangle& b);
+
+  [[nodiscard]] std::size_t line_count() const { return lines_.size(); }
+  /// Forgets all lines but the first ones: proofs may ask for more than memory holds.
+  void forget_lines_from(std::size_t count) { lines_.resize(count); }
 
   /// The line on which the weight of a corner is `numerator` / 2^`bits`; positive where it is larger.
   [[nodiscard]] DomainLine* level(std::size_t corner, std::int64_t numerator, int bits);
