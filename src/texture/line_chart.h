@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "texture/overlay.h"
 
@@ -29,12 +27,9 @@ class LineChart {
     across_ = width > 0 ? ((std::fabs(way[axis_]) / width) * (way_across / width)).eval() : way_across;
   }
 
-  /// Of a texture coordinate on the line: where it is along this.
-  [[nodiscard]] double along(const Eigen::Vector2d& coordinate) const { return coordinate[axis_]; }
-  [[nodiscard]] double place(const Eigen::Vector3d& p) const { return across_.dot(p - at_); }
   /// Corner k of a triangle in the chart.
   [[nodiscard]] Eigen::Vector2d corner(const TexturedTriangle& t, std::size_t k) const {
-    return {along(t.coordinates[k]), place(t.corners[k])};
+    return {t.coordinates[k][axis_], across_.dot(t.corners[k] - at_)};
   }
 
  private:

@@ -17,7 +17,8 @@ namespace meshbound::verify {
 /// A linear function on A, by its values at the corners; not 0 everywhere where points are made of it.
 struct DomainLine {
   std::array<Interval, 3> rough;
-  /// Of an edge of B: its ends in the texture. The function is the area of these and of a point there, times `sign`.
+  /// The ends in the texture of an edge of B, where the line is one: the function is then twice the signed area of the
+  /// triangle that both ends and the point span in the texture, times `sign`.
   const Eigen::Vector2d *from = nullptr, *to = nullptr;
   int sign = 1;
   std::optional<std::array<Exact, 3>> exact;  ///< once asked for; given where there are no ends
