@@ -81,11 +81,14 @@ TEST_F(ViewTool, WritesTheLevelsThatAreNeededWithinWhatItSays) {
 }
 
 TEST_F(ViewTool, WritesFloatsThatAreWhatWasMeasured) {
-  ASSERT_EQ(run({"--format", "stl", "--quiet"}).exit_code, 0);
-  const json view = json::parse(content_of(folder_ / "out/view.json"));
-  const json& level = view["models"][0]["levels"][1];
-  const TriangleMesh mesh = read_mesh(folder_ / ("out/" + level["file"].get<std::string>())).mesh;
-  EXPECT_EQ(check_tolerance(read_mesh(folder_ / "torus.ply").mesh, mesh, level["error"]).verdict, Verdict::Within);
+  for (const char* format : {"stl", "glb", "gltf"}) {
+    const ToolRun result = run({"--format", format, "--quiet"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json view = json::parse(content_of(folder_ / "out/view.json"));
+    const json& level = view["models"][0]["levels"][1];
+    const TriangleMesh mesh = read_mesh(folder_ / ("out/" + level["file"].get<std::string>())).mesh;
+    EXPECT_EQ(check_tolerance(read_mesh(folder_ / "torus.ply").mesh, mesh, level["error"]).verdict, Verdict::Within);
+  }
 }
 
 TEST_F(ViewTool, SaysHowManyTrianglesAreDrawn) {

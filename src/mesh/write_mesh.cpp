@@ -12,11 +12,6 @@
 namespace meshbound {
 namespace {
 
-bool stores_floats(FileFormat format, const WriteOptions& options) {
-  return format == FileFormat::Stl || format == FileFormat::Gltf || format == FileFormat::Glb ||
-         options.single_precision;
-}
-
 void refuse_beyond_float(const std::filesystem::path& path, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     for (const double x : mesh.vertices[i])
@@ -55,6 +50,11 @@ TriangleMesh welded(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+bool stores_floats(FileFormat format, const WriteOptions& options) {
+  return format == FileFormat::Stl || format == FileFormat::Gltf || format == FileFormat::Glb ||
+         options.single_precision;
+}
 
 TriangleMesh rounded_for(const std::filesystem::path& path, const TriangleMesh& mesh, const WriteOptions& options) {
   const FileFormat format = format_of(path);

@@ -18,6 +18,9 @@ struct GltfContent;
 void write_mesh(AtomicFile& file, const std::filesystem::path& path, const TriangleMesh& mesh,
                 const WriteOptions& options, const MeshAttributes& attributes = {});
 
+/// Whether a file of this format has coordinates that are floats.
+[[nodiscard]] bool stores_floats(FileFormat format, const WriteOptions& options);
+
 /// Whether several processes can write a mesh without attributes together: as binary PLY or STL.
 [[nodiscard]] bool is_written_in_shares(const std::filesystem::path& path, const WriteOptions& options);
 /// Writes a share of what `write_mesh` does for such a mesh, where it belongs in the file.

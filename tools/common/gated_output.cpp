@@ -62,9 +62,7 @@ void GatedOutput::restart() {
 }
 
 Precision GatedOutput::precision() const {
-  const FileFormat format = format_of(path_);
-  const bool has_floats = format == FileFormat::Stl || format == FileFormat::Gltf || format == FileFormat::Glb;
-  return has_floats || options_.single_precision ? Precision::Single : Precision::Double;
+  return stores_floats(format_of(path_), options_) ? Precision::Single : Precision::Double;
 }
 
 void GatedOutput::write(const TriangleMesh& mesh, std::span<const Edge> lines, const MeshAttributes& attributes) {

@@ -20,6 +20,7 @@
 #include "common/stopwatch.h"
 #include "common/time_limit.h"
 #include "decimation/drivers.h"
+#include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "report/json_parts.h"
 #include "view/gltf_view.h"
@@ -96,7 +97,7 @@ class ViewRun {
     view.lod.preserve_boundary = options_.preserve_boundary;
     if (options_.feature_angle) view.lod.feature_angle = *options_.feature_angle / 180 * std::numbers::pi;
     if (options_.placement == "subset") view.lod.placements = CollapsePlacements::Subset;
-    if (options_.write.single_precision || format_ == "stl") view.lod.precision = Precision::Single;
+    if (stores_floats(format_of(level_file(0, 1)), options_.write)) view.lod.precision = Precision::Single;
     view.lod.threads = options_.common.threads;
     view.lod.cancel = &interrupted();
     view.lod.progress = [&bar](double fraction) { bar.show(fraction); };
