@@ -48,18 +48,6 @@ void add_originals(const DecimationState& state, std::span<const std::uint32_t> 
   for (const std::uint32_t t : originals) add(soup, original_triangle(state, t));
 }
 
-/// A corner with more faces near it is a hub, or at one.
-constexpr std::size_t max_faces_near_corner = 64;
-
-/// h(from, to) <= tolerance; nothing is within the tolerance of an empty mesh.
-bool is_within(const TriangleMesh& from, const Bvh& to, double tolerance, const DistanceOptions& options) {
-  return from.triangles.empty() ||
-         check_one_sided_tolerance(Bvh(from), to, tolerance, options).verdict == Verdict::Within;
-}
-bool is_within(const TriangleMesh& from, const TriangleMesh& to, double tolerance, const DistanceOptions& options) {
-  return from.triangles.empty() || (!to.triangles.empty() && is_within(from, Bvh(to), tolerance, options));
-}
-
 }  // namespace
 
 void ExceedCheck::note_change(std::uint32_t kept) {
@@ -78,29 +66,27 @@ void ExceedCheck::make_boxes() {
   changed_.clear();
 }
 
-std::vector<std::uint32_t> ExceedCheck::faces_near(const Eigen::AlignedBox3d& box, double tolerance) {
-  const Eigen::AlignedBox3d reach = grown(box, tolerance);
+/// Adds all that is within `tolerance` of a point, as computed. Returns whether that is more than there was.
+bool ExceedCheck::add_what_is_near(Vec3 point, double tolerance, Holders& holders) {
+  const Eigen::AlignedBox3d reach = grown(Eigen::AlignedBox3d(to_eigen(point)), tolerance);
+  const auto is_near = [&](const Corners& corners) {
+    return box_meets(corners, reach) && squared_distance(corners, point) <= tolerance * tolerance;
+  };
+  const auto is_face_near = [&](std::uint32_t f) {
+    return !state_.mesh.is_removed(f) && is_near(state_.mesh.triangle(f));
+  };
+  const std::size_t before = holders.faces.size() + holders.kept.size();
   found_.clear();
   boxes_->find(reach, found_);
-  std::vector<std::uint32_t> faces;
   for (const std::uint32_t f : found_)
-    if (!state_.mesh.is_removed(f) && !is_changed_.contains(f)) faces.push_back(f);
+    if (!is_changed_.contains(f) && is_face_near(f)) holders.faces.push_back(f);
   for (const std::uint32_t f : changed_)
-    if (!state_.mesh.is_removed(f) && box_meets(state_.mesh.triangle(f), reach)) faces.push_back(f);
-  return faces;
-}
-
-/// Adds the faces near each corner of these originals, unless that is a hub.
-void ExceedCheck::add_faces_near_corners(std::span<const std::uint32_t> originals, double tolerance,
-                                         std::vector<std::uint32_t>& faces) {
-  std::vector<std::uint32_t> corners;
-  for (const std::uint32_t t : originals)
-    corners.insert(corners.end(), state_.triangles[t].begin(), state_.triangles[t].end());
-  sort_unique(corners);
-  for (const std::uint32_t v : corners) {
-    const std::vector<std::uint32_t> near = faces_near(Eigen::AlignedBox3d(to_eigen(state_.vertices[v])), tolerance);
-    if (near.size() <= max_faces_near_corner) faces.insert(faces.end(), near.begin(), near.end());
-  }
+    if (is_face_near(f)) holders.faces.push_back(f);
+  for (const std::uint32_t t : state_.kept)
+    if (is_near(original_triangle(state_, t))) holders.kept.push_back(t);
+  sort_unique(holders.faces);
+  sort_unique(holders.kept);
+  return holders.faces.size() + holders.kept.size() > before;
 }
 
 bool ExceedCheck::exceeds(Region& region, Proposer& proposer, double tolerance, const DistanceOptions& options) {
@@ -116,17 +102,26 @@ bool ExceedCheck::exceeds_at(Vec3 placement, Region& region, Proposer& proposer,
                              const DistanceOptions& options) {
   const Trial trial(state_, region, proposer, placement);
   const Affected affected = affected_by(proposer.star());
-  TriangleMesh new_faces, originals, likely, all;
+  TriangleMesh new_faces, originals;
   add_faces(state_, affected.faces, new_faces);
-  if (!is_within(new_faces, state_.tree, tolerance, options)) return true;
+  if (!new_faces.triangles.empty() &&
+      check_one_sided_tolerance(Bvh(new_faces), state_.tree, tolerance, options).verdict != Verdict::Within)
+    return true;
+  if (affected.originals.empty()) return false;
   add_originals(state_, affected.originals, originals);
-  if (originals.triangles.empty()) return false;
-  add_faces(state_, likely_faces(affected, tolerance), likely);
-  if (is_within(originals, likely, tolerance, options)) return false;
-  // Rounding of the box is far below the tolerance that it grows by, of which the engine decides the rest.
-  add_faces(state_, faces_near(affected.box, 2 * tolerance), all);
-  add_originals(state_, state_.kept, all);
-  return !is_within(originals, all, tolerance, options);
+  const Bvh tree(originals);
+  Holders holders{likely_faces(affected), {}};
+  Vec3 lost = original_triangle(state_, affected.originals.front())[0];
+  do {
+    TriangleMesh soup;
+    add_faces(state_, holders.faces, soup);
+    add_originals(state_, holders.kept, soup);
+    if (soup.triangles.empty()) continue;
+    const ToleranceCheck check = check_one_sided_tolerance(tree, Bvh(soup), tolerance, options);
+    if (check.verdict == Verdict::Within) return false;
+    lost = to_vec3(check.a_to_b.witness.from.position);
+  } while (add_what_is_near(lost, tolerance, holders));
+  return true;
 }
 
 ExceedCheck::Affected ExceedCheck::affected_by(const EdgeStar& collapsed) {
@@ -140,11 +135,10 @@ ExceedCheck::Affected ExceedCheck::affected_by(const EdgeStar& collapsed) {
     affected.originals.insert(affected.originals.end(), of_face.begin(), of_face.end());
   }
   sort_unique(affected.originals);
-  for (const std::uint32_t t : affected.originals) affected.box.extend(box_of(original_triangle(state_, t)));
   return affected;
 }
 
-std::vector<std::uint32_t> ExceedCheck::likely_faces(const Affected& affected, double tolerance) {
+std::vector<std::uint32_t> ExceedCheck::likely_faces(const Affected& affected) {
   std::vector<std::uint32_t> faces = affected.faces;
   for (const std::uint32_t face : affected.faces)
     for (Corner c = 3 * face; c < 3 * face + 3; ++c)
@@ -152,7 +146,6 @@ std::vector<std::uint32_t> ExceedCheck::likely_faces(const Affected& affected, d
   for (const std::uint32_t t : affected.originals)
     for (const std::uint32_t f : state_.cover.faces_of(t))
       if (!state_.mesh.is_removed(f)) faces.push_back(f);
-  add_faces_near_corners(affected.originals, tolerance, faces);
   sort_unique(faces);
   return faces;
 }

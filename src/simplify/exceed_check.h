@@ -16,10 +16,11 @@ namespace meshbound {
 /// proof may fail although the bound would hold, with the help of faces that are far away along the surface, and where
 /// faces turn at the best placement, an end of the edge may do.
 ///
-/// The state is proven except for that collapse, so only what the collapse touches is compared: the originals that
-/// relied on its faces with a few likely faces first, and then with all faces within the tolerance of their box, which
-/// are found by boxes; and its new faces with the original. The boxes are those of an earlier mesh; faces that have
-/// changed since then are tested one by one, and the boxes are built again when these become too many.
+/// The state is proven except for that collapse, so only what the collapse touches is compared: its new faces with the
+/// original; and the originals that relied on its faces with a few likely faces. Where these do not hold a point, all
+/// that is within the tolerance of it is found by boxes and joins them, until they hold all, or nothing is near a
+/// point. The boxes are those of an earlier mesh; faces that have changed since then are tested one by one, and the
+/// boxes are built again when these become too many.
 class ExceedCheck {
  public:
   /// `state` must outlive this.
@@ -37,18 +38,18 @@ class ExceedCheck {
   /// What a collapse changes: faces around its vertex, and originals that relied on these or on faces that are gone.
   struct Affected {
     std::vector<std::uint32_t> faces, originals;
-    Eigen::AlignedBox3d box;  ///< of the originals
+  };
+  /// What may be near originals.
+  struct Holders {
+    std::vector<std::uint32_t> faces, kept;  ///< of the mesh, and originals that are part of the result
   };
   [[nodiscard]] bool exceeds_at(Vec3 placement, Region& region, Proposer& proposer, double tolerance,
                                 const DistanceOptions& options);
   [[nodiscard]] Affected affected_by(const EdgeStar& collapsed);
-  /// Those that mostly hold the originals: new ones, those beside these, those that have held the originals, and those
-  /// near their corners.
-  [[nodiscard]] std::vector<std::uint32_t> likely_faces(const Affected& affected, double tolerance);
-  void add_faces_near_corners(std::span<const std::uint32_t> originals, double tolerance,
-                              std::vector<std::uint32_t>& faces);
+  /// Those that mostly hold the originals: new ones, those beside these, and those that have held the originals.
+  [[nodiscard]] std::vector<std::uint32_t> likely_faces(const Affected& affected);
+  [[nodiscard]] bool add_what_is_near(Vec3 point, double tolerance, Holders& holders);
   void make_boxes();
-  [[nodiscard]] std::vector<std::uint32_t> faces_near(const Eigen::AlignedBox3d& box, double tolerance);
 
   DecimationState& state_;
   std::optional<FaceBoxes> boxes_;
