@@ -315,12 +315,17 @@ class ProofWorkers::Worker {
   template <class Usable>
   void cover_by_found(std::uint32_t t, const Corners& corners, double limit, const Usable& is_usable) {
     if (found_.size() <= CandidateFaces::capacity) {
-      cover_.begin(limit);
-      for (const std::uint32_t f : found_) cover_.add(state_.mesh.triangle(f), f);
-      take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
-      if (!drafted_.empty() || (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable))) return;
+      if (cover_by_few(t, limit)) return;
+      if (!cover_.lost_point() && cover_by_patches(corners, limit, is_usable)) return;
     }
     (void)sub_triangles_.covers(corners, found_, limit, drafted_);
+  }
+  /// Covers an original by the faces found, which are not more than candidates may be.
+  bool cover_by_few(std::uint32_t t, double limit) {
+    cover_.begin(limit);
+    for (const std::uint32_t f : found_) cover_.add(state_.mesh.triangle(f), f);
+    take(cover_.cover_thoroughly(t, ForwardCover::first(cover_.size())), drafted_);
+    return !drafted_.empty();
   }
   /// Enters the faces around the first `count` of those found.
   template <class Owned>
@@ -393,7 +398,8 @@ class ProofWorkers::Worker {
     return std::all_of(points.begin(), points.end(), [&](Vec3 p) { return triangle.is_within(p, limit * limit); });
   }
 
-  /// Covers an original by faces near those that were changed. `drafted_` are then those that do so.
+  /// Covers an original by faces that were changed, or else by faces near those: at a hub these are thousands.
+  /// `drafted_` are then those that do so.
   template <class Owned>
   bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
     drafted_.clear();
@@ -414,6 +420,7 @@ class ProofWorkers::Worker {
       found_marks_.insert(f);
       found_.push_back(f);
     }
+    if (found_.size() <= CandidateFaces::capacity && cover_by_few(t, limit)) return true;
     spread(reach, owned);
     cover_by_found(t, corners, limit, owned);
     return !drafted_.empty();
