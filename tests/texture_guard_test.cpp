@@ -2,15 +2,18 @@
 // Collapses that would move the texture are refused one by one: what comes out is measured by `texture_deviation`.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "datasets/analytic_meshes.h"
 #include "meshbound/error.h"
 #include "meshbound/lod_chain.h"
 #include "meshbound/simplify.h"
 #include "meshbound/texture_deviation.h"
+#include "reference/small_meshes.h"
 
 namespace meshbound {
 namespace texture_guard_test {
@@ -315,6 +318,43 @@ TEST(TextureGuard, KeepsGradients) {
     EXPECT_LE(exceeding(square, level, 0.01), max_exceeding);  // samples miss a little
     EXPECT_LE(level.faces(), max_faces);                       // of 2,048
   }
+}
+
+/// A rough surface in the colours of its height. What has the height of a peak is far away once the peak is cut off,
+/// and the samples of what proofs take back belong to the face where they are, not to another one of their height.
+TEST(TextureGuard, KeepsTheHeightsOfARoughSurface) {
+  const auto rough = [](double x, double y) {
+    return 0.05 * std::sin(11 * x) * std::cos(9 * y) + 0.006 * std::sin(97 * x + 41 * y) * std::cos(83 * y - 29 * x);
+  };
+  const Textured square =
+      sheet(64, rough, [&](double x, double y, bool /*is_right*/) { return Eigen::Vector2d(rough(x, y), 0.5); });
+  const SimplifyResult result = simplify_with_bound(square.mesh, options_of(square, 0.006, 0.03));
+  EXPECT_GT(result.counts.taken_back, 0U);
+  EXPECT_LE(exceeding(square, result.last(), 0.03), 20U);
+  EXPECT_LE(result.last().faces(), 620U);  // of 8,192
+}
+
+/// Cubes askew in the colours of their heights. The vertex at a corner misses it by what rounding makes of its
+/// placement, but its colour must not: the height of the lower cube's highest corner would be found at the other cube
+/// only.
+TEST(TextureGuard, KeepsTheHeightOfACorner) {
+  TriangleMesh cubes;
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()))
+          .toRotationMatrix();
+  for (const Eigen::Vector3d& at : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(5, 0, 0.3)}) {
+    TriangleMesh cube = datasets::cube(1, 5);
+    for (Eigen::Vector3d& p : cube.vertices) p = turn * p + at;
+    cubes = reference::both(cubes, cube);
+  }
+  Textured coloured{cubes, {}, {}};
+  for (const Triangle& t : cubes.triangles) {
+    Coordinates& corners = coloured.coordinates.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = {cubes.vertices[t[k]].z(), 0.5};
+  }
+  const SimplifiedLevel level = simplified(coloured, 0.02, 0.02);
+  EXPECT_EQ(exceeding(coloured, level, 0.02), 0U);
+  EXPECT_EQ(level.faces(), 24U);
 }
 
 TEST(TextureGuard, CarriesTrianglesWithoutCoordinates) {

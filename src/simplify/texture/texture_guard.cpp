@@ -19,6 +19,9 @@ namespace {
 constexpr double good_share = 0.5;
 /// In multiples of the limit: where a sample is farther away than this, no coordinate of the vertex helps.
 constexpr double hopeful_share = 4;
+/// Share of the limit: a vertex so near an end of the edge takes the coordinates of that end. Placements often miss it
+/// by what rounding makes of them, and the largest coordinate of a scalar field must not be lost by that.
+constexpr double share_at_end = 1e-6;
 /// Most Newton steps for one coordinate; a step without gain ends them earlier.
 constexpr int max_steps = 4;
 /// Steps gain less and less: those still to come are taken for this share of the last one, and where that would not
@@ -47,6 +50,21 @@ std::array<double, 3> closest_on_outline(const CornerCoordinates& t, const Eigen
     best[next] = share;
   }
   return best;
+}
+
+/// The squared distance in the texture from a sample to the point of a face that is nearest there, and in space to that
+/// point: of a line in the texture many faces may have the coordinate of a sample, but one is where it is.
+std::pair<double, double> squared_distances(const TextureMap::Sample& sample, const std::array<Vec3, 3>& at,
+                                            const CornerCoordinates& t) {
+  std::optional<Vec3> point;
+  const auto weights = weights_at(t, sample.coordinate);
+  if (!weights)
+    point = nearest_with_coordinate(at, t, sample.coordinate, sample.at);
+  else if (std::none_of(weights->begin(), weights->end(), [](double w) { return w < 0; }))
+    point = point_of(at, *weights);
+  double squared = 0;
+  if (!point) point = point_of(at, closest_on_outline(t, sample.coordinate, squared));
+  return {squared, squared_length(*point - sample.at)};
 }
 
 }  // namespace
@@ -166,8 +184,10 @@ bool TextureGuard::set_faces(Vec3 point) {
     faces_[i].coordinates[0] = map_.at(star_.moved[i]);
   }
   const std::uint32_t start = mesh_.start(star_.edge), end = mesh_.end(star_.edge);
-  const bool is_at_start = squared_length(point - mesh_.position(start)) == 0;
-  const bool is_at_end = squared_length(point - mesh_.position(end)) == 0;
+  const auto is_at = [&](std::uint32_t v) {
+    return squared_length(point - mesh_.position(v)) <= share_at_end * share_at_end * map_.limit * map_.limit;
+  };
+  const bool is_at_start = is_at(start), is_at_end = is_at(end);
   is_free_ = !is_at_start && !is_at_end;
   if (is_at_start && !(is_at_end && lines_.at(start) == no_index)) {
     set_at_end(start, end);
@@ -384,16 +404,13 @@ void give_back_samples(TextureMap& map, const ArrayMesh& mesh, std::span<const s
     map.lists.clear(f);
   }
   for (const auto& [s, chart] : samples) {
-    double least = HUGE_VAL;
+    const TextureMap::Sample& sample = map.sample(s);
+    std::pair<double, double> least{HUGE_VAL, HUGE_VAL};
     std::uint32_t best = no_index;
     for (const std::uint32_t f : faces) {
       if (mesh.is_removed(f) || map.chart(f) != chart) continue;
-      const CornerCoordinates corners = map.of(f);
-      double squared = 0;
-      const auto weights = weights_at(corners, map.sample(s).coordinate);
-      if (!weights || std::any_of(weights->begin(), weights->end(), [](double w) { return w < 0; }))
-        (void)closest_on_outline(corners, map.sample(s).coordinate, squared);
-      if (best == no_index || squared < least) least = squared, best = f;
+      const std::pair<double, double> distances = squared_distances(sample, mesh.triangle(f), map.of(f));
+      if (best == no_index || distances < least) least = distances, best = f;
     }
     map.lists.give_to(s, best);
   }

@@ -112,7 +112,22 @@ double Atlas::squared_distance_of_far_point(const Eigen::Vector2d& coordinate, s
     if (squared > limit * limit) far = squared;
     return far == 0;
   });
-  return far;
+  if (far > 0 || !on_lines_) return far;
+  find_on_lines(coordinate, material, found);
+  for (const std::uint32_t t : found) {
+    const auto q = nearest_with_coordinate(corners(t), coordinates_[t], coordinate, p);
+    if (q && squared_length(*q - p) > limit * limit) return squared_length(*q - p);
+  }
+  return 0;
+}
+
+/// Sets `found` to the triangles whose texture coordinates lie on a line that seems to pass through this one.
+void Atlas::find_on_lines(const Eigen::Vector2d& coordinate, std::uint32_t material,
+                          std::vector<std::uint32_t>& found) const {
+  const Eigen::Vector3d at(coordinate.x(), coordinate.y(), material),
+      around = Eigen::Vector3d(1, 1, 0) * (rounding_of_coordinates * coordinate.norm());
+  found.clear();
+  on_lines_->find({at - around, at + around}, found);
 }
 
 double Atlas::squared_distance(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p, double limit,
@@ -145,10 +160,7 @@ double Atlas::squared_distance_to_lines(const Eigen::Vector2d& coordinate, std::
     for (const std::uint32_t t : found) visit(t);
     if (nearest <= reach.x() * reach.x()) return nearest;
   }
-  const Eigen::Vector3d there(coordinate.x(), coordinate.y(), material),
-      around = Eigen::Vector3d(1, 1, 0) * (rounding_of_coordinates * coordinate.norm());
-  found.clear();
-  on_lines_->find({there - around, there + around}, found);
+  find_on_lines(coordinate, material, found);
   for (const std::uint32_t t : found) {
     visit(t);
     if (nearest < HUGE_VAL) break;

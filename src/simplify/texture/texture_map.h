@@ -52,6 +52,8 @@ class Atlas {
  private:
   [[nodiscard]] double squared_distance_to_lines(const Eigen::Vector2d& coordinate, std::uint32_t material, Vec3 p,
                                                  double limit, std::vector<std::uint32_t>& found) const;
+  void find_on_lines(const Eigen::Vector2d& coordinate, std::uint32_t material,
+                     std::vector<std::uint32_t>& found) const;
   [[nodiscard]] std::array<Vec3, 3> corners(std::uint32_t triangle) const;
   template <class Visit>
   void for_each_point(const Eigen::Vector2d& coordinate, std::uint32_t material, std::vector<std::uint32_t>& found,
