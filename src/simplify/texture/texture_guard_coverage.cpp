@@ -47,8 +47,11 @@ void TextureGuard::find_lines() {
 }
 
 /// Whether no point of the original whose coordinate lies in the strip between its line and that of the faces, in the
-/// texture, is farther away than the limit: the result would show that texture at the line, or lack it there.
+/// texture, is farther away than the limit: the result would show that texture at the line, or lack it there. Where the
+/// chart has no area there is no strip: a face inside may have the coordinate as well.
 bool TextureGuard::is_border_free(std::size_t i) {
+  const Match& match = matches_[i];
+  if (match.is_inside && !faces_[match.face].has_area) return true;
   const TextureMap::Sample& sample = map_.sample(samples_[i]);
   double least = HUGE_VAL;
   Eigen::Vector2d nearest = sample.coordinate;
