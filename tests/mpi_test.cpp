@@ -323,7 +323,8 @@ class FaultsOverRanks : public ToolsOverRanks {
   }
 };
 
-/// When a rank is disturbed.
+/// When a rank is disturbed. Not within MPI_Init: mpirun of Open MPI 4 may say that the rank was killed, and then wait
+/// for ever for processes that are gone (PMIX ERROR: UNREACHABLE).
 struct Stage {
   const char* name;
   std::string until;  ///< shell; $scratch is the folder
@@ -331,7 +332,6 @@ struct Stage {
   bool has_tiles;     ///< results of tiles are kept by then
 };
 const Stage stages[] = {
-    {"starting", "[ $(pgrep -c -P $run) = 3 ]", "tail", false},
     {"reading", "find /proc/[0-9]*/fd -lname \"$scratch/*\" 2>/dev/null | grep -q .", "tail", false},
     {"the first pass", "[ -e $scratch/*/0-3 ]", "head", true},
     {"a later pass", "ls $scratch/*/1-* >$scratch/ls 2>&1", "tail", true},
@@ -360,7 +360,7 @@ TEST_F(FaultsOverRanks, EndTheRunWhereARankIsKilledAndLeaveNothingButResultsOfTi
 
 TEST_F(FaultsOverRanks, ThatAreAFullDiskOfOneRankAreSaidOnceAndCanBeResumed) {
   // No result of a tile fits, or none of what passes share.
-  for (const auto& [stage, size] : {std::pair(2, "100"), std::pair(3, "200000")}) {
+  for (const auto& [stage, size] : {std::pair(1, "100"), std::pair(2, "200000")}) {
     SCOPED_TRACE(stages[stage].name);
     const std::string scratch = in("full");
     std::filesystem::create_directories(scratch);
