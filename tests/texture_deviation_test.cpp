@@ -195,6 +195,31 @@ TEST(TextureDeviation, NamesAPointOfATriangleBeyondTheTolerance) {
   EXPECT_EQ(found.exceeding[0].from.triangle, 0U);
 }
 
+/// Where one of two sheets that cross gets nearer than the other changes along a curve, which takes many pieces to
+/// follow; that both are too far takes few.
+TEST(TextureDeviation, BoundsTrianglesBeyondTheToleranceRoughly) {
+  const TexturedMesh around = joined(grid(1,
+                                          [](double s, double t) {
+                                            return Corner{{s + 1, t + s, 0}, {s, t}};
+                                          }),
+                                     grid(1, [](double s, double t) {
+                                       return Corner{{s - t, t, 1.2 - s * 0.3}, {s, t}};
+                                     }));
+  TextureDeviationOptions options;
+  options.threads = 1;
+  options.error_bound = tight;
+  const OneSidedTextureDeviation exact = texture_deviation(grid(1, flat), around, options).a_to_b;
+  options.tolerance = 0.1;
+  const OneSidedTextureDeviation found = texture_deviation(grid(1, flat), around, options).a_to_b;
+  EXPECT_EQ(found.outcome, Outcome::ExceedsTolerance);
+  EXPECT_EQ(found.exceeding.size(), 2U);
+  EXPECT_GT(found.bounds.lower, *options.tolerance);
+  EXPECT_LE(found.bounds.lower, exact.bounds.upper);
+  EXPECT_GE(found.bounds.upper, exact.bounds.lower);
+  EXPECT_LT(found.bounds.upper, 4);  // no point of either sheet is farther
+  EXPECT_LT(found.pieces, exact.pieces / 4);
+}
+
 TEST(TextureDeviation, KeepsMaterialsApart) {
   TexturedMesh a = grid(1, flat), b = grid(1, flat);
   for (TexturedTriangle& t : b.triangles) t.material = 1;

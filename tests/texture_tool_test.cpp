@@ -317,6 +317,26 @@ TEST_F(TextureTool, WritesTheOriginalWhereNothingMayMove) {
   EXPECT_EQ(document["texture"]["upper"], 0);
 }
 
+/// A triangle without area at one corner of the square has texture coordinates of the opposite corner, which no face
+/// near it has: it stays, and nothing else does. One whose coordinates lie beside it goes.
+TEST_F(TextureTool, KeepsTrianglesWithoutAreaThatNoFaceNearShows) {
+  const std::string square = folder_ / "square.obj", certificate = folder_ / "out.cert";
+  write_square(square, 16, 0);
+  std::ofstream(square, std::ios::app) << "v 0.125 0.125 0\nv 0.1875 0.125 0\n"
+                                          "vt 0.9 0.9\nvt 0.9 0.8\nvt 0.8 0.9\n"
+                                          "vt 0.125 0.125\nvt 0.1875 0.125\nvt 0.1875 0.126\n"
+                                          "f -2/-6 -1/-5 -1/-4\nf -2/-3 -1/-2 -1/-1\n";
+  const ToolRun run = simplify(
+      {square, out_, "--tolerance", "1%", "--texture-tolerance", "0.01", "--json", "-", "--certificate", certificate});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json document = checked_document(run.out);
+  EXPECT_EQ(document["simplified"]["faces"], 3);
+  EXPECT_LE(document["texture"]["upper"].get<double>(), 0.01);
+  const json again = checked_document(measure({square, out_, "--texture", "--json", "-"}).out);
+  EXPECT_LE(again["texture"]["upper"].get<double>(), 0.01);
+  EXPECT_EQ(run_tool(VERIFY_CERTIFICATE, {square, out_, certificate}).exit_code, 0);
+}
+
 /// A face thinner than what floats round off has another normal in every file of floats, or none. The other faces
 /// count.
 TEST_F(TextureTool, ComparesNormalsInThePrecisionOfTheFile) {

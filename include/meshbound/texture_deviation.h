@@ -53,7 +53,8 @@ struct TextureDeviationOptions {
   /// Wanted width of the interval, model units. Absent: 1e-6 of the diagonal of A's bounding box.
   std::optional<double> error_bound;
   /// When given, model units: each triangle is refined until it is decided whether it is within the tolerance, as far
-  /// as the error bound and `max_pieces` allow; triangles not shown to be within are listed.
+  /// as the error bound and `max_pieces` allow; triangles not shown to be within are listed. One that is shown to be
+  /// beyond is bounded no closer.
   std::optional<double> tolerance;
   std::uint64_t max_pieces = 100'000;  ///< most pieces into which a triangle is cut
   int threads = 0;                     ///< 0: as many as OpenMP has. Results are the same for every value.
@@ -77,9 +78,11 @@ struct OneSidedTextureDeviation {
   Bounds uncovered;
   /// One point of each triangle of A that is not shown to be within the tolerance, where one was given.
   std::vector<TextureWitness> exceeding;
-  Outcome outcome = Outcome::Converged;  ///< `BudgetExhausted` where `max_pieces` came first
-  std::uint64_t pairs = 0;               ///< of triangles whose texture coordinates were intersected
-  std::uint64_t pieces = 0;              ///< pieces into which these intersections were cut
+  /// `BudgetExhausted` where `max_pieces` came first, `ExceedsTolerance` where the interval is wide as it is beyond a
+  /// tolerance.
+  Outcome outcome = Outcome::Converged;
+  std::uint64_t pairs = 0;   ///< of triangles whose texture coordinates were intersected
+  std::uint64_t pieces = 0;  ///< pieces into which these intersections were cut
 };
 
 /// The deviation of both directions.

@@ -161,6 +161,8 @@ std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attribut
   std::vector<Edge> edges;
   const bool has_borders = has_chart_borders(attributes);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto at = [&](std::size_t k) { return all.first[mesh.triangles[t][k]]; };
+    if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;  // a point or a segment has no border
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = all.neighbours[t][k];
       const bool is_line = other == no_index ? has_borders : all.is_seam[t][k] != 0 && t < other;

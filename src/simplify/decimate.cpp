@@ -162,11 +162,7 @@ class Run {
 void Run::keep_what_has_no_face() {
   Proof proof(state_, threads_.workers);
   proof.run(goal_.stop);
-  for (const std::uint32_t t : proof.unproven().originals) {
-    state_.is_kept.resize(state_.triangles.size(), 0);
-    state_.is_kept[t] = 1;
-    state_.kept.push_back(t);
-  }
+  for (const std::uint32_t t : proof.unproven().originals) state_.keep(t);
   proof.commit();
 }
 
@@ -426,6 +422,19 @@ bool Run::truly_exceeds(Region& region, Proposer& proposer) {
   return exceed_check_.exceeds(region, proposer, goal_.tolerance, options);
 }
 
+/// A triangle with two equal corners is a point or a segment and no face of the mesh. Where no face near shows its part
+/// of the texture, it stays as it is. Returns what else is refuted.
+std::vector<Refuted> keep_points_and_segments(DecimationState& state, std::span<const Refuted> refuted) {
+  std::vector<Refuted> left;
+  for (const Refuted& r : refuted) {
+    if (!r.coordinate || r.original == no_index || !state.has_equal_corners(r.original))
+      left.push_back(r);
+    else if (!state.keeps(r.original))
+      state.keep(r.original);
+  }
+  return left;
+}
+
 }  // namespace
 
 EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationThreads& threads) {
@@ -434,12 +443,13 @@ EndedBy decimate(DecimationState& state, const DecimationGoal& goal, DecimationT
 
 bool take_back(DecimationState& state, std::span<const Refuted> refuted, DecimationThreads& threads) {
   state.refuse_all();  // only what this changes is tried again
-  std::size_t restored = undo_refuted(state, refuted);
+  const std::size_t kept_before = state.kept.size();
+  std::size_t restored = undo_refuted(state, keep_points_and_segments(state, refuted));
   Proof proof(state, threads.workers);
   restored += prove_or_undo(state, proof, repair_proven, [] { return StopToken(); });
   state.reset_quadrics(threads.count());  // those of vertices that came back are unknown
   threads.together.restored += restored;
-  return restored > 0;
+  return restored > 0 || state.kept.size() > kept_before;
 }
 
 }  // namespace meshbound

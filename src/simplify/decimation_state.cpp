@@ -307,6 +307,18 @@ void DecimationState::refuse_all() {
   std::fill(has_refused.begin(), has_refused.end(), 1);
 }
 
+void DecimationState::keep(std::uint32_t original) {
+  is_kept.resize(triangles.size(), 0);
+  is_kept[original] = 1;
+  kept.push_back(original);
+}
+
+bool DecimationState::has_equal_corners(std::uint32_t original) const {
+  const Triangle& t = triangles[original];
+  const Vec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
+  return same_position(a, b) || same_position(b, c) || same_position(c, a);
+}
+
 void DecimationState::grow_tolerance(double to) {
   if (to == tolerance) return;
   const auto scale = static_cast<float>(tolerance / to);

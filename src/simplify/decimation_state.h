@@ -319,6 +319,11 @@ struct DecimationState {
   [[nodiscard]] double limit_in(const Eigen::AlignedBox3d& box) const {
     return local ? provable(local->sufficient_around(box, tolerance)) : limit;
   }
+  /// Makes a triangle of the original part of every result, as it is.
+  void keep(std::uint32_t original);
+  [[nodiscard]] bool keeps(std::uint32_t original) const { return !is_kept.empty() && is_kept[original] != 0; }
+  /// Whether a triangle of the original is a point or a segment because two of its corners are at one place.
+  [[nodiscard]] bool has_equal_corners(std::uint32_t original) const;
   std::vector<std::uint32_t> kept;     ///< original triangles without a face near: part of every result as they are
   std::vector<std::uint8_t> is_kept;   ///< by original triangle: whether it is in `kept`; empty if none is
   bool starts_as_original = true;      ///< the mesh was the original when the decimation began

@@ -27,7 +27,7 @@ Proof::Proof(DecimationState& state, ProofWorkers& workers) : state_(state), wor
 }
 
 bool Proof::is_stale(std::uint32_t original) const {
-  if (!state_.is_kept.empty() && state_.is_kept[original] != 0) return false;
+  if (state_.keeps(original)) return false;
   const auto faces = state_.cover.faces_of(original);
   return faces.empty() ||
          std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return state_.is_unproven(f); });

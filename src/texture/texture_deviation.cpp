@@ -71,8 +71,7 @@ class Direction {
     result.witness = witness_;
     result.exceeding = std::move(exceeding_);
     result.uncovered = uncovered_share_of(a_.mesh(), shares_);
-    if (result.bounds.upper - result.bounds.lower > goal_.error_bound)
-      result.outcome = gave_up_ ? Outcome::BudgetExhausted : Outcome::PrecisionReached;
+    if (result.bounds.upper - result.bounds.lower > goal_.error_bound) result.outcome = outcome_of_wide();
     result.pairs = std::accumulate(pairs_.begin(), pairs_.end(), std::uint64_t{0});
     result.pieces = pieces_;
     return result;
@@ -252,6 +251,12 @@ class Direction {
       if (exceeds(found[k]) && witnesses[k]) exceeding_.push_back(*witnesses[k]);
       if (witnesses[k]) raise(found[k].bounds.lower, *witnesses[k]);
     }
+  }
+
+  /// Why the bounds are farther apart than they should be.
+  [[nodiscard]] Outcome outcome_of_wide() const {
+    if (options_.tolerance && goal_.lower > *options_.tolerance) return Outcome::ExceedsTolerance;
+    return gave_up_ ? Outcome::BudgetExhausted : Outcome::PrecisionReached;
   }
 
   void raise(double lower, const TextureWitness& witness) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "texture/charts.h"
@@ -227,7 +228,11 @@ class PieceSearch {
     return piece;
   }
 
-  [[nodiscard]] double limit() const { return std::max(goal_.lower, result_.bounds.lower) + goal_.error_bound; }
+  /// Upper bounds up to it suffice: all finite ones, once the triangle is known to be too far.
+  [[nodiscard]] double limit() const {
+    if (result_.bounds.lower > goal_.silent) return std::numeric_limits<double>::max();
+    return std::max(goal_.lower, result_.bounds.lower) + goal_.error_bound;
+  }
 
   void accept(double upper) { result_.bounds.upper = std::max(result_.bounds.upper, upper); }
 

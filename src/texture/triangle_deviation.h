@@ -34,7 +34,8 @@ struct DeviationGoal {
   double min_upper = 0;    ///< upper bounds below it are not told apart
   double error_bound = 0;  ///< an upper bound that exceeds the lower bound by no more than this suffices
   double precision = 0;    ///< of a single distance
-  double silent = HUGE_VAL;  ///< a larger upper bound comes with a far point
+  /// A larger upper bound comes with a far point; a larger lower bound ends the search: any upper bound suffices.
+  double silent = HUGE_VAL;
   std::uint64_t max_pieces = 0;
   /// Where A has no area in the texture: the others are farther than this from every point of A.
   double reach = 0;
