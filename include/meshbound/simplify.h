@@ -169,10 +169,11 @@ struct CollapseCounts {
 
 /// All levels of a run, and facts about it.
 struct SimplifyResult {
-  std::vector<SimplifiedLevel> levels;    ///< ascending; the last is the one of `SimplifyOptions::tolerance`
-  std::vector<Edge> lines;                ///< edges of the original that are lines, if it has feature lines
-  std::size_t dropped_triangles = 0;      ///< duplicates and degenerate ones that lie on others
-  std::size_t kept_triangles = 0;         ///< degenerate ones that lie on no other: in every level as they are
+  std::vector<SimplifiedLevel> levels;  ///< ascending; the last is the one of `SimplifyOptions::tolerance`
+  std::vector<Edge> lines;              ///< edges of the original that are lines, if it has feature lines
+  std::size_t dropped_triangles = 0;    ///< duplicates and degenerate ones that lie on others
+  /// Degenerate ones that lie on no other, or with a part of the texture that no face near has: they stay as they are.
+  std::size_t kept_triangles = 0;
   std::size_t pruned_components = 0;      ///< whole components dropped, `SimplifyOptions::prune`
   std::size_t pruned_faces = 0;           ///< faces of these components when they were dropped
   std::size_t locked_vertices = 0;        ///< that no collapse may move: by the options that lock some

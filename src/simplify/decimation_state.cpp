@@ -313,9 +313,8 @@ void DecimationState::keep(std::uint32_t original) {
   kept.push_back(original);
 }
 
-bool DecimationState::has_equal_corners(std::uint32_t original) const {
-  const Triangle& t = triangles[original];
-  const Vec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
+bool DecimationState::has_equal_corners(std::uint32_t t) const {
+  const auto [a, b, c] = original(t);
   return same_position(a, b) || same_position(b, c) || same_position(c, a);
 }
 

@@ -322,8 +322,12 @@ struct DecimationState {
   /// Makes a triangle of the original part of every result, as it is.
   void keep(std::uint32_t original);
   [[nodiscard]] bool keeps(std::uint32_t original) const { return !is_kept.empty() && is_kept[original] != 0; }
+  /// The corners of a triangle of the original.
+  [[nodiscard]] std::array<Vec3, 3> original(std::uint32_t t) const {
+    return {vertices[triangles[t][0]], vertices[triangles[t][1]], vertices[triangles[t][2]]};
+  }
   /// Whether a triangle of the original is a point or a segment because two of its corners are at one place.
-  [[nodiscard]] bool has_equal_corners(std::uint32_t original) const;
+  [[nodiscard]] bool has_equal_corners(std::uint32_t t) const;
   std::vector<std::uint32_t> kept;     ///< original triangles without a face near: part of every result as they are
   std::vector<std::uint8_t> is_kept;   ///< by original triangle: whether it is in `kept`; empty if none is
   bool starts_as_original = true;      ///< the mesh was the original when the decimation began

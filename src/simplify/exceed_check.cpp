@@ -29,11 +29,6 @@ class Trial {
 
 using Corners = std::array<Vec3, 3>;
 
-Corners original_triangle(const DecimationState& state, std::uint32_t t) {
-  const auto& v = state.triangles[t];
-  return {state.vertices[v[0]], state.vertices[v[1]], state.vertices[v[2]]};
-}
-
 /// All triangles of a soup have vertices of their own.
 void add(TriangleMesh& soup, const Corners& corners) {
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
@@ -45,7 +40,7 @@ void add_faces(const DecimationState& state, std::span<const std::uint32_t> face
   for (const std::uint32_t f : faces) add(soup, state.mesh.triangle(f));
 }
 void add_originals(const DecimationState& state, std::span<const std::uint32_t> originals, TriangleMesh& soup) {
-  for (const std::uint32_t t : originals) add(soup, original_triangle(state, t));
+  for (const std::uint32_t t : originals) add(soup, state.original(t));
 }
 
 }  // namespace
@@ -83,7 +78,7 @@ bool ExceedCheck::add_what_is_near(Vec3 point, double tolerance, Holders& holder
   for (const std::uint32_t f : changed_)
     if (is_face_near(f)) holders.faces.push_back(f);
   for (const std::uint32_t t : state_.kept)
-    if (is_near(original_triangle(state_, t))) holders.kept.push_back(t);
+    if (is_near(state_.original(t))) holders.kept.push_back(t);
   sort_unique(holders.faces);
   sort_unique(holders.kept);
   return holders.faces.size() + holders.kept.size() > before;
@@ -102,26 +97,30 @@ bool ExceedCheck::exceeds_at(Vec3 placement, Region& region, Proposer& proposer,
                              const DistanceOptions& options) {
   const Trial trial(state_, region, proposer, placement);
   const Affected affected = affected_by(proposer.star());
-  TriangleMesh new_faces, originals;
+  TriangleMesh new_faces;
   add_faces(state_, affected.faces, new_faces);
   if (!new_faces.triangles.empty() &&
       check_one_sided_tolerance(Bvh(new_faces), state_.tree, tolerance, options).verdict != Verdict::Within)
     return true;
   if (affected.originals.empty()) return false;
+  TriangleMesh originals;
   add_originals(state_, affected.originals, originals);
   const Bvh tree(originals);
   Holders holders{likely_faces(affected), {}};
-  Vec3 lost = original_triangle(state_, affected.originals.front())[0];
-  do {
-    TriangleMesh soup;
-    add_faces(state_, holders.faces, soup);
-    add_originals(state_, holders.kept, soup);
-    if (soup.triangles.empty()) continue;
-    const ToleranceCheck check = check_one_sided_tolerance(tree, Bvh(soup), tolerance, options);
-    if (check.verdict == Verdict::Within) return false;
-    lost = to_vec3(check.a_to_b.witness.from.position);
-  } while (add_what_is_near(lost, tolerance, holders));
-  return true;
+  const Vec3 first = state_.original(affected.originals.front())[0];
+  if (holders.faces.empty() && !add_what_is_near(first, tolerance, holders)) return true;
+  while (const std::optional<Vec3> lost = lost_point(tree, holders, tolerance, options))
+    if (!add_what_is_near(*lost, tolerance, holders)) return true;
+  return false;
+}
+
+std::optional<Vec3> ExceedCheck::lost_point(const Bvh& originals, const Holders& holders, double tolerance,
+                                            const DistanceOptions& options) const {
+  TriangleMesh soup;
+  add_faces(state_, holders.faces, soup);
+  add_originals(state_, holders.kept, soup);
+  const ToleranceCheck check = check_one_sided_tolerance(originals, Bvh(soup), tolerance, options);
+  return check.verdict == Verdict::Within ? std::nullopt : std::optional(to_vec3(check.a_to_b.witness.from.position));
 }
 
 ExceedCheck::Affected ExceedCheck::affected_by(const EdgeStar& collapsed) {

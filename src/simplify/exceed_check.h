@@ -48,6 +48,9 @@ class ExceedCheck {
   [[nodiscard]] Affected affected_by(const EdgeStar& collapsed);
   /// Those that mostly hold the originals: new ones, those beside these, and those that have held the originals.
   [[nodiscard]] std::vector<std::uint32_t> likely_faces(const Affected& affected);
+  /// A point of the originals that is not near what may hold them; absent where all of them are.
+  [[nodiscard]] std::optional<Vec3> lost_point(const Bvh& originals, const Holders& holders, double tolerance,
+                                               const DistanceOptions& options) const;
   [[nodiscard]] bool add_what_is_near(Vec3 point, double tolerance, Holders& holders);
   void make_boxes();
 

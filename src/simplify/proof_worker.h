@@ -48,12 +48,11 @@ class ProofWorkers::Worker {
   /// Faces that cover an original triangle together; none if no cover was found. Valid until the next call.
   std::span<const std::uint32_t> cover(std::uint32_t t) {
     drafted_.clear();
-    const auto& v = state_.triangles[t];
-    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const Corners corners = state_.original(t);
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return {};
     std::array<std::uint32_t, 3> at{};
-    for (std::size_t k = 0; k < 3; ++k) at[k] = sample_face(v[k]);
+    for (std::size_t k = 0; k < 3; ++k) at[k] = sample_face(state_.triangles[t][k]);
     for (std::size_t k = 0; k < 3; ++k) {
       if (at[k] == no_index || (k > 0 && at[k] == at[0]) || (k == 2 && at[2] == at[1])) continue;
       if (holds(at[k], corners, limit)) return draft(at[k]);
@@ -78,8 +77,7 @@ class ProofWorkers::Worker {
   /// As `cover`, with faces found by boxes where the samples do not know which faces are near.
   std::span<const std::uint32_t> cover_anywhere(std::uint32_t t, const FaceBoxes& boxes) {
     drafted_.clear();
-    const auto& v = state_.triangles[t];
-    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const Corners corners = state_.original(t);
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return {};
     found_.clear();
@@ -403,8 +401,7 @@ class ProofWorkers::Worker {
   template <class Owned>
   bool cover_among(std::uint32_t t, std::span<const std::uint32_t> changed, const Owned& owned) {
     drafted_.clear();
-    const auto& v = state_.triangles[t];
-    const Corners corners{state_.vertices[v[0]], state_.vertices[v[1]], state_.vertices[v[2]]};
+    const Corners corners = state_.original(t);
     const double limit = state_.limit_around(corners);
     if (!(limit > 0)) return false;
     for (const std::uint32_t f : state_.cover.faces_of(t)) {

@@ -85,8 +85,7 @@ void Proof::cover_anywhere() {
     const std::uint32_t at = open_original(i);
     if (!drafts_[at].empty()) continue;
     lost.push_back(at);
-    const auto& [a, b, c] = state_.triangles[originals_[at]];
-    reaches.push_back(grown(box_of({state_.vertices[a], state_.vertices[b], state_.vertices[c]}), state_.tolerance));
+    reaches.push_back(grown(box_of(state_.original(originals_[at])), state_.tolerance));
   }
   if (lost.empty()) return;
   const FaceBoxes boxes(state_.mesh, BoxTree(reaches));

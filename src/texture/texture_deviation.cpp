@@ -273,7 +273,7 @@ class Direction {
     const auto triangle = static_cast<std::size_t>(worst - upper_.begin());
     find_candidates(triangle, work);
     overlay_near(triangle, work);
-    const TriangleDeviation found = deviation_at_corners(work.overlay, work.covering, others_of(triangle, work), goal_);
+    const TriangleDeviation found = deviation_at_corners(work.overlay, others_of(triangle, work), goal_);
     if (found.far) raise(found.bounds.lower, work.overlay.witness(found.far->candidate, found.far->node));
   }
 

@@ -97,16 +97,16 @@ constexpr double max_share_of_half = 0.75;
 
 class PieceSearch {
  public:
-  PieceSearch(Overlay& overlay, Covering& covering, const FindOthers& find_others, const DeviationGoal& goal)
-      : overlay_(overlay), covering_(covering), find_others_(find_others), likely_(overlay.candidates()), goal_(goal) {}
+  PieceSearch(Overlay& overlay, const FindOthers& find_others, const DeviationGoal& goal)
+      : overlay_(overlay), find_others_(find_others), likely_(overlay.candidates()), goal_(goal) {}
 
   /// Starts with the whole triangle. Every point of a candidate that covers some area of A lies in a piece that a
   /// candidate covers, or on its border. What no candidate covers is left; all other candidates matter only where they
   /// touch that.
-  TriangleDeviation run() {
+  TriangleDeviation run(Covering& covering) {
     is_bounded_.assign(likely_, 0);
     if (overlay_.triangle().chart == Chart::Area)
-      search_beside_near_ones();
+      search_beside_near_ones(covering);
     else
       search_without_area();
     const std::vector<std::uint8_t> is_bounded = is_bounded_;  // not by pieces of what is touched below
@@ -125,7 +125,7 @@ class PieceSearch {
 
  private:
   /// Accepts what candidates cover that are within the limit everywhere, and searches the rest.
-  void search_beside_near_ones() {
+  void search_beside_near_ones(Covering& covering) {
     if (overlay_.spanning().size() >= many_candidates) raise_at_worst();
     const std::vector<std::uint32_t> candidates = spanning_from(0);
     std::vector<std::uint32_t> near, rest;
@@ -136,7 +136,7 @@ class PieceSearch {
       (is_near ? near : rest).push_back(c);
       if (is_near) upper = bound;
     }
-    auto uncovered = near.empty() ? std::nullopt : covering_.uncovered(overlay_, near);
+    auto uncovered = near.empty() ? std::nullopt : covering.uncovered(overlay_, near);
     if (!uncovered) return search(Piece{overlay_.whole(), {}, candidates});
     ++result_.pieces;
     accept(upper);
@@ -484,31 +484,34 @@ class PieceSearch {
   /// compared with that of the same place (`LineChart`). Halving alone would come near the edges of candidates in steps
   /// as small as the limit.
   std::optional<Line> line_along_edge(const Piece& piece, const Node& worst) {
-    constexpr double margin = 0x1p-36;  // of the largest value: more than lines and weights are rounded
     if (!chart_) chart_.emplace(overlay_.triangle());
-    const TexturedTriangle& a = *overlay_.triangle().source;
     for (const std::uint32_t c : piece.full) {
       if (overlay_.candidate(c).chart != Chart::Segment || overlay_.rough_distance(c, worst).upper > limit()) continue;
-      const TexturedTriangle& b = *overlay_.candidate(c).source;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Eigen::Vector2d from = chart_->corner(b, k), way = chart_->corner(b, (k + 1) % 3) - from;
-        Eigen::Vector3d at;
-        for (std::size_t i = 0; i < 3; ++i) {
-          const Eigen::Vector2d step = chart_->corner(a, i) - from;
-          at[static_cast<Eigen::Index>(i)] = way.x() * step.y() - way.y() * step.x();
-        }
-        const double largest = at.cwiseAbs().maxCoeff();
-        if (!(largest > 0 && largest < HUGE_VAL)) continue;
-        double low = 0, high = 0;
-        for (const auto& corner : piece.polygon) {
-          const std::array<double, 3> w = Overlay::rounded(corner.node);
-          const double value = at.dot(Eigen::Vector3d(w[0], w[1], w[2]));
-          low = std::min(low, value), high = std::max(high, value);
-        }
-        if (low < -margin * largest && high > margin * largest) return overlay_.add_cut({at[0], at[1], at[2]});
-      }
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const auto line = line_of_edge(*overlay_.candidate(c).source, k, piece.polygon)) return line;
     }
     return std::nullopt;
+  }
+
+  /// The line along edge k of `b` in the chart, if corners of the polygon are clearly on both sides of it.
+  std::optional<Line> line_of_edge(const TexturedTriangle& b, std::size_t k, const Polygon& polygon) {
+    constexpr double margin = 0x1p-36;  // of the largest value: more than lines and weights are rounded
+    const Eigen::Vector2d from = chart_->corner(b, k), way = chart_->corner(b, (k + 1) % 3) - from;
+    Eigen::Vector3d at;  // at the corners of A: how far they are from the line, times its length
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector2d step = chart_->corner(*overlay_.triangle().source, i) - from;
+      at[static_cast<Eigen::Index>(i)] = way.x() * step.y() - way.y() * step.x();
+    }
+    const double largest = at.cwiseAbs().maxCoeff();
+    if (!(largest > 0 && largest < HUGE_VAL)) return std::nullopt;
+    double low = 0, high = 0;
+    for (const auto& corner : polygon) {
+      const std::array<double, 3> w = Overlay::rounded(corner.node);
+      const double value = at.dot(Eigen::Vector3d(w[0], w[1], w[2]));
+      low = std::min(low, value), high = std::max(high, value);
+    }
+    if (!(low < -margin * largest && high > margin * largest)) return std::nullopt;
+    return overlay_.add_cut({at[0], at[1], at[2]});
   }
 
   /// A line that halves the piece where the way to candidates varies most. Across the coordinates of a segment what a
@@ -550,7 +553,6 @@ class PieceSearch {
   }
 
   Overlay& overlay_;
-  Covering& covering_;
   const FindOthers& find_others_;
   bool needs_far_ = false;               ///< near candidates left a piece uncovered
   bool has_others_ = false;              ///< the overlay holds the others too
@@ -570,12 +572,11 @@ class PieceSearch {
 
 TriangleDeviation deviation_by_pieces(Overlay& overlay, Covering& covering, const FindOthers& find_others,
                                       const DeviationGoal& goal) {
-  return PieceSearch(overlay, covering, find_others, goal).run();
+  return PieceSearch(overlay, find_others, goal).run(covering);
 }
 
-TriangleDeviation deviation_at_corners(Overlay& overlay, Covering& covering, const FindOthers& find_others,
-                                       const DeviationGoal& goal) {
-  return PieceSearch(overlay, covering, find_others, goal).at_corners();
+TriangleDeviation deviation_at_corners(Overlay& overlay, const FindOthers& find_others, const DeviationGoal& goal) {
+  return PieceSearch(overlay, find_others, goal).at_corners();
 }
 
 }  // namespace meshbound

@@ -51,7 +51,7 @@ using FindOthers = std::function<std::span<const ChartTriangle* const>()>;
 
 /// A far point of a triangle without a search: the farthest of its corners, or a point that the other mesh covers where
 /// no corner is. Only the lower bound and the point of the result are set.
-[[nodiscard]] TriangleDeviation deviation_at_corners(Overlay& overlay, Covering& covering,
-                                                     const FindOthers& find_others, const DeviationGoal& goal);
+[[nodiscard]] TriangleDeviation deviation_at_corners(Overlay& overlay, const FindOthers& find_others,
+                                                     const DeviationGoal& goal);
 
 }  // namespace meshbound
