@@ -135,17 +135,24 @@ TexturedMesh fine_step(int n, double depth, double further_depth) {
 }
 
 /// Pieces of a large triangle look at those of many that are near them; where the other mesh is beyond the tolerance,
-/// near ones do not tell how far.
+/// near ones do not tell how far. That it is beyond suffices with a tolerance, without one it is told.
 TEST(Gradient, OfALargeTriangleIsBoundedNearAndBeyondTheTolerance) {
   TextureDeviationOptions options;
   options.threads = 1;
-  options.tolerance = 0.05;
   options.error_bound = 1e-3;
   for (const double further_depth : {0.02, 0.049, 0.051, 0.12}) {
-    const TextureDeviation found = texture_deviation(square(0), fine_step(20, 0.04, further_depth), options);
-    expect_value(found.a_to_b.bounds, std::max(0.04, further_depth), 1e-3);
-    EXPECT_EQ(found.a_to_b.exceeding.size(), further_depth > 0.05 ? 2U : 0U);
-    EXPECT_EQ(found.a_to_b.uncovered.upper, 0);
+    const TexturedMesh step = fine_step(20, 0.04, further_depth);
+    const bool is_beyond = further_depth > 0.05;
+    options.tolerance = 0.05;
+    const OneSidedTextureDeviation decided = texture_deviation(square(0), step, options).a_to_b;
+    EXPECT_EQ(decided.exceeding.size(), is_beyond ? 2U : 0U);
+    EXPECT_EQ(decided.uncovered.upper, 0);
+    EXPECT_EQ(decided.bounds.lower > 0.05, is_beyond);
+    options.tolerance.reset();
+    const Bounds told = texture_deviation(square(0), step, options).a_to_b.bounds;
+    expect_value(is_beyond ? told : decided.bounds, std::max(0.04, further_depth), 1e-3);
+    EXPECT_LE(decided.bounds.lower, told.upper);
+    EXPECT_GE(decided.bounds.upper, told.lower);
   }
 }
 
