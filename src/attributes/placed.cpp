@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "attributes/sectors.h"
@@ -31,8 +31,8 @@ SimplifiedLevel placed_as_written(SimplifiedLevel level, const MeshAttributes& a
   const GltfDocument& document = *attributes.document;
   std::set<Edge> lines;
   for (const Edge& edge : level.lines) lines.insert(sorted(edge));
-  // By placed mesh and vertex: number of the vertex there.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> number_of;
+  std::unordered_map<std::uint64_t, std::uint32_t> number_of;  // of a vertex, by placed mesh and vertex
+  number_of.reserve(level.mesh.vertices.size());
   const TriangleMesh from = std::exchange(level.mesh, {});
   const std::vector<std::uint32_t> source_vertex = std::exchange(level.source_vertex, {});
   level.lines.clear();
@@ -42,8 +42,8 @@ SimplifiedLevel placed_as_written(SimplifiedLevel level, const MeshAttributes& a
     Triangle& corners = level.mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = from.triangles[t][k];
-      const auto [at, is_new] =
-          number_of.try_emplace({part.placed, v}, static_cast<std::uint32_t>(level.mesh.vertices.size()));
+      const auto [at, is_new] = number_of.try_emplace(std::uint64_t{part.placed} << 32 | v,
+                                                      static_cast<std::uint32_t>(level.mesh.vertices.size()));
       corners[k] = at->second;
       if (!is_new) continue;
       const Eigen::Vector3d& p = from.vertices[v];
