@@ -328,7 +328,8 @@ struct DecimationState {
   }
   /// Whether a triangle of the original is a point or a segment because two of its corners are at one place.
   [[nodiscard]] bool has_equal_corners(std::uint32_t t) const;
-  std::vector<std::uint32_t> kept;     ///< original triangles without a face near: part of every result as they are
+  /// Original triangles that are part of every result as they are: no face is near, or shows their part of the texture.
+  std::vector<std::uint32_t> kept;
   std::vector<std::uint8_t> is_kept;   ///< by original triangle: whether it is in `kept`; empty if none is
   bool starts_as_original = true;      ///< the mesh was the original when the decimation began
   CoverAssignment cover;               ///< which faces each original triangle is proven to be near
