@@ -199,5 +199,19 @@ TEST(Gradient, IsNeverExceededByAPoint) {
   }
 }
 
+/// A piece that all candidates are known of may still be beyond the reach of the near ones: its search starts again and
+/// takes in all of them anew. Without those that are not likely it had no end.
+TEST(Gradient, LooksAtAllCandidatesWherePiecesAreBeyondReach) {
+  Random random(3412);
+  const TexturedMesh a = random_gradients(1, random), b = random_gradients(10, random);
+  TextureDeviationOptions options;
+  options.threads = 1;
+  options.error_bound = 1e-3;
+  options.max_pieces = 1000;
+  const OneSidedTextureDeviation found = texture_deviation(a, b, options).a_to_b;
+  EXPECT_EQ(found.outcome, Outcome::Converged);
+  EXPECT_LE(found.bounds.upper - found.bounds.lower, 1e-3);
+}
+
 }  // namespace gradient_test
 }  // namespace meshbound

@@ -375,6 +375,7 @@ class PieceSearch {
   void take_likely(Piece& piece) {
     piece.full.clear();
     piece.part = spanning_likely();
+    piece.has_all = false;
     piece.has_near = false;
     bound(piece);
   }
