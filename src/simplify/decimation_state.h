@@ -330,7 +330,9 @@ struct DecimationState {
   [[nodiscard]] bool has_equal_corners(std::uint32_t t) const;
   /// Original triangles that are part of every result as they are: no face is near, or shows their part of the texture.
   std::vector<std::uint32_t> kept;
-  std::vector<std::uint8_t> is_kept;   ///< by original triangle: whether it is in `kept`; empty if none is
+  /// By original triangle: whether it needs no face, as it is in `kept` or others cover it from the start; empty if
+  /// none is.
+  std::vector<std::uint8_t> is_kept;
   bool starts_as_original = true;      ///< the mesh was the original when the decimation began
   CoverAssignment cover;               ///< which faces each original triangle is proven to be near
   std::vector<std::uint32_t> nearest;  ///< by face: an original triangle near it
