@@ -136,6 +136,7 @@ ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, doubl
   }
   OneSidedTask back = decision(b, a, tolerance, options);
   back.memory = memory.b_to_a;
+  back.start = task.start;
   check.b_to_a = search_one_sided(back);
   check.bounds = larger(check.a_to_b.bounds, check.b_to_a.bounds);
   check.verdict = verdict_of(check.bounds, tolerance);
