@@ -108,6 +108,28 @@ TEST_F(BatchTool, DoesAnewWhatHasChanged) {
   EXPECT_NE(run({"--prune"}).out.find("; 0 from an earlier run"), std::string::npos) << "other options";
 }
 
+/// The buffers of a glTF are files of their own, and part of its content.
+TEST_F(BatchTool, DoesAnewWhatHasOtherBuffers) {
+  const auto write_gltf = [&](double scale) {
+    std::string bytes;
+    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, static_cast<float>(scale), 0.0F})
+      bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+    std::ofstream(in("models/face.bin"), std::ios::binary) << bytes;
+    std::ofstream(in("models/face.gltf")) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+      "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "buffers": [{"byteLength": 36, "uri": "face.bin"}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                     "min": [0, 0, 0], "max": [1, 9, 0]}]})";
+  };
+  write_gltf(1);
+  ASSERT_EQ(run({}).exit_code, 0);
+  EXPECT_NE(run({}).out.find("4 from an earlier run"), std::string::npos);
+  write_gltf(2);
+  EXPECT_NE(run({}).out.find("3 from an earlier run"), std::string::npos);
+  EXPECT_EQ(
+      hausdorff_distance(read_mesh(in("models/face.gltf")).mesh, read_mesh(in("out/face.gltf")).mesh).bounds.upper, 0);
+}
+
 TEST_F(BatchTool, AFailureStopsNothing) {
   std::ofstream(in("models/broken.off")) << "OFF\n3 1 0\n0 0 0\n1 0 0\n";
   const ToolRun result = run({"--quiet"});

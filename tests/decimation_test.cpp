@@ -492,5 +492,21 @@ TEST_P(Decimation, GivesTheSameMeshWithAndWithoutVectorCode) {
 INSTANTIATE_TEST_SUITE_P(With, Decimation, testing::ValuesIn(test::drivers()),
                          [](const auto& driver) { return driver.param.name; });
 
+/// Faces thinner than any that may come to be, in rows along which a vertex slides: their area stays the same.
+TEST(Decimation, CollapsesRowsOfNeedles) {
+  TriangleMesh rows;
+  constexpr std::uint32_t n = 11000;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (const double y : {0.0, 1.0}) rows.vertices.emplace_back(i / double(n), y, 0.0);
+  for (std::uint32_t i = 0; i < 2 * n; i += 2) {
+    rows.triangles.push_back({i, i + 2, i + 3});
+    rows.triangles.push_back({i, i + 3, i + 1});
+  }
+  SimplifyOptions options;
+  options.tolerance = 0.01;
+  options.threads = 1;
+  EXPECT_EQ(simplify_with_bound(rows, options).last().faces(), 2U);
+}
+
 }  // namespace decimation_test
 }  // namespace meshbound

@@ -130,6 +130,22 @@ TEST_F(GltfTool, SimplifiesAScene) {
   EXPECT_EQ(distance.exit_code, 0) << distance.out;
 }
 
+/// Vertices of one copy name those of all.
+TEST_F(GltfTool, KeepsEdgesThatAreNamedInAnyCopy) {
+  const TriangleMesh scene = read_mesh(in("in.glb")).mesh;
+  const auto lines = [&](std::size_t triangle) {
+    const Triangle& t = scene.triangles[triangle];
+    std::ofstream(in("edges.txt")) << t[0] << ' ' << t[1] << '\n' << t[1] << ' ' << t[2] << '\n' << t[2] << ' ' << t[0];
+    EXPECT_EQ(simplify("in.glb", "out.glb", {"--feature-edges", in("edges.txt"), "--json", in("r.json")}).exit_code, 0);
+    return checked_document(content_of(in("r.json")))["lines"]["original_edges"].get<int>();
+  };
+  ASSERT_EQ(simplify("in.glb", "out.glb", {"--json", in("r.json")}).exit_code, 0);
+  const int borders = checked_document(content_of(in("r.json")))["lines"]["original_edges"];
+  constexpr std::size_t inside = 10 * 24 + 11;
+  EXPECT_EQ(lines(inside), borders + 6);
+  EXPECT_EQ(lines(scene.triangles.size() / 2 + inside), borders + 6);
+}
+
 TEST_F(GltfTool, TheSecondCopySetsTheTolerance) {
   ASSERT_EQ(simplify("in.glb", "out.glb").exit_code, 0);
   // In the frame of the mesh, where the first copy stands, a third of the tolerance holds.

@@ -213,5 +213,41 @@ TEST(Gradient, LooksAtAllCandidatesWherePiecesAreBeyondReach) {
   EXPECT_LE(found.bounds.upper - found.bounds.lower, 1e-3);
 }
 
+/// The only likely candidate of a triangle whose coordinates lie on a line may be far away; another one, which covers
+/// the area around, is near.
+TEST(Gradient, IsNearATriangleThatHasAnAreaInTheTexture) {
+  const auto at = [](double z) { return triangle({{0, 0, z}, {0, 0}}, {{1, 0, z}, {1, 0}}, {{0, 1, z}, {0, 0}}); };
+  TexturedMesh a, b;
+  a.triangles = {at(0)};
+  b.triangles = {triangle({{0, 0, 100}, {-1, -1}}, {{1, 0, 100}, {3, -1}}, {{0, 1, 100}, {0, 3}}), at(1)};
+  const OneSidedTextureDeviation found = measured(numbered(a), numbered(b), 1e-6).a_to_b;
+  expect_value(found.bounds, 1, 1e-6);
+  EXPECT_EQ(found.outcome, Outcome::Converged);
+}
+
+/// What a candidate covers of an area may be a segment, and the farthest point is inside of it: at its end another
+/// candidate is near.
+TEST(Gradient, IsFarInsideOfASegment) {
+  const Eigen::Vector2d p(0, 0.2), q(0.25, 0.75);
+  const auto above = [](const Eigen::Vector2d& uv, double z) { return test::Corner{{uv.x(), uv.y(), z}, uv}; };
+  TexturedMesh a, b;
+  a.triangles = {triangle({{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}})};
+  b.triangles = {triangle(above(p, 1), above(q, 3), above(p, 1)),
+                 triangle(above(q, 0.5), above(q, 0.5), above(q, 0.5))};
+  const OneSidedTextureDeviation found = measured(numbered(a), numbered(b), 1e-6).a_to_b;
+  expect_value(found.bounds, 3, 1e-6);
+  EXPECT_EQ(found.outcome, Outcome::Converged);
+}
+
+/// The library takes coordinates whose distance is no double.
+TEST(Gradient, OfADistanceBeyondDoublesIsInfinite) {
+  const auto at = [](double z) {
+    TexturedMesh mesh;
+    mesh.triangles = {triangle({{0, 0, z}, {0, 0}}, {{1, 0, z}, {1, 0}}, {{0, 1, z}, {0, 1}})};
+    return numbered(mesh);
+  };
+  EXPECT_EQ(measured(at(1.7e308), at(-1.7e308), 1e-6).a_to_b.bounds.upper, HUGE_VAL);
+}
+
 }  // namespace gradient_test
 }  // namespace meshbound

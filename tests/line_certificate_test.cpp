@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -182,6 +183,21 @@ TEST(LineCertificate, ForgedLinesAreRejected) {
   EXPECT_NE(rejection(c, with(c.bytes, at, ~0U, 4)).find("no edge"), std::string::npos);
   const std::size_t simplified_at = at + 8 * c.lines.original.size();
   EXPECT_NE(rejection(c, with(c.bytes, simplified_at, 15, 4)).find("no edge"), std::string::npos);
+}
+
+/// A vertex without numbers is part of no triangle, so of no line: it is not taken for another one.
+TEST(LineCertificate, LinesToVerticesWithoutNumbersAreRejected) {
+  for (const double none : {HUGE_VAL, std::nan("")}) {
+    Case c;
+    for (TriangleMesh* mesh : {&c.a, &c.b}) mesh->vertices.emplace_back(none, none, none);
+    c.bytes = c.certificate_for(c.lines).bytes;
+    ASSERT_EQ(rejection(c, c.bytes), "");
+    const std::size_t at = c.lines_at() + 56, simplified_at = at + 8 * c.lines.original.size();
+    ASSERT_EQ(c.lines.original[0][0], 0U);  // its place is the lowest
+    EXPECT_NE(rejection(c, with(c.bytes, at, c.a.vertices.size() - 1, 4)).find("no edge"), std::string::npos);
+    EXPECT_NE(rejection(c, with(c.bytes, simplified_at, c.b.vertices.size() - 1, 4)).find("no edge"),
+              std::string::npos);
+  }
 }
 
 /// Any byte of the part about lines, changed and sealed again: the certificate is rejected, or what it says is true.

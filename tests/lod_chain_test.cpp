@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <random>
+
 #if defined(MESHBOUND_WITH_CGAL)
 #include "meshbound/cgal/lod_chain.h"
 #endif
@@ -20,6 +24,42 @@ LodOptions one_thread() {
   LodOptions options;
   options.threads = 1;
   return options;
+}
+
+/// A collapse that ends a run is made and measured before the texture around it was looked at: what is known of another
+/// one must not be written to its faces. A grid without seams has one coordinate at each vertex.
+TEST(LodChain, KeepsTheTextureTogetherWhereItStopsAtTheTolerance) {
+  constexpr int n = 40;
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  TriangleMesh mesh;
+  std::vector<Eigen::Vector2d> uv;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      uv.emplace_back(double(i) / n, double(j) / n);
+      mesh.vertices.emplace_back(
+          uv.back().x(), uv.back().y(),
+          0.1 * std::sin(6 * uv.back().x()) * std::cos(5 * uv.back().y()) + 0.002 * noise(random));
+    }
+  LodOptions options = one_thread();
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t a = i * (n + 1) + j, b = a + 1, c = a + n + 1, d = c + 1;
+      mesh.triangles.push_back({a, c, d});
+      mesh.triangles.push_back({a, d, b});
+    }
+  for (const Triangle& t : mesh.triangles) options.texture_coordinates.push_back({uv[t[0]], uv[t[1]], uv[t[2]]});
+  options.on_exceed = OnExceed::Stop;
+  options.texture_tolerance = 0.004;
+  LodChain chain(mesh, options);
+  const LodLevel level = chain.next(0.004);
+  EXPECT_LT(level.faces(), mesh.triangles.size() / 4);
+  std::map<std::uint32_t, Eigen::Vector2d> of_vertex;
+  for (std::size_t t = 0; t < level.faces(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector2d& here = level.texture_coordinates[t][k];
+      EXPECT_EQ(of_vertex.try_emplace(level.mesh.triangles[t][k], here).first->second, here);
+    }
 }
 
 TEST(LodChain, HandsOutLevelsThatGrowCoarserAndHoldAgainstTheOriginal) {

@@ -152,6 +152,13 @@ TEST_F(LodChainTool, RemovesTheLevelsOfAnEarlierRunAndNothingElse) {
   for (const char* kept : {"lod_3.ply", "lod_7.ply", "notes.txt", "chain.json"}) EXPECT_TRUE(is_there(kept)) << kept;
 }
 
+TEST_F(LodChainTool, KeepsTheFileOfAllLevelsWhereAnEarlierLevelWas) {
+  ASSERT_EQ(run({"--levels", "0.1%,0.3%,1%", "--format", "glb"}).exit_code, 0);
+  ASSERT_EQ(run({"--levels", "1%", "--format", "glb", "--glb", in("chain/lod_1.glb")}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(in("chain/lod_1.glb")));
+  EXPECT_FALSE(fs::exists(in("chain/lod_2.glb")));
+}
+
 TEST_F(LodChainTool, KeepsAnEarlierLevelThatIsReadOrCannotBeWritten) {
   ASSERT_EQ(run({"--levels", "0.002,0.004,0.008"}).exit_code, 0);
   fs::permissions(in("chain/lod_1.ply"), fs::perms::owner_read);

@@ -91,6 +91,22 @@ TEST_F(NearestTool, CountsWhatItCannotReadAndLeavesTheQueryOut) {
   EXPECT_EQ(found["nearest"][0]["path"], shapes_ + "/twice.off");
 }
 
+/// What a candidate lacks, or that it may not be read, ends nothing.
+TEST_F(NearestTool, CountsWhatLacksItsBuffer) {
+  std::ofstream(shapes_ + "/bare.gltf") << R"({"asset": {"version": "2.0"},
+      "buffers": [{"byteLength": 36, "uri": "bare.bin"}]})";
+  const json found = document({});
+  EXPECT_EQ(found["candidates"], 4);
+  ASSERT_EQ(found["unreadable"].size(), 1u);
+  EXPECT_EQ(found["unreadable"][0]["path"], shapes_ + "/bare.gltf");
+}
+
+TEST_F(NearestTool, WritesOverNoCandidate) {
+  const std::string before = content_of(shapes_ + "/twice.off");
+  expect_refused(run({"--json", shapes_ + "/twice.off"}), "is the file that is read as a candidate");
+  EXPECT_EQ(content_of(shapes_ + "/twice.off"), before);
+}
+
 TEST_F(NearestTool, RefusesBadUsageInOneLine) {
   expect_refused(run({"--tolerance", "1"}), "--nearest goes with");
   expect_refused(run({"--count", "0"}), "--count");

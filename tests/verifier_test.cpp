@@ -275,6 +275,25 @@ TEST(ParityCheck, EndsWhereItCostsTooMuch) {
   EXPECT_EQ(cost(3 * once - 1, 3), 0u);
 }
 
+/// Many triangles at one edge are all looked at, and counted.
+TEST(ParityCheck, CountsAllTrianglesAtAnEdge) {
+  TriangleMesh sheet = reference::unit_square(7);
+  const std::size_t triangles = sheet.triangles.size();
+  const std::uint32_t seed = below_middle(sheet);
+  PieceCorners corners;
+  corners.start(face);
+  const auto work = [&] {
+    ParityCheck proof(sheet, 0.021, 100'000'000);
+    (void)proof.proves(face, corners, {0, 1, 2}, seed);
+    return proof.work();
+  };
+  const std::uint64_t once = work();
+  constexpr std::uint64_t copies = 101;  // odd: the sheet counts as before
+  for (std::uint64_t k = 1; k < copies; ++k)
+    for (std::size_t t = 0; t < triangles; ++t) sheet.triangles.push_back(sheet.triangles[t]);
+  EXPECT_GT(work(), copies * copies * once);
+}
+
 /// A certificate put together byte by byte: one triangle against one triangle.
 struct Forgery {
   TriangleMesh a = reference::single_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});

@@ -395,7 +395,7 @@ std::vector<std::filesystem::path> Run::stale_files() const {
     const auto is_here = [&](const std::filesystem::path& other) {
       return path == other || std::filesystem::equivalent(path, other, error);
     };
-    return is_here(options_.input) || is_here(options_.common.json) ||
+    return is_here(options_.input) || is_here(options_.common.json) || is_here(options_.one_file) ||
            std::any_of(outputs_.begin(), outputs_.end(), [&](const GatedOutput& o) { return is_here(o.path()); });
   });
   return stale;

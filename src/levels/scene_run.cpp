@@ -8,6 +8,7 @@
 
 #include "levels/measured_level.h"
 #include "mesh/scene_layout.h"
+#include "meshbound/error.h"
 #include "meshbound/mesh_view.h"
 #include "numeric/no_index.h"
 #include "simplify/ended_by.h"
@@ -141,21 +142,39 @@ void SceneRun::timed(Group& of, const Work& work) {
 /// of the group.
 void SceneRun::start(Group& of) {
   const SceneGroup& group = of.group;
-  std::vector<std::uint32_t> number(original_.vertices.size(), no_index);
-  for (std::uint32_t v = 0; v < group.vertices.size(); ++v) number[group.vertices[v]] = v;
+  std::vector<std::uint32_t> number(original_.vertices.size(), no_index);  // in the group, of all of its copies
+  const auto add = [&](const std::vector<std::uint32_t>& vertices) {
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) number[vertices[v]] = v;
+  };
+  add(group.vertices);
+  for (const SceneCopy& copy : group.copies) add(vertices_of(of, copy));
   of.options.feature_edges.clear();
-  for (const auto& [a, b] : options_.feature_edges)
+  for (const auto& [a, b] : options_.feature_edges) {
+    if (std::max(a, b) >= number.size())
+      throw InvalidInput("a feature edge refers to vertex " + std::to_string(std::max(a, b)) + ", but there are only " +
+                         std::to_string(number.size()));
     if (number[a] != no_index && number[b] != no_index) of.options.feature_edges.push_back({number[a], number[b]});
+  }
   const auto take = [&](const auto& from, auto& to) {  // by triangle
     if (from.empty()) return;
     to.clear();
     for (const std::uint32_t t : group.triangles) to.push_back(from[t]);
   };
   if (!options_.locked_vertices.empty()) {
-    of.options.locked_vertices.clear();
-    for (const std::uint32_t v : group.vertices) of.options.locked_vertices.push_back(options_.locked_vertices[v]);
+    if (options_.locked_vertices.size() != number.size())
+      throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
+    of.options.locked_vertices.assign(group.vertices.size(), false);
+    for (std::uint32_t v = 0; v < number.size(); ++v)
+      if (number[v] != no_index && options_.locked_vertices[v]) of.options.locked_vertices[number[v]] = true;
   }
+  if (!options_.face_tolerances.empty() && options_.face_tolerances.size() != original_.triangles.size())
+    throw InvalidInput("tolerances of triangles must be given for every triangle of the original");
   take(options_.face_tolerances, of.options.face_tolerances);
+  for (const SceneCopy& copy : group.copies)
+    for (std::uint32_t i = 0; i < of.options.face_tolerances.size(); ++i) {
+      double& tolerance = of.options.face_tolerances[i];
+      tolerance = std::min(tolerance, options_.face_tolerances[copy.first_triangle + i]);
+    }
   take(options_.texture_coordinates, of.options.texture_coordinates);
   take(options_.materials, of.options.materials);
   of.run.emplace(group.mesh, of.options);

@@ -11,6 +11,7 @@
 #include "mesh/file_bytes.h"
 #include "mesh/gltf_compression.h"
 #include "meshbound/error.h"
+#include "meshbound/io.h"
 
 namespace meshbound {
 namespace {
@@ -148,7 +149,38 @@ void check_version(const GltfValue& root) {
     root.at("asset").fail("version " + quote(version) + " of glTF is not read, only 2 is");
 }
 
+/// The text of a glTF file, or that of the first chunk of a GLB file without what follows it.
+std::string json_text_of(const std::filesystem::path& path) {
+  constexpr std::size_t json_begin = header_size + chunk_header_size;
+  const std::string begin(FileBytes(path, {}, json_begin).bytes());
+  if (!begin.starts_with("glTF")) return std::string(FileBytes(path).bytes());
+  if (begin.size() < json_begin) return {};
+  return std::string(FileBytes(path, {}, word_at(begin, header_size), json_begin).bytes());
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  try {
+    const FileFormat format = format_of(path);
+    if (format != FileFormat::Gltf && format != FileFormat::Glb) return files;
+    const std::string text = json_text_of(path);
+    const MeshSource source{path, text, text.starts_with("\xEF\xBB\xBF") ? std::size_t{3} : 0, {}};
+    const GltfJson json = parse_json(source, source.bytes.substr(source.begin));
+    const GltfValue root(source, json);
+    for (const char* const list : {"buffers", "images"}) {
+      for (std::size_t i = 0; i < root.count(list); ++i) {
+        const auto uri = root.at(list).item(i).find("uri");
+        if (!uri || is_data_uri(uri->text())) continue;
+        if (const auto name = relative_path_of(uri->text())) files.push_back(path.parent_path() / *name);
+      }
+    }
+  } catch (const Error&) {
+    files.clear();
+  }
+  return files;
+}
 
 GltfDocument read_gltf_document(const MeshSource& source) {
   const Container container = read_container(source);

@@ -26,6 +26,10 @@ struct GltfDocument : SceneLayout {
 /// be read.
 [[nodiscard]] GltfDocument read_gltf_document(const MeshSource& source);
 
+/// The files that a glTF file is read together with: those of its buffers and images. None where the file is of another
+/// format, or is no glTF or cannot be read: reading it tells why.
+[[nodiscard]] std::vector<std::filesystem::path> files_beside(const std::filesystem::path& path);
+
 /// The number of textures, cameras, animations and skins.
 [[nodiscard]] std::size_t count_scene_objects(const GltfDocument& document);
 

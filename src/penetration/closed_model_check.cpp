@@ -106,7 +106,7 @@ std::vector<int> signs_of_contents(const ClosedModel::Data& model, PlacedPair& p
   std::vector<int> signs(count, 0);
   bool all_certain = true;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool is_certain = pair.error(0) < 0x1p-1000 && std::fabs(sum[i]) > magnitude[i] * share + 0x1p-900;
+    const bool is_certain = pair.error(0) < 0x1p-950 && std::fabs(sum[i]) > magnitude[i] * share + 0x1p-900;
     signs[i] = is_certain ? (sum[i] > 0 ? 1 : -1) : 0;
     all_certain = all_certain && is_certain;
   }

@@ -9,6 +9,7 @@
 
 #include "meshbound/distance.h"
 #include "numeric/first_error.h"
+#include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
 #include "simplify/exceed_check.h"
 #include "simplify/minimax_step.h"
@@ -239,7 +240,9 @@ std::size_t Run::propose(int shift, double share, float max_cost) {
 /// Number of changes that are not proven yet.
 std::size_t Run::proposed() const {
   std::size_t changes = 0;
-  for (const EditLog& log : state_.logs) changes += log.edits.size();
+  for (const EditLog& log : state_.logs)
+    changes += static_cast<std::size_t>(
+        std::ranges::count_if(log.edits, [](const Edit& edit) { return edit.edge != no_index; }));  // others are undone
   return changes;
 }
 

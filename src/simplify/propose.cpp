@@ -334,6 +334,7 @@ void Proposer::begin_star(double share) {
   limit_ = full_limit_ * std::min({share, double{state_.share[star_.kept]}, double{state_.share[star_.gone]}});
   proofs_failed_ = 0;
   gathered_ = texture_gathered_ = turns_gathered_ = false;
+  if (texture_) texture_->forget();
   strays_.clear();
   placed_.reset();
   find_borders();

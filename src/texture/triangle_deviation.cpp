@@ -128,6 +128,7 @@ class PieceSearch {
   void search_beside_near_ones(Covering& covering) {
     if (overlay_.spanning().size() >= many_candidates) raise_at_worst();
     const std::vector<std::uint32_t> candidates = spanning_from(0);
+    const bool has_all = has_others_;
     std::vector<std::uint32_t> near, rest;
     double upper = goal_.min_upper;
     for (const std::uint32_t c : candidates) {
@@ -137,11 +138,11 @@ class PieceSearch {
       if (is_near) upper = bound;
     }
     auto uncovered = near.empty() ? std::nullopt : covering.uncovered(overlay_, near);
-    if (!uncovered) return search(Piece{overlay_.whole(), {}, candidates});
+    if (!uncovered) return search(Piece{overlay_.whole(), {}, candidates, has_all});
     ++result_.pieces;
     accept(upper);
     for (const std::uint32_t c : near) is_bounded_[c] = 1;
-    for (Polygon& polygon : *uncovered) search(Piece{std::move(polygon), {}, rest});
+    for (Polygon& polygon : *uncovered) search(Piece{std::move(polygon), {}, rest, has_all});
   }
 
   /// Raises the lower bound where the upper bounds are largest, at the corners of what single candidates cover: most
@@ -297,7 +298,9 @@ class PieceSearch {
     const bool may_do_without_others = has_no_area() && is_covered && !has_others_;
     if (!piece.has_all && !may_do_without_others) return take_all(piece);
     if (!is_covered) return uncovered_.push_back(std::move(piece.polygon));
+    if (bound.where == nullptr) return accept(bound.upper);  // the distance overflows
     probe(piece, *bound.where);
+    if (bound.upper > limit() && !piece.has_all && has_others_) return take_all(piece);  // the probe has added them
     if (bound.upper <= limit() || piece.full.size() == 1) return accept(bound.upper);
     if (has_no_area()) drop_far(piece, bound.upper);
     if (const auto line = parting_line(piece, *bound.where)) return split(piece, *line);
@@ -431,7 +434,7 @@ class PieceSearch {
         weights[i] += std::ldexp((w[i] - from[i]) / static_cast<double>(piece.size()), -closer);
     }
     const Node rounded = Overlay::given(weights);
-    const bool has_inside = piece.size() > 2;
+    const bool has_inside = piece.size() > 1;
     return !has_inside || overlay_.is_inside(piece, rounded) ? rounded : overlay_.inside(piece, corner, closer);
   }
 

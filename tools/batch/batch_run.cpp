@@ -23,6 +23,7 @@
 #include "common/sha256.h"
 #include "common/signals.h"
 #include "mesh/file_bytes.h"
+#include "mesh/gltf_document.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
@@ -142,6 +143,9 @@ class BatchRun {
   /// A key that is equal for equal content, options, place and version.
   [[nodiscard]] std::string key_of(const Asset& asset) const {
     std::string text = provenance().version + '\n' + checksum_of(asset.input) + '\n' + asset.name + '\n';
+    std::error_code error;
+    for (const fs::path& beside : files_beside(asset.input))
+      text += (fs::is_regular_file(beside, error) ? checksum_of(beside) : "missing") + '\n';
     for (const std::string& word : words_) text += word + '\n';
     return sha256(text);
   }

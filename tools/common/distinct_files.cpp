@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "mesh/gltf_document.h"
 #include "mesh/output_target.h"
 #include "meshbound/error.h"
 
@@ -45,8 +46,13 @@ void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vec
     const char* use;
   };
   std::vector<Taken> taken;
-  for (const NamedPath& input : inputs)
-    if (const std::optional<Identity> identity = identity_of(input.path)) taken.push_back({&input, *identity, "read"});
+  const auto take = [&](const NamedPath& input, const std::filesystem::path& path) {
+    if (const std::optional<Identity> identity = identity_of(path)) taken.push_back({&input, *identity, "read"});
+  };
+  for (const NamedPath& input : inputs) {
+    take(input, input.path);
+    for (const std::filesystem::path& beside : files_beside(input.path)) take(input, beside);
+  }
   for (const NamedPath& output : outputs) {
     const std::optional<Identity> identity = identity_of(output.path);
     if (!identity) continue;

@@ -12,9 +12,10 @@ struct NamedPath {
   std::filesystem::path path;
 };
 
-/// Throws `InvalidInput`, one line, when writing an output would replace an input or another output. Files are
-/// compared, not names: through symbolic links, as hard links of one file, and where nothing is there yet by folder and
-/// name. Devices, FIFOs, "-" and "" replace nothing. To be called before any work.
+/// Throws `InvalidInput`, one line, when writing an output would replace an input, a file that a glTF input is read
+/// together with, or another output. Files are compared, not names: through symbolic links, as hard links of one file,
+/// and where nothing is there yet by folder and name. Devices, FIFOs, "-" and "" replace nothing. To be called before
+/// any work.
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
 }  // namespace meshbound::tools

@@ -60,13 +60,16 @@ Candidates load(const std::vector<std::string>& paths, const Arguments& argument
   Candidates candidates;
   for (const std::string& path : paths) {
     if (interrupted()) throw Error("interrupted");
+    const auto skip = [&](const Error& problem) { candidates.unreadable.push_back({path, problem.what()}); };
     try {
       const TriangleMesh mesh = read_file(path, false, stop).content.mesh;
       candidates.shapes.emplace_back(mesh, BvhOptions{arguments.common.threads, stop});
       candidates.paths.push_back(path);
       candidates.faces.push_back(mesh.triangles.size());
     } catch (const InvalidInput& problem) {
-      candidates.unreadable.push_back({path, problem.what()});
+      skip(problem);
+    } catch (const IoError& problem) {
+      skip(problem);
     }
     bar.show(static_cast<double>(candidates.shapes.size()) / static_cast<double>(paths.size()));
   }
@@ -170,10 +173,12 @@ void print(const Candidates& candidates, const SimilarShapes& found, const Simil
 
 ExitCode run_nearest(const Arguments& arguments) {
   const Stopwatch watch;
-  require_distinct_files({{"QUERY", arguments.a}}, {{"--json", arguments.common.json}});
+  const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a);
+  std::vector<NamedPath> inputs{{"QUERY", arguments.a}};
+  for (const std::string& path : paths) inputs.push_back({"a candidate", path});
+  require_distinct_files(inputs, {{"--json", arguments.common.json}});
   if (!arguments.common.json.empty()) check_writable(arguments.common.json);
   (void)options_of(arguments, watch);  // a typing error is told before a long read
-  const std::vector<std::string> paths = mesh_files(arguments.nearest, arguments.a);
   MeshReport query_file;
   const StopToken stop = stop_of_reading(arguments.common, watch);
   const Shape query(read_input(arguments.a, !arguments.common.json.empty(), query_file, stop),

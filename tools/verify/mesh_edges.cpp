@@ -7,19 +7,25 @@
 namespace meshbound::verify {
 namespace {
 
+/// Of vertices that no triangle can have, as a coordinate is no number or infinite.
+constexpr std::uint32_t no_rank = ~std::uint32_t{0};
+
 /// By vertex: the rank of its coordinates, where 0 and -0 are equal.
 std::vector<std::uint32_t> position_ranks(const TriangleMesh& mesh) {
   const auto& points = mesh.vertices;
   std::vector<std::uint32_t> order;
   for (std::uint32_t v = 0; v < points.size(); ++v)
-    if (points[v].allFinite()) order.push_back(v);  // no triangle has the others
+    if (points[v].allFinite()) order.push_back(v);
   const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
     return std::lexicographical_compare(points[a].begin(), points[a].end(), points[b].begin(), points[b].end());
   };
   std::sort(order.begin(), order.end(), is_before);
-  std::vector<std::uint32_t> rank(points.size(), 0);
-  for (std::size_t i = 1; i < order.size(); ++i)
-    rank[order[i]] = rank[order[i - 1]] + (is_before(order[i - 1], order[i]) ? 1 : 0);
+  std::vector<std::uint32_t> rank(points.size(), no_rank);
+  std::uint32_t here = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && is_before(order[i - 1], order[i])) ++here;
+    rank[order[i]] = here;
+  }
   return rank;
 }
 

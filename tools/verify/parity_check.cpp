@@ -240,6 +240,7 @@ bool ParityCheck::grow(std::uint32_t seed) {
       const std::uint32_t users = edge.end - edge.begin;
       if (users % 2 != 0 && !is_clear(exact_view(), edge)) return false;
       if (users % 2 != 0) continue;
+      work_ += users - 2;  // as few as two are part of the work for their triangles
       for (std::uint32_t k = edge.begin; k < edge.end; ++k) {
         if (visited_[users_[k]] == round_) continue;
         if (patch_.size() == largest_patch) return false;

@@ -172,6 +172,7 @@ class TextureCheck {
   void check_uncovered(const DomainPolygon& piece, const std::vector<DomainPolygon>& rest) {
     if (!near_) near_ = index_.near(*at_);
     for (const TextureSurface::Triangle* const triangle : *near_) {
+      ++work_;  // where it has no area nothing is clipped
       require_work();
       const std::size_t lines_of_others = domain_->line_count();
       const CoveringTriangle b = domain_->covering(*triangle);

@@ -48,7 +48,8 @@ OneSidedDistance distance_to_point_like(const PlacedModel& placed_a, const Place
   const double size_of_b = b.diagonal * (1 + 0x1p-28);
   const double slack = 64 * unit_roundoff * reach + size_of_b;
   result.bounds = {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)};
-  result.witness.from = {WorldPoint(placed_a, a.vertices[farthest]).at, a.triangle_of_slot[slot_using_vertex(a, farthest)]};
+  result.witness.from = {WorldPoint(placed_a, a.vertices[farthest]).at,
+                         a.triangle_of_slot[slot_using_vertex(a, farthest)]};
   result.witness.nearest = {centre, b.triangle_of_slot[0]};
   result.witness.distance = distance;
   result.stats.triangles = a.triangle_count();

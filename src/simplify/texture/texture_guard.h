@@ -40,6 +40,8 @@ class TextureGuard {
   [[nodiscard]] float deviation() const {
     return exceeding_squared_ > 0 ? static_cast<float>(std::sqrt(exceeding_squared_) / map_.limit) : 0;
   }
+  /// Another star follows, of which nothing is known yet: without `begin` and `holds` nothing is written for it.
+  void forget() { accepted_ = false; }
   /// Writes the coordinates that `holds` accepted last to the faces that stay.
   void apply(TextureMap& map) const;
   /// Assigns the samples of the star to the faces that stay, as `holds` has matched them. Call once the mesh has
@@ -119,10 +121,10 @@ class TextureGuard {
   std::vector<double> area_before_;  ///< by moved corner: twice the area of the face in the texture before the collapse
   std::vector<Match> matches_, matches_before_;  ///< by sample: the last match, and that before the last Newton step
   bool is_free_ = false;                         ///< the vertex has a single coordinate, which may be changed
-  bool accepted_ = false;
-  double exceeding_squared_ = 0;      ///< the squared distance of a sample for which a placement was refused
-  std::vector<EdgeOfFace> of_lines_;  ///< edges of the faces that are lines, or become lines
-  std::vector<EdgeOfFace> doubtful_;  ///< edges of the faces that must be looked at closely
+  bool accepted_ = false;                        ///< the faces are those of a placement that holds
+  double exceeding_squared_ = 0;                 ///< the squared distance of a sample for which a placement was refused
+  std::vector<EdgeOfFace> of_lines_;             ///< edges of the faces that are lines, or become lines
+  std::vector<EdgeOfFace> doubtful_;             ///< edges of the faces that must be looked at closely
   std::vector<std::uint32_t> found_;
 };
 
