@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
 
 namespace meshbound {
 namespace {
@@ -20,8 +23,19 @@ double squared_distance(const PiecePlane& plane, const Seen& p, const Seen& q) {
   return squared_length(plane.position(p.corner) - plane.position(q.corner));
 }
 
+/// Whether the boxes of two segments are surely apart: most of those that are compared are.
+bool are_apart(const Seen& p, const Seen& q, const Seen& r, const Seen& s) {
+  const double error = p.error + q.error + r.error + s.error;
+  const auto is_below = [error](double a, double b, double c, double d) {
+    return std::min(c, d) - std::max(a, b) > error;
+  };
+  return is_below(p.x, q.x, r.x, s.x) || is_below(r.x, s.x, p.x, q.x) || is_below(p.y, q.y, r.y, s.y) ||
+         is_below(r.y, s.y, p.y, q.y);
+}
+
 /// Whether segment (r, s), with its ends, meets segment (p, q) between p and q; not if it runs along it.
 bool segments_cross(const PiecePlane& plane, const Seen& p, const Seen& q, const Seen& r, const Seen& s) {
+  if (are_apart(p, q, r, s)) return false;
   if (p.corner == r.corner || p.corner == s.corner || q.corner == r.corner || q.corner == s.corner) return false;
   return plane.turn(p, q, r) * plane.turn(p, q, s) <= 0 && plane.turn(r, s, p) * plane.turn(r, s, q) < 0;
 }
@@ -63,27 +77,30 @@ std::size_t rightmost(const Ring& ring) {
 void join_hole(const PiecePlane& plane, Ring& ring, std::span<const Ring> holes) {
   const Ring& hole = holes[0];
   const std::size_t from = rightmost(hole);
-  std::vector<std::size_t> order(ring.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-    const double a = squared_distance(plane, ring[i], hole[from]), b = squared_distance(plane, ring[j], hole[from]);
-    return a != b ? a < b : i < j;
-  });
-  const auto nearest_visible = [&](int least) {
-    return std::find_if(order.begin(), order.end(), [&](std::size_t i) {
-      const auto crosses = [&](const Ring& other) { return crosses_ring(plane, hole[from], ring[i], other); };
-      return is_inside_at(plane, ring, i, hole[from], least) && !crosses(ring) &&
-             std::none_of(holes.begin(), holes.end(), crosses);
-    });
+  const auto is_visible = [&](std::size_t i, int least) {
+    const auto crosses = [&](const Ring& other) { return crosses_ring(plane, hole[from], ring[i], other); };
+    return is_inside_at(plane, ring, i, hole[from], least) && !crosses(ring) &&
+           std::none_of(holes.begin(), holes.end(), crosses);
   };
+  // A heap that has the nearest corner first; those taken from it stand behind it, the nearest one last. Mostly one of
+  // the first corners is visible.
+  using Corner = std::pair<double, std::size_t>;  // squared distance, index in the ring
+  std::vector<Corner> corners;
+  for (std::size_t i = 0; i < ring.size(); ++i) corners.emplace_back(squared_distance(plane, ring[i], hole[from]), i);
+  std::make_heap(corners.begin(), corners.end(), std::greater<>());
+  std::optional<std::size_t> to;
+  for (auto end = corners.end(); end != corners.begin() && !to; --end) {
+    std::pop_heap(corners.begin(), end, std::greater<>());
+    if (const std::size_t i = (end - 1)->second; is_visible(i, 1)) to = i;
+  }
   // Along the ring, a bridge fits several of the corners in one place: the last choice.
-  auto found = nearest_visible(1);
-  if (found == order.end()) found = nearest_visible(0);
-  const std::size_t to = found != order.end() ? *found : order.front();
+  for (auto corner = corners.rbegin(); corner != corners.rend() && !to; ++corner)
+    if (is_visible(corner->second, 0)) to = corner->second;
+  if (!to) to = corners.back().second;
   Ring bridge;
   for (std::size_t i = 0; i <= hole.size(); ++i) bridge.push_back(hole[(from + i) % hole.size()]);
-  bridge.push_back(ring[to]);
-  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(to) + 1, bridge.begin(), bridge.end());
+  bridge.push_back(ring[*to]);
+  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(*to) + 1, bridge.begin(), bridge.end());
 }
 
 /// Joins all lines to one ring: the one that reaches furthest to the right is around the others, which are holes.
@@ -163,8 +180,12 @@ class EarCutter {
 
   [[nodiscard]] bool is_clear(std::size_t i) const {
     const Seen &p = ring_[previous_[i]], &q = ring_[i], &r = ring_[next_[i]];
+    const double error = 2 * (p.error + q.error + r.error);
+    const double left = std::min({p.x, q.x, r.x}) - error, right = std::max({p.x, q.x, r.x}) + error,
+                 low = std::min({p.y, q.y, r.y}) - error, high = std::max({p.y, q.y, r.y}) + error;
     for (std::size_t j = next_[next_[i]]; j != previous_[i]; j = next_[j]) {
       const Seen& c = ring_[j];
+      if (left - c.x > c.error || c.x - right > c.error || low - c.y > c.error || c.y - high > c.error) continue;
       // A corner that turns left cannot be the first one to enter the ear. Where the ring comes to q again, the ear may
       // lie on its other side.
       if (turns_[j] > 0 || c.corner == p.corner || c.corner == r.corner) continue;
