@@ -130,6 +130,19 @@ TEST_F(GltfTool, SimplifiesAScene) {
   EXPECT_EQ(distance.exit_code, 0) << distance.out;
 }
 
+/// A glTF is read together with the files of its buffers and images.
+TEST_F(GltfTool, WritesOverNoFileThatItReads) {
+  std::ofstream(in("face.gltf")) << R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "face.bin"}],
+      "images": [{"uri": "a%20b.png"}, {"uri": "data:,"}]})";
+  for (const std::string name : {"face.bin", "a b.png"}) {
+    std::ofstream(in(name)) << "as it was";
+    const ToolRun refused = simplify("face.gltf", "out.glb", {"--certificate", in(name)});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("is the file that is read as IN"), std::string::npos) << refused.err;
+    EXPECT_EQ(content_of(in(name)), "as it was");
+  }
+}
+
 /// Vertices of one copy name those of all.
 TEST_F(GltfTool, KeepsEdgesThatAreNamedInAnyCopy) {
   const TriangleMesh scene = read_mesh(in("in.glb")).mesh;
