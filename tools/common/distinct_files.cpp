@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "mesh/gltf_document.h"
@@ -49,8 +50,14 @@ void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vec
   const auto take = [&](const NamedPath& input, const std::filesystem::path& path) {
     if (const std::optional<Identity> identity = identity_of(path)) taken.push_back({&input, *identity, "read"});
   };
+  // Only what is there can be replaced: without such an output the inputs need not be read for the files beside them.
+  const bool may_replace = std::any_of(outputs.begin(), outputs.end(), [](const NamedPath& output) {
+    const std::optional<Identity> identity = identity_of(output.path);
+    return identity && identity->inode != 0;
+  });
   for (const NamedPath& input : inputs) {
     take(input, input.path);
+    if (!may_replace) continue;
     for (const std::filesystem::path& beside : files_beside(input.path)) take(input, beside);
   }
   for (const NamedPath& output : outputs) {

@@ -7,7 +7,8 @@
 namespace meshbound::verify {
 namespace {
 
-/// Of vertices that no triangle can have, as a coordinate is no number or infinite.
+/// The rank of a vertex with a coordinate that is infinite or NaN. No triangle has such a vertex, so no edge has this
+/// rank.
 constexpr std::uint32_t no_rank = ~std::uint32_t{0};
 
 /// By vertex: the rank of its coordinates, where 0 and -0 are equal.

@@ -38,7 +38,7 @@ class GuardedFace {
     const Vec3 turned = normal(after);
     const double squared_area = squared_length(turned), longest = squared_longest_edge(after);
     if (!(squared_area > 0)) return false;
-    if (squared_area < min_shape * min_shape * longest * longest && squared_area < least_share * squared_area_)
+    if (squared_area < min_shape * min_shape * longest * longest && squared_area < min_squared_share * squared_area_)
       return false;
     if (is_thin_) return is_thin(squared_area, longest) || (!stays_thin_ && !folds_back(turned));
     const double cosine = dot(normal_, turned);
@@ -49,8 +49,9 @@ class GuardedFace {
   static constexpr double min_cosine = 0.1;  ///< between the normals of a face before and after
   /// Between the normals of a face that was thin and of the one beside it: they may enclose 60 degrees.
   static constexpr double min_cosine_beside = -0.5;
-  /// What a vertex that slides along a line keeps of the squared area of a face on a parallel line, rounded.
-  static constexpr double least_share = 1 - 1e-9;
+  /// A face keeps its area where its corner moves parallel to the edge across, and rounding must not refuse that. This
+  /// is the least share that is kept, of the squared area.
+  static constexpr double min_squared_share = 1 - 1e-9;
   /// Twice the area over the squared longest edge; a face may be thinner if it was before. The normal of one with ten
   /// times as much says nothing.
   static constexpr double min_shape = 1e-4, min_shape_with_normal = 1e-3;
