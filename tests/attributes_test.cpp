@@ -128,6 +128,43 @@ TEST(ObjAttributes, AreReadAndWrittenAgain) {
   EXPECT_EQ(read_mesh(folder / "in.obj").dropped.texture_coordinates, 4U);
 }
 
+TEST(ObjAttributes, NamesMayHoldSignsOfComments) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "in.obj") << "mtllib a #1.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                      "usemtl Material #25\ng #2\ns 1 # smooth\nf 1 2 3 # first\n"
+                                      "usemtl Material #26\nf 1 3 4\n";
+  const MeshAttributes a = read_with_attributes(folder / "in.obj").attributes;
+  EXPECT_EQ(a.material_libraries, std::vector<std::string>{"a #1.mtl"});
+  EXPECT_EQ(a.materials.names, (std::vector<std::string>{"Material #25", "Material #26"}));
+  EXPECT_EQ(a.groups.names, std::vector<std::string>{"g #2"});
+  EXPECT_EQ(a.smoothing_groups.names, std::vector<std::string>{"1"});
+  EXPECT_EQ(read_mesh(folder / "in.obj").dropped.materials, 2U);
+}
+
+/// Names of other formats may hold anything: they must not become statements, nor join lines.
+TEST(ObjAttributes, NamesStayOnTheirLine) {
+  const test::TemporaryFolder folder;
+  Textured textured = two_charts(2);
+  textured.attributes.materials.names = {"left\nf 1 2 3", "C:\\right\\"};
+  write_with_attributes(folder / "out.obj", textured.mesh, textured.attributes);
+  const MeshFile again = read_with_attributes(folder / "out.obj");
+  EXPECT_EQ(again.mesh.triangles.size(), textured.mesh.triangles.size());
+  EXPECT_EQ(again.attributes.materials.names, (std::vector<std::string>{"left f 1 2 3", "C:\\right"}));
+}
+
+TEST(PlyAttributes, NamesAreWords) {
+  const test::TemporaryFolder folder;
+  Textured textured = two_charts(2);
+  textured.attributes = {};
+  textured.attributes.named = {{.name = "_wet ness\n", .values = {0.5}, .index = {}}};
+  textured.attributes.named[0].index.assign(textured.mesh.triangles.size(), {0, 0, 0});
+  write_with_attributes(folder / "out.ply", textured.mesh, textured.attributes);
+  const std::vector<NamedAttribute> again = read_with_attributes(folder / "out.ply").attributes.named;
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_EQ(again[0].name, "_wet_ness_");
+  EXPECT_EQ(again[0].values, std::vector<double>{0.5});
+}
+
 TEST(ObjAttributes, WithoutAValueAreNone) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "in.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/7/9 2/0/-5 3/-1/1\n";

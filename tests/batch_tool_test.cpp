@@ -232,6 +232,7 @@ TEST_F(BatchTool, RefusesBadUsageInOneLine) {
   refused({"--batch", models, "--output-dir", out, "--shard", "auto/2"}, "JOB_COMPLETION_INDEX");
   refused({"--batch", models, "--output-dir", out, "--memory-limit", "4X"}, "such as 4G");
   refused({"--batch", models, "--output-dir", out, "--json", in("x.json")}, "--json is for a single mesh");
+  refused({"--batch", models, "--output-dir", out, "--units", "mm"}, "--units is for a single mesh");
   refused({"a.ply", "b.ply", "--batch", models, "--output-dir", out}, "IN is for a single mesh");
   refused({"--batch", in("nothing"), "--output-dir", out}, "cannot read");
   refused({"a.ply", "b.ply", "--tolerance", "1%", "--jobs", "2"}, "goes with --batch only");

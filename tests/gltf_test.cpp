@@ -177,6 +177,67 @@ TEST_F(Gltf, CopiesOfAMeshStayCopies) {
   EXPECT_EQ(check_tolerance(Bvh(original), Bvh(first), 0.01).verdict, Verdict::Within);
 }
 
+/// Twelve meshes, each shown twice.
+GltfFile many_copies() {
+  GltfFile file = textured_sphere(24, 12);
+  const GltfJson mesh = file.json["meshes"][0];
+  file.json["nodes"] = GltfJson::array();
+  file.json["scenes"][0]["nodes"] = GltfJson::array();
+  for (int i = 0; i < 12; ++i) {
+    if (i > 0) file.json["meshes"].push_back(mesh);
+    for (int k = 0; k < 2; ++k) {
+      file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+      file.json["nodes"].push_back({{"mesh", i}, {"translation", {3 * i, 3 * k, 0}}, {"scale", {1, 1 + 0.1 * i, 1}}});
+    }
+  }
+  return file;
+}
+
+TEST_F(Gltf, ManyMeshesWithCopiesAreTheSameOnEveryNumberOfThreads) {
+  many_copies().write(in("in.glb"));
+  const MeshFile from = read_with_attributes(in("in.glb"));
+  SimplifyOptions options;
+  options.tolerance = 0.05;
+  options.levels = {0.02};
+  options.feature_edges = seams(from.mesh, from.attributes);
+  options.threads = 1;
+  double done = 0;
+  options.progress = [&done](double share) {
+    EXPECT_GE(share, done - 0.05) << "undone collapses are taken off, nothing else";
+    EXPECT_LE(share, 1);
+    done = std::max(done, share);
+  };
+  const SimplifyResult one = decimate_levels(from.mesh, options, from.attributes);
+  EXPECT_EQ(done, 1);
+  options.threads = 3;
+  options.progress = {};
+  const SimplifyResult three = decimate_levels(from.mesh, options, from.attributes);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(one.levels[i].faces(), from.mesh.triangles.size());
+    EXPECT_EQ(one.levels[i].mesh.vertices, three.levels[i].mesh.vertices);
+    EXPECT_EQ(one.levels[i].mesh.triangles, three.levels[i].mesh.triangles);
+    EXPECT_EQ(one.levels[i].source_triangle, three.levels[i].source_triangle);
+  }
+}
+
+TEST_F(Gltf, OptionsThatDoNotFitASceneAreRefused) {
+  many_copies().write(in("in.glb"));
+  const MeshFile from = read_with_attributes(in("in.glb"));
+  const auto refuses = [&](const auto& set) {
+    SimplifyOptions options;
+    options.tolerance = 0.05;
+    set(options);
+    EXPECT_THROW((void)decimate_levels(from.mesh, options, from.attributes), InvalidInput);
+  };
+  const auto vertices = static_cast<std::uint32_t>(from.mesh.vertices.size());
+  refuses([&](SimplifyOptions& options) { options.feature_edges = {{0, vertices}}; });
+  refuses([](SimplifyOptions& options) { options.locked_vertices = {true}; });
+  refuses([](SimplifyOptions& options) { options.face_tolerances = {0.1}; });
+  refuses([&](SimplifyOptions& options) { options.face_tolerances.assign(from.mesh.triangles.size(), -1); });
+  refuses([](SimplifyOptions& options) { options.texture_coordinates.resize(1); });
+  refuses([](SimplifyOptions& options) { options.materials = {0}; });
+}
+
 TEST_F(Gltf, PartsInTheSameFrameStayTogether) {
   GltfFile file = textured_sphere(48, 24);
   // The half of the triangles with another material.

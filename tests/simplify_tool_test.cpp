@@ -253,7 +253,9 @@ TEST_F(SimplifyTool, RefusesBadUsageInOneLine) {
         "sphere.off out.off --tolerance 1 --target-ratio 2",
         "sphere.off out.off --tolerance 1 --target-faces 5 --target-ratio 0.5",
         "sphere.off out.off --tolerance 1 --wrong", "sphere.off out.off --tolerance 1 --levels 2",
-        "sphere.off out.off --tolerance 1 --levels x", "sphere.off out.off --tolerance 1 --target-faces -3"}) {
+        "sphere.off out.off --tolerance 1 --levels x", "sphere.off out.off --tolerance 1 --target-faces -3",
+        "sphere.off out.off --tolerance 1 --output-dir levels",
+        "sphere.off out.off --tolerance 1 --texture-size 512"}) {
     SCOPED_TRACE(arguments);
     expect_refused(run(arguments), "out.off");
   }

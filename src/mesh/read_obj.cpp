@@ -19,6 +19,9 @@ namespace {
 /// Geometry that is no polygon: reported as ignored.
 constexpr std::array<std::string_view, 5> other_geometry = {"l", "p", "curv", "curv2", "surf"};
 
+/// Statements whose rest of the line is a name, '#' included: 3ds Max calls materials "Material #25".
+constexpr std::array<std::string_view, 4> named = {"usemtl", "mtllib", "g", "o"};
+
 /// Counts the different names that statements of one kind give. The names point into the file's bytes.
 class Names {
  public:
@@ -64,18 +67,21 @@ class ObjReader {
       if (std::find(other_geometry.begin(), other_geometry.end(), keyword) != other_geometry.end())
         assembler_.ignore_element();
       if (source_.with_attributes && (keyword == "vt" || keyword == "vn")) return read_value(keyword);
-      const std::string_view argument = rest_of_statement();
+      const bool is_name = std::find(named.begin(), named.end(), keyword) != named.end();
+      const std::string_view argument = rest_of_statement(is_name);
       count_attribute(keyword, argument);
       if (source_.with_attributes) attributes_.set_label(keyword, argument);
     }
   }
 
   /// The rest of the statement, from the next word to the last one: read word by word, as it may span joined lines.
-  std::string_view rest_of_statement() {
-    if (!cursor_.find_word_in_line()) return {};
+  /// `is_name`: a '#' in it starts no comment.
+  std::string_view rest_of_statement(bool is_name) {
+    const auto has_word = [&] { return is_name ? cursor_.find_part_of_name() : cursor_.find_word_in_line(); };
+    if (!has_word()) return {};
     const std::size_t from = cursor_.offset();
     std::size_t to = from;
-    while (cursor_.find_word_in_line()) {
+    while (has_word()) {
       cursor_.word();
       to = cursor_.offset();
     }

@@ -22,9 +22,12 @@ class TextCursor {
   void seek(std::size_t offset) { at_ = begin_ + offset; }
 
   /// Goes to the next word of this line; false when the line, or a comment, or the file ends first.
-  bool find_word_in_line() {
+  bool find_word_in_line() { return find_part_of_name() && *at_ != '#'; }
+
+  /// The same where no comment can follow: a word of a name may start with '#'.
+  bool find_part_of_name() {
     skip_blanks();
-    return at_ != end_ && *at_ != '\n' && *at_ != '\r' && *at_ != '#';
+    return at_ != end_ && *at_ != '\n' && *at_ != '\r';
   }
 
   /// Goes to the next word on this line or a later one, over comments; false at the end of the file.

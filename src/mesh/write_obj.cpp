@@ -3,6 +3,7 @@
 #include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
+#include "mesh/written_name.h"
 #include "numeric/numbers_below.h"
 
 namespace meshbound {
@@ -24,7 +25,7 @@ void put_values(AtomicFile& file, const MeshAttributes& attributes) {
 void put_label(AtomicFile& file, const TriangleLabels& labels, std::size_t t, const char* keyword) {
   if (labels.empty() || labels.index[t] == no_value || (t > 0 && labels.index[t - 1] == labels.index[t])) return;
   file.write(keyword);
-  file.write(labels.names[labels.index[t]]);
+  file.write(name_on_a_line(labels.names[labels.index[t]]));
   file.write("\n");
 }
 
@@ -63,7 +64,7 @@ std::vector<Triangle> put_vertices(AtomicFile& file, const TriangleMesh& mesh, c
 }  // namespace
 
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes) {
-  for (const std::string& library : attributes.material_libraries) file.write("mtllib " + library + "\n");
+  for (const std::string& library : attributes.material_libraries) file.write("mtllib " + name_on_a_line(library) + "\n");
   const std::vector<Triangle> triangles = put_vertices(file, mesh, colours_of(attributes));
   put_values(file, attributes);
   const auto value = [](const CornerAttribute& attribute, std::size_t t, std::size_t k) {

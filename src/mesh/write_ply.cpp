@@ -9,6 +9,7 @@
 #include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
+#include "mesh/written_name.h"
 #include "numeric/numbers_below.h"
 
 namespace meshbound {
@@ -62,7 +63,7 @@ class PlyWriter {
       if (&named == colours_of(attributes)) {
         add_columns(named, {"red", "green", "blue", "alpha"}, holds_bytes(named) ? Kind::Byte : Kind::Float);
       } else if (named.width == 1) {
-        add_columns(named, {named.name}, real);
+        add_columns(named, {name_as_a_word(named.name)}, real);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bvh/build.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -28,6 +29,12 @@ int turn_from_above(PlacedPair& pair, PairVertex from, PairVertex to, PairVertex
   return sgn(direction.y) != 0 ? -moved * sgn(direction.y) : moved * sgn(direction.x);
 }
 
+/// False where nothing inside the box lies above v; `v` is off by at most `error`, the box holds that of its side.
+bool may_be_above(const Box& box, const Vec3& v, double error) {
+  return box.lo.x <= v.x + error && box.hi.x >= v.x - error && box.lo.y <= v.y + error && box.hi.y >= v.y - error &&
+         box.hi.z >= v.z - error;
+}
+
 /// Whether the triangle lies above v.
 bool is_above(PlacedPair& pair, std::uint32_t side, const Triangle& triangle, PairVertex v) {
   const PairVertex p{side, triangle[0]}, q{side, triangle[1]}, r{side, triangle[2]};
@@ -44,9 +51,17 @@ std::vector<bool> components_around(PlacedPair& pair, PairVertex v) {
   const std::uint32_t side = 1 - v.side;
   const ClosedModel::Data& model = pair.model(side);
   std::vector<bool> around(model.components.size(), false);
-  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
+  const Bvh::Data& tree = model.tree.data();
+  const Vec3 at = pair.local(v);
+  const double error = 2 * pair.error(v.side);  // and what is rounded here
+  for (std::uint32_t block = 0; block < tree.block_count(); ++block) {
     pair.count_step();
-    if (is_above(pair, side, model.triangles[t], v)) around[model.component_of[t]].flip();
+    if (!may_be_above(pair.block_box(side, block), at, error)) continue;
+    const auto [begin, end] = slots_below(tree, 0, block);
+    for (std::uint32_t slot = begin; slot < end; ++slot) {
+      const std::uint32_t t = tree.triangle_of_slot[slot];
+      if (is_above(pair, side, model.triangles[t], v)) around[model.component_of[t]].flip();
+    }
   }
   return around;
 }

@@ -10,7 +10,6 @@
 #include <map>
 #include <set>
 #include <span>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -21,6 +20,7 @@
 #include "numeric/tasks.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/manifold_soup.h"
+#include "simplify/option_sizes.h"
 #include "simplify/prune.h"
 
 namespace meshbound {
@@ -95,14 +95,6 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
 
 namespace {
 
-void check_texture(const SimplifyOptions& options, std::size_t triangles) {
-  if (options.texture_coordinates.empty()) return;
-  if (options.texture_coordinates.size() != triangles)
-    throw InvalidInput("texture coordinates must be given for every triangle of the original, or not at all");
-  if (!options.materials.empty() && options.materials.size() != triangles)
-    throw InvalidInput("materials must be given for every triangle of the original, or not at all");
-}
-
 /// A number for each triangle, taken in this order: equal where the material and the texture coordinates of the
 /// corners, in any order, are. Empty where neither texture nor normals count.
 std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<const std::uint32_t> order) {
@@ -136,7 +128,7 @@ ArrayMesh take_mesh(ManifoldSoup& soup, std::span<const Vec3> points) {
 }  // namespace
 
 void Decimation::make_state(const StopToken& stop) {
-  check_texture(options_, order_.triangle.size());
+  check_sizes(options_, start_vertices_, original_.triangles.size());
   std::vector<TriangleNeighbours> neighbours = edge_neighbours(tree_, vertices_, order_.triangles, threads());
   stop.check();
   ManifoldSoup soup;
@@ -235,8 +227,6 @@ std::vector<std::uint8_t> Decimation::locked() const {
   const ArrayMesh& mesh = state_->mesh;
   std::vector<std::uint8_t> locked(mesh.vertex_count(), 0);
   if (!options_.locked_vertices.empty()) {
-    if (options_.locked_vertices.size() != start_vertices_)
-      throw InvalidInput("the locked vertices must be given for every vertex of the original, or not at all");
     std::vector<std::uint8_t> locked_at(start_points().size(), 0);  // by first vertex at the position
     for (std::uint32_t v = 0; v < start_points().size(); ++v)
       if (options_.locked_vertices[caller_vertex(v)]) locked_at[*first_at(start_points()[v])] = 1;
@@ -278,9 +268,6 @@ std::vector<std::uint8_t> Decimation::marked_edges() const {
   for (std::uint32_t v = 0; v < order_.vertex.size(); ++v) index[order_.vertex[v]] = v;
   std::set<Edge> wanted;  // by first vertices at their positions
   for (const auto& [a, b] : options_.feature_edges) {
-    if (a >= start_vertices_ || b >= start_vertices_)
-      throw InvalidInput("a feature edge refers to vertex " + std::to_string(std::max(a, b)) + ", but there are only " +
-                         std::to_string(start_vertices_));
     if (index[a] == no_index || index[b] == no_index) continue;
     const std::uint32_t p = *first_at(vertices_[index[a]]), q = *first_at(vertices_[index[b]]);
     wanted.insert({std::min(p, q), std::max(p, q)});
@@ -381,12 +368,9 @@ std::uint32_t Decimation::source_of(std::uint32_t vertex) const {
 }
 
 std::vector<double> Decimation::limits_in_frame() const {
-  if (options_.face_tolerances.size() != order_.triangle.size())
-    throw InvalidInput("tolerances of triangles must be given for every triangle of the original");
   std::vector<double> limits;
   for (const std::uint32_t t : order_.triangle) {
     const double tolerance = options_.face_tolerances[t];
-    if (!(tolerance >= 0)) throw InvalidInput("the tolerance of a triangle must be a length, 0 or more");
     limits.push_back(tolerance > 0 ? std::max(0.0, frame_.length_to_frame(tolerance) - room()) : tolerance);
   }
   return limits;

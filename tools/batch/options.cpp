@@ -57,7 +57,7 @@ void check_batch_usage(const CLI::App& app, const BatchOptions& options) {
   };
   if (options.is_wanted()) {
     for (const char* const name : {"IN", "OUT", "--levels", "--certificate", "--json", "--heatmap",
-                                   "--heatmap-original", "--report", "--image", "--dry-run"})
+                                   "--heatmap-original", "--report", "--image", "--units", "--up", "--dry-run"})
       if (was_given(name))
         throw InvalidInput(std::string(name) +
                            " is for a single mesh; a batch writes to --output-dir, with a line of "

@@ -101,7 +101,10 @@ void DecimationRun::sort_tolerances() {
 }
 
 void DecimationRun::choose_appearance(const std::string& kind) {
-  if (shared_.texture_tolerance.empty()) return;
+  if (shared_.texture_tolerance.empty()) {
+    if (shared_.texture_size) throw InvalidInput("--texture-size goes with --texture-tolerance; leave it out");
+    return;
+  }
   texture_tolerance_ = parse_texture_tolerance(shared_.texture_tolerance, shared_.texture_size.has_value());
   if (attributes_.texture_coordinates.empty())
     throw InvalidInput("--texture-tolerance needs texture coordinates, and " + kind +

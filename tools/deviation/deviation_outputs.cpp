@@ -76,7 +76,7 @@ void DeviationOutputs::make_picture(const DeviationSubject& subject, const Measu
   scene.coloured_title = "distance of " + (first ? subject.original_name : subject.result_name);
   scene.unit = request_.units;
   scene.scale = subject.scale;
-  scene.up = request_.up;
+  scene.up = request_.up.value_or(UpAxis::Z);
   png_ = deviation_image(scene, options).png();
 }
 
@@ -85,7 +85,7 @@ void DeviationOutputs::make_scene(const DeviationSubject& subject, const Measure
   scene_.original_name = subject.original_name;
   scene_.result_name = subject.result_name;
   scene_.scale = subject.scale;
-  scene_.up = request_.up;
+  scene_.up = request_.up.value_or(UpAxis::Z);
   scene_.unit = request_.units;
   scene_.measure_here = measure_here(subject.measurement, *subject.original, *subject.result);
   scene_.original =

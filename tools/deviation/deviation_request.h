@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,13 @@ struct DeviationRequest {
   std::string report;            ///< HTML file
   std::string image;             ///< PNG file
   std::string units;             ///< what a length is called, such as "mm"
-  UpAxis up = UpAxis::Z;
+  std::optional<UpAxis> up;      ///< of reports and pictures; none: z
 
   [[nodiscard]] bool has_any() const { return !outputs().empty(); }
   /// The files that are asked for, with the names of their options.
   [[nodiscard]] std::vector<NamedPath> outputs() const;
-  /// Checks, before any work, that the files can be written. Throws `InvalidInput` and `IoError`.
+  /// Checks, before any work, that the files can be written and that no option is without use. Throws `InvalidInput`
+  /// and `IoError`.
   void check() const;
 };
 

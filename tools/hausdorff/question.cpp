@@ -21,7 +21,7 @@ constexpr std::array options_of_whole_meshes = std::to_array<const char*>(
 
 /// What speaks of one of these.
 constexpr std::array options_without_use_for_tiles =
-    std::to_array<const char*>({"--align", "--count", "--texture-tolerance", "--texture-size"});
+    std::to_array<const char*>({"--align", "--count", "--texture-tolerance", "--texture-size", "--units", "--up"});
 
 /// `is_in_tiles`: with and without --memory.
 void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {

@@ -33,8 +33,8 @@ constexpr std::array options_of_whole_meshes =
                                 "--line-tolerance", "--heatmap", "--heatmap-original", "--image", "--report"});
 
 /// What speaks of one of these, or of an attribute.
-constexpr std::array options_without_use_for_tiles =
-    std::to_array<const char*>({"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run"});
+constexpr std::array options_without_use_for_tiles = std::to_array<const char*>(
+    {"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run", "--units", "--up"});
 
 /// `is_in_tiles`: with and without --memory.
 void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {

@@ -6,6 +6,7 @@
 
 #include "common/distinct_files.h"
 #include "common/output.h"
+#include "meshbound/error.h"
 
 namespace meshbound::tools {
 
@@ -23,6 +24,8 @@ std::filesystem::path level_certificate_path(const SimplifyArguments& options, s
 }
 
 void check_paths(const SimplifyArguments& options) {
+  if (!options.output_dir.empty() && options.levels.empty())
+    throw InvalidInput("--output-dir is the folder of --levels or of --batch, and OUT has its own: leave it out");
   std::vector<NamedPath> outputs = options.deviation.outputs();
   outputs.insert(outputs.end(),
                  {{"OUT", options.output}, {"--json", options.common.json}, {"--certificate", options.certificate}});

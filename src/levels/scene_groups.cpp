@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "levels/scene_groups.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <map>
+
+#include "mesh/scene_layout.h"
+#include "numeric/no_index.h"
+
+namespace meshbound {
+namespace {
+
+double largest_stretch(const NodePlacement& placement) {
+  return Eigen::JacobiSVD<Eigen::Matrix3d>(placement.linear).singularValues()[0];
+}
+
+/// By placed mesh: its triangles in the original.
+std::vector<std::vector<std::uint32_t>> triangles_by_placed(const SceneLayout& layout,
+                                                            const std::vector<std::uint32_t>& part_of_triangle) {
+  std::vector<std::vector<std::uint32_t>> result(layout.placed.size());
+  for (std::uint32_t t = 0; t < part_of_triangle.size(); ++t)
+    result[layout.parts[part_of_triangle[t]].placed].push_back(t);
+  return result;
+}
+
+/// Fills vertices and triangles of a group from its triangles of the original. `number`: by vertex of the original,
+/// `no_index` before and after.
+void take_triangles(SceneGroup& group, const TriangleMesh& original, std::vector<std::uint32_t>& number) {
+  for (const std::uint32_t t : group.triangles) {
+    Triangle& corners = group.mesh.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = original.triangles[t][k];
+      if (number[v] == no_index) {
+        number[v] = static_cast<std::uint32_t>(group.vertices.size());
+        group.vertices.push_back(v);
+        group.mesh.vertices.push_back(original.vertices[v]);
+      }
+      corners[k] = number[v];
+    }
+  }
+  for (const std::uint32_t v : group.vertices) number[v] = no_index;
+}
+
+SceneGroup group_of_copies(const TriangleMesh& original, const SceneLayout& layout,
+                           const std::vector<std::uint32_t>& placed,
+                           const std::vector<std::vector<std::uint32_t>>& triangles,
+                           std::vector<std::uint32_t>& number) {
+  SceneGroup group;
+  const NodePlacement& first = layout.placed[placed.front()].placement;
+  group.scale = 0;
+  for (const std::uint32_t p : placed) {
+    const NodePlacement& placement = layout.placed[p].placement;
+    group.scale = std::max(group.scale, largest_stretch(placement));
+    group.copies.push_back({p, triangles[p].front(), placement.is_mirrored() != first.is_mirrored()});
+  }
+  group.triangles = triangles[placed.front()];
+  take_triangles(group, original, number);
+  for (Eigen::Vector3d& p : group.mesh.vertices) p = group.scale * first.to_node(p);
+  return group;
+}
+
+}  // namespace
+
+std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAttributes& attributes) {
+  std::vector<SceneGroup> groups(1);
+  if (attributes.document == nullptr) return groups;
+  const SceneLayout& layout = *scene_layout(attributes);
+  const auto triangles = triangles_by_placed(layout, attributes.part);
+  std::vector<std::uint32_t> number(original.vertices.size(), no_index);
+  // Copies of each mesh; the first one has an invertible placement. Meshes without one are invisible and stay as they
+  // are.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> placed_of;
+  for (std::uint32_t p = 0; p < layout.placed.size(); ++p)
+    if (!triangles[p].empty()) placed_of[layout.placed[p].mesh].push_back(p);
+  for (auto& [mesh, placed] : placed_of) {
+    const auto invertible = std::find_if(placed.begin(), placed.end(),
+                                         [&](std::uint32_t p) { return layout.placed[p].placement.is_invertible(); });
+    if (placed.size() > 1 && invertible != placed.end()) {
+      std::rotate(placed.begin(), invertible, invertible + 1);
+      groups.push_back(group_of_copies(original, layout, placed, triangles, number));
+    } else {
+      for (const std::uint32_t p : placed)
+        groups.front().triangles.insert(groups.front().triangles.end(), triangles[p].begin(), triangles[p].end());
+    }
+  }
+  if (groups.size() == 1) return std::vector<SceneGroup>(1);
+  std::sort(groups.front().triangles.begin(), groups.front().triangles.end());
+  take_triangles(groups.front(), original, number);
+  if (groups.front().triangles.empty()) groups.erase(groups.begin());
+  return groups;
+}
+
+std::vector<std::uint32_t> vertices_of_copy(const TriangleMesh& original, const SceneGroup& group,
+                                            const SceneCopy& copy) {
+  std::vector<std::uint32_t> result(group.vertices.size(), 0);
+  for (std::size_t i = 0; i < group.mesh.triangles.size(); ++i) {
+    Triangle there = original.triangles[copy.first_triangle + i];
+    if (copy.is_turned) std::swap(there[1], there[2]);
+    for (std::size_t k = 0; k < 3; ++k) result[group.mesh.triangles[i][k]] = there[k];
+  }
+  return result;
+}
+
+}  // namespace meshbound
