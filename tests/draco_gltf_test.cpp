@@ -123,6 +123,9 @@ TEST_P(DracoGltf, IsWrittenWithoutTheExtension) {
   EXPECT_EQ(json.dump().find("draco"), std::string::npos) << json;
   EXPECT_FALSE(json.contains("extensionsRequired"));
   EXPECT_FALSE(json.contains("extensionsUsed"));
+  for (const GltfJson& view : json["bufferViews"])
+    EXPECT_LE(view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>(),
+              json["buffers"][0]["byteLength"].get<std::size_t>());
   const MeshFile back = read_mesh(folder_ / "out.glb", [] {
     ReadOptions o;
     o.attributes = true;

@@ -13,6 +13,7 @@
 #include "gltf_file.h"
 #include "json_claims.h"
 #include "levels/level_run.h"
+#include "mesh/texture_transform.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
@@ -327,7 +328,7 @@ TEST_F(Gltf, IsMadeFromOtherFormatsAndTurnedIntoThem) {
     EXPECT_EQ(colours.values[4 * colours.index[0][1] + 1], 1);
     EXPECT_EQ(colours.values[4 * colours.index[0][1] + 0], 0);
   }
-  EXPECT_EQ(lost.smoothing_groups, 2U * 1U);
+  EXPECT_EQ(lost, (DroppedAttributes{.materials = 2, .smoothing_groups = 2})) << "what the library says of materials";
 
   const MeshFile glb = read_with_attributes(in("out.glb"));
   DroppedAttributes lost_again;
@@ -339,12 +340,145 @@ TEST_F(Gltf, IsMadeFromOtherFormatsAndTurnedIntoThem) {
   EXPECT_EQ(again.named.at(0).name, "COLOR_0");
 }
 
+TEST_F(Gltf, ANormalOfLengthZeroStandsForThatOfItsTriangle) {
+  GltfFile file = textured_sphere(48, 24);
+  const std::size_t normals = file.json["bufferViews"][1]["byteOffset"];
+  std::fill_n(file.bytes.begin() + static_cast<std::ptrdiff_t>(normals), 48 * 12 * 12, '\0');  // of the south
+  file.write(in("in.glb"));
+  const MeshFile result = simplified(0.03);
+  ASSERT_EQ(result.attributes.normals.index.size(), result.mesh.triangles.size());
+  for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t normal = result.attributes.normals.index[t][k];
+      ASSERT_NE(normal, CornerAttribute::none);
+      const Eigen::Vector3d p = result.mesh.vertices[result.mesh.triangles[t][k]].normalized();
+      EXPECT_GT(result.attributes.normals.values[normal].dot(p), 0.9);
+    }
+}
+
+TEST_F(Gltf, WhatNodesFlattenStaysAsItIs) {
+  GltfFile file = textured_sphere(48, 24);
+  file.json["meshes"].push_back(file.json["meshes"][0]);
+  file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 1}, {"scale", {1, 1, 0}}, {"translation", {5, 0, 0}}}};
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  file.write(in("in.glb"));
+  const MeshFile from = read_with_attributes(in("in.glb"));
+  SimplifyOptions options;
+  options.tolerance = 0.02;
+  options.precision = Precision::Single;
+  options.feature_edges = seams(from.mesh, from.attributes);
+  const SimplifyResult result = decimate_levels(from.mesh, options, from.attributes);
+  const auto is_flat = [](const Eigen::Vector3d& p) { return p.x() > 3; };
+  for (const auto& [a, b] : result.lines) EXPECT_FALSE(is_flat(from.mesh.vertices[a]));
+  const SimplifiedLevel& level = result.last();
+  for (const auto& [a, b] : level.lines) EXPECT_FALSE(is_flat(level.mesh.vertices[a]));
+  std::size_t flat = 0;
+  for (const Triangle& t : level.mesh.triangles) flat += is_flat(level.mesh.vertices[t[0]]) ? 1 : 0;
+  EXPECT_EQ(2 * flat, from.mesh.triangles.size());
+  EXPECT_LT(level.faces(), flat + flat / 2);
+  write_mesh(in("out.glb"), level.mesh, {}, transferred_attributes(from.mesh, from.attributes, level));
+  EXPECT_EQ(read_mesh(in("out.glb")).mesh.triangles.size(), level.faces());
+  file.json["nodes"][0]["scale"] = {1, 0, 1};
+  file.write(in("flat.glb"));
+  const MeshFile all_flat = read_with_attributes(in("flat.glb"));
+  options.feature_edges = {};
+  const SimplifyResult unchanged = decimate_levels(all_flat.mesh, options, all_flat.attributes);
+  EXPECT_EQ(unchanged.last().faces(), all_flat.mesh.triangles.size());
+  EXPECT_EQ(unchanged.last().ended_by, EndedBy::NothingFits);
+}
+
+TEST_F(Gltf, ListsOfVerticesGoWithTheVertices) {
+  GltfFile file = textured_sphere(48, 24);
+  const std::size_t outline = file.add_indices({0, 1, 1, 2});
+  GltfJson& mesh = file.json["meshes"][0];
+  mesh["primitives"][0]["extensions"] = {{"CESIUM_primitive_outline", {{"indices", outline}}}, {"ACME", {{"x", 1}}}};
+  mesh["extensions"] = {{"EXT_mesh_manifold", {{"manifoldPrimitive", {{"indices", 3}}}}}};
+  file.write(in("in.glb"));
+  (void)simplified(0.02);
+  const GltfJson after = glb_content(content_of(in("out.glb"))).json["meshes"][0];
+  EXPECT_FALSE(after.contains("extensions"));
+  EXPECT_EQ(after["primitives"][0]["extensions"], (GltfJson{{"ACME", {{"x", 1}}}}));
+  DroppedAttributes lost;
+  (void)carried_by(FileFormat::Glb, read_with_attributes(in("in.glb")).attributes, lost);
+  EXPECT_EQ(lost, (DroppedAttributes{.other_properties = 2}));
+}
+
+TEST_F(Gltf, IdentifiersHaveNoMean) {
+  GltfFile file = textured_sphere(48, 24);
+  const std::size_t vertices = file.json["accessors"][0]["count"];
+  std::vector<float> identifiers;
+  std::vector<std::uint16_t> kinds;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    identifiers.push_back(static_cast<float>(v % 7 * 10));
+    kinds.push_back(static_cast<std::uint16_t>(v % 5 * 100));
+  }
+  GltfJson& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  const std::size_t identifier = file.add_floats(identifiers, 1), kind = file.add(kinds, 5123, "SCALAR", 1);
+  attributes["_FEATURE_ID_0"] = identifier;
+  attributes["_KIND"] = kind;
+  file.write(in("in.glb"));
+  MeshFile from = read_with_attributes(in("in.glb"));
+  SimplifyOptions options;
+  options.tolerance = 0.02;
+  const SimplifiedLevel level = decimate_levels(from.mesh, options, from.attributes).last();
+  const MeshAttributes result = transferred_attributes(from.mesh, from.attributes, level);
+  ASSERT_EQ(result.named.size(), 2U);
+  for (const NamedAttribute& named : result.named)
+    for (const double value : named.values)
+      EXPECT_EQ(std::fmod(value, named.name == "_KIND" ? 100 : 10), 0) << named.name;
+}
+
+TEST_F(Gltf, NamesAreToldApart) {
+  GltfFile file = textured_sphere(24, 12);
+  file.json["meshes"].push_back(file.json["meshes"][0]);
+  file.json["meshes"][1]["primitives"][0]["material"] = 1;
+  file.json["materials"].push_back(file.json["materials"][0]);
+  file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 1}, {"translation", {5, 0, 0}}}};
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  file.write(in("in.glb"));
+  const MeshFile from = read_with_attributes(in("in.glb"));
+  EXPECT_EQ(from.attributes.materials.names, (std::vector<std::string>{"globe", "globe_2"}));
+  DroppedAttributes lost;
+  (void)carried_by(FileFormat::Obj, from.attributes, lost);
+  EXPECT_EQ(lost.materials, 2U) << "OBJ has their names, but not what they look like";
+
+  MeshAttributes scalars;
+  for (const std::string name : {"quality", "Quality", "COLOR_1"})
+    scalars.named.push_back(
+        {.name = name, .values = {1}, .index = std::vector<Triangle>(from.mesh.triangles.size(), {0, 0, 0})});
+  write_mesh(in("scalars.glb"), from.mesh, {}, scalars);
+  std::set<std::string> names;
+  for (const NamedAttribute& named : read_with_attributes(in("scalars.glb")).attributes.named) names.insert(named.name);
+  EXPECT_EQ(names, (std::set<std::string>{"_QUALITY", "_QUALITY_2", "_COLOR_1"}));
+}
+
+TEST_F(Gltf, TheLargestScaleOfTexturesCounts) {
+  GltfFile file = textured_sphere(24, 12);
+  const auto scale = [&] {
+    file.write(in("in.glb"));
+    return texture_scale(read_with_attributes(in("in.glb")).attributes);
+  };
+  EXPECT_EQ(scale(), 1);
+  const GltfJson::json_pointer transform(
+      "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/scale");
+  file.json[transform] = {0.25, -0.5};
+  EXPECT_EQ(scale(), 0.5);
+  file.json["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
+  EXPECT_EQ(scale(), 0.5) << "the normals are on other coordinates";
+  file.json["materials"][0]["extensions"]["KHR_materials_clearcoat"]["clearcoatTexture"] = {{"index", 0}};
+  EXPECT_EQ(scale(), 1);
+  file.json[transform] = {10, 1};
+  EXPECT_EQ(scale(), 10);
+}
+
 TEST_F(Gltf, TakesImageFilesIntoTheFile) {
   GltfFile file = textured_sphere(24, 12);
   std::filesystem::create_directories(in("maps"));
   const std::string png = "\x89PNG and more";
   std::ofstream(in("maps/skin 1.png"), std::ios::binary) << png;
-  file.json["images"] = {{{"uri", "maps/skin%201.png"}, {"name", "skin"}}, {{"uri", "lost.png"}}};
+  file.json["images"] = {
+      {{"uri", "maps/skin%201.png"}, {"name", "skin"}}, {{"uri", "lost.png"}}, {{"uri", "maps/odd.tga"}}};
+  std::ofstream(in("maps/odd.tga"), std::ios::binary) << "unknown";
   file.write(in("in.glb"));
   (void)simplified(0.05);
   const GlbContent after = glb_content(content_of(in("out.glb")));
@@ -352,6 +486,8 @@ TEST_F(Gltf, TakesImageFilesIntoTheFile) {
   EXPECT_EQ(after.json["images"][0]["name"], "skin");
   EXPECT_EQ(view_bytes(after, after.json["images"][0]["bufferView"]), png);
   EXPECT_EQ(after.json["images"][1]["uri"], "lost.png") << "what is not there keeps its name";
+  EXPECT_EQ(after.json["images"][2]["mimeType"], "image/tga");
+  EXPECT_EQ(view_bytes(after, after.json["images"][2]["bufferView"]), "unknown");
 }
 
 /// Accessors without a view are all zeros. The array of views is new in the document then.

@@ -187,6 +187,8 @@ int Run::operator()() {
 void Run::check_usage() const {
   if ((!options_.one_file.empty() || options_.tileset) && options_.format != "glb")
     throw InvalidInput("--glb and --tileset need --format glb");
+  if (!options_.one_file.empty() && format_of(options_.one_file) != FileFormat::Glb)
+    throw InvalidInput("--glb: " + options_.one_file + " must be a .glb file");
   if (options_.folder.empty()) throw InvalidInput("DIR is required: the folder for the levels (see --help)");
   const bool has_view =
       !options_.pixels.empty() || !options_.distances.empty() || options_.screen_height || options_.fov;
@@ -377,7 +379,11 @@ void Run::publish() {
 
 void Run::write_tileset() const {
   std::vector<TileLevel> levels;
-  for (const LodReport::Level& level : report_.levels) levels.push_back({level.file, level.distance.bounds.upper});
+  double error = 0;  // that of a tile must not be below those of its children, and a coarser level may be nearer
+  for (const LodReport::Level& level : report_.levels) {
+    error = std::max(error, level.distance.bounds.upper);
+    levels.push_back({level.file, error});
+  }
   Eigen::AlignedBox3d box;
   for (const Triangle& t : original_.triangles)
     for (const std::uint32_t v : t) box.extend(original_.vertices[v]);

@@ -28,7 +28,7 @@ struct DroppedAttributes {
   std::size_t smoothing_groups = 0;     ///< OBJ
   std::size_t facet_attributes = 0;     ///< binary STL: facets whose attribute bytes are not 0
   std::size_t other_properties = 0;     ///< PLY and glTF: properties of any other name, once each
-  std::size_t scene_objects = 0;        ///< glTF: textures, cameras, animations, skins
+  std::size_t scene_objects = 0;        ///< glTF: textures, cameras, lights, animations, skins
 
   [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;  ///< equality of all counts
 };

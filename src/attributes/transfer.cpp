@@ -223,9 +223,15 @@ class Transfer {
     return found;
   }
 
-  [[nodiscard]] Eigen::Vector3d normal_at(const WeightedPoint& at) const {
+  /// Zero where the original has no normal. One of length 0, which some exporters write, stands for that of its
+  /// triangle.
+  [[nodiscard]] Eigen::Vector3d normal_at(const WeightedPoint& at) {
     const auto value = value_at(from_.normals, at);
-    return value ? value->stableNormalized() : Eigen::Vector3d::Zero();
+    if (!value) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d normal = value->stableNormalized();
+    if (normal.squaredNorm() > 0.5) return normal;  // also false where it is not a number
+    const Eigen::Vector3d of_triangle = direction(original().corners(at.triangle));
+    return of_triangle.squaredNorm() > 0.5 ? of_triangle : Eigen::Vector3d::UnitZ();
   }
 
   /// Cosine of the angle between a triangle of the level and one of the original.
@@ -307,6 +313,7 @@ class Transfer {
       const std::span<const std::uint32_t> corners = sectors[s];
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const std::uint32_t c : corners) sum += by_corner[c];
+      if (!(sum.norm() > 0)) sum = by_corner[corners.front()];
       if (!(sum.norm() > 0)) continue;
       set_index(result.index, corners, result.values.size());
       result.values.push_back(sum.normalized());

@@ -68,8 +68,9 @@ std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAtt
   const SceneLayout& layout = *scene_layout(attributes);
   const auto triangles = triangles_by_placed(layout, attributes.part);
   std::vector<std::uint32_t> number(original.vertices.size(), no_index);
-  // Copies of each mesh; the first one has an invertible placement. Meshes without one are invisible and stay as they
-  // are.
+  SceneGroup kept;
+  kept.is_kept = true;
+  // Copies of each mesh; the first one has an invertible placement.
   std::map<std::uint32_t, std::vector<std::uint32_t>> placed_of;
   for (std::uint32_t p = 0; p < layout.placed.size(); ++p)
     if (!triangles[p].empty()) placed_of[layout.placed[p].mesh].push_back(p);
@@ -80,13 +81,17 @@ std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAtt
       std::rotate(placed.begin(), invertible, invertible + 1);
       groups.push_back(group_of_copies(original, layout, placed, triangles, number));
     } else {
-      for (const std::uint32_t p : placed)
-        groups.front().triangles.insert(groups.front().triangles.end(), triangles[p].begin(), triangles[p].end());
+      std::vector<std::uint32_t>& to = invertible != placed.end() ? groups.front().triangles : kept.triangles;
+      for (const std::uint32_t p : placed) to.insert(to.end(), triangles[p].begin(), triangles[p].end());
     }
   }
-  if (groups.size() == 1) return std::vector<SceneGroup>(1);
-  std::sort(groups.front().triangles.begin(), groups.front().triangles.end());
-  take_triangles(groups.front(), original, number);
+  if (groups.size() == 1 && kept.triangles.empty()) return std::vector<SceneGroup>(1);
+  groups.push_back(std::move(kept));
+  for (SceneGroup* const group : {&groups.front(), &groups.back()}) {
+    std::sort(group->triangles.begin(), group->triangles.end());
+    take_triangles(*group, original, number);
+  }
+  if (groups.back().triangles.empty()) groups.pop_back();
   if (groups.front().triangles.empty()) groups.erase(groups.begin());
   return groups;
 }

@@ -12,6 +12,7 @@
 #include "meshbound/mesh_view.h"
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
+#include "numeric/numbers_below.h"
 #include "simplify/ended_by.h"
 
 namespace meshbound {
@@ -45,11 +46,12 @@ SceneRun::SceneRun(const TriangleMesh& original, const MeshAttributes& attribute
     Group& added = groups_.emplace_back();
     added.group = std::move(group);
     added.options = added.is_all() ? options : group_options.of(added.group);
-    all_faces_ += added.weight(original_);
+    if (!added.group.is_kept) all_faces_ += added.weight(original_);
   }
   share_threads();
   for_each_group([&](Group& of) { of.run.emplace(of.is_all() ? original_ : of.group.mesh, of.options); });
-  for (const Group& group : groups_) add_lines(group);
+  for (const Group& group : groups_)
+    if (group.run) add_lines(group);
   seconds_ = prepare_seconds_ = seconds_since(start);
 }
 
@@ -60,6 +62,7 @@ void SceneRun::share_threads() {
   // Those that one thread would be left alone with at the end take a quarter of its share at most.
   const std::size_t max_small = all_faces_ / (4 * static_cast<std::size_t>(threads));
   for (Group& group : groups_) {
+    if (group.group.is_kept) continue;
     const bool is_small = threads > 1 && group.weight(original_) <= max_small;
     (is_small ? small_ : large_).push_back(&group);
     if (is_small) group.options.threads = 1;
@@ -152,21 +155,32 @@ void SceneRun::append(const Group& of, const SimplifiedLevel& part, SimplifiedLe
   for (const auto& [a, b] : part.lines) level.lines.push_back({a + first, b + first});
 }
 
+SimplifiedLevel SceneRun::unchanged(const Group& of) const {
+  SimplifiedLevel part;
+  part.mesh = of.group.mesh;
+  if (options_.precision == Precision::Single)
+    for (Eigen::Vector3d& p : part.mesh.vertices) p = p.cast<float>().cast<double>();
+  part.source_vertex = numbers_below(of.group.vertices.size());
+  part.source_triangle = numbers_below(of.group.triangles.size());
+  part.texture_coordinates = of.options.texture_coordinates;
+  return part;
+}
+
 SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
   const double share = static_cast<double>(target_faces) / static_cast<double>(original_.triangles.size());
   for_each_group([&](Group& of) {
     const auto faces = static_cast<double>(of.weight(original_));
     of.part = of.run->next(tolerance, of.is_all() ? target_faces : static_cast<std::size_t>(std::floor(share * faces)));
-    of.faces = of.part.faces();
   });
   if (groups_.front().is_all()) return std::exchange(groups_.front().part, {});
   SimplifiedLevel level;
   level.tolerance = tolerance;
-  level.ended_by = EndedBy::Rounding;
+  level.ended_by = all_faces_ > 0 ? EndedBy::Rounding : EndedBy::NothingFits;
   for (Group& group : groups_) {
-    const SimplifiedLevel part = std::exchange(group.part, {});
+    const SimplifiedLevel part = group.run ? std::exchange(group.part, {}) : unchanged(group);
+    group.faces = part.faces();
     append(group, part, level);
-    level.ended_by = joint_reason(level.ended_by, part.ended_by);
+    if (group.run) level.ended_by = joint_reason(level.ended_by, part.ended_by);
     level.collapses_performed += part.collapses_performed;
     level.collapses_refused += part.collapses_refused;
   }
@@ -174,7 +188,8 @@ SimplifiedLevel SceneRun::next(double tolerance, std::size_t target_faces) {
 }
 
 void SceneRun::set_texture_tolerance(double tolerance) {
-  for (Group& group : groups_) group.run->set_texture_tolerance(tolerance);
+  for (Group& group : groups_)
+    if (group.run) group.run->set_texture_tolerance(tolerance);
 }
 
 /// A group is told which of its triangles are refuted by their numbers in one copy.
@@ -205,14 +220,16 @@ void SceneRun::share_out(std::span<const Refuted> refuted) {
   for (const Refuted& r : refuted) {
     const auto [group, here] = r.original == no_index ? std::pair<Group*, std::uint32_t>() : of_original[r.original];
     const auto [group_of_face, face_here] = r.face == no_index ? std::pair<Group*, std::uint32_t>() : of_level[r.face];
-    if (group != nullptr) group->refuted.push_back({here, group_of_face == group ? face_here : no_index, r.coordinate});
-    if (group_of_face != nullptr && group_of_face != group)
+    if (group != nullptr && group->run)
+      group->refuted.push_back({here, group_of_face == group ? face_here : no_index, r.coordinate});
+    if (group_of_face != nullptr && group_of_face != group && group_of_face->run)
       group_of_face->refuted.push_back({no_index, face_here, r.coordinate});
   }
 }
 
 void SceneRun::describe(SimplifyResult& result) const {
   for (const Group& group : groups_) {
+    if (!group.run) continue;
     SimplifyResult part;
     group.run->describe(part);
     result.dropped_triangles += part.dropped_triangles;

@@ -35,7 +35,7 @@ class SceneRun {
   struct Group {
     SceneGroup group;
     SimplifyOptions options;
-    std::optional<LevelRun> run;
+    std::optional<LevelRun> run;   ///< none: its triangles are kept
     SimplifiedLevel part;          ///< of the level at hand
     std::vector<Refuted> refuted;  ///< of its last level, not taken back yet
     double seconds = 0;            ///< that its run took
@@ -53,6 +53,7 @@ class SceneRun {
   template <class Work>
   void for_each_group(const Work& work);
   void show(double faces) const;
+  [[nodiscard]] SimplifiedLevel unchanged(const Group& of) const;
   void share_out(std::span<const Refuted> refuted);
   void add_lines(const Group& of);
   void append(const Group& of, const SimplifiedLevel& part, SimplifiedLevel& level) const;

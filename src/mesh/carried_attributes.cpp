@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mesh/gltf_document.h"
+#include "mesh/gltf_references.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
@@ -77,8 +78,10 @@ void drop_named(const Carried& carried, MeshAttributes& attributes, DroppedAttri
 
 MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedAttributes& lost) {
   const Carried carried = carried_in(format);
+  if (attributes.document) lost.other_properties += count_lists_of_vertices(attributes.document->json);
   if (!carried.document && attributes.document) {
     lost.scene_objects += count_scene_objects(*attributes.document);
+    if (carried.materials) lost.materials += count_described_materials(*attributes.document);
     attributes.document = nullptr;
     attributes.part.clear();
   }
@@ -86,10 +89,11 @@ MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedA
   round_texture_coordinates(attributes, carried.texture_precision);
   if (!carried.normals) drop(attributes.normals, lost.normals);
   drop_named(carried, attributes, lost);
-  const bool has_only_libraries = attributes.materials.empty();
+  // Without their library materials have names, but no looks.
+  const bool loses_libraries = carried.materials || attributes.materials.empty();
   if (!carried.materials) drop(attributes.materials, lost.materials);
   if (carried.groups) return attributes;
-  if (has_only_libraries) lost.materials += attributes.material_libraries.size();
+  if (loses_libraries) lost.materials += attributes.material_libraries.size();
   attributes.material_libraries.clear();
   std::size_t known_to_document = 0;
   drop(attributes.groups, attributes.document ? known_to_document : lost.groups);

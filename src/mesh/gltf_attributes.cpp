@@ -32,6 +32,13 @@ bool is_skinning(std::string_view semantic) {
   return semantic.starts_with("JOINTS_") || semantic.starts_with("WEIGHTS_");
 }
 
+/// Whether the numbers have no mean: identifiers of features (EXT_mesh_features, 3D Tiles), and whole numbers of the
+/// file's own.
+bool is_identifier(std::string_view semantic, const GltfNumbers& numbers) {
+  return semantic.starts_with("_FEATURE_ID_") || semantic == "_BATCHID" ||
+         (semantic.starts_with('_') && numbers.component != GltfComponent::Float && !numbers.normalized);
+}
+
 /// The matrix that maps normals: the transposed inverse up to a positive factor, computed from cofactors, which
 /// singular matrices have as well.
 Eigen::Matrix3d map_of_normals(const Eigen::Matrix3d& m) {
@@ -55,7 +62,15 @@ std::string target_name(std::size_t target, std::string_view semantic) {
 GltfAttributes::GltfAttributes(AccessorCache& accessors, const GltfValue& root)
     : accessors_(accessors), accessor_count_(root.count("accessors")), material_count_(root.count("materials")) {
   for (std::size_t i = 0; i < material_count_; ++i)
-    all_.materials.names.push_back(name_or(root.at("materials").item(i), "material_" + std::to_string(i)));
+    add_material(name_or(root.at("materials").item(i), "material_" + std::to_string(i)));
+}
+
+/// Materials of one name are told apart by numbers, as formats that have nothing but names would join them.
+void GltfAttributes::add_material(const std::string& name) {
+  std::vector<std::string>& names = all_.materials.names;
+  std::string unique = name;
+  for (int number = 2; !material_names_.insert(unique).second; ++number) unique = name + '_' + std::to_string(number);
+  names.push_back(std::move(unique));
 }
 
 std::uint32_t GltfAttributes::add_group(const GltfValue& mesh, std::size_t number) {
@@ -130,7 +145,7 @@ void GltfAttributes::use_named(const std::string& name, std::string_view semanti
     NamedAttribute& made = all_.named.emplace_back();
     made.name = name;
     made.width = is_colour(semantic) ? colour_width : from.numbers.width;
-    if (is_skinning(semantic)) made.interpolation = Interpolation::Nearest;
+    if (is_skinning(semantic) || is_identifier(semantic, from.numbers)) made.interpolation = Interpolation::Nearest;
     if (name == "TANGENT") made.interpolation = Interpolation::Direction;
     made.has_seams = !is_skinning(semantic) && !is_direction(semantic);
     made.index.assign(all_.part.size(), {no_value, no_value, no_value});
@@ -172,7 +187,7 @@ void GltfAttributes::name_missing_materials() {
   const auto unnamed = static_cast<std::uint32_t>(all_.materials.names.size());
   if (std::find(all_.materials.index.begin(), all_.materials.index.end(), no_value) == all_.materials.index.end())
     return;
-  all_.materials.names.emplace_back("default");
+  add_material("default");
   std::replace(all_.materials.index.begin(), all_.materials.index.end(), no_value, unnamed);
 }
 

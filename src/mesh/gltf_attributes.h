@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,12 +50,14 @@ class GltfAttributes {
   void use_normals(const GltfValue& accessor, const NodePlacement& placement, std::size_t vertices);
   void use_texture_coordinates(const GltfValue& accessor, std::size_t vertices);
   void use_named(const std::string& name, std::string_view semantic, const GltfValue& accessor, std::size_t vertices);
+  void add_material(const std::string& name);
   void name_missing_materials();
   const GltfAccessor& checked(const GltfValue& accessor, std::size_t vertices, std::size_t min_width);
 
   AccessorCache& accessors_;
   std::size_t accessor_count_, material_count_;
   MeshAttributes all_;
+  std::set<std::string> material_names_;
   std::map<std::string, std::size_t> number_of_;  // by name: index in `all_.named`
   /// By name and accessor: the number of its first value.
   std::map<std::pair<std::string, std::size_t>, std::uint32_t> first_value_of_;

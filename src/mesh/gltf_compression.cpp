@@ -110,7 +110,7 @@ class Decompression {
       for (std::size_t i = 0; i < at.count("primitives"); ++i)
         decode_primitive(json_["meshes"][mesh]["primitives"][i], at.at("primitives").item(i));
     }
-    for (const auto& [view, mesh] : meshes_) json_["bufferViews"][view]["byteLength"] = 1;
+    for (const auto& [view, mesh] : meshes_) json_["bufferViews"][view]["byteLength"] = std::size_t{1};
     for (const char* const list : {"extensionsUsed", "extensionsRequired"}) remove_names(list);
   }
 

@@ -4,6 +4,7 @@
 
 #include "mesh/gltf_value.h"
 #include "meshbound/attributes.h"
+#include "meshbound/error.h"
 
 namespace meshbound {
 
@@ -17,5 +18,8 @@ struct GltfContent {
 /// of another format. Throws `InvalidInput` where the document is malformed in a part that reading triangles does not
 /// touch.
 [[nodiscard]] GltfContent gltf_content(const TriangleMesh& mesh, const MeshAttributes& attributes);
+
+/// What to throw where JSON of a file, read before, is malformed in a part that reading triangles does not touch.
+[[nodiscard]] InvalidInput malformed_origin(const GltfJson::exception& error);
 
 }  // namespace meshbound

@@ -10,6 +10,7 @@
 #include "mesh/data_uri.h"
 #include "mesh/file_bytes.h"
 #include "mesh/gltf_compression.h"
+#include "mesh/gltf_references.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 
@@ -201,7 +202,25 @@ std::size_t count_scene_objects(const GltfDocument& document) {
     const auto found = document.json.find(key);
     if (found != document.json.end() && found->is_array()) count += found->size();
   }
-  return count;
+  const GltfJson::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  return count + (document.json.contains(lights) ? document.json[lights].size() : 0);
+}
+
+std::size_t count_described_materials(const GltfDocument& document) {
+  const auto has_other_than = [](const GltfJson& object, std::initializer_list<std::string_view> keys) {
+    const auto items = object.items();
+    return std::any_of(items.begin(), items.end(),
+                       [&](const auto& item) { return std::find(keys.begin(), keys.end(), item.key()) == keys.end(); });
+  };
+  const auto is_described = [&](const GltfJson& material) {
+    if (!material.is_object()) return false;
+    const auto base = material.find("pbrMetallicRoughness");
+    return has_other_than(material, {"name", "pbrMetallicRoughness"}) ||
+           (base != material.end() && base->is_object() &&
+            has_other_than(*base, {"metallicFactor", "roughnessFactor"}));
+  };
+  const GltfJson& materials = items_of(document.json, "materials");
+  return static_cast<std::size_t>(std::count_if(materials.begin(), materials.end(), is_described));
 }
 
 const SceneLayout* scene_layout(const MeshAttributes& attributes) { return attributes.document.get(); }

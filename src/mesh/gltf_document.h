@@ -30,8 +30,11 @@ struct GltfDocument : SceneLayout {
 /// format, or is no glTF or cannot be read: reading it tells why.
 [[nodiscard]] std::vector<std::filesystem::path> files_beside(const std::filesystem::path& path);
 
-/// The number of textures, cameras, animations and skins.
+/// The number of textures, cameras, lights, animations and skins.
 [[nodiscard]] std::size_t count_scene_objects(const GltfDocument& document);
+
+/// The number of materials that have more than a name and how they reflect: colours, textures, transparency.
+[[nodiscard]] std::size_t count_described_materials(const GltfDocument& document);
 
 /// A node of the default scene that has a camera, which looks along -z there. The camera itself is not looked at.
 struct PlacedCamera {

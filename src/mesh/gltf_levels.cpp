@@ -217,10 +217,9 @@ std::size_t node_of_levels(LevelMerger& merger, std::size_t node) {
   return added;
 }
 
-}  // namespace
-
-GltfContent with_levels(const std::vector<GltfLevel>& levels, const std::vector<NodeCoverage>& nodes,
-                        LevelVertices vertices) {
+/// As `with_levels`; throws what the library of JSON throws where a document is malformed.
+GltfContent merged(const std::vector<GltfLevel>& levels, const std::vector<NodeCoverage>& nodes,
+                   LevelVertices vertices) {
   LevelMerger merger(levels, vertices);
   // By level and mesh of that level: mesh of the result.
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of;
@@ -251,6 +250,17 @@ GltfContent with_levels(const std::vector<GltfLevel>& levels, const std::vector<
       shown["extras"]["MSFT_screencoverage"] = covered.shares;
   }
   return merger.finish();
+}
+
+}  // namespace
+
+GltfContent with_levels(const std::vector<GltfLevel>& levels, const std::vector<NodeCoverage>& nodes,
+                        LevelVertices vertices) {
+  try {
+    return merged(levels, nodes, vertices);
+  } catch (const GltfJson::exception& error) {
+    throw malformed_origin(error);
+  }
 }
 
 }  // namespace meshbound

@@ -2,6 +2,7 @@
 #include "mesh/gltf_references.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 
@@ -19,7 +20,37 @@ void visit_accessors(const GltfJson& primitive, const Visit& visit) {
   });
 }
 
+/// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor
+constexpr std::array<const char*, 3> lists_of_vertices{"CESIUM_primitive_outline", "EXT_mesh_manifold",
+                                                       "EXT_mesh_primitive_edge_visibility"};
+
+std::size_t count_in(const GltfJson& object) {
+  if (!object.is_object() || !object.contains("extensions") || !object["extensions"].is_object()) return 0;
+  return static_cast<std::size_t>(std::count_if(lists_of_vertices.begin(), lists_of_vertices.end(),
+                                                [&](const char* name) { return object["extensions"].contains(name); }));
+}
+
+void remove_from(GltfJson& object) {
+  if (count_in(object) == 0) return;
+  for (const char* const name : lists_of_vertices) object["extensions"].erase(name);
+  if (object["extensions"].empty()) object.erase("extensions");
+}
+
 }  // namespace
+
+std::size_t count_lists_of_vertices(const GltfJson& document) {
+  std::size_t count = 0;
+  for (const GltfJson& mesh : items_of(document, "meshes")) {
+    count += count_in(mesh);
+    for (const GltfJson& primitive : items_of(mesh, "primitives")) count += count_in(primitive);
+  }
+  return count;
+}
+
+void remove_lists_of_vertices(GltfJson& document, std::size_t mesh, GltfJson& primitive) {
+  remove_from(document["meshes"][mesh]);
+  remove_from(primitive);
+}
 
 std::optional<std::size_t> number_in(const GltfJson& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();

@@ -20,6 +20,13 @@ namespace meshbound {
 void visit_properties(const GltfJson& primitive,
                       const std::function<void(const std::string& name, const GltfJson& accessor)>& visit);
 
+/// The number of extensions of meshes and their primitives that list vertices of the primitives by number, as outlines
+/// do: they say nothing of other vertices.
+[[nodiscard]] std::size_t count_lists_of_vertices(const GltfJson& document);
+
+/// Removes them from a mesh and one of its primitives. A name stays in "extensionsUsed", which is no error.
+void remove_lists_of_vertices(GltfJson& document, std::size_t mesh, GltfJson& primitive);
+
 /// The accessors to which only these primitives of the document refer.
 [[nodiscard]] std::vector<std::size_t> accessors_used_only_by(const std::vector<const GltfJson*>& primitives,
                                                               const GltfJson& document);

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 5> other_geometry = {"l", "p", "curv", "curv2", "surf"};
 
 /// Statements whose rest of the line is a name, '#' included: 3ds Max calls materials "Material #25".
-constexpr std::array<std::string_view, 4> named = {"usemtl", "mtllib", "g", "o"};
+constexpr std::array<std::string_view, 4> statements_of_names = {"usemtl", "mtllib", "g", "o"};
 
 /// Counts the different names that statements of one kind give. The names point into the file's bytes.
 class Names {
@@ -67,7 +67,8 @@ class ObjReader {
       if (std::find(other_geometry.begin(), other_geometry.end(), keyword) != other_geometry.end())
         assembler_.ignore_element();
       if (source_.with_attributes && (keyword == "vt" || keyword == "vn")) return read_value(keyword);
-      const bool is_name = std::find(named.begin(), named.end(), keyword) != named.end();
+      const bool is_name =
+          std::find(statements_of_names.begin(), statements_of_names.end(), keyword) != statements_of_names.end();
       const std::string_view argument = rest_of_statement(is_name);
       count_attribute(keyword, argument);
       if (source_.with_attributes) attributes_.set_label(keyword, argument);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +22,6 @@
 #include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
-#include "meshbound/error.h"
 
 namespace meshbound {
 namespace {
@@ -64,6 +64,7 @@ class DocumentEdit {
       if (!triangles_of_[part].empty())
         write_primitive(buffer_, primitive(part), mesh_, attributes_, triangles_of_[part],
                         from_.placed_of(part).placement, layouts[i]);
+      remove_lists_of_vertices(json_, from_.placed_of(part).mesh, primitive(part));
     }
     remove_empty_primitives();
     embed_images();
@@ -137,8 +138,7 @@ class DocumentEdit {
   void embed_image(GltfJson& image, const std::filesystem::path& path) {
     try {
       const FileBytes file(path);
-      const std::string type = image_type(file.bytes());
-      if (type.empty()) return;
+      const std::string type = image_type(file.bytes(), image, path);
       image["bufferView"] = buffer_.add_view(file.bytes(), 0, 0);
       image["mimeType"] = type;
       image.erase("uri");
@@ -147,12 +147,16 @@ class DocumentEdit {
     }
   }
 
-  static std::string image_type(std::string_view bytes) {
+  /// By the first bytes; of a kind that is unknown here as the file says, else by the ending of its name.
+  static std::string image_type(std::string_view bytes, const GltfJson& image, const std::filesystem::path& path) {
     if (bytes.starts_with("\x89PNG")) return "image/png";
     if (bytes.starts_with("\xFF\xD8\xFF")) return "image/jpeg";
     if (bytes.starts_with("\xABKTX 20")) return "image/ktx2";
     if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
-    return "";
+    if (bytes.substr(0, 12).ends_with("ftypavif")) return "image/avif";
+    if (bytes.starts_with("DDS ")) return "image/vnd-ms.dds";
+    const std::string ending = path.extension().string();
+    return image.value("mimeType", "image/" + (ending.size() > 1 ? ending.substr(1) : "unknown"));
   }
 
   const TriangleMesh& mesh_;
@@ -164,17 +168,19 @@ class DocumentEdit {
   std::vector<std::uint32_t> replaced_;                   ///< parts
 };
 
-/// Attributes of other formats under names that glTF allows: its own, or an underscore and capitals.
+/// Attributes of other formats under names that glTF allows: "COLOR_0", or an underscore and capitals, each once.
 MeshAttributes named_for_gltf(const MeshAttributes& attributes) {
   MeshAttributes result = attributes;
+  std::set<std::string> names;
   for (NamedAttribute& named : result.named) {
-    if (named.name.starts_with("COLOR_")) continue;
+    if (named.name == "COLOR_0") continue;
     std::string name = "_";
     for (const char c : named.name) {
       const bool is_small = c >= 'a' && c <= 'z', is_allowed = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
       name += is_small ? static_cast<char>(c - 'a' + 'A') : is_allowed ? c : '_';
     }
-    named.name = std::move(name);
+    named.name = name;
+    for (int number = 2; !names.insert(named.name).second; ++number) named.name = name + '_' + std::to_string(number);
   }
   return result;
 }
@@ -249,11 +255,15 @@ void write_glb(AtomicFile& file, std::string text, std::string_view bytes) {
 
 }  // namespace
 
+InvalidInput malformed_origin(const GltfJson::exception& error) {
+  return InvalidInput(std::string("the JSON of the glTF file that the mesh comes from is malformed: ") + error.what());
+}
+
 GltfContent gltf_content(const TriangleMesh& mesh, const MeshAttributes& attributes) {
   try {
     return attributes.document ? DocumentEdit(mesh, attributes).run() : new_document(mesh, attributes);
   } catch (const GltfJson::exception& error) {
-    throw InvalidInput(std::string("the JSON of the glTF file that the mesh comes from is malformed: ") + error.what());
+    throw malformed_origin(error);
   }
 }
 

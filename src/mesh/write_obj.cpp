@@ -64,7 +64,8 @@ std::vector<Triangle> put_vertices(AtomicFile& file, const TriangleMesh& mesh, c
 }  // namespace
 
 void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes& attributes) {
-  for (const std::string& library : attributes.material_libraries) file.write("mtllib " + name_on_a_line(library) + "\n");
+  for (const std::string& library : attributes.material_libraries)
+    file.write("mtllib " + name_on_a_line(library) + "\n");
   const std::vector<Triangle> triangles = put_vertices(file, mesh, colours_of(attributes));
   put_values(file, attributes);
   const auto value = [](const CornerAttribute& attribute, std::size_t t, std::size_t k) {

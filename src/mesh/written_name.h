@@ -12,13 +12,15 @@ namespace meshbound {
     const bool ends = i + 1 == name.size() || name[i + 1] == '\n' || name[i + 1] == '\r';
     if (name[i] == '\\' && ends) name[i] = ' ';
   }
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return name;
 }
 
 /// A name as one word of a text file: a blank or a control character is '_'.
 [[nodiscard]] inline std::string name_as_a_word(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
   return name;
 }
 

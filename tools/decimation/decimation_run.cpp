@@ -17,6 +17,7 @@
 #include "decimation/dropped_attributes.h"
 #include "decimation/edge_file.h"
 #include "decimation/measurement_fault.h"
+#include "mesh/texture_transform.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -111,8 +112,8 @@ void DecimationRun::choose_appearance(const std::string& kind) {
                        " of a format that carries them (OBJ, PLY, glTF): none were found in " + shared_.input);
   warn_of_other_coordinates();
   if (shared_.texture_size)
-    texel_length_ =
-        texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0], *shared_.texture_size);
+    texel_length_ = texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0],
+                                 *shared_.texture_size * texture_scale(attributes_));
 }
 
 /// Further sets of texture coordinates come along, but nothing is measured of them.

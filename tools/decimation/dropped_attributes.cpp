@@ -22,7 +22,8 @@ std::string listed(const DroppedAttributes& dropped) {
   append(list, dropped.smoothing_groups, "smoothing group", "smoothing groups");
   append(list, dropped.facet_attributes, "facet attribute", "facet attributes");
   append(list, dropped.other_properties, "other property", "other properties");
-  append(list, dropped.scene_objects, "texture, camera, animation or skin", "textures, cameras, animations and skins");
+  append(list, dropped.scene_objects, "texture, camera, light, animation or skin",
+         "textures, cameras, lights, animations and skins");
   return list;
 }
 

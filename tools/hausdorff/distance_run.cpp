@@ -31,6 +31,7 @@
 #include "hausdorff/question.h"
 #include "hausdorff/text_report.h"
 #include "mesh/atomic_file.h"
+#include "mesh/texture_transform.h"
 #include "meshbound/certificate.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
@@ -264,7 +265,8 @@ void measure_texture(DistanceReport& report, const Arguments& arguments, const T
   texture.compares_floats = compared.attributes_of_a.texture_precision != compared.attributes_of_b.texture_precision;
   const double diagonal = report.a.summary.bbox_diagonal;
   texture.texture_size = arguments.texture_size;
-  if (texture.texture_size) texture.texel_length = texel_length(meshes[0], *texture.texture_size);
+  if (texture.texture_size)
+    texture.texel_length = texel_length(meshes[0], *texture.texture_size * texture_scale(compared.attributes_of_a));
   if (lengths.texture_tolerance)
     texture.tolerance = lengths.texture_tolerance->in_model_units(diagonal, texture.texel_length);
   TextureDeviationOptions options;

@@ -28,8 +28,9 @@ std::map<std::size_t, double> sizes_of_nodes(const TriangleMesh& mesh, const Mes
 /// An error of e units on a model of size d that covers the share s of a screen of h pixels covers s h e / d pixels.
 NodeCoverage coverage(std::size_t node, double size, const std::vector<GatedOutput>& outputs, const PixelError& limit) {
   NodeCoverage result{node, {}};
+  double error = 0;  // a coarser level may by chance be nearer to the original
   for (std::size_t level = 1; level < outputs.size(); ++level) {
-    const double error = outputs[level].distance().bounds.upper;
+    error = std::max(error, outputs[level].distance().bounds.upper);
     const double share = error > 0 ? limit.pixels * size / (limit.screen_height * error) : 1;
     result.shares.push_back(std::min(1.0, share));
   }

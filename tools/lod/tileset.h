@@ -13,8 +13,8 @@ struct TileLevel {
 };
 
 /// A tileset of 3D Tiles 1.1 whose tiles are levels, the finest first here, each refined by the finer one: their
-/// `geometricError` is the proven error. `box` holds the original and every level, in the frame of the glTF files,
-/// whose y axis is the z axis of tiles.
+/// `geometricError` is the proven error, which must not fall from level to level. `box` holds the original and every
+/// level, in the frame of the glTF files, whose y axis is the z axis of tiles.
 [[nodiscard]] std::string tileset(const std::vector<TileLevel>& levels, const Eigen::AlignedBox3d& box);
 
 }  // namespace meshbound::tools
