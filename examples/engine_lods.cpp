@@ -33,6 +33,8 @@ struct Buffers {
   meshbound::MeshView view() const { return {vertices[0].position, vertices.size(), sizeof(Vertex), indices}; }
 };
 
+bool has_short_indices(const meshbound::TriangleMesh& mesh) { return mesh.vertices.size() <= 0x10000; }
+
 template <class Index>
 bool make_levels(const Buffers<Index>& model) {
   const double size = meshbound::Bvh(model.view()).bounding_box_diagonal();
@@ -45,10 +47,12 @@ bool make_levels(const Buffers<Index>& model) {
   bool all_hold = true;
   const auto tolerances = meshbound::screen_space_tolerances(screen, 1, distances);
   meshbound::build_lod_chain(model.view(), tolerances, options, [&](std::size_t i, meshbound::LodLevel&& level) {
-    const Buffers<Index> lod(level.mesh);
-    std::printf("from distance %.6g: %zu of %zu faces, %zu-byte indices, H <= %.6g of %.6g\n", distances[i],
-                lod.indices.size() / 3, model.indices.size() / 3, sizeof(Index), level.distance->bounds.upper,
-                level.tolerance);
+    // A level may have more vertices than its original: where a mesh is not manifold, its parts come apart.
+    const bool is_short = has_short_indices(level.mesh);
+    const std::size_t indices = is_short ? Buffers<std::uint16_t>(level.mesh).indices.size()
+                                         : Buffers<std::uint32_t>(level.mesh).indices.size();
+    std::printf("from distance %.6g: %zu of %zu faces, %d-byte indices, H <= %.6g of %.6g\n", distances[i], indices / 3,
+                model.indices.size() / 3, is_short ? 2 : 4, level.distance->bounds.upper, level.tolerance);
     all_hold = all_hold && level.verdict == meshbound::Verdict::Within;
     return all_hold && level.faces() > 16;  // coarser ones would show nothing: they are not computed
   });
@@ -58,8 +62,8 @@ bool make_levels(const Buffers<Index>& model) {
 int main(int argc, char** argv) try {
   if (argc != 2) return 2;
   const meshbound::TriangleMesh mesh = meshbound::read_mesh(argv[1]).mesh;
-  const bool is_short = mesh.vertices.size() <= 0x10000;
-  const bool hold = is_short ? make_levels(Buffers<std::uint16_t>(mesh)) : make_levels(Buffers<std::uint32_t>(mesh));
+  const bool hold =
+      has_short_indices(mesh) ? make_levels(Buffers<std::uint16_t>(mesh)) : make_levels(Buffers<std::uint32_t>(mesh));
   return hold ? 0 : 1;
 } catch (const meshbound::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());

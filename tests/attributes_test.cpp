@@ -16,6 +16,7 @@
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/texture_deviation.h"
 #include "simplify_options.h"
 #include "temporary_folder.h"
 
@@ -152,6 +153,37 @@ TEST(ObjAttributes, NamesStayOnTheirLine) {
   EXPECT_EQ(again.attributes.materials.names, (std::vector<std::string>{"left f 1 2 3", "C:\\right"}));
 }
 
+TEST(Attributes, OfAnotherMeshAreRefused) {
+  const test::TemporaryFolder folder;
+  const Textured textured = two_charts(4);
+  const SimplifiedLevel level = level_of(textured, 0.1);
+  ASSERT_LT(level.faces(), textured.mesh.triangles.size());
+  const auto refuses = [&](const MeshAttributes& attributes, const TriangleMesh& mesh) {
+    for (const char* const name : {"out.obj", "out.ply", "out.glb", "out.off"})
+      EXPECT_THROW(write_mesh(folder / name, mesh, {}, attributes), InvalidInput) << name;
+    EXPECT_THROW((void)seams(mesh, attributes), InvalidInput);
+    EXPECT_THROW((void)textured_meshes(mesh, attributes, mesh, attributes), InvalidInput);
+    EXPECT_THROW((void)transferred_attributes(mesh, attributes, level), InvalidInput);
+  };
+  refuses(textured.attributes, level.mesh);
+  MeshAttributes wrong = textured.attributes;
+  wrong.texture_coordinates.index[3][1] = 1000;
+  refuses(wrong, textured.mesh);
+  wrong = textured.attributes;
+  wrong.materials.index[3] = 2;
+  refuses(wrong, textured.mesh);
+  wrong = textured.attributes;
+  wrong.named = {{.name = "heat", .width = 2, .values = {1, 2, 3, 4}, .index = wrong.texture_coordinates.index}};
+  refuses(wrong, textured.mesh);
+  TriangleMesh broken = textured.mesh;
+  broken.triangles[2][0] = 1000;
+  refuses(textured.attributes, broken);
+  SimplifiedLevel stray = level;
+  stray.source_triangle[0] = 1000;
+  EXPECT_THROW((void)transferred_attributes(textured.mesh, textured.attributes, stray), InvalidInput);
+  EXPECT_EQ(transferred_attributes(textured.mesh, textured.attributes, level).materials.index.size(), level.faces());
+}
+
 TEST(PlyAttributes, NamesAreWords) {
   const test::TemporaryFolder folder;
   Textured textured = two_charts(2);
@@ -162,7 +194,7 @@ TEST(PlyAttributes, NamesAreWords) {
   const std::vector<NamedAttribute> again = read_with_attributes(folder / "out.ply").attributes.named;
   ASSERT_EQ(again.size(), 1U);
   EXPECT_EQ(again[0].name, "_wet_ness_");
-  EXPECT_EQ(again[0].values, std::vector<double>{0.5});
+  for (const double value : again[0].values) EXPECT_EQ(value, 0.5);
 }
 
 TEST(ObjAttributes, WithoutAValueAreNone) {

@@ -106,6 +106,16 @@ TEST_P(CertificateOfPair, IsNotMadeBelowTheDistance) {
   }
 }
 
+TEST(Certificate, EndsWithWhatItsCallerThrows) {
+  const TriangleMesh sphere = datasets::icosphere(1, 3);
+  for (const int threads : {1, 2}) {
+    CertificateOptions options;
+    options.threads = threads;
+    options.progress = [](double) { throw std::runtime_error("enough"); };
+    EXPECT_THROW((void)build_certificate(sphere, sphere, 0.1, options), std::runtime_error);
+  }
+}
+
 TEST_P(CertificateOfPair, IsTheSameForAnyNumberOfThreads) {
   const double tolerance = 1.5 * distance_of(GetParam());
   CertificateOptions options;

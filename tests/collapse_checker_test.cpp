@@ -260,6 +260,8 @@ TEST(CollapseChecker, KeepsLockedVerticesWhereTheyAre) {
   CheckedMesh mesh(square, 0.2);
   mesh.checker.lock(40);
   EXPECT_TRUE(mesh.checker.is_locked(40));
+  EXPECT_THROW(mesh.checker.lock(81), InvalidInput);
+  EXPECT_THROW((void)mesh.checker.is_locked(81), InvalidInput);
   EXPECT_FALSE(mesh.checker.admits(40, 41, square.vertices[41]));
   EXPECT_EQ(mesh.checker.admitted_placement(40, 41, square.vertices[41]), square.vertices[40]);
   mesh.checker.lock(49);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "mesh_files.h"
+#include "meshbound/collapse_checker.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
 #include "meshbound/floating_point_scope.h"
@@ -48,6 +49,36 @@ TEST(FloatingPointModel, FlushToZeroIsRefused) {
     EXPECT_NE(reason.find("flushed to zero"), std::string::npos) << reason;
   }
   EXPECT_EQ(refusal_of_a_tree(), "");
+}
+
+/// Trees may have been built before, or are not needed.
+TEST(FloatingPointModel, FlushToZeroIsRefusedByEveryQuestion) {
+  const TriangleMesh mesh = cube(1);
+  TriangleMesh moved = mesh;
+  for (Eigen::Vector3d& p : moved.vertices) p.x() += 3e-310;
+  Bvh tree(mesh);
+  const Bvh other(cube(2));
+  CollapseChecker checker(mesh, 0.1);
+  const unsigned before = _mm_getcsr();
+  const auto refuses = [&](const char* what, const auto& question) {
+    bool is_refused = false;
+    _mm_setcsr(before | 0x8040);  // both: to zero, and from zero
+    try {
+      question();
+    } catch (const Error&) {
+      is_refused = true;
+    }
+    _mm_setcsr(before);
+    EXPECT_TRUE(is_refused) << what;
+  };
+  refuses("trees", [&] { (void)hausdorff_distance(tree, other); });
+  refuses("meshes", [&] { (void)hausdorff_distance(mesh, moved); });
+  refuses("check", [&] { (void)check_tolerance(mesh, moved, 0); });
+  refuses("same", [&] { (void)same_surface(mesh, moved); });
+  refuses("closest", [&] { (void)closest_point(tree, {1, 2, 3}); });
+  refuses("refit", [&] { tree.refit(moved); });
+  refuses("admits", [&] { (void)checker.admits(0, 1, mesh.vertices[1]); });
+  refuses("placement", [&] { (void)checker.admitted_placement(0, 1, mesh.vertices[1]); });
 }
 
 /// On the calling thread and on those of OpenMP; afterwards each has the mode that it had.

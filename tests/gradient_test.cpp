@@ -17,6 +17,18 @@ namespace gradient_test {
 using namespace test;
 using Random = std::mt19937_64;
 
+TEST(TexelLength, DoesNotDependOnTheUnit) {
+  for (const double unit : {0x1p-500, 0x1p-300, 1.0, 0x1p300, 0x1p500})
+    for (const double of_texture : {0x1p-500, 0x1p-300, 0x1p300, 0x1p490}) {
+      const TexturedMesh stretched = grid(2, [&](double s, double t) {
+        return test::Corner{{unit * 4 * s, unit * 9 * t, 0}, {of_texture * s, of_texture * t}};
+      });
+      EXPECT_DOUBLE_EQ(texel_length(stretched, 512), unit / of_texture * 6.0 / 512);
+    }
+  const TexturedMesh strip = grid(2, [](double s, double t) { return test::Corner{{s, t, 0}, {s, 0.5}}; });
+  EXPECT_EQ(texel_length(strip, 512), std::numeric_limits<double>::infinity());
+}
+
 /// Two coordinates between which no point has weights that are doubles.
 constexpr double low = 0, high = 0x1p-200;
 

@@ -11,6 +11,7 @@
 
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
+#include "meshbound/level_checker.h"
 #include "meshbound/mesh_summary.h"
 #include "reference/brute_force.h"
 #include "reference/claims.h"
@@ -339,6 +340,26 @@ TEST(CheckTolerance, IsUndecidedWhenABudgetRunsOut) {
     expect_meets(result.bounds, truth);
     expect_meets(hausdorff_distance(a, b, options).bounds, truth);
   }
+}
+
+/// Building the trees counts as well.
+TEST(CheckTolerance, OfMeshesEndsWithTheirTrees) {
+  const TriangleMesh a = icosphere(3), b = random_soup(31, 60, 0.5);
+  std::atomic<bool> cancelled = true;
+  DistanceOptions no_time, cancel;
+  no_time.budget.seconds = 0;
+  cancel.cancel = &cancelled;
+  LevelChecker checker(a);
+  for (const DistanceOptions& options : {no_time, cancel}) {
+    for (const HausdorffDistance& unknown : {hausdorff_distance(a, b, options), checker.measure(b, options)}) {
+      EXPECT_EQ(unknown.bounds.lower, 0);
+      EXPECT_EQ(unknown.bounds.upper, std::numeric_limits<double>::infinity());
+      EXPECT_EQ(unknown.a_to_b.outcome, Outcome::BudgetExhausted);
+    }
+    EXPECT_EQ(check_tolerance(a, b, 1, options).verdict, Verdict::Undecided);
+    EXPECT_EQ(checker.check(b, 1, options).verdict, Verdict::Undecided);
+  }
+  EXPECT_LT(checker.measure(b).bounds.upper, 10);
 }
 
 /// Early or late, before the first step or in the middle of one: several threads are at work.

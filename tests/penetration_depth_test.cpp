@@ -51,6 +51,21 @@ TEST(PenetrationDepth, CornerInCorner) {
   EXPECT_EQ(result.volumes[0].overlap, Overlap::Crossing);
 }
 
+TEST(PenetrationDepth, OfTheSmallestSolids) {
+  for (const double size : {0x1p-1000, 0x1p-1026, 0x1p-1050}) {
+    const TriangleMesh a = scaled(box({0, 0, 0}, {2, 2, 2}), size), b = scaled(box({1, 1, 1}, {3, 3, 3}), size);
+    const PenetrationDepth result = penetration_depth(a, b);
+    ASSERT_EQ(result.volumes.size(), 1U) << size;
+    EXPECT_LE(result.depth.lower, size);
+    EXPECT_GE(result.depth.upper, size);
+    EXPECT_LE(result.depth.upper, (size < 0x1p-1030 ? 10 : 1.01) * size);
+    Eigen::Isometry3d turned(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()));
+    turned.translation() = size * Eigen::Vector3d(0.125, 0.25, 0.5);
+    const ClosedModel model_a(a), model_b(b);
+    EXPECT_EQ(penetration_depth({model_a, turned}, {model_b, turned}).volumes.size(), 1U) << size;
+  }
+}
+
 TEST(PenetrationDepth, PegInAHoleOfItsOwn) {
   // On A a square of the face z = 1, on B the peg below it. Its bottom is 0.5 below.
   const PenetrationDepth result = penetration_depth(unit, box({0.4, 0.4, 0.5}, {0.6, 0.6, 2}));

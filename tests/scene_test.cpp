@@ -258,6 +258,14 @@ TEST(Scene, RefusesWhatIsNoPoseOrNoBody) {
   EXPECT_THROW(scene.add(cube, scaled), InvalidInput);
   EXPECT_THROW(scene.move(0, scaled), InvalidInput);
   EXPECT_THROW(scene.move(1, Isometry3d::Identity()), InvalidInput);
+  EXPECT_THROW((void)scene.model(1), InvalidInput);
+  const ClosedModel solid(datasets::cube(1, 1));
+  Scene solids;
+  Isometry3d mirrored = Isometry3d::Identity();
+  mirrored.linear()(0, 0) = -1;
+  EXPECT_THROW(solids.add(solid, mirrored), InvalidInput);
+  solids.add(solid);
+  EXPECT_THROW(solids.move(0, mirrored), InvalidInput);
   EXPECT_THROW((void)scene.check_tolerance(-1), InvalidInput);
   EXPECT_EQ(scene.size(), 1u);
   EXPECT_TRUE(scene.model(0).pose.matrix().isIdentity(0));

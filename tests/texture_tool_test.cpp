@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
+#include <regex>
 
 #include "datasets/analytic_meshes.h"
 #include "json_claims.h"
@@ -149,6 +150,11 @@ TEST_F(TextureTool, RefusesWhatMakesNoSense) {
   refused(measure({even_, raised_, "--texture-tolerance", "1"}), "--texture");
   refused(measure({even_, raised_, "--texture", "--one-sided"}), "--one-sided");
   refused(measure({even_, raised_, "--texture", "--texture-tolerance", "2texels"}), "--texture-size");
+  std::string strip = testing_tools::content_of(even_);
+  std::ofstream(folder_ / "strip.obj") << std::regex_replace(strip, std::regex("vt (\\S+) \\S+"), "vt $1 0.5");
+  refused(measure({folder_ / "strip.obj", folder_ / "strip.obj", "--texture", "--texture-tolerance", "2texels",
+                   "--texture-size", "8"}),
+          "a texel has no size");
   refused(simplify({folder_ / "bare.obj", out_, "--tolerance", "1%", "--texture-tolerance", "1%"}),
           "texture coordinates");
   refused(simplify({even_, out_, "--tolerance", "1%", "--texture-tolerance", "1%", "--drop-attributes"}),

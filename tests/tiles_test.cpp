@@ -362,6 +362,7 @@ TEST(SimplifyInTiles, RefusesWhatTilesCannotDo) {
   refuses([](SimplifyOptions& o) { o.line_tolerance = 0.1; });
   refuses([&](SimplifyOptions& o) { o.face_tolerances.assign(cube.triangles.size(), 1); });
   refuses([&](SimplifyOptions& o) { o.texture_coordinates.resize(cube.triangles.size()); });
+  refuses([](SimplifyOptions& o) { o.normal_tolerance = 20; });
   refuses([](SimplifyOptions& o) { o.certificate = true; });
   refuses([](SimplifyOptions& o) { o.locked_vertices = {true}; });
   refuses([](SimplifyOptions& o) { o.tolerance = -1; });

@@ -194,6 +194,15 @@ TEST_F(Tori, WhatCannotBeIsRefused) {
   ViewCamera camera;
   camera.direction.setZero();
   EXPECT_THROW((void)view_tolerance(camera, 1, unit_box, at({0, 0, -5})), InvalidInput);
+  const double none_at_all = std::nan("");
+  camera = {};
+  EXPECT_THROW((void)view_tolerance(camera, 1, unit_box, at({0, none_at_all, -5})), InvalidInput);
+  camera.position.x() = none_at_all;
+  EXPECT_THROW((void)view_tolerance(camera, 1, unit_box, at({0, 0, -5})), InvalidInput);
+  EXPECT_THROW((void)choose({{0, at({0, 0, -5}), std::numeric_limits<std::size_t>::max()}}), InvalidInput);
+  const std::vector<TriangleMesh> broken = {{{{0, 0, 0}}, {{0, 1, 2}}}};
+  const std::vector<ViewInstance> shown = {{0, at({0, 0, -5}), {}}};
+  EXPECT_THROW((void)view_levels(broken, shown, std::vector<ViewCamera>{{}}, options()), InvalidInput);
 }
 
 }  // namespace view_levels_test

@@ -48,8 +48,10 @@ class CollapseChecker {
   std::uint32_t commit();
 
   /// The vertex stays where it is: collapses of its edges go to its position.
+  /// Throws `InvalidInput` where there is no such vertex.
   void lock(std::uint32_t vertex);
-  [[nodiscard]] bool is_locked(std::uint32_t vertex) const;  ///< whether `lock` was called for it
+  /// Whether it stays where it is; while a collapse is admitted, once that is made. Throws as `lock`.
+  [[nodiscard]] bool is_locked(std::uint32_t vertex) const;
   /// By triangle of the original, model units, beside `tolerance`: as `SimplifyOptions::face_tolerances`. Before the
   /// first collapse; throws `InvalidInput` for another number of them or one that is no length.
   void limit_triangles(std::span<const double> tolerances);

@@ -2,22 +2,16 @@
 #include "attributes/seams.h"
 
 #include <algorithm>
-#include <string>
 
 #include "geometry/position_table.h"
+#include "mesh/attribute_check.h"
 #include "mesh/mesh_arrays.h"
-#include "meshbound/error.h"
+#include "meshbound/mesh_view.h"
 #include "numeric/no_index.h"
 #include "proof/edge_neighbours.h"
 
 namespace meshbound {
 namespace {
-
-void check_size(std::size_t size, std::size_t triangles, const char* what) {
-  if (size != 0 && size != triangles)
-    throw InvalidInput(std::string(what) + " are given for " + std::to_string(size) + " triangles, but the mesh has " +
-                       std::to_string(triangles));
-}
 
 bool equal_values(const CornerAttribute& attribute, std::uint32_t a, std::uint32_t b) {
   return attribute.values[a] == attribute.values[b];
@@ -85,16 +79,6 @@ bool has_chart_borders(const MeshAttributes& attributes) {
   return !attributes.texture_coordinates.empty() || !attributes.materials.empty() || !attributes.part.empty();
 }
 
-void check_sizes(const MeshAttributes& attributes, std::size_t triangles) {
-  check_size(attributes.texture_coordinates.index.size(), triangles, "texture coordinates");
-  check_size(attributes.normals.index.size(), triangles, "normals");
-  check_size(attributes.materials.index.size(), triangles, "materials");
-  check_size(attributes.groups.index.size(), triangles, "groups");
-  check_size(attributes.smoothing_groups.index.size(), triangles, "smoothing groups");
-  check_size(attributes.part.size(), triangles, "parts");
-  for (const NamedAttribute& named : attributes.named) check_size(named.index.size(), triangles, named.name.c_str());
-}
-
 /// Makes edges seams where `is_seam(neighbours)`. Returns whether one was none before.
 template <class IsSeam>
 bool add_seams(const TriangleMesh& mesh, ChartPartition& charts, const IsSeam& is_seam) {
@@ -139,7 +123,8 @@ void number_charts(ChartPartition& charts) {
 
 ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes) {
   const std::size_t triangles = mesh.triangles.size();
-  check_sizes(attributes, triangles);
+  if (triangles > 0) validate(mesh);
+  check_attributes(attributes, triangles);
   ChartPartition result;
   const std::vector<Vec3> positions = positions_of(mesh);
   result.first = first_at_position(positions);

@@ -7,8 +7,10 @@
 
 #include "attributes/chart_surface.h"
 #include "attributes/sectors.h"
+#include "mesh/attribute_check.h"
 #include "mesh/first_use.h"
 #include "mesh/no_value.h"
+#include "meshbound/error.h"
 #include "meshbound/simplify.h"
 #include "numeric/no_index.h"
 
@@ -91,6 +93,16 @@ bool stands_on_vertices(const TriangleMesh& original, const SimplifiedLevel& lev
     if (!is_rounded(original.vertices[level.source_vertex[v]], level.mesh.vertices[v])) return false;
   }
   return true;
+}
+
+void check_sources(const TriangleMesh& original, const SimplifiedLevel& level) {
+  const auto all_below = [](const std::vector<std::uint32_t>& numbers, std::size_t count) {
+    return std::all_of(numbers.begin(), numbers.end(), [&](std::uint32_t i) { return i < count; });
+  };
+  if (level.source_triangle.size() != level.mesh.triangles.size() ||
+      !all_below(level.source_triangle, original.triangles.size()) ||
+      !all_below(level.source_vertex, original.vertices.size()))
+    throw InvalidInput("the level does not come from this mesh: its sources are no vertices and triangles of it");
 }
 
 class Transfer {
@@ -393,6 +405,8 @@ class Transfer {
 
 MeshAttributes transferred_attributes(const TriangleMesh& original, const MeshAttributes& attributes,
                                       const SimplifiedLevel& level) {
+  check_attributes(attributes, original.triangles.size());
+  check_sources(original, level);
   return Transfer(original, attributes, level).run();
 }
 

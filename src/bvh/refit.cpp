@@ -4,6 +4,7 @@
 
 #include "bvh/build.h"
 #include "meshbound/error.h"
+#include "numeric/rounding.h"
 #include "numeric/tasks.h"
 
 namespace meshbound {
@@ -107,6 +108,7 @@ double tree_cost(const Bvh::Data& data) {
 }  // namespace
 
 void Bvh::refit(const MeshView& moved, const BvhOptions& options) {
+  check_floating_point_model();
   const std::vector<std::uint8_t> turned = turns(*data_, moved);
   auto next = std::make_unique<Data>();
   set_frame(*next, box_of(*data_, moved));

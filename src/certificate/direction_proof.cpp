@@ -127,7 +127,9 @@ std::optional<ProofTrees> DirectionProof::run(std::size_t max_patch,
       error.guard([&] { failures[run] = prove_run(run, *search, trees.runs[run]); });
       if (failures[run].outcome != CutSearch::Outcome::Proven) stop = true;
       const std::size_t done_now = ++done;
-      if (progress && omp_get_thread_num() == 0) progress(static_cast<double>(done_now) / static_cast<double>(count));
+      if (!progress || omp_get_thread_num() != 0) continue;
+      error.guard([&] { progress(static_cast<double>(done_now) / static_cast<double>(count)); });
+      if (error.has_error()) stop = true;
     }
     const std::uint64_t own_work = search ? search->parity_work() : 0;
 #pragma omp atomic

@@ -191,6 +191,7 @@ struct LastFound {
 }  // namespace
 
 ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query) {
+  check_floating_point_model();
   thread_local LastFound last;
   const Bvh::Data& data = bvh.data();
   PointQueries ask(data, last.serial == data.serial ? last.slot : no_slot);
@@ -201,6 +202,7 @@ ClosestPoint closest_point(const Bvh& bvh, const Eigen::Vector3d& query) {
 
 std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::Vector3d> queries,
                                          const QueryOptions& options) {
+  check_floating_point_model();
   std::vector<ClosestPoint> answers(queries.size());
   const std::vector<std::uint32_t> order = order_of_queries(queries);
   const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : omp_get_max_threads());

@@ -10,6 +10,7 @@
 #include "distance/default_error_share.h"
 #include "distance/search/one_sided.h"
 #include "distance/symmetric.h"
+#include "distance/unfinished.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
 
@@ -45,6 +46,20 @@ OneSidedTask decision(const PlacedModel& a, const PlacedModel& b, double toleran
   task.tolerance = checked(tolerance, "the tolerance");
   task.decide_only = true;
   return task;
+}
+
+/// measure(tree of A, tree of B, options for it), or `unfinished` where the time is over before there are trees.
+template <class Result, class Measure>
+Result measured_by_trees(const MeshView& a, const MeshView& b, const DistanceOptions& options, Result unfinished,
+                         const Measure& measure) {
+  const StopToken stop = stop_of_trees(options, StopToken::Clock::now());
+  std::optional<std::pair<Bvh, Bvh>> trees;
+  try {
+    trees.emplace(build_trees(a, b, {.threads = options.threads, .stop = stop}));
+  } catch (const Stopped&) {
+    return unfinished;
+  }
+  return measure(trees->first, trees->second, after_trees(options, stop));
 }
 
 Bounds larger(const Bounds& x, const Bounds& y) { return {std::max(x.lower, y.lower), std::max(x.upper, y.upper)}; }
@@ -116,8 +131,10 @@ HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b, const
         options.error_bound ? *options.error_bound : default_error_bound(a, b, bounding_box_diagonal(a));
     if (auto distance = distance_without_trees(a, b, std::min(error_bound, tolerance))) return *distance;
   }
-  const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});
-  return hausdorff_distance(tree_a, tree_b, options);
+  return measured_by_trees(a, b, options, unfinished_distance(),
+                           [](const Bvh& tree_a, const Bvh& tree_b, const DistanceOptions& rest) {
+                             return hausdorff_distance(tree_a, tree_b, rest);
+                           });
 }
 
 ToleranceCheck check_one_sided_tolerance(const PlacedModel& a, const PlacedModel& b, double tolerance,
@@ -154,8 +171,10 @@ ToleranceCheck check_tolerance(const MeshView& a, const MeshView& b, double tole
     if (const auto distance = distance_without_trees(a, b, tolerance))
       return {Verdict::Within, tolerance, distance->bounds, distance->a_to_b, distance->b_to_a};
   }
-  const auto [tree_a, tree_b] = build_trees(a, b, {.threads = options.threads});
-  return check_tolerance(tree_a, tree_b, tolerance, options);
+  return measured_by_trees(a, b, options, unfinished_check(tolerance),
+                           [&](const Bvh& tree_a, const Bvh& tree_b, const DistanceOptions& rest) {
+                             return check_tolerance(tree_a, tree_b, tolerance, rest);
+                           });
 }
 
 }  // namespace meshbound

@@ -48,6 +48,7 @@ Mapping shift_and_scale(const Frame& from, const Frame& to, double drift) {
 
 Mapping mapping_between(const Frame& from, const Eigen::Isometry3d& from_pose, const Frame& to,
                         const Eigen::Isometry3d& to_pose) {
+  check_floating_point_model();
   const double drift = drift_of(from_pose) + drift_of(to_pose);
   if (same_pose(from_pose, to_pose)) return shift_and_scale(from, to, drift);
   const Eigen::Matrix3d back = to_pose.linear().transpose();
@@ -66,7 +67,8 @@ Mapping mapping_between(const Frame& from, const Eigen::Isometry3d& from_pose, c
   const double reach = from_pose.translation().cwiseAbs().maxCoeff() + to_pose.translation().cwiseAbs().maxCoeff() +
                        2 * largest_magnitude_of(from.center) + 2 * largest_magnitude_of(to.center);
   const double total = map.magnitude + 2 * std::ldexp(reach, -to.exponent);
-  map.error = (64 * unit_roundoff + 8 * drift) * total;
+  // What underflows in model units, each time by half of 2^-1074: some 12 products, those of `offset` turned once more.
+  map.error = (64 * unit_roundoff + 8 * drift) * total + std::ldexp(0x1p-1070, -to.exponent);
   return map;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "distance/unfinished.h"
 #include "meshbound/error.h"
 #include "meshbound/face_tolerances.h"
 #include "meshbound/mesh_view.h"
@@ -53,10 +54,14 @@ void measure_level(const TriangleMesh& original, const Bvh& tree, std::span<cons
   distance.tolerance = level.tolerance;
   distance.threads = options.threads;
   distance.cancel = options.cancel;
-  const Bvh mesh(level.mesh, BvhOptions{options.threads});
   const bool is_stopped = options.cancel != nullptr && options.cancel->load();
+  if (is_stopped) {
+    level.distance = unfinished_distance();
+    return;
+  }
+  const Bvh mesh(level.mesh, BvhOptions{options.threads});
   for (const Method method : {Method::CellWalking, Method::CrossCulling}) {
-    if (level.distance && (level.verdict != Verdict::Undecided || is_stopped)) break;
+    if (level.distance && level.verdict != Verdict::Undecided) break;
     distance.method = method;
     level.distance = hausdorff_distance(tree, mesh, distance);
     level.verdict = verdict_of(level.distance->bounds, level.tolerance);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "mesh/attribute_check.h"
 #include "mesh/weld.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
@@ -69,6 +70,7 @@ void write_mesh(AtomicFile& file, const std::filesystem::path& path, const Trian
                 const WriteOptions& options, const MeshAttributes& attributes) {
   const FileFormat format = format_of(path);
   refuse_unwritable(path, format, mesh, options);
+  check_attributes(attributes, mesh.triangles.size());
   if (options.single_precision && (format == FileFormat::Off || format == FileFormat::Obj)) {
     WriteOptions as_they_are = options;
     as_they_are.single_precision = false;

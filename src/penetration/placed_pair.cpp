@@ -89,6 +89,7 @@ void PlacedPair::set_frame() {
     largest = std::max(largest, 3 * side.model->reach + largest_magnitude_of(side.offset));
   }
   std::frexp(largest, &exponent_);
+  exponent_ = std::max(exponent_, -1000);  // the reciprocal of its power of two is a number
   for (Side& side : sides_) {
     const bool is_plain = side.pose.linear() == Eigen::Matrix3d::Identity() && largest_magnitude_of(side.offset) == 0 &&
                           largest_magnitude_of(side.center) == 0;
@@ -96,6 +97,7 @@ void PlacedPair::set_frame() {
     // One rounding each for the difference with the centre, the products, three additions and the offset, whose
     // magnitude is at most `magnitude`; and the rounding of the scaled rotation if that underflows.
     side.error = is_plain ? 0 : std::ldexp(magnitude, -exponent_) * 10 * unit_roundoff;
+    if (!is_plain) side.error += std::ldexp(0x1p-1073, -exponent_);  // an offset that is no normal number
     side.error += 0x1p-960;  // products of it stay normal numbers: others take many times as long
     const auto row = [&](int i) -> Vec3 {
       return {std::ldexp(side.pose.linear()(i, 0), -exponent_), std::ldexp(side.pose.linear()(i, 1), -exponent_),

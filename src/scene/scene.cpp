@@ -110,9 +110,19 @@ double rounding_of(const std::vector<Body>& bodies) {
   return largest;
 }
 
+void check_pose(const ClosedModel* solid, const Eigen::Isometry3d& pose) {
+  if (solid != nullptr && pose.linear().determinant() < 0) throw InvalidInput("the pose of a solid is a reflection");
+}
+
 }  // namespace
 
 struct Scene::Impl {
+  [[nodiscard]] Body& at(std::uint32_t body) {
+    if (body < bodies.size()) return bodies[body];
+    throw InvalidInput("the scene has " + std::to_string(bodies.size()) + " bodies; there is none with number " +
+                       std::to_string(body));
+  }
+
   /// Makes the boxes of trees that were refitted since.
   void update() {
     for (Body& body : bodies)
@@ -164,22 +174,21 @@ std::uint32_t Scene::add(const Bvh& model, const Eigen::Isometry3d& pose) {
 }
 
 std::uint32_t Scene::add(const ClosedModel& model, const Eigen::Isometry3d& pose) {
-  if (pose.linear().determinant() < 0) throw InvalidInput("the pose of a solid is a reflection");
+  check_pose(&model, pose);
   const std::uint32_t number = add(model.bvh(), pose);
   impl_->bodies[number].solid = &model;
   return number;
 }
 
 void Scene::move(std::uint32_t body, const Eigen::Isometry3d& pose) {
-  if (body >= size())
-    throw InvalidInput("the scene has " + std::to_string(size()) + " bodies; there is none with number " +
-                       std::to_string(body));
-  impl_->bodies[body].place(pose);
+  Body& moved = impl_->at(body);
+  check_pose(moved.solid, pose);
+  moved.place(pose);
 }
 
 std::uint32_t Scene::size() const { return static_cast<std::uint32_t>(impl_->bodies.size()); }
 
-const PlacedModel& Scene::model(std::uint32_t body) const { return impl_->bodies.at(body).model; }
+const PlacedModel& Scene::model(std::uint32_t body) const { return impl_->at(body).model; }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> Scene::pairs_near(double margin) const {
   if (!(margin >= 0)) throw InvalidInput("the margin must be a length of 0 or more");

@@ -13,6 +13,7 @@
 #include "meshbound/mesh_view.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/rounding.h"
 #include "simplify/change_prover.h"
 #include "simplify/mesh/indexed_manifold.h"
 #include "simplify/propose.h"
@@ -69,6 +70,10 @@ class CollapseChecker::Impl {
   void set_tolerance(double tolerance);
   void take_back();
 
+  [[nodiscard]] std::uint32_t checked(std::uint32_t vertex) const {
+    if (vertex < state_.locked.size()) return vertex;
+    throw InvalidInput("there is no vertex " + std::to_string(vertex) + " in the mesh");
+  }
   DecimationState& state() { return state_; }
   [[nodiscard]] const DecimationState& state() const { return state_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
@@ -172,6 +177,7 @@ void CollapseChecker::Impl::take_back() {
 }
 
 bool CollapseChecker::Impl::admits(std::uint32_t u, std::uint32_t v, const Eigen::Vector3d& point) {
+  check_floating_point_model();
   if (admitted_ && admitted_->is(u, v, point)) return true;
   const bool is_refused = refused_ && refused_->is(u, v, point);
   take_back();
@@ -190,6 +196,7 @@ bool CollapseChecker::Impl::admits(std::uint32_t u, std::uint32_t v, const Eigen
 
 std::optional<Eigen::Vector3d> CollapseChecker::Impl::admitted_placement(std::uint32_t u, std::uint32_t v,
                                                                          const Eigen::Vector3d& wanted) {
+  check_floating_point_model();
   take_back();
   const Corner edge = corner_between(u, v);
   const Question question{u, v, wanted};
@@ -263,9 +270,11 @@ std::optional<Eigen::Vector3d> CollapseChecker::admitted_placement(std::uint32_t
 std::uint32_t CollapseChecker::commit() { return impl_->commit(); }
 void CollapseChecker::lock(std::uint32_t vertex) {
   impl_->take_back();
-  impl_->state().locked.at(vertex) = 1;
+  impl_->state().locked[impl_->checked(vertex)] = 1;
 }
-bool CollapseChecker::is_locked(std::uint32_t vertex) const { return impl_->state().locked.at(vertex) != 0; }
+bool CollapseChecker::is_locked(std::uint32_t vertex) const {
+  return impl_->state().locked[impl_->checked(vertex)] != 0;
+}
 void CollapseChecker::limit_triangles(std::span<const double> tolerances) { impl_->limit_triangles(tolerances); }
 void CollapseChecker::grow_tolerance(double tolerance) { impl_->set_tolerance(tolerance); }
 double CollapseChecker::tolerance() const { return impl_->tolerance(); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "meshbound/error.h"
 #include "texture/overlay_numbers.h"
@@ -13,8 +14,14 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// The exponent of the largest coordinate, so that areas neither overflow nor underflow in units of its power of two;
-/// no further from 0 than that this power and its reciprocal are normal numbers.
+/// The exponent of a number, no further from 0 than that its power of two and the reciprocal are normal numbers.
+int clamped_exponent(double number) {
+  int exponent = 0;
+  std::frexp(number, &exponent);
+  return std::clamp(exponent, -1000, 1000);
+}
+
+/// That of the largest coordinate, so that areas neither overflow nor underflow in units of its power of two.
 int exponent_of(const TexturedMesh& mesh) {
   double largest = 0;
   const auto look_at = [&](const Corners& corners) {
@@ -22,9 +29,14 @@ int exponent_of(const TexturedMesh& mesh) {
   };
   for (const TexturedTriangle& t : mesh.triangles) look_at(t.corners);
   for (const Corners& corners : mesh.bare) look_at(corners);
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return std::clamp(exponent, -1000, 1000);
+  return clamped_exponent(largest);
+}
+
+int exponent_of_coordinates(const TexturedMesh& mesh) {
+  double largest = 0;
+  for (const TexturedTriangle& t : mesh.triangles)
+    for (const Eigen::Vector2d& uv : t.coordinates) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
+  return clamped_exponent(largest);
 }
 
 /// Twice the area of a triangle in squares of the unit, a power of two: the length of the vector of the areas that it
@@ -74,14 +86,20 @@ Bounds uncovered_share_of(const TexturedMesh& mesh, std::span<const Approximate>
 
 double texel_length(const TexturedMesh& mesh, double texture_size) {
   if (!(texture_size > 0)) throw InvalidInput("the texture size must be a number of texels, above 0");
+  const int unit = exponent_of(mesh), unit_of_texture = exponent_of_coordinates(mesh);
+  const double by_unit = std::ldexp(1.0, -unit), by_unit_of_texture = std::ldexp(1.0, -unit_of_texture);
   double in_space = 0, in_texture = 0;
   for (const TexturedTriangle& t : mesh.triangles) {
-    const Eigen::Vector3d ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];
-    const Eigen::Vector2d p = t.coordinates[1] - t.coordinates[0], q = t.coordinates[2] - t.coordinates[0];
-    in_space += ab.cross(ac).norm();
+    const auto edge = [&](std::size_t k) -> Eigen::Vector3d { return by_unit * t.corners[k] - by_unit * t.corners[0]; };
+    const auto edge_in_texture = [&](std::size_t k) -> Eigen::Vector2d {
+      return by_unit_of_texture * t.coordinates[k] - by_unit_of_texture * t.coordinates[0];
+    };
+    const Eigen::Vector2d p = edge_in_texture(1), q = edge_in_texture(2);
+    in_space += edge(1).cross(edge(2)).norm();
     in_texture += std::fabs(p.x() * q.y() - p.y() * q.x());
   }
-  return std::sqrt(in_space) / std::sqrt(in_texture) / texture_size;
+  if (in_texture == 0) return std::numeric_limits<double>::infinity();
+  return std::ldexp(std::sqrt(in_space) / std::sqrt(in_texture) / texture_size, unit - unit_of_texture);
 }
 
 }  // namespace meshbound

@@ -4,19 +4,24 @@
 #include <string>
 #include <vector>
 
+#include "mesh/attribute_check.h"
 #include "mesh/no_value.h"
 #include "meshbound/error.h"
+#include "meshbound/mesh_view.h"
 #include "meshbound/texture_deviation.h"
 
 namespace meshbound {
 namespace {
 
-void check_attributes(const TriangleMesh& mesh, const MeshAttributes& attributes, const char* name) {
+void require_texture(const TriangleMesh& mesh, const MeshAttributes& attributes, const char* name) {
   if (attributes.texture_coordinates.empty())
     throw InvalidInput(std::string(name) + " has no texture coordinates, so there is no texture deviation to measure");
-  for (const std::size_t size : {attributes.texture_coordinates.index.size(), attributes.materials.index.size()})
-    if (size != 0 && size != mesh.triangles.size())
-      throw InvalidInput(std::string(name) + ": the attributes are not those of as many triangles");
+  try {
+    validate(mesh);
+    check_attributes(attributes, mesh.triangles.size());
+  } catch (const InvalidInput& defect) {
+    throw InvalidInput(std::string(name) + ": " + defect.what());
+  }
 }
 
 /// Numbers for names of materials: equal names get equal numbers in both meshes.
@@ -78,8 +83,8 @@ TexturedMesh textured_mesh(const TriangleMesh& mesh, const MeshAttributes& attri
 
 std::array<TexturedMesh, 2> textured_meshes(const TriangleMesh& a, const MeshAttributes& a_attributes,
                                             const TriangleMesh& b, const MeshAttributes& b_attributes) {
-  check_attributes(a, a_attributes, "A");
-  check_attributes(b, b_attributes, "B");
+  require_texture(a, a_attributes, "A");
+  require_texture(b, b_attributes, "B");
   MaterialNumbers materials(!a_attributes.materials.empty() && !b_attributes.materials.empty());
   const Precisions precisions = {a_attributes.texture_precision, b_attributes.texture_precision};
   TexturedMesh first = textured_mesh(a, a_attributes, precisions, materials);

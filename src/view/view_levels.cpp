@@ -9,16 +9,22 @@
 
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/mesh_view.h"
 #include "meshbound/stop_token.h"
 
 namespace meshbound {
 namespace {
+
+/// A result holds an error for each number up to the largest.
+constexpr std::size_t max_group = 1 << 24;
 
 /// By how much the pose stretches a length at most.
 double stretch_of(const ViewInstance& instance, std::size_t number, std::size_t models) {
   const std::string where = "instance " + std::to_string(number);
   if (instance.model >= models) throw InvalidInput(where + ": there is no model " + std::to_string(instance.model));
   if (!instance.pose.matrix().allFinite()) throw InvalidInput(where + ": its pose has an entry that is not finite");
+  if (instance.group && *instance.group > max_group)
+    throw InvalidInput(where + ": groups are numbered up to " + std::to_string(max_group));
   return Eigen::JacobiSVD<Eigen::Matrix3d>(instance.pose.linear()).singularValues()[0] * (1 + 1e-9);
 }
 
@@ -44,7 +50,10 @@ class Needs {
         std::span<const ViewCamera> cameras, double pixels)
       : instances_(instances.size()) {
     std::vector<Eigen::AlignedBox3d> boxes;
-    for (const TriangleMesh& model : models) boxes.push_back(used_bounding_box(model));
+    for (const TriangleMesh& model : models) {
+      validate(model);
+      boxes.push_back(used_bounding_box(model));
+    }
     for (std::size_t i = 0; i < instances.size(); ++i) stretches_.push_back(stretch_of(instances[i], i, models.size()));
     for (const ViewCamera& camera : cameras)
       for (std::size_t i = 0; i < instances.size(); ++i) {

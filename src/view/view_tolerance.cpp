@@ -27,6 +27,8 @@ double view_tolerance(const ViewCamera& camera, double pixels, const Eigen::Alig
   if (!(length > 0) || !std::isfinite(length)) throw InvalidInput("the direction of a camera must have a length");
   if (!(camera.aspect_ratio > 0) || !std::isfinite(camera.aspect_ratio))
     throw InvalidInput("the aspect ratio of a camera must be positive");
+  if (!camera.position.allFinite()) throw InvalidInput("the position of a camera has a coordinate that is not finite");
+  if (!pose.matrix().allFinite()) throw InvalidInput("a pose has an entry that is not finite");
   const double at_one = screen_space_tolerance(camera.screen, pixels, 1) * cosine_to_corner(camera);
   double nearest = std::numeric_limits<double>::infinity(), furthest = -nearest, size = 0;
   for (int corner = 0; corner < 8; ++corner) {

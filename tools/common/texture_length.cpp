@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "common/texture_length.h"
 
+#include <cmath>
+
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
+
+double TextureLength::in_model_units(double diagonal, double texel_length) const {
+  if (!is_in_texels) return length.in_model_units(diagonal);
+  if (!(texel_length > 0) || !std::isfinite(texel_length))
+    throw InvalidInput(
+        "no triangle has an area on the surface and in the texture, so a texel has no size there; give a length");
+  return texels * texel_length;
+}
 
 TextureLength parse_texture_length(const std::string& option, const std::string& text, bool has_texture_size) {
   for (const std::string unit : {"texels", "texel"}) {

@@ -12,10 +12,8 @@ struct TextureLength {
   double texels = 0;
   bool is_in_texels = false;
 
-  /// `texel_length` as the function of that name gives it.
-  [[nodiscard]] double in_model_units(double diagonal, double texel_length) const {
-    return is_in_texels ? texels * texel_length : length.in_model_units(diagonal);
-  }
+  /// `texel_length` as the function of that name gives it. Throws `InvalidInput` where a texel has no size.
+  [[nodiscard]] double in_model_units(double diagonal, double texel_length) const;
 };
 
 /// Throws `InvalidInput`, naming `option`, for text that is neither a length nor a number of texels, and for texels

@@ -5,6 +5,7 @@
 
 #include "distance/levels/level_surface.h"
 #include "distance/symmetric.h"
+#include "distance/unfinished.h"
 
 namespace meshbound {
 namespace {
@@ -49,12 +50,19 @@ struct LevelChecker::Impl {
     return next;
   }
 
-  /// Returns search(tree, memory). What is known is replaced only when nothing threw.
-  template <class Search>
-  auto with_level(const MeshView& level, int threads, Search&& search) {
-    const Bvh tree(level, {.threads = threads});
-    Known next = inherit(tree.data(), level);
-    auto result = search(tree, HausdorffMemory{&next.from_original, &next.from_level});
+  /// Returns search(tree, options for it, memory), or `unfinished` where the time is over before there is a tree. What
+  /// is known is replaced only when nothing threw.
+  template <class Result, class Search>
+  Result with_level(const MeshView& level, const DistanceOptions& options, Result unfinished, const Search& search) {
+    const StopToken stop = stop_of_trees(options, StopToken::Clock::now());
+    std::optional<Bvh> tree;
+    try {
+      tree.emplace(level, BvhOptions{.threads = options.threads, .stop = stop});
+    } catch (const Stopped&) {
+      return unfinished;
+    }
+    Known next = inherit(tree->data(), level);
+    Result result = search(*tree, after_trees(options, stop), HausdorffMemory{&next.from_original, &next.from_level});
     known = std::move(next);
     return result;
   }
@@ -72,15 +80,17 @@ LevelChecker& LevelChecker::operator=(LevelChecker&&) noexcept = default;
 LevelChecker::~LevelChecker() = default;
 
 ToleranceCheck LevelChecker::check(const MeshView& level, double tolerance, const DistanceOptions& options) {
-  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const HausdorffMemory& memory) {
-    return check_tolerance(*impl_->original, tree, tolerance, options, memory);
-  });
+  return impl_->with_level(level, options, unfinished_check(tolerance),
+                           [&](const Bvh& tree, const DistanceOptions& rest, const HausdorffMemory& memory) {
+                             return check_tolerance(*impl_->original, tree, tolerance, rest, memory);
+                           });
 }
 
 HausdorffDistance LevelChecker::measure(const MeshView& level, const DistanceOptions& options) {
-  return impl_->with_level(level, options.threads, [&](const Bvh& tree, const HausdorffMemory& memory) {
-    return hausdorff_distance(*impl_->original, tree, options, memory);
-  });
+  return impl_->with_level(level, options, unfinished_distance(),
+                           [&](const Bvh& tree, const DistanceOptions& rest, const HausdorffMemory& memory) {
+                             return hausdorff_distance(*impl_->original, tree, rest, memory);
+                           });
 }
 
 const Bvh& LevelChecker::original() const { return *impl_->original; }

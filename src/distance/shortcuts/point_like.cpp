@@ -46,7 +46,7 @@ OneSidedDistance distance_to_point_like(const PlacedModel& placed_a, const Place
   // of them, their difference and its length make 28. The diagonal of B, stretched by what a pose may drift (below
   // 2^-29; 1e-9 is refused elsewhere), bounds how far B reaches from one of its own vertices.
   const double size_of_b = b.diagonal * (1 + 0x1p-28);
-  const double slack = 64 * unit_roundoff * reach + size_of_b;
+  const double slack = 64 * unit_roundoff * reach + size_of_b + 0x1p-1070;  // 9 products of a pose may underflow
   result.bounds = {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)};
   result.witness.from = {WorldPoint(placed_a, a.vertices[farthest]).at,
                          a.triangle_of_slot[slot_using_vertex(a, farthest)]};

@@ -6,6 +6,7 @@
 #include "distance/shortcuts/triangle_table.h"
 #include "mesh/mesh_arrays.h"
 #include "meshbound/distance.h"
+#include "numeric/rounding.h"
 
 namespace meshbound {
 namespace {
@@ -99,12 +100,14 @@ OneSidedDistance zero_distance(const MeshView& from, const MeshView& to) {
 }  // namespace
 
 bool same_surface(const MeshView& a, const MeshView& b) {
+  check_floating_point_model();
   validate(a);
   validate(b);
   return a.triangle_count() == b.triangle_count() && (same_arrays(a, b) || same_sets(a, b));
 }
 
 std::optional<HausdorffDistance> distance_without_trees(const MeshView& a, const MeshView& b, double limit) {
+  check_floating_point_model();
   if (a.triangle_count() != b.triangle_count()) return std::nullopt;  // without a look, which would take long
   validate(a);
   validate(b);
