@@ -2,7 +2,10 @@
 // Distances of posed models where rounding weighs most, against rational arithmetic.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "meshbound/distance.h"
 #include "reference/exact_intersection.h"
@@ -43,32 +46,57 @@ TEST(Poses, ThatCancelLargeCoordinatesLeaveTheDistanceInTheInterval) {
   }
 }
 
-/// Where coordinates are a few steps of the smallest double, each product of a pose is off by half a step.
+using reference::ExactVector;
+
+mpq_class dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+ExactVector operator-(const ExactVector& a, const ExactVector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+mpq_class squared_distance_to_segment(const ExactVector& p, const ExactVector& a, const ExactVector& b) {
+  const ExactVector edge = b - a, way = p - a;
+  mpq_class share = dot(edge, edge) == 0 ? mpq_class(0) : mpq_class(dot(way, edge) / dot(edge, edge));
+  share = std::clamp(share, mpq_class(0), mpq_class(1));
+  return dot(way, way) - 2 * share * dot(way, edge) + share * share * dot(edge, edge);
+}
+
+mpq_class squared_distance_to_triangle(const ExactVector& p, const std::array<ExactVector, 3>& t) {
+  mpq_class best = std::min({squared_distance_to_segment(p, t[0], t[1]), squared_distance_to_segment(p, t[1], t[2]),
+                             squared_distance_to_segment(p, t[2], t[0])});
+  const ExactVector u = t[1] - t[0], v = t[2] - t[0], way = p - t[0];
+  const mpq_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), pu = dot(way, u), pv = dot(way, v);
+  const mpq_class area = uu * vv - uv * uv;
+  if (area == 0) return best;
+  const mpq_class s = (vv * pu - uv * pv) / area, r = (uu * pv - uv * pu) / area;
+  if (s < 0 || r < 0 || s + r > 1) return best;
+  return dot(way, way) - s * pu - r * pv;
+}
+
+/// Where coordinates are a few hundred steps of the smallest double, each product of a pose is off by half a step.
 TEST(Poses, OfTheSmallestModelsLeaveTheDistanceInTheInterval) {
   constexpr double step = 0x1p-1074;
-  for (int i = 1; i < 400; ++i) {
-    Eigen::Isometry3d pose_a(Eigen::AngleAxisd(0.37 * i, Vector3d(3, 1, i % 7).normalized()));
-    Eigen::Isometry3d pose_b(Eigen::AngleAxisd(0.2 * i, Vector3d(1, 2, 3).normalized()));
-    pose_a.translation() = step * Vector3d(i % 50, 7, -13);
-    pose_b.translation() = step * Vector3d(3, i % 31, -20);
-    const std::array<Vector3d, 3> b = {step * Vector3d(i % 11 + 20, 10, 3), step * Vector3d(i % 11 + 28, 10, 5),
-                                       step * Vector3d(i % 11 + 20, 19, 2)};
-    // Beyond the first corner of B, which is the nearest point then.
-    const Vector3d away = (b[0] / step - b[1] / step) + (b[0] / step - b[2] / step);
-    const Vector3d there = pose_b * Vector3d(b[0] / step + 10 * away);
-    const Vector3d p = (pose_a.inverse() * there).array().round().matrix() * step;
-    const Bvh tree_a(reference::single_triangle(p, p, p)), tree_b(reference::single_triangle(b[0], b[1], b[2]));
-    for (const bool point_first : {true, false}) {
-      const PlacedModel model_a{tree_a, pose_a}, model_b{tree_b, pose_b};
-      const Bounds found = point_first ? one_sided_hausdorff_distance(model_a, model_b).bounds
-                                       : one_sided_hausdorff_distance(model_b, model_a).bounds;
-      mpq_class squared = squared_distance(p, pose_a, b[0], pose_b);
-      for (const Vector3d& corner : b)
-        if (!point_first) squared = std::max(squared, squared_distance(p, pose_a, corner, pose_b));
-      EXPECT_GE(reference::compare_root(squared, found.lower), 0) << i << ' ' << found.lower / step;
-      EXPECT_LE(reference::compare_root(squared, found.upper), 0) << i << ' ' << found.upper / step;
-      EXPECT_LE(found.upper - found.lower, 2000 * step);
-    }
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<int> steps(-100, 100);
+  const auto corner = [&] { return Vector3d(step * steps(random), step * steps(random), step * steps(random)); };
+  const auto pose = [&] {
+    Eigen::Quaterniond turn(normal(random), normal(random), normal(random), normal(random));
+    Eigen::Isometry3d result(turn.normalized());
+    result.translation() = corner();
+    return result;
+  };
+  for (int i = 0; i < 300; ++i) {
+    const std::array<TriangleMesh, 2> meshes{reference::single_triangle(corner(), corner(), corner()),
+                                             reference::single_triangle(corner(), corner(), corner())};
+    const std::array<Eigen::Isometry3d, 2> poses{pose(), pose()};
+    std::array<std::array<ExactVector, 3>, 2> images;
+    for (std::size_t m = 0; m < 2; ++m)
+      for (std::size_t k = 0; k < 3; ++k) images[m][k] = reference::exact_image(poses[m], meshes[m].vertices[k]);
+    mpq_class farthest = 0;  // one of the corners: the distance to a triangle is convex
+    for (const ExactVector& p : images[0]) farthest = std::max(farthest, squared_distance_to_triangle(p, images[1]));
+    const Bvh a(meshes[0]), b(meshes[1]);
+    const Bounds found = one_sided_hausdorff_distance({a, poses[0]}, {b, poses[1]}).bounds;
+    EXPECT_GE(reference::compare_root(farthest, found.lower), 0) << i << ' ' << found.lower / step;
+    EXPECT_LE(reference::compare_root(farthest, found.upper), 0) << i << ' ' << found.upper / step;
+    EXPECT_LE(found.upper - found.lower, 3000 * step);
   }
 }
 
