@@ -112,7 +112,10 @@ TEST(ObjAttributes, AreReadAndWrittenAgain) {
   EXPECT_EQ(a.material_libraries, std::vector<std::string>{"one.mtl two.mtl"});
   EXPECT_EQ(a.materials.names, (std::vector<std::string>{"red", "blue"}));
   EXPECT_EQ(a.materials.index, (std::vector<std::uint32_t>{0, 0, 1, 1}));
-  EXPECT_EQ(a.groups.names, (std::vector<std::string>{"o quad", "g side a"}));
+  EXPECT_EQ(a.groups.names, std::vector<std::string>{"side a"});
+  EXPECT_EQ(a.objects.names, std::vector<std::string>{"quad"});
+  EXPECT_EQ(a.objects.index, (std::vector<std::uint32_t>{0, 0, 0, 0}));
+  EXPECT_EQ(a.groups.index, (std::vector<std::uint32_t>{none, none, 0, 0}));
   EXPECT_EQ(a.texture_coordinates.index,
             (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {none, none, 2}, {none, none, none}}));
   EXPECT_EQ(a.normals.index, (std::vector<Triangle>{{0, 0, 0}, {0, 0, 0}, {1, 1, none}, {none, none, none}}));
@@ -129,6 +132,25 @@ TEST(ObjAttributes, AreReadAndWrittenAgain) {
   EXPECT_EQ(read_mesh(folder / "in.obj").dropped.texture_coordinates, 4U);
 }
 
+/// Objects may have a group of the same name each: both names are those of a triangle.
+TEST(ObjAttributes, ObjectsAndTheirGroupsComeBack) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "in.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\no A\ng x\nf 1 3 4\n"
+                                      "g y\nf 1 2 4\no B\ng x\nf 2 3 4\no C\nf 4 3 2\n";
+  const MeshFile from = read_with_attributes(folder / "in.obj");
+  write_with_attributes(folder / "out.obj", from.mesh, from.attributes);
+  for (const MeshFile& file : {from, read_with_attributes(folder / "out.obj")}) {
+    EXPECT_EQ(file.dropped, DroppedAttributes{});
+    EXPECT_EQ(file.attributes.objects.names, (std::vector<std::string>{"A", "B", "C"}));
+    EXPECT_EQ(file.attributes.objects.index, (std::vector<std::uint32_t>{none, 0, 0, 1, 2}));
+    EXPECT_EQ(file.attributes.groups.names, (std::vector<std::string>{"x", "y"}));
+    EXPECT_EQ(file.attributes.groups.index, (std::vector<std::uint32_t>{none, 0, 1, 0, 0}));
+  }
+  DroppedAttributes lost;
+  EXPECT_TRUE(carried_by(FileFormat::Ply, from.attributes, lost).empty());
+  EXPECT_EQ(lost, (DroppedAttributes{.groups = 3 + 2}));
+}
+
 TEST(ObjAttributes, NamesMayHoldSignsOfComments) {
   const test::TemporaryFolder folder;
   std::ofstream(folder / "in.obj") << "mtllib a #1.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -137,7 +159,7 @@ TEST(ObjAttributes, NamesMayHoldSignsOfComments) {
   const MeshAttributes a = read_with_attributes(folder / "in.obj").attributes;
   EXPECT_EQ(a.material_libraries, std::vector<std::string>{"a #1.mtl"});
   EXPECT_EQ(a.materials.names, (std::vector<std::string>{"Material #25", "Material #26"}));
-  EXPECT_EQ(a.groups.names, std::vector<std::string>{"g #2"});
+  EXPECT_EQ(a.groups.names, std::vector<std::string>{"#2"});
   EXPECT_EQ(a.smoothing_groups.names, std::vector<std::string>{"1"});
   EXPECT_EQ(read_mesh(folder / "in.obj").dropped.materials, 2U);
 }

@@ -164,7 +164,7 @@ TEST_F(ReadGltf, CollectsAttributesByName) {
   const MeshAttributes& a = found.attributes;
   EXPECT_EQ(found.rest_pose_parts, 1U);
   EXPECT_EQ(a.materials.names, std::vector<std::string>{"red_brick"});
-  EXPECT_EQ(a.groups.names, std::vector<std::string>{"o square"});
+  EXPECT_EQ(a.objects.names, std::vector<std::string>{"square"});
   EXPECT_EQ(a.texture_coordinates.values[2], Eigen::Vector3d(1, 0.25, 0)) << "v grows upwards";
   EXPECT_LT((a.normals.values[0] - Eigen::Vector3d(0, -1, 0)).norm(), 1e-14);
   EXPECT_EQ(a.part, (std::vector<std::uint32_t>{0, 0}));

@@ -71,7 +71,8 @@ struct MeshAttributes {
   TexturePrecision texture_precision = TexturePrecision::Double;  ///< of the file they are read from or made for
   CornerAttribute normals;                                        ///< in the frame of the mesh
   TriangleLabels materials;                                       ///< names of `usemtl` (OBJ) and of materials (glTF)
-  TriangleLabels groups;                                          ///< whole statements `g ...` and `o ...` (OBJ)
+  TriangleLabels objects;                                         ///< what follows `o` (OBJ); names of meshes (glTF)
+  TriangleLabels groups;                                          ///< what follows `g` (OBJ)
   TriangleLabels smoothing_groups;                                ///< what follows `s` (OBJ)
   std::vector<std::string> material_libraries;                    ///< file names of `mtllib` (OBJ)
   std::vector<NamedAttribute> named;                              ///< all others, each name once
@@ -81,7 +82,7 @@ struct MeshAttributes {
 
   /// Whether there are none at all.
   [[nodiscard]] bool empty() const {
-    return texture_coordinates.empty() && normals.empty() && materials.empty() && groups.empty() &&
+    return texture_coordinates.empty() && normals.empty() && materials.empty() && objects.empty() && groups.empty() &&
            smoothing_groups.empty() && material_libraries.empty() && named.empty() && document == nullptr;
   }
 };

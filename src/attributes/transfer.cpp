@@ -122,6 +122,7 @@ class Transfer {
     result.material_libraries = from_.material_libraries;
     result.document = from_.document;
     result.materials = labels(from_.materials);
+    result.objects = labels(from_.objects);
     result.groups = labels(from_.groups);
     result.smoothing_groups = labels(from_.smoothing_groups);
     result.part = by_source_triangle(from_.part);

@@ -55,6 +55,7 @@ void check_attributes(const MeshAttributes& attributes, std::size_t triangles) {
     check.corners(named.index, named.values.size() / named.width, "values of " + named.name);
   }
   check.labels(attributes.materials.index, attributes.materials.names.size(), "materials");
+  check.labels(attributes.objects.index, attributes.objects.names.size(), "objects");
   check.labels(attributes.groups.index, attributes.groups.names.size(), "groups");
   check.labels(attributes.smoothing_groups.index, attributes.smoothing_groups.names.size(), "smoothing groups");
   const SceneLayout* const layout = scene_layout(attributes);

@@ -13,7 +13,7 @@ namespace {
 struct Carried {
   bool texture_coordinates = false, normals = false, colours = false, scalars = false;
   bool materials = false;
-  bool groups = false;  ///< smoothing groups, too
+  bool groups = false;  ///< objects and smoothing groups, too
   bool document = false;
   TexturePrecision texture_precision = TexturePrecision::Double;
 };
@@ -96,7 +96,8 @@ MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedA
   if (loses_libraries) lost.materials += attributes.material_libraries.size();
   attributes.material_libraries.clear();
   std::size_t known_to_document = 0;
-  drop(attributes.groups, attributes.document ? known_to_document : lost.groups);
+  drop(attributes.objects, attributes.document ? known_to_document : lost.groups);
+  drop(attributes.groups, lost.groups);
   drop(attributes.smoothing_groups, lost.smoothing_groups);
   return attributes;
 }

@@ -73,15 +73,15 @@ void GltfAttributes::add_material(const std::string& name) {
   names.push_back(std::move(unique));
 }
 
-std::uint32_t GltfAttributes::add_group(const GltfValue& mesh, std::size_t number) {
-  all_.groups.names.push_back("o " + name_or(mesh, "mesh_" + std::to_string(number)));
-  return static_cast<std::uint32_t>(all_.groups.names.size() - 1);
+std::uint32_t GltfAttributes::add_object(const GltfValue& mesh, std::size_t number) {
+  all_.objects.names.push_back(name_or(mesh, "mesh_" + std::to_string(number)));
+  return static_cast<std::uint32_t>(all_.objects.names.size() - 1);
 }
 
 void GltfAttributes::begin_primitive(const GltfValue& primitive, const NodePlacement& placement, std::uint32_t part,
-                                     std::uint32_t group, std::size_t vertices) {
+                                     std::uint32_t object, std::size_t vertices) {
   part_ = part;
-  group_ = group;
+  object_ = object;
   const auto material = primitive.find("material");
   material_ = material ? static_cast<std::uint32_t>(material->index(material_count_, "materials")) : no_value;
   texture_coordinates_ = normals_ = no_value;
@@ -173,7 +173,7 @@ void GltfAttributes::add_triangle(const Triangle& corners) {
   all_.normals.index.push_back(numbers(normals_));
   for (std::size_t i = 0; i < all_.named.size(); ++i) all_.named[i].index.push_back(numbers(named_[i]));
   all_.materials.index.push_back(material_);
-  all_.groups.index.push_back(group_);
+  all_.objects.index.push_back(object_);
   all_.part.push_back(part_);
 }
 

@@ -37,9 +37,9 @@ class GltfAttributes {
 
   /// Starts primitive number `part` of the placed mesh: the triangles added from here on belong to it.
   void begin_primitive(const GltfValue& primitive, const NodePlacement& placement, std::uint32_t part,
-                       std::uint32_t group, std::size_t vertices);
-  /// Adds a group named after the mesh and returns its number.
-  [[nodiscard]] std::uint32_t add_group(const GltfValue& mesh, std::size_t number);
+                       std::uint32_t object, std::size_t vertices);
+  /// Adds an object named after the mesh and returns its number.
+  [[nodiscard]] std::uint32_t add_object(const GltfValue& mesh, std::size_t number);
   /// Adds a triangle of the current primitive; corners are indices of the primitive's vertices.
   void add_triangle(const Triangle& corners);
 
@@ -65,7 +65,7 @@ class GltfAttributes {
   // Per attribute, the number of the value of the primitive's first vertex; `none` where the primitive lacks it.
   std::uint32_t texture_coordinates_ = CornerAttribute::none, normals_ = CornerAttribute::none;
   std::vector<std::uint32_t> named_;
-  std::uint32_t material_ = CornerAttribute::none, part_ = 0, group_ = 0;
+  std::uint32_t material_ = CornerAttribute::none, part_ = 0, object_ = 0;
 };
 
 /// Adds what `GltfAttributes` would collect from a primitive to the counts of what is dropped.

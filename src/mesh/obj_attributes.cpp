@@ -59,7 +59,8 @@ void ObjAttributes::Labels::set(std::string name) {
 
 void ObjAttributes::set_label(std::string_view keyword, std::string_view argument) {
   if (keyword == "usemtl" && !argument.empty()) materials_.set(std::string(argument));
-  if (keyword == "g" || keyword == "o") groups_.set(std::string(keyword).append(" ").append(argument));
+  if (keyword == "o") objects_.set(std::string(argument));
+  if (keyword == "g") groups_.set(std::string(argument));
   if (keyword == "s" && !argument.empty()) smoothing_groups_.set(argument == "0" ? "off" : std::string(argument));
   if (keyword == "mtllib" && !argument.empty()) attributes_.material_libraries.emplace_back(argument);
 }
@@ -80,6 +81,7 @@ void ObjAttributes::end_polygon() {
     attributes_.texture_coordinates.index.push_back(texture);
     attributes_.normals.index.push_back(normal);
     materials_.all.index.push_back(materials_.current);
+    objects_.all.index.push_back(objects_.current);
     groups_.all.index.push_back(groups_.current);
     smoothing_groups_.all.index.push_back(smoothing_groups_.current);
   }
@@ -89,6 +91,7 @@ MeshAttributes ObjAttributes::finish(const std::vector<Triangle>& triangles, Dro
   check_indices(attributes_.texture_coordinates);
   check_indices(attributes_.normals);
   if (!materials_.all.names.empty()) attributes_.materials = std::move(materials_.all);
+  if (!objects_.all.names.empty()) attributes_.objects = std::move(objects_.all);
   if (!groups_.all.names.empty()) attributes_.groups = std::move(groups_.all);
   const auto is_off = [](const std::string& name) { return name == "off"; };
   const std::vector<std::string>& smoothing = smoothing_groups_.all.names;

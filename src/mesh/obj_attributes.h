@@ -44,7 +44,7 @@ class ObjAttributes {
   MeshAttributes attributes_;
   void take_colours(const std::vector<Triangle>& triangles);
 
-  Labels materials_, groups_, smoothing_groups_;
+  Labels materials_, objects_, groups_, smoothing_groups_;
   std::vector<std::uint32_t> colour_of_;  ///< by vertex, up to the last one that has a colour
   NamedAttribute colours_{.name = "COLOR_0", .width = 3};
   std::vector<Corner> corners_;

@@ -79,7 +79,7 @@ class GltfReader {
     vertex_of_.clear();
     welder_ = Welder();
     first_vertex_ = static_cast<std::uint32_t>(assembler_.vertex_count());
-    const std::uint32_t group = attributes_ ? attributes_->add_group(mesh, mesh_number) : 0;
+    const std::uint32_t object = attributes_ ? attributes_->add_object(mesh, mesh_number) : 0;
     const GltfValue primitives = mesh.at("primitives");
     for (std::uint32_t i = 0; i < primitives.size(); ++i) {
       const GltfValue primitive = primitives.item(i);
@@ -87,12 +87,12 @@ class GltfReader {
       if (mode < GltfMode::triangles || mode > GltfMode::fan || !primitive.at("attributes").find("POSITION"))
         assembler_.ignore_element();
       else
-        read_primitive(primitive, mode, number, i, group);
+        read_primitive(primitive, mode, number, i, object);
     }
   }
 
   void read_primitive(const GltfValue& primitive, std::size_t mode, std::uint32_t placed, std::uint32_t number,
-                      std::uint32_t group) {
+                      std::uint32_t object) {
     const GltfValue where = primitive.at("attributes").at("POSITION");
     const std::size_t accessor = where.index(root_.count("accessors"), "accessors");
     const GltfAccessor& positions = accessors_.at(accessor);
@@ -100,8 +100,8 @@ class GltfReader {
     const NodePlacement placement = document_->placed[placed].placement;
     document_->parts.push_back({placed, number});
     if (attributes_)
-      attributes_->begin_primitive(primitive, placement, static_cast<std::uint32_t>(document_->parts.size() - 1), group,
-                                   positions.count);
+      attributes_->begin_primitive(primitive, placement, static_cast<std::uint32_t>(document_->parts.size() - 1),
+                                   object, positions.count);
     else
       count_attributes(primitive, positions.count, assembler_.dropped());
     if (document_->placed[placed].has_skin || primitive.count("targets") > 0) ++rest_pose_parts_;

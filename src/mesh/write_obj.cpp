@@ -21,12 +21,26 @@ void put_values(AtomicFile& file, const MeshAttributes& attributes) {
   }
 }
 
-/// Writes the label of triangle t where it differs from that of the triangle before.
+/// Whether triangle t has a label, and another one than the triangle before.
+bool begins_label(const TriangleLabels& labels, std::size_t t) {
+  return !labels.empty() && labels.index[t] != no_value && (t == 0 || labels.index[t - 1] != labels.index[t]);
+}
+
 void put_label(AtomicFile& file, const TriangleLabels& labels, std::size_t t, const char* keyword) {
-  if (labels.empty() || labels.index[t] == no_value || (t > 0 && labels.index[t - 1] == labels.index[t])) return;
+  if (labels.empty() || labels.index[t] == no_value) return;
   file.write(keyword);
   file.write(name_on_a_line(labels.names[labels.index[t]]));
   file.write("\n");
+}
+
+/// Writes the labels of triangle t that differ from those of the triangle before. The group is repeated behind a new
+/// object, for readers to whom a group ends with its object.
+void put_labels(AtomicFile& file, const MeshAttributes& attributes, std::size_t t) {
+  const bool begins_object = begins_label(attributes.objects, t);
+  if (begins_object) put_label(file, attributes.objects, t, "o ");
+  if (begins_object || begins_label(attributes.groups, t)) put_label(file, attributes.groups, t, "g ");
+  if (begins_label(attributes.smoothing_groups, t)) put_label(file, attributes.smoothing_groups, t, "s ");
+  if (begins_label(attributes.materials, t)) put_label(file, attributes.materials, t, "usemtl ");
 }
 
 /// Writes v, v/vt, v//vn or v/vt/vn, and then `after`.
@@ -72,9 +86,7 @@ void write_obj(AtomicFile& file, const TriangleMesh& mesh, const MeshAttributes&
     return attribute.empty() ? no_value : attribute.index[t][k];
   };
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    put_label(file, attributes.groups, t, "");
-    put_label(file, attributes.smoothing_groups, t, "s ");
-    put_label(file, attributes.materials, t, "usemtl ");
+    put_labels(file, attributes, t);
     file.write("f ");
     for (std::size_t k = 0; k < 3; ++k)
       put_corner(file, triangles[t][k], value(attributes.texture_coordinates, t, k), value(attributes.normals, t, k),
