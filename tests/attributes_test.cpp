@@ -216,7 +216,7 @@ TEST(PlyAttributes, NamesAreWords) {
   const std::vector<NamedAttribute> again = read_with_attributes(folder / "out.ply").attributes.named;
   ASSERT_EQ(again.size(), 1U);
   EXPECT_EQ(again[0].name, "_wet_ness_");
-  for (const double value : again[0].values) EXPECT_EQ(value, 0.5);
+  EXPECT_EQ(again[0].values, std::vector<double>(9, 0.5)) << "each vertex has its own";
 }
 
 TEST(ObjAttributes, WithoutAValueAreNone) {

@@ -106,12 +106,100 @@ TEST_F(Colours, OfOffVerticesAndFacesComeBack) {
   EXPECT_EQ(at(faces.attributes, "COLOR_0", 0, 2), (std::vector<double>{0.5, 0.25, 1, 1}));
   EXPECT_EQ(at(faces.attributes, "COLOR_0", 1, 0), std::vector<double>{});
   EXPECT_EQ(at(written("d.off", faces).attributes, "COLOR_0", 1, 0), (std::vector<double>{1, 1, 1, 1}));
+  for (const bool ascii : {false, true})
+    EXPECT_EQ(at(written("d.ply", faces, {.ascii = ascii}).attributes, "COLOR_0", 1, 0),
+              (std::vector<double>{1, 1, 1, 1}));
   const MeshFile index = read("e.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 17\n");
   EXPECT_TRUE(index.attributes.empty());
   EXPECT_EQ(index.dropped.colours, 1U) << "the index of a table that is not there";
   EXPECT_EQ(read("f.off", "STCOFF\n3 1 0\n0 0 0 1 1 1 1 0 0\n1 0 0 1 1 1 1 0 0\n1 1 0 1 1 1 1 0 0\n3 0 1 2\n")
                 .dropped.texture_coordinates,
             3U);
+}
+
+/// A triangle with these properties of its vertices, of which each has `numbers`, and of its face.
+std::string ply_triangle(const std::string& of_vertices, const std::string& numbers, const std::string& of_faces,
+                         const std::string& numbers_of_face) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+         of_vertices + "element face 1\nproperty list uchar int vertex_indices\n" + of_faces + "end_header\n0 0 0 " +
+         numbers + "\n1 0 0 " + numbers + "\n0 1 0 " + numbers + "\n3 0 1 2 " + numbers_of_face + "\n";
+}
+
+const std::string rgb = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+const std::string st = "property float s\nproperty float t\n";
+const std::string uv_list = "property list uchar float texcoord\n";
+
+TEST_F(Colours, OfFacesAreCountedAsDroppedWhereVerticesHaveSome) {
+  const MeshFile colours = read("a.ply", ply_triangle(rgb, "255 0 0", rgb, "0 0 255"));
+  EXPECT_EQ(colours.dropped, DroppedAttributes{.colours = 1});
+  EXPECT_EQ(at(colours.attributes, "COLOR_0", 0, 0), (std::vector<double>{1, 0, 0}));
+  const MeshFile texture = read("b.ply", ply_triangle(st, "0.5 0.5", uv_list, "6 0 0 1 0 0 1"));
+  EXPECT_EQ(texture.dropped, DroppedAttributes{.texture_coordinates = 3});
+  const CornerAttribute& uv = texture.attributes.texture_coordinates;
+  EXPECT_EQ(uv.values[uv.index[0][1]], Eigen::Vector3d(0.5, 0.5, 0));
+  EXPECT_EQ(read("c.ply", ply_triangle("", "", uv_list, "4 0 0 1 0")).dropped,
+            DroppedAttributes{.texture_coordinates = 2})
+      << "a list that does not fit the corners";
+}
+
+TEST_F(Colours, ThatAFileGivesTwiceAreTheFirst) {
+  const std::string diffuse = "property uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\n";
+  for (const MeshFile& file : {read("a.ply", ply_triangle(rgb + diffuse, "255 0 0 0 0 255", "", "")),
+                               read("b.ply", ply_triangle("", "", rgb + diffuse, "255 0 0 0 0 255"))}) {
+    EXPECT_EQ(file.dropped.colours, file.attributes.named[0].values.size() / 3);
+    EXPECT_EQ(at(file.attributes, "COLOR_0", 0, 2), (std::vector<double>{1, 0, 0}));
+  }
+  const MeshFile texture =
+      read("c.ply", ply_triangle(st + "property float texture_u\nproperty float texture_v\n", "0 1 0.5 0.5", "", ""));
+  EXPECT_EQ(texture.dropped, DroppedAttributes{.texture_coordinates = 3});
+  EXPECT_EQ(texture.attributes.texture_coordinates.values[0], Eigen::Vector3d(0, 1, 0));
+  const MeshFile heat = read("d.ply", ply_triangle("property float heat\nproperty float heat\n", "7 8", "", ""));
+  EXPECT_EQ(heat.dropped, DroppedAttributes{.other_properties = 1});
+  EXPECT_EQ(at(heat.attributes, "heat", 0, 0), std::vector<double>{7});
+}
+
+/// Faces of a second element may lack the colours of the first, or have an opacity besides.
+TEST_F(Colours, OfFacesBehindStripsAndOtherFacesAreTheirs) {
+  const std::string start =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string vertices = "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const std::string corners = "property list uchar int vertex_indices\n";
+  const MeshFile strip = read("a.ply", start + "element tristrips 1\n" + corners + "element face 1\n" + corners + rgb +
+                                           uv_list + vertices + "4 0 1 3 2\n3 0 1 2 255 0 0 6 0 0 1 0 1 1\n");
+  ASSERT_EQ(strip.mesh.triangles.size(), 3U);
+  const CornerAttribute& uv = strip.attributes.texture_coordinates;
+  for (const std::size_t t : {0U, 1U}) {
+    EXPECT_EQ(at(strip.attributes, "COLOR_0", t, 0), std::vector<double>{});
+    EXPECT_EQ(uv.index[t], (Triangle{none, none, none}));
+  }
+  EXPECT_EQ(at(strip.attributes, "COLOR_0", 2, 0), (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(uv.values[uv.index[2][1]], Eigen::Vector3d(1, 0, 0));
+
+  const std::string faces = "element face 1\n" + corners;
+  const MeshFile three = read("b.ply", start + faces + rgb + faces + faces + rgb + "property uchar alpha\n" + vertices +
+                                           "3 0 1 2 255 0 0\n3 0 2 3\n3 0 1 3 0 0 255 51\n");
+  EXPECT_EQ(at(three.attributes, "COLOR_0", 0, 0), (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ(at(three.attributes, "COLOR_0", 1, 0), std::vector<double>{});
+  EXPECT_EQ(at(three.attributes, "COLOR_0", 2, 0), (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(three.dropped, DroppedAttributes{.colours = 1});
+}
+
+/// Labels have no mean: a vertex of a level takes that of the nearest corner.
+TEST_F(Colours, OfPlyAreNoLabelsWhichStayIntegers) {
+  const std::string labels = "property int label\nproperty uint serial\nproperty float heat\n";
+  const MeshFile from = read("a.ply", ply_triangle(labels, "-20 4000000000 3", "", ""));
+  for (const bool ascii : {false, true}) {
+    const MeshFile back = written("b.ply", from, {.ascii = ascii, .single_precision = true});
+    ASSERT_EQ(back.attributes.named.size(), 3U);
+    for (const MeshFile& file : {from, back}) {
+      EXPECT_EQ(file.attributes.named[0].interpolation, Interpolation::Nearest);
+      EXPECT_EQ(file.attributes.named[1].interpolation, Interpolation::Nearest);
+      EXPECT_EQ(file.attributes.named[2].interpolation, Interpolation::Linear);
+      EXPECT_EQ(at(file.attributes, "label", 0, 2), std::vector<double>{-20});
+      EXPECT_EQ(at(file.attributes, "serial", 0, 2), std::vector<double>{4000000000});
+      EXPECT_EQ(at(file.attributes, "heat", 0, 2), std::vector<double>{3});
+    }
+  }
 }
 
 TEST_F(Colours, AndSmoothingGroupsOfObjComeBack) {

@@ -41,7 +41,8 @@ class MeshAssembler {
   /// Counts of the attributes that the reader skips, for the reader to increase.
   [[nodiscard]] DroppedAttributes& dropped() { return file_.dropped; }
 
-  [[nodiscard]] bool has_triangles() const { return !file_.mesh.triangles.empty(); }  ///< that no sink has taken
+  [[nodiscard]] bool has_triangles() const { return !file_.mesh.triangles.empty(); }        ///< that no sink has taken
+  [[nodiscard]] std::size_t triangle_count() const { return file_.mesh.triangles.size(); }  ///< likewise
   [[nodiscard]] std::size_t vertex_count() const { return vertices_given_ + file_.mesh.vertices.size(); }
 
   /// Returns the mesh, without what the source's sink has taken, and leaves the assembler empty. Throws `InvalidInput`

@@ -11,6 +11,7 @@
 namespace meshbound {
 namespace {
 
+constexpr Triangle no_values = {no_value, no_value, no_value};
 constexpr std::array<std::string_view, 3> coordinate_names = {"x", "y", "z"};
 constexpr std::array<std::string_view, 2> corner_names = {"vertex_indices", "vertex_index"};
 constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
@@ -32,12 +33,6 @@ bool is_geometry(const PlyElement& element, const PlyProperty& property) {
 
 bool is_colour(const PlyProperty& property) { return !property.is_list && contains(colour_names, property); }
 
-/// Whether `PlyAttributes` takes the numbers of a property.
-bool is_collected(const PlyElement& element, const PlyProperty& property) {
-  if (element.name == "vertex") return !property.is_list;
-  return element.name == "face" && is_colour(property);
-}
-
 /// The component of a value that a property holds, by the position of its name in `names`, which lists `width` names
 /// for each way of naming.
 template <std::size_t N>
@@ -45,9 +40,11 @@ std::size_t component_of(const std::array<std::string_view, N>& names, const Ply
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), property.name) - names.begin()) % width;
 }
 
+bool is_integer(PlyType type) { return type != PlyType::Float32 && type != PlyType::Float64; }
+
 /// The number that stands for full intensity of a colour in a property of this type.
 double full_intensity(PlyType type) {
-  if (type == PlyType::Float32 || type == PlyType::Float64) return 1;
+  if (!is_integer(type)) return 1;
   return type == PlyType::UInt16 || type == PlyType::Int16 ? 65535 : 255;
 }
 
@@ -55,16 +52,17 @@ double full_intensity(PlyType type) {
 
 bool lists_texture_coordinates(const PlyProperty& property) { return property.is_list && property.name == "texcoord"; }
 
-void count_attributes(const PlyElement& element, bool but_collected, DroppedAttributes& dropped) {
+void count_attributes(const PlyElement& element, const std::vector<bool>& collected, DroppedAttributes& dropped) {
   if (element.count == 0) return;
   if (element.name == "material") {
     dropped.materials += element.count;
     return;
   }
   bool normals = false, texture = false, colours = false;
-  for (const PlyProperty& property : element.properties) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
     if (is_geometry(element, property) || lists_texture_coordinates(property)) continue;
-    if (but_collected && is_collected(element, property)) continue;
+    if (!collected.empty() && collected[i]) continue;
     if (contains(normal_names, property))
       normals = true;
     else if (contains(texture_names, property))
@@ -79,27 +77,36 @@ void count_attributes(const PlyElement& element, bool but_collected, DroppedAttr
   if (colours) dropped.colours += element.count;
 }
 
-PlyAttributes::Role PlyAttributes::role_of(const PlyProperty& property) {
+PlyAttributes::Role PlyAttributes::role_of(const PlyProperty& property) const {
   if (property.is_list) return {};
   if (contains(texture_names, property)) return {Kind::Texture, component_of(texture_names, property, 2), 1};
   if (contains(normal_names, property)) return {Kind::Normal, component_of(normal_names, property, 3), 1};
   if (contains(colour_names, property))
     return {Kind::Colour, component_of(colour_names, property, 4), full_intensity(property.type)};
-  return {Kind::Scalar, 0, 1};
+  const auto has_name = [&](const NamedAttribute& named) { return named.name == property.name; };
+  const auto known = std::find_if(all_.named.begin(), all_.named.end(), has_name);
+  return {Kind::Scalar, static_cast<std::size_t>(known - all_.named.begin()), 1};
+}
+
+PlyAttributes::Role PlyAttributes::new_role_of(const PlyProperty& property, const std::vector<Role>& given) const {
+  const Role role = role_of(property);
+  const auto is_given = [&](const Role& other) { return other.kind == role.kind && other.component == role.component; };
+  return std::any_of(given.begin(), given.end(), is_given) ? Role{} : role;
 }
 
 void PlyAttributes::begin_vertices(const PlyElement& element) {
   for (const PlyProperty& property : element.properties) {
-    Role role = is_geometry(element, property) ? Role{} : role_of(property);
+    const Role role = is_geometry(element, property) ? Role{} : new_role_of(property, vertex_roles_);
     if (role.kind == Kind::Texture) note_texture(property.type);
     has_texture_ = has_texture_ || role.kind == Kind::Texture;
     has_normals_ = has_normals_ || role.kind == Kind::Normal;
     has_vertex_colours_ = has_vertex_colours_ || role.kind == Kind::Colour;
     if (role.kind == Kind::Colour && role.component == 3) colour_width_ = 4;
     if (role.kind == Kind::Scalar) {
-      role.component = scalars_.size();
       scalars_.push_back(0);
-      all_.named.push_back({.name = property.name});
+      all_.named.push_back(
+          {.name = property.name,
+           .interpolation = is_integer(property.type) ? Interpolation::Nearest : Interpolation::Linear});
     }
     vertex_roles_.push_back(role);
   }
@@ -109,15 +116,27 @@ void PlyAttributes::note_texture(PlyType type) {
   if (type == PlyType::Float32) all_.texture_precision = TexturePrecision::Float;
 }
 
-/// Colours of faces are taken where vertices have none.
 void PlyAttributes::begin_faces(const PlyElement& element) {
+  face_roles_.clear();
+  has_face_colours_ = false;
+  colour_ = {0, 0, 0, 1};
+  const bool can_widen = colours_.values.empty();  // earlier faces may have colours of three numbers
   for (const PlyProperty& property : element.properties) {
-    if (lists_texture_coordinates(property) && !has_texture_) note_texture(property.type);
-    const Role role = is_colour(property) && !has_vertex_colours_ ? role_of(property) : Role{};
+    if (lists_texture_coordinates(property) && wants_texture_lists()) note_texture(property.type);
+    Role role = is_colour(property) && !has_vertex_colours_ ? new_role_of(property, face_roles_) : Role{};
+    if (role.component == 3 && can_widen) colour_width_ = 4;
+    if (role.component == colour_width_) role = {};
     has_face_colours_ = has_face_colours_ || role.kind == Kind::Colour;
-    if (role.kind == Kind::Colour && role.component == 3) colour_width_ = 4;
     face_roles_.push_back(role);
   }
+}
+
+std::vector<bool> PlyAttributes::collected(const PlyElement& element) const {
+  std::vector<bool> result;
+  if (element.name != "vertex" && element.name != "face") return result;
+  for (const Role& role : element.name == "vertex" ? vertex_roles_ : face_roles_)
+    result.push_back(role.kind != Kind::Nothing);
+  return result;
 }
 
 void PlyAttributes::take(const Role& role, double value) {
@@ -151,38 +170,39 @@ void PlyAttributes::end_vertex() {
   for (std::size_t i = 0; i < scalars_.size(); ++i) all_.named[i].values.push_back(scalars_[i]);
 }
 
-void PlyAttributes::end_face(std::size_t corners, const std::vector<double>& texture_coordinates) {
+void PlyAttributes::end_face(std::size_t triangle, std::size_t corners,
+                             const std::vector<double>& texture_coordinates) {
   if (corners < 3) return;
   if (has_face_colours_) {
     const auto colour = static_cast<std::uint32_t>(colours_.values.size() / colour_width_);
     add_colour();
+    colours_.index.resize(triangle, no_values);
     colours_.index.insert(colours_.index.end(), corners - 2, {colour, colour, colour});
   }
-  if (has_texture_) return;
+  if (!wants_texture_lists()) return;
+  corner_texture_.resize(triangle, no_values);
   std::vector<Eigen::Vector3d>& values = all_.texture_coordinates.values;
   const auto first = static_cast<std::uint32_t>(values.size());
   const bool has_coordinates = texture_coordinates.size() == 2 * corners;
   for (std::size_t i = 0; has_coordinates && i < corners; ++i)
     values.emplace_back(texture_coordinates[2 * i], texture_coordinates[2 * i + 1], 0);
   for (std::uint32_t i = 2; i < corners; ++i)
-    corner_texture_.push_back(has_coordinates ? Triangle{first, first + i - 1, first + i}
-                                              : Triangle{no_value, no_value, no_value});
+    corner_texture_.push_back(has_coordinates ? Triangle{first, first + i - 1, first + i} : no_values);
 }
 
 MeshAttributes PlyAttributes::finish(const std::vector<Triangle>& triangles) {
-  const Triangle nothing = {no_value, no_value, no_value};
   if (has_texture_) all_.texture_coordinates.index = triangles;
   if (has_normals_) all_.normals.index = triangles;
   for (NamedAttribute& named : all_.named) named.index = triangles;
   if (!has_texture_ && !all_.texture_coordinates.values.empty()) {
     all_.texture_coordinates.index = std::move(corner_texture_);
-    all_.texture_coordinates.index.resize(triangles.size(), nothing);
+    all_.texture_coordinates.index.resize(triangles.size(), no_values);
   }
-  if (has_vertex_colours_ || has_face_colours_) {
+  if (has_vertex_colours_ || !colours_.values.empty()) {
     colours_.name = "COLOR_0";
     colours_.width = colour_width_;
     if (has_vertex_colours_) colours_.index = triangles;
-    colours_.index.resize(triangles.size(), nothing);
+    colours_.index.resize(triangles.size(), no_values);
     all_.named.push_back(std::move(colours_));
   }
   return std::move(all_);

@@ -36,7 +36,8 @@ class PlyReader {
     reserve();
     for (const PlyElement& element : header_.elements) {
       refuse_count_beyond_file(element);
-      count_attributes(element, source_.with_attributes, assembler_.dropped());
+      if (source_.with_attributes && element.name == "face") attributes_.begin_faces(element);
+      count_attributes(element, attributes_.collected(element), assembler_.dropped());
       read_element(element);
     }
     if (!values_.at_end()) values_.fail("the file goes on after the last element that its header declares");
@@ -53,7 +54,7 @@ class PlyReader {
     std::size_t begin = header_.end;
     for (std::size_t i = 0; i < sizes.size(); begin += header_.elements[i].count * sizes[i], ++i) {
       PlyElement element = header_.elements[i];
-      count_attributes(element, false, assembler_.dropped());
+      count_attributes(element, {}, assembler_.dropped());
       values_.seek(begin + share.begin(element.count) * sizes[i]);
       element.count = share.size(element.count);
       read_element(element);
@@ -146,8 +147,8 @@ class PlyReader {
     if (element.count > 0 && (found != 1 || !list->is_list))
       source_.fail_at_line(element.declared_at, "element " + quote(element.name) +
                                                     " needs exactly one list 'vertex_indices' or 'vertex_index'");
-    if (collects_faces) attributes_.begin_faces(element);
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      const std::size_t triangle = assembler_.triangle_count();
       texture_coordinates_.clear();
       for (std::size_t k = 0; k < element.properties.size(); ++k) {
         const PlyProperty& p = element.properties[k];
@@ -160,12 +161,14 @@ class PlyReader {
         }
       }
       values_.end_element();
-      if (collects_faces) attributes_.end_face(corners_.size(), texture_coordinates_);
+      if (!collects_faces) continue;
+      attributes_.end_face(triangle, corners_.size(), texture_coordinates_);
+      if (texture_coordinates_.size() != 2 * corners_.size()) texture_numbers_ += texture_coordinates_.size();
     }
   }
 
   void read_property_of_face(const PlyProperty& p, std::size_t number, bool collects) {
-    if (collects && lists_texture_coordinates(p)) {
+    if (collects && lists_texture_coordinates(p) && attributes_.wants_texture_lists()) {
       for (std::uint64_t n = list_size(p); n > 0; --n) texture_coordinates_.push_back(values_.real(p.type));
     } else if (collects && attributes_.wants_of_face(number)) {
       attributes_.add_to_face(number, values_.real(p.type));

@@ -15,7 +15,8 @@
 namespace meshbound {
 namespace {
 
-enum class Kind { Double, Float, Byte };
+/// The type of a property. `Byte` holds 255 times a number from 0 to 1.
+enum class Kind { Double, Float, Byte, Int, UInt };
 
 /// A property of the vertices: `numbers` by value, and the value of each vertex.
 struct Column {
@@ -23,7 +24,21 @@ struct Column {
   Kind kind = Kind::Double;
   const std::vector<Triangle>* index = nullptr;
   std::vector<double> values;
+  double missing = 0;  ///< stands where a vertex has no value
 };
+
+bool are_whole(const std::vector<double>& values, double min, double max) {
+  return std::all_of(values.begin(), values.end(),
+                     [&](double x) { return x >= min && x <= max && x == std::trunc(x); });
+}
+
+/// The type for numbers that a vertex has one of each: integers, as labels are, stay integers.
+Kind kind_of(const NamedAttribute& numbers, Kind real) {
+  using Int = std::numeric_limits<std::int32_t>;
+  if (numbers.interpolation != Interpolation::Nearest) return real;
+  if (are_whole(numbers.values, Int::min(), Int::max())) return Kind::Int;
+  return are_whole(numbers.values, 0, std::numeric_limits<std::uint32_t>::max()) ? Kind::UInt : real;
+}
 
 class PlyWriter {
  public:
@@ -61,9 +76,11 @@ class PlyWriter {
       listed_ = &attributes.texture_coordinates;
     for (const NamedAttribute& named : attributes.named) {
       if (&named == colours_of(attributes)) {
-        add_columns(named, {"red", "green", "blue", "alpha"}, holds_bytes(named) ? Kind::Byte : Kind::Float);
+        constexpr double white_and_opaque = 1;
+        add_columns(named, {"red", "green", "blue", "alpha"}, holds_bytes(named) ? Kind::Byte : Kind::Float,
+                    white_and_opaque);
       } else if (named.width == 1) {
-        add_columns(named, {name_as_a_word(named.name)}, real);
+        add_columns(named, {name_as_a_word(named.name)}, kind_of(named, real), 0);
       }
     }
   }
@@ -75,15 +92,15 @@ class PlyWriter {
   void add_columns(const CornerAttribute& attribute, const std::vector<std::string>& names, Kind kind) {
     if (attribute.empty()) return;
     for (std::size_t k = 0; k < names.size(); ++k) {
-      Column& column = columns_.emplace_back(Column{names[k], kind, &attribute.index, {}});
+      Column& column = columns_.emplace_back(Column{names[k], kind, &attribute.index, {}, 0});
       for (const Eigen::Vector3d& value : attribute.values)
         column.values.push_back(value[static_cast<Eigen::Index>(k)]);
     }
   }
 
-  void add_columns(const NamedAttribute& attribute, const std::vector<std::string>& names, Kind kind) {
+  void add_columns(const NamedAttribute& attribute, const std::vector<std::string>& names, Kind kind, double missing) {
     for (std::size_t k = 0; k < std::min(names.size(), attribute.width); ++k) {
-      Column& column = columns_.emplace_back(Column{names[k], kind, &attribute.index, {}});
+      Column& column = columns_.emplace_back(Column{names[k], kind, &attribute.index, {}, missing});
       for (std::size_t i = k; i < attribute.values.size(); i += attribute.width)
         column.values.push_back(attribute.values[i]);
     }
@@ -116,7 +133,7 @@ class PlyWriter {
   }
 
   [[nodiscard]] std::string header() const {
-    static constexpr std::array<const char*, 3> types = {"double", "float", "uchar"};
+    static constexpr std::array<const char*, 5> types = {"double", "float", "uchar", "int", "uint"};
     const bool fits_int = vertex_count() <= std::numeric_limits<std::int32_t>::max();
     std::string header = std::string("ply\nformat ") + (options_.ascii ? "ascii" : "binary_little_endian") +
                          " 1.0\nelement vertex " + std::to_string(vertex_count()) + "\n";
@@ -135,7 +152,7 @@ class PlyWriter {
       write_number(options_.single_precision ? Kind::Float : Kind::Double, p[k], k == 2 && columns_.empty());
     for (const Column& column : columns_) {
       const std::uint32_t value = split_.value(*column.index, v);
-      write_number(column.kind, value == no_value ? 0 : column.values[value], &column == &columns_.back());
+      write_number(column.kind, value == no_value ? column.missing : column.values[value], &column == &columns_.back());
     }
   }
 
@@ -143,11 +160,11 @@ class PlyWriter {
   void write_number(Kind kind, double value, bool is_last) {
     const char after = is_last ? '\n' : ' ';
     if (kind == Kind::Byte) {
-      const auto byte = static_cast<std::uint8_t>(std::lround(255 * value));
-      if (options_.ascii)
-        put(file_, std::uint32_t{byte}, after);
-      else
-        put_little_endian(file_, byte);
+      write_integer(static_cast<std::uint8_t>(std::lround(255 * value)), after);
+    } else if (kind == Kind::Int) {
+      write_integer(static_cast<std::int32_t>(value), after);
+    } else if (kind == Kind::UInt) {
+      write_integer(static_cast<std::uint32_t>(value), after);
     } else if (options_.ascii) {
       put(file_, kind == Kind::Float ? rounded_to_float(value) : value, after);
     } else if (kind == Kind::Float) {
@@ -155,6 +172,14 @@ class PlyWriter {
     } else {
       put_little_endian(file_, value);
     }
+  }
+
+  template <class Integer>
+  void write_integer(Integer value, char after) {
+    if (options_.ascii)
+      put(file_, std::int64_t{value}, after);  // a byte is a number, no character
+    else
+      put_little_endian(file_, value);
   }
 
   void write_triangle(const Triangle& t) {
