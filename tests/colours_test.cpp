@@ -117,6 +117,28 @@ TEST_F(Colours, OfOffVerticesAndFacesComeBack) {
             3U);
 }
 
+/// Red of the first two vertices of a triangle.
+std::vector<double> reds(const MeshFile& file) {
+  return {at(file.attributes, "COLOR_0", 0, 0).at(0), at(file.attributes, "COLOR_0", 0, 1).at(0)};
+}
+
+/// "1 0 0 1" is red where other colours have fractions, and nearly black where they are from 0 to 255.
+TEST_F(Colours, OfOffAreFromZeroToOneOr255InTheWholeFile) {
+  const auto reds_of = [&](const std::string& first, const std::string& second) {
+    return reds(read("a.off", "COFF\n3 1 0\n0 0 0 " + first + "\n1 0 0 " + second + "\n0 1 0 0 0 0\n3 0 1 2\n"));
+  };
+  using Reds = std::vector<double>;
+  EXPECT_EQ(reds_of("1 0 0 1", "0.5 0 0 1"), (Reds{1, 0.5}));
+  EXPECT_EQ(reds_of("1 0 0 1", "1e-1 0 0 1"), (Reds{1, 0.1}));
+  EXPECT_EQ(reds_of("1 0 0 1", "1 1 0 1"), (Reds{1, 1}));
+  EXPECT_EQ(reds_of("1 0 0", "255 0 0"), (Reds{1 / 255.0, 1}));
+  EXPECT_EQ(reds_of("51 0 0 255", "0.5 0 0 1"), (Reds{0.2, 0.5})) << "whole numbers above 1 are of 255 in any file";
+  EXPECT_EQ(at(read("b.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 1 0 0\n3 0 2 3 2 0 0\n").attributes,
+               "COLOR_0", 0, 0),
+            (std::vector<double>{1 / 255.0, 0, 0, 1}))
+      << "opaque, as no number says otherwise";
+}
+
 /// A triangle with these properties of its vertices, of which each has `numbers`, and of its face.
 std::string ply_triangle(const std::string& of_vertices, const std::string& numbers, const std::string& of_faces,
                          const std::string& numbers_of_face) {

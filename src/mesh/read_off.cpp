@@ -58,7 +58,7 @@ std::size_t read_count(TextCursor& cursor, const char* what) {
 /// The numbers from here to the end of the line.
 struct NumbersInLine {
   std::vector<double> values;
-  bool has_point = false;  ///< in one of them: colours are then from 0 to 1, else from 0 to 255
+  bool has_point = false;  ///< or an exponent, in one of them
 };
 
 void read_numbers_in_line(TextCursor& cursor, NumbersInLine& numbers) {
@@ -73,6 +73,10 @@ void read_numbers_in_line(TextCursor& cursor, NumbersInLine& numbers) {
 
 /// Collects the colours of vertices, or of faces where vertices have none. Three or four numbers are a colour; a single
 /// number is an index into a table that no file provides, and is counted as dropped.
+///
+/// Colours are from 0 to 1 in lines with a decimal point or an exponent, and from 0 to 255 in other lines with a number
+/// above 1. Lines of zeros and ones alone are read as the file's other lines: from 0 to 255 if these are without
+/// exception, else from 0 to 1. Writers that leave out the point of whole numbers mean 1 by "1", others 1/255.
 class OffColours {
  public:
   explicit OffColours(DroppedAttributes& dropped) : dropped_(dropped) {}
@@ -93,6 +97,7 @@ class OffColours {
   /// Adds the colours to a mesh with these triangles, if there are any.
   void put_into(MeshAttributes& attributes, const std::vector<Triangle>& triangles) {
     if (values_.empty()) return;
+    scale_undecided();
     NamedAttribute colours{.name = "COLOR_0", .width = width};
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto [a, b, c] = triangles[t];
@@ -113,17 +118,33 @@ class OffColours {
       ++dropped_.colours;
       return CornerAttribute::none;
     }
-    for (std::size_t k = 0; k < width; ++k) {
-      const bool is_given = k < numbers.values.size();
-      values_.push_back(!is_given ? 1 : numbers.has_point ? numbers.values[k] : numbers.values[k] / max_byte);
-    }
+    const std::size_t size = std::min(numbers.values.size(), width);
+    const bool in_bytes = !numbers.has_point && *std::max_element(numbers.values.begin(), numbers.values.end()) > 1;
+    has_bytes_ = has_bytes_ || in_bytes;
+    has_points_ = has_points_ || numbers.has_point;
+    if (!numbers.has_point && !in_bytes) undecided_.push_back({values_.size(), size});
+    for (std::size_t k = 0; k < width; ++k)
+      values_.push_back(k >= size ? 1 : numbers.values[k] / (in_bytes ? max_byte : 1));
     return static_cast<std::uint32_t>(values_.size() / width - 1);
   }
+
+  void scale_undecided() {
+    if (has_points_ || !has_bytes_) return;
+    for (const Numbers& numbers : undecided_)
+      for (std::size_t i = 0; i < numbers.size; ++i) values_[numbers.first + i] /= max_byte;
+  }
+
+  /// Numbers among `values_`.
+  struct Numbers {
+    std::size_t first, size;
+  };
 
   DroppedAttributes& dropped_;
   bool has_vertex_colours_ = false;
   std::vector<std::uint32_t> vertices_, faces_;  // by vertex and by triangle: the colour, or `none`
   std::vector<double> values_;
+  std::vector<Numbers> undecided_;               // lines of zeros and ones
+  bool has_points_ = false, has_bytes_ = false;  // lines that are certainly from 0 to 1, or to 255
 };
 
 /// Counts numbers behind the coordinates that no keyword announces as colours.
