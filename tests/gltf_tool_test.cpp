@@ -176,6 +176,17 @@ TEST_F(GltfTool, TheSecondCopySetsTheTolerance) {
   EXPECT_EQ(distance.exit_code, 0) << distance.out;
 }
 
+TEST_F(GltfTool, KeepsLinesInAGltfAndCountsThemElsewhere) {
+  GltfFile file = sheets(4);
+  file.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+  file.write(in("lines.glb"));
+  const ToolRun kept = simplify("lines.glb", "out.glb", {"--strict"});
+  EXPECT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_EQ(kept.out.find("empty face"), std::string::npos) << kept.out;
+  const ToolRun dropped = simplify("lines.glb", "out.obj");
+  EXPECT_NE(dropped.out.find("2 lines, points or empty faces\n"), std::string::npos) << "of two nodes: " << dropped.out;
+}
+
 TEST_F(GltfTool, ComparesAScenesWithOtherFormats) {
   ASSERT_EQ(simplify("in.glb", "out.obj", {"--json", in("r.json")}).exit_code, 0);
   const Json dropped = checked_document(content_of(in("r.json")))["original"]["dropped"];

@@ -107,6 +107,14 @@ TEST_F(ReadGltf, TakesStripsFansAndTrianglesWithoutIndices) {
   primitive["indices"] = 1;
   file.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
   EXPECT_EQ(read(file).ignored_elements, 1U) << "lines are no triangles";
+  EXPECT_EQ(read(file).dropped.other_elements, 1U);
+  const MeshFile with_document = read(file, true);
+  EXPECT_EQ(with_document.dropped.other_elements, 0U);
+  DroppedAttributes lost;
+  (void)carried_by(FileFormat::Glb, with_document.attributes, lost);
+  EXPECT_EQ(lost.other_elements, 0U) << "the document has them";
+  (void)carried_by(FileFormat::Obj, with_document.attributes, lost);
+  EXPECT_EQ(lost.other_elements, 1U);
 }
 
 TEST_F(ReadGltf, DecodesSparseStridedAndNormalisedNumbers) {

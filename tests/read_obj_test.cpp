@@ -54,6 +54,7 @@ TEST(ReadObj, CountsLinesAndPointsAsIgnored) {
   const MeshFile file = read(three_vertices + "l 1 2\np 1 2 3\nf\nf 1 2\nf 1 2 3\n");
   expect_triangle(file);
   EXPECT_EQ(file.ignored_elements, 4u);
+  EXPECT_EQ(file.dropped, DroppedAttributes{.other_elements = 4});
 }
 
 TEST(ReadObj, JoinsLinesThatEndWithABackslash) {

@@ -561,17 +561,20 @@ TEST_F(SimplifyTool, SaysWhatItDrops) {
   const Result painted = run("painted.obj out.stl --tolerance 0.02 --json r.json");
   EXPECT_EQ(painted.exit_code, 0) << painted.err;
   EXPECT_EQ(painted.err, "");
-  EXPECT_NE(painted.out.find("\ndropped: 2 texture coordinates, 1 material\n"), std::string::npos) << painted.out;
+  EXPECT_NE(painted.out.find("\ndropped: 2 texture coordinates, 1 material, 1 line, point or empty face\n"),
+            std::string::npos)
+      << painted.out;
   const Json original = checked_document(content_of(in("r.json")))["original"];
   EXPECT_EQ(original["dropped"]["texture_coordinates"], 2);
   EXPECT_EQ(original["dropped"]["materials"], 1);
   EXPECT_EQ(original["dropped"]["normals"], 0);
-  EXPECT_EQ(original["ignored_elements"], 1);
+  EXPECT_EQ(original["dropped"]["other_elements"], 1);
   EXPECT_EQ(run("plain.obj out.ply --tolerance 0.02").out.find("dropped"), std::string::npos);
   EXPECT_EQ(run("painted.obj out.ply --tolerance 0.02 --quiet").out, "");
   const Result strict = run("painted.obj strict.ply --tolerance 0.02 --strict");
   expect_refused(strict, "strict.ply");
-  EXPECT_NE(strict.err.find("strict.ply would not carry 1 material"), std::string::npos) << strict.err;
+  EXPECT_NE(strict.err.find("strict.ply would not carry 1 material, 1 line, point or empty face"), std::string::npos)
+      << strict.err;
   EXPECT_EQ(run("plain.obj strict.ply --tolerance 0.02 --strict").exit_code, 0);
 }
 

@@ -29,6 +29,7 @@ struct DroppedAttributes {
   std::size_t facet_attributes = 0;     ///< binary STL: facets whose attribute bytes are not 0
   std::size_t other_properties = 0;     ///< PLY and glTF: properties of any other name, once each
   std::size_t scene_objects = 0;        ///< glTF: textures, cameras, lights, animations, skins
+  std::size_t other_elements = 0;       ///< `MeshFile::ignored_elements`, where no `MeshAttributes::document` has them
 
   [[nodiscard]] bool operator==(const DroppedAttributes&) const = default;  ///< equality of all counts
 };
@@ -39,7 +40,7 @@ struct MeshFile {
   std::size_t triangulated_polygons = 0;  ///< faces of more than three corners, split into triangles
   std::size_t decoded_strips = 0;         ///< triangle strips and fans (PLY `tristrips`, glTF)
   std::size_t ignored_elements = 0;       ///< faces of fewer than three corners, lines and points
-  DroppedAttributes dropped;              ///< what the file holds beyond that and `attributes`
+  DroppedAttributes dropped;              ///< what the file holds beyond `mesh` and `attributes`
   std::size_t rest_pose_parts = 0;        ///< glTF: primitives with a skin or morph targets, read without these
   MeshAttributes attributes;              ///< when they were asked for
 };

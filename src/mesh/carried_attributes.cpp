@@ -82,6 +82,7 @@ MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedA
   if (!carried.document && attributes.document) {
     lost.scene_objects += count_scene_objects(*attributes.document);
     if (carried.materials) lost.materials += count_described_materials(*attributes.document);
+    lost.other_elements += attributes.document->other_elements;
     attributes.document = nullptr;
     attributes.part.clear();
   }

@@ -17,7 +17,8 @@ namespace meshbound {
 struct GltfDocument : SceneLayout {
   GltfJson json;
   std::vector<std::string> buffers;
-  std::filesystem::path folder;  ///< image files are named relative to it
+  std::filesystem::path folder;    ///< image files are named relative to it
+  std::size_t other_elements = 0;  ///< `MeshFile::ignored_elements`, which stay in the document
 };
 
 /// The JSON and the buffers of a file, compressed data decoded, `placed` and `parts` still empty. The version must be

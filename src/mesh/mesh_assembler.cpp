@@ -93,6 +93,7 @@ MeshFile MeshAssembler::finish() {
     fail(source_.size(), "the file holds " + found + "; a mesh needs at least one triangle");
   }
   refuse_used_suspects();
+  file_.dropped.other_elements = file_.ignored_elements;
   return std::move(file_);
 }
 

@@ -67,6 +67,7 @@ class GltfReader {
     file.rest_pose_parts = rest_pose_parts_;
     if (attributes_) {
       file.attributes = attributes_->finish();
+      document_->other_elements = std::exchange(file.dropped.other_elements, 0);
       file.attributes.document = std::move(document_);
     }
     return file;

@@ -19,7 +19,8 @@ Json dropped(const DroppedAttributes& dropped) {
           {"smoothing_groups", dropped.smoothing_groups},
           {"facet_attributes", dropped.facet_attributes},
           {"other_properties", dropped.other_properties},
-          {"scene_objects", dropped.scene_objects}};
+          {"scene_objects", dropped.scene_objects},
+          {"other_elements", dropped.other_elements}};
 }
 
 Json texture_one_sided(const OneSidedTextureDeviation& from) {

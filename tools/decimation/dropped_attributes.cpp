@@ -24,6 +24,7 @@ std::string listed(const DroppedAttributes& dropped) {
   append(list, dropped.other_properties, "other property", "other properties");
   append(list, dropped.scene_objects, "texture, camera, light, animation or skin",
          "textures, cameras, lights, animations and skins");
+  append(list, dropped.other_elements, "line, point or empty face", "lines, points or empty faces");
   return list;
 }
 
