@@ -224,6 +224,23 @@ TEST_F(Colours, OfPlyAreNoLabelsWhichStayIntegers) {
   }
 }
 
+TEST_F(Colours, OfObjAreWrittenWithoutOpacityWhichIsCounted) {
+  const MeshFile from =
+      read("a.obj", "v 0 0 0 1 0 0 0.5\nv 1 0 0 0 1 0 1\nv 1 1 0 0 0 1\nvt 0 0 0\nvt 1 0 0.7\nf 1/1 2/2 3/2\n");
+  EXPECT_EQ(from.dropped, DroppedAttributes{.texture_coordinates = 1}) << "the third number of a coordinate";
+  EXPECT_EQ(from.attributes.texture_coordinates.values[1], Eigen::Vector3d(1, 0, 0));
+  for (const std::string name : {"b.ply", "b.off", "b.glb"}) {
+    const MeshFile there = written(name, from);
+    EXPECT_NEAR(at(there.attributes, "COLOR_0", 0, 0).at(3), 0.5, 1e-7) << name;
+    EXPECT_EQ(at(there.attributes, "COLOR_0", 0, 2).at(3), 1) << name;
+  }
+  DroppedAttributes lost;
+  const MeshAttributes carried = carried_by(FileFormat::Obj, from.attributes, lost);
+  EXPECT_EQ(lost, DroppedAttributes{.colours = 1});
+  EXPECT_EQ(at(carried, "COLOR_0", 0, 1), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(at(written("b.obj", from).attributes, "COLOR_0", 0, 0), (std::vector<double>{1, 0, 0}));
+}
+
 TEST_F(Colours, AndSmoothingGroupsOfObjComeBack) {
   const MeshFile from =
       read("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 1 1 0\nv 0 1 0 0 0 1 1\ns 1\nf 1 2 3\ns off\nf 1 3 4\n");

@@ -22,7 +22,7 @@ enum class FileFormat { Off, Obj, Ply, Stl, Gltf, Glb };
 struct DroppedAttributes {
   std::size_t texture_coordinates = 0;  ///< `vt` (OBJ), and vertices or corners with such coordinates
   std::size_t normals = 0;              ///< other than the facet normals of STL, which follow from the corners
-  std::size_t colours = 0;              ///< of vertices and faces
+  std::size_t colours = 0;              ///< of vertices and faces; OBJ does not carry an opacity other than 1
   std::size_t materials = 0;            ///< names in `usemtl`, or libraries where there are none; texture files (PLY)
   std::size_t groups = 0;               ///< names of groups and objects (OBJ); solids where a file has several (STL)
   std::size_t smoothing_groups = 0;     ///< OBJ

@@ -5,6 +5,7 @@
 
 #include "mesh/gltf_document.h"
 #include "mesh/gltf_references.h"
+#include "mesh/opacity.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
@@ -12,6 +13,7 @@ namespace {
 
 struct Carried {
   bool texture_coordinates = false, normals = false, colours = false, scalars = false;
+  bool opacity = true;  ///< of colours
   bool materials = false;
   bool groups = false;  ///< objects and smoothing groups, too
   bool document = false;
@@ -31,7 +33,12 @@ Carried carried_in(FileFormat format) {
               .scalars = true,
               .texture_precision = TexturePrecision::Float};
     case FileFormat::Obj:
-      return {.texture_coordinates = true, .normals = true, .colours = true, .materials = true, .groups = true};
+      return {.texture_coordinates = true,
+              .normals = true,
+              .colours = true,
+              .opacity = false,
+              .materials = true,
+              .groups = true};
     case FileFormat::Gltf:
     case FileFormat::Glb:
       break;
@@ -74,6 +81,14 @@ void drop_named(const Carried& carried, MeshAttributes& attributes, DroppedAttri
   std::erase_if(attributes.named, drops);
 }
 
+void drop_opacity(MeshAttributes& attributes, std::size_t& lost) {
+  for (NamedAttribute& named : attributes.named) {
+    if (named.name != "COLOR_0") continue;
+    lost += count_translucent(named);
+    remove_opacity(named);
+  }
+}
+
 }  // namespace
 
 MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedAttributes& lost) {
@@ -90,6 +105,7 @@ MeshAttributes carried_by(FileFormat format, MeshAttributes attributes, DroppedA
   round_texture_coordinates(attributes, carried.texture_precision);
   if (!carried.normals) drop(attributes.normals, lost.normals);
   drop_named(carried, attributes, lost);
+  if (!carried.opacity) drop_opacity(attributes, lost.colours);
   // Without their library materials have names, but no looks.
   const bool loses_libraries = carried.materials || attributes.materials.empty();
   if (!carried.materials) drop(attributes.materials, lost.materials);

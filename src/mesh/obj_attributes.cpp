@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/no_value.h"
+#include "mesh/opacity.h"
 
 namespace meshbound {
 namespace {
@@ -34,10 +35,12 @@ void check_indices(CornerAttribute& attribute) {
 }  // namespace
 
 void ObjAttributes::add_value(std::string_view keyword, const Eigen::Vector3d& value) {
-  (keyword == "vt" ? attributes_.texture_coordinates : attributes_.normals).values.push_back(value);
+  if (keyword == "vn") return attributes_.normals.values.push_back(value);
+  attributes_.texture_coordinates.values.emplace_back(value.x(), value.y(), 0);
+  if (value.z() != 0) ++solid_texture_coordinates_;
 }
 
-void ObjAttributes::add_colour(std::size_t vertex, const Eigen::Vector3d& colour) {
+void ObjAttributes::add_colour(std::size_t vertex, const Eigen::Vector4d& colour) {
   colour_of_.resize(vertex, no_value);
   colour_of_.push_back(static_cast<std::uint32_t>(colours_.values.size() / colours_.width));
   colours_.values.insert(colours_.values.end(), colour.begin(), colour.end());
@@ -48,6 +51,7 @@ void ObjAttributes::take_colours(const std::vector<Triangle>& triangles) {
     Triangle& index = colours_.index.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) index[k] = t[k] < colour_of_.size() ? colour_of_[t[k]] : no_value;
   }
+  if (count_translucent(colours_) == 0) remove_opacity(colours_);
   attributes_.named.push_back(std::move(colours_));
 }
 
@@ -98,7 +102,8 @@ MeshAttributes ObjAttributes::finish(const std::vector<Triangle>& triangles, Dro
   if (!std::all_of(smoothing.begin(), smoothing.end(), is_off))
     attributes_.smoothing_groups = std::move(smoothing_groups_.all);
   if (!colours_.values.empty()) take_colours(triangles);
-  dropped.texture_coordinates = dropped.normals = dropped.materials = dropped.groups = 0;
+  dropped.texture_coordinates = solid_texture_coordinates_;
+  dropped.normals = dropped.materials = dropped.groups = 0;
   dropped.colours = dropped.smoothing_groups = 0;
   return std::move(attributes_);
 }

@@ -13,10 +13,10 @@ namespace meshbound {
 /// Collects the attributes of an OBJ file, polygon by polygon; triangles are those of `MeshAssembler::add_polygon`.
 class ObjAttributes {
  public:
-  /// Adds a value of a `vt` or `vn` statement.
+  /// Adds a value of a `vt` or `vn` statement. The third number of a texture coordinate is not collected.
   void add_value(std::string_view keyword, const Eigen::Vector3d& value);
-  /// Sets red, green and blue of a vertex, counted from 0.
-  void add_colour(std::size_t vertex, const Eigen::Vector3d& colour);
+  /// Sets red, green, blue and opacity of a vertex, counted from 0.
+  void add_colour(std::size_t vertex, const Eigen::Vector4d& colour);
   /// Takes a statement that says what the polygons after it belong to (`usemtl`, `g`, `o`, `s`) or names a library of
   /// materials (`mtllib`). Other keywords are ignored.
   void set_label(std::string_view keyword, std::string_view argument);
@@ -46,8 +46,9 @@ class ObjAttributes {
 
   Labels materials_, objects_, groups_, smoothing_groups_;
   std::vector<std::uint32_t> colour_of_;  ///< by vertex, up to the last one that has a colour
-  NamedAttribute colours_{.name = "COLOR_0", .width = 3};
+  NamedAttribute colours_{.name = "COLOR_0", .width = 4};
   std::vector<Corner> corners_;
+  std::size_t solid_texture_coordinates_ = 0;  ///< whose third number is not 0
 };
 
 }  // namespace meshbound

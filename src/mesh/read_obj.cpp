@@ -116,11 +116,11 @@ class ObjReader {
     const double x = read_coordinate();
     const double y = read_coordinate();
     const double z = read_coordinate();
-    Eigen::Vector3d colour = Eigen::Vector3d::Zero();
+    Eigen::Vector4d colour(0, 0, 0, 1);
     Eigen::Index more = 0;
     for (; cursor_.find_word_in_line(); ++more) {
       const double number = cursor_.number("a weight or a colour");
-      if (more < 3) colour[more] = number;
+      if (more < 4) colour[more] = number;
     }
     if (more >= 3) {
       ++assembler_.dropped().colours;
@@ -136,13 +136,12 @@ class ObjReader {
     return cursor_.number("a vertex coordinate");
   }
 
-  /// Reads the two numbers of a texture coordinate or the three of a normal; missing ones are 0, further ones are
-  /// skipped.
+  /// Reads the three numbers of a texture coordinate or a normal; missing ones are 0, further ones are skipped.
   void read_value(std::string_view keyword) {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     for (Eigen::Index i = 0; cursor_.find_word_in_line(); ++i) {
       const double number = cursor_.number("a texture coordinate or a normal");
-      if (i < (keyword == "vt" ? 2 : 3)) value[i] = number;
+      if (i < 3) value[i] = number;
     }
     attributes_.add_value(keyword, value);
     count_attribute(keyword, {});
