@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/length.h"
 #include "deviation/checkerboard.h"
+#include "deviation/legend.h"
 #include "deviation/surface_image.h"
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
@@ -13,13 +13,12 @@
 namespace meshbound::tools {
 namespace {
 
-constexpr Colour white = {255, 255, 255}, ink = {40, 44, 52}, stone = {196, 200, 208};
+constexpr Colour white = {255, 255, 255}, stone = {196, 200, 208};
 
 // Sizes in pixels of the picture before it is halved.
 constexpr int panel = 800;  // width; the height is at most the same
 constexpr int header = 56;
 constexpr int footer = 72;
-constexpr int text_size = 3;
 
 Colour shaded(const Colour& colour, double light) {
   Colour shade;
@@ -75,20 +74,6 @@ void write_centred(Picture& picture, int left, int y, const std::string& text) {
   picture.write(left + (panel - Picture::text_width(text, text_size)) / 2, y, text, ink, text_size);
 }
 
-/// Draws the legend below the third panel: the colours, the values at both ends, and the colour for deviations beyond.
-void draw_legend(Picture& picture, int left, int top, const DeviationScene& scene) {
-  constexpr int bar_height = 20, beyond_width = 60, gap = 12;
-  const int y = top + 8, width = panel - beyond_width - gap - 2 * gap;
-  for (int x = 0; x < width; ++x)
-    picture.fill(left + gap + x, y, 1, bar_height, colour_of(static_cast<double>(x) / (width - 1)));
-  picture.fill(left + 2 * gap + width, y, beyond_width, bar_height, colour_beyond);
-  const int text_y = y + bar_height + 8;
-  picture.write(left + gap, text_y, "0", ink, text_size);
-  const std::string end = short_number(scene.scale.end) + (scene.unit.empty() ? "" : " " + scene.unit) + ": " +
-                          scene.scale.meaning + ", beyond:";
-  picture.write(left + 2 * gap + width - Picture::text_width(end, text_size), text_y, end, ink, text_size);
-}
-
 std::string title(const std::string& name, const TriangleMesh& mesh) {
   return name + ": " + std::to_string(mesh.triangles.size()) + " triangles";
 }
@@ -108,7 +93,7 @@ Picture deviation_image(const DeviationScene& scene, const DeviationOptions& opt
   write_centred(picture, 0, header / 2, title("original", *scene.original));
   write_centred(picture, panel, header / 2, title(scene.result_title, *scene.result));
   write_centred(picture, 2 * panel, header / 2, scene.coloured_title);
-  draw_legend(picture, 2 * panel, header + height, scene);
+  draw_legend(picture, 2 * panel, header + height, panel, scene.scale, scene.unit);
   return picture.halved();
 }
 

@@ -6,9 +6,15 @@
 #include <algorithm>
 
 #include "deviation/font.h"
+#include "deviation/utf8.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
+namespace {
+
+constexpr int advance = 6;  // pixels from one code point to the next, at size 1
+
+}  // namespace
 
 Picture::Picture(int width, int height, const Colour& background)
     : width_(width),
@@ -21,14 +27,18 @@ void Picture::fill(int x, int y, int width, int height, const Colour& colour) {
 }
 
 void Picture::write(int x, int y, std::string_view text, const Colour& colour, int size) {
-  for (const char letter : text) {
+  for (const char32_t letter : code_points(text)) {
     const Glyph glyph = glyph_of(letter);
     for (int row = 0; row < 7; ++row)
       for (int column = 0; column < 5; ++column)
         if ((glyph[static_cast<std::size_t>(row)] >> (4 - column) & 1) != 0)
           fill(x + column * size, y + row * size, size, size, colour);
-    x += text_width(" ", size);
+    x += advance * size;
   }
+}
+
+int Picture::text_width(std::string_view text, int size) {
+  return advance * size * static_cast<int>(code_points(text).size());
 }
 
 Picture Picture::halved() const {

@@ -19,12 +19,11 @@ class Picture {
   [[nodiscard]] const Colour& at(int x, int y) const { return pixels_[index(x, y)]; }
   void set(int x, int y, const Colour& colour) { pixels_[index(x, y)] = colour; }
 
-  /// Writes text in capitals 7 pixels high times `size`, 6 wide for each character; its upper left corner is at (x, y).
-  /// Characters that the font lacks are left blank, and parts outside the picture are not drawn.
+  /// Writes a text in UTF-8 in capitals 7 pixels high times `size`, 6 wide for each code point; its upper left corner
+  /// is at (x, y). Code points that the font lacks are boxes, and parts outside the picture are not drawn.
   void write(int x, int y, std::string_view text, const Colour& colour, int size = 1);
-  [[nodiscard]] static int text_width(std::string_view text, int size = 1) {
-    return 6 * size * static_cast<int>(text.size());
-  }
+  /// The width of what `write` draws, with the gap behind the last code point; pixels.
+  [[nodiscard]] static int text_width(std::string_view text, int size = 1);
   /// Fills a rectangle with its upper left corner at (x, y); pixels outside the picture are left out.
   void fill(int x, int y, int width, int height, const Colour& colour);
   /// The picture at half its width and height, each pixel the mean of four.
