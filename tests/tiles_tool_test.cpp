@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "meshbound/io.h"
 #include "run_tool.h"
 
 namespace tiles_tool_test {
@@ -96,6 +97,23 @@ TEST_F(Tiles, SayWithinWhichLimitMemoryHasRunOut) {
   EXPECT_NE(run.err.find("out of memory within 64 MiB: allow more (--memory)"), std::string::npos) << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   EXPECT_FALSE(std::filesystem::exists(in_folder("none.ply")));
+}
+
+/// Two copies of this mesh take 84 MB in memory, the plan of the limit 76.
+TEST_F(Tiles, CompareEquallyManyTrianglesWithinTheMemory) {
+  constexpr std::uint32_t count = 500'000;
+  meshbound::TriangleMesh soup;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double x = i % 1000, y = i / 1000;
+    soup.vertices.insert(soup.vertices.end(), {{x, y, 0}, {x + 0.9, y, 0}, {x, y + 0.9, 0}});
+    soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  meshbound::write_mesh(in_folder("soup.ply"), soup);
+  const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in_folder("soup.ply"), in_folder("soup.ply"), "--tolerance", "1%",
+                                                    "--threads", "1", "--tile-triangles", "10000", "--memory", "80M"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("within"), std::string::npos) << run.out;
+  std::filesystem::remove(in_folder("soup.ply"));
 }
 
 TEST_F(Tiles, DoNotGoWithWhatNeedsTheWholeMesh) {

@@ -2,10 +2,29 @@
 #include "mesh/stored_mesh.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "numeric/ranked_numbers.h"
 
 namespace meshbound {
+namespace {
+
+/// Whether two arrays of `count` items, which read_a(first, items) and read_b(first, items) read, agree.
+template <class T, class ReadA, class ReadB, class Same>
+bool same_items(std::size_t count, const ReadA& read_a, const ReadB& read_b, const Same& same) {
+  constexpr std::size_t block_size = 4096;
+  std::vector<T> block_a(std::min(block_size, count)), block_b(block_a.size());
+  for (std::size_t first = 0; first < count; first += block_size) {
+    const std::size_t size = std::min(block_size, count - first);
+    const std::span<T> of_a(block_a.data(), size), of_b(block_b.data(), size);
+    read_a(first, of_a);
+    read_b(first, of_b);
+    if (!std::equal(of_a.begin(), of_a.end(), of_b.begin(), same)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 void MeshInMemory::read_vertices(std::size_t first, std::span<Vec3> to) const {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = to_vec3(mesh_.vertices[first + i]);
@@ -43,6 +62,17 @@ TriangleMesh loaded(const StoredMesh& mesh) {
   all.triangles.resize(mesh.triangle_count());
   mesh.read_triangles(0, all.triangles);
   return all;
+}
+
+bool same_arrays(const StoredMesh& a, const StoredMesh& b) {
+  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
+  const auto same_position = [](const Vec3& p, const Vec3& q) { return to_eigen(p) == to_eigen(q); };
+  return same_items<Vec3>(
+             a.vertex_count(), [&](std::size_t first, std::span<Vec3> to) { a.read_vertices(first, to); },
+             [&](std::size_t first, std::span<Vec3> to) { b.read_vertices(first, to); }, same_position) &&
+         same_items<Triangle>(
+             a.triangle_count(), [&](std::size_t first, std::span<Triangle> to) { a.read_triangles(first, to); },
+             [&](std::size_t first, std::span<Triangle> to) { b.read_triangles(first, to); }, std::equal_to<>{});
 }
 
 std::vector<bool> used_vertices(const StoredMesh& mesh) {

@@ -120,6 +120,10 @@ struct MeshPart {
 /// All of a mesh in memory.
 [[nodiscard]] TriangleMesh loaded(const StoredMesh& mesh);
 
+/// Whether two meshes have the same vertices and the same triangles in the same order. -0 and 0 are one coordinate.
+/// Reads blocks of both, up to the first difference. Throws `IoError`.
+[[nodiscard]] bool same_arrays(const StoredMesh& a, const StoredMesh& b);
+
 /// By vertex: whether a triangle uses it.
 [[nodiscard]] std::vector<bool> used_vertices(const StoredMesh& mesh);
 

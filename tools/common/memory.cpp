@@ -10,12 +10,23 @@
 
 #include "common/whole_number.h"
 #include "meshbound/error.h"
+#include "meshbound/triangle_mesh.h"
 
 namespace meshbound::tools {
 namespace {
 
 /// Bytes for the program, its libraries and their stacks.
 constexpr double bytes_of_program = 64.0 * 1024 * 1024;
+
+/// Bytes of one tile in work.
+double bytes_of_tile(std::size_t triangles, const TileOptions& tiles, const TileCost& cost) {
+  return cost.tile * static_cast<double>(std::min(triangles, tiles.max_triangles));
+}
+
+/// Bytes beside the program that one thread needs for meshes with this many triangles.
+double bytes_of_work(std::size_t triangles, const TileOptions& tiles, const TileCost& cost) {
+  return cost.whole * static_cast<double>(triangles) + bytes_of_tile(triangles, tiles, cost);
+}
 
 }  // namespace
 
@@ -53,15 +64,19 @@ std::string in_mebibytes(double bytes) {
   return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mebibyte))) + " MiB";
 }
 
+bool fits_to_compare(std::size_t vertices, std::size_t triangles, const TileOptions& tiles) {
+  constexpr double arrays_and_tables = 3;  // times the arrays
+  const double arrays = static_cast<double>(vertices * sizeof(Eigen::Vector3d) + triangles * sizeof(Triangle));
+  return arrays_and_tables * arrays <= bytes_of_work(triangles, tiles, cost_of_measuring);
+}
+
 int threads_within(std::uint64_t limit, const std::string& option, std::size_t triangles, const TileOptions& tiles,
                    const TileCost& cost, int wanted) {
-  const auto count = static_cast<double>(triangles);
-  const double whole = bytes_of_program + cost.whole * count;
-  const double tile = cost.tile * std::min(count, static_cast<double>(tiles.max_triangles));
-  const double room = (static_cast<double>(limit) - whole) / tile;
+  const double tile = bytes_of_tile(triangles, tiles, cost);
+  const double least = bytes_of_program + bytes_of_work(triangles, tiles, cost);
+  const double room = (static_cast<double>(limit) - least) / tile + 1;
   if (room < 1)
-    throw InvalidInput(option + ": " + std::to_string(triangles) + " triangles need at least " +
-                       in_mebibytes(whole + tile));
+    throw InvalidInput(option + ": " + std::to_string(triangles) + " triangles need at least " + in_mebibytes(least));
   return static_cast<int>(std::min(room, static_cast<double>(wanted > 0 ? wanted : omp_get_max_threads())));
 }
 

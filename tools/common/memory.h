@@ -33,6 +33,11 @@ inline constexpr TileCost cost_of_simplifying{16, 1100};
 /// Measuring: the boxes of clusters and the summary of each mesh; the trees of a tile and of what is near it.
 inline constexpr TileCost cost_of_measuring{8, 400};
 
+/// Whether two meshes with this many vertices and triangles together can be compared in memory within every limit that
+/// `threads_within` accepts for measuring them: their arrays, and tables of the positions and triangles of one of them,
+/// which take up to 1.2 times as much as the arrays of both. It does not depend on the limit, so that no result does.
+[[nodiscard]] bool fits_to_compare(std::size_t vertices, std::size_t triangles, const TileOptions& tiles);
+
 /// How many of the wanted threads (0: as many as OpenMP has) may work on tiles of this many triangles within a limit in
 /// bytes. Throws `InvalidInput` that names `option` if not even one may.
 [[nodiscard]] int threads_within(std::uint64_t limit, const std::string& option, std::size_t triangles,

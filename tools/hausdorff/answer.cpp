@@ -2,8 +2,10 @@
 #include "hausdorff/answer.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include "mesh/stored_mesh.h"
 #include "meshbound/report.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/transform.h"
@@ -26,6 +28,21 @@ ToleranceCheck check(const Bvh& a, const Bvh& b, double tolerance, const Questio
                      const DistanceOptions& options) {
   return question.one_sided ? check_one_sided_tolerance(a, b, tolerance, options)
                             : check_tolerance(a, b, tolerance, options);
+}
+
+/// The distance 0 of a mesh from a copy of it.
+OneSidedDistance distance_to_itself(const StoredMesh& mesh) {
+  std::array<Triangle, 1> triangle;
+  mesh.read_triangles(0, triangle);
+  std::array<Vec3, 1> corner;
+  mesh.read_vertices(triangle[0][0], corner);
+  const SurfacePoint point{to_eigen(corner[0]), 0};
+  OneSidedDistance result;
+  result.bounds = {0, 0};
+  result.witness = {point, point, 0};
+  result.stats.triangles = result.stats.matched = mesh.triangle_count();
+  result.stats.culled_on_a_percent = result.stats.culled_on_b_percent = 100;
+  return result;
 }
 
 /// The options with what is left of their time at `now` when they were valid at `start`.
@@ -120,6 +137,13 @@ std::optional<Answer> answer_without_trees(const Question& question, const Trian
   const std::optional<HausdorffDistance> distance = distance_without_trees(a, b, limit);
   if (!distance) return std::nullopt;
   return answer_of(distance->bounds, distance->a_to_b, distance->b_to_a, question);
+}
+
+std::optional<Answer> answer_without_trees(const Question& question, const StoredMesh& a, const StoredMesh& b,
+                                           Method method) {
+  if (method != Method::CellWalking || !same_arrays(a, b)) return std::nullopt;
+  const OneSidedDistance nothing = distance_to_itself(a);
+  return answer_of({0, 0}, nothing, nothing, question);
 }
 
 Answer unsearched_answer(const Question& question) {

@@ -25,6 +25,11 @@ struct Answer {
 [[nodiscard]] std::optional<Answer> answer_without_trees(const Question& question, const TriangleMesh& a,
                                                          const TriangleMesh& b, Method method);
 
+/// The answer for meshes on disk that are the same arrays, whose blocks are compared; absent for others, also for those
+/// that the function above answers in memory.
+[[nodiscard]] std::optional<Answer> answer_without_trees(const Question& question, const StoredMesh& a,
+                                                         const StoredMesh& b, Method method);
+
 /// The answer if the time is over before anything was searched.
 [[nodiscard]] Answer unsearched_answer(const Question& question);
 

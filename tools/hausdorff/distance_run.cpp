@@ -91,6 +91,16 @@ int threads_on_tiles(const Arguments& arguments, const StoredMesh& a, const Stor
                         arguments.common.threads);
 }
 
+/// The answer without trees for two meshes with equally many triangles: small ones are loaded, blocks of large ones are
+/// compared where they are.
+std::optional<Answer> answer_without_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b,
+                                           const Arguments& arguments) {
+  const TileOptions tiles{arguments.tile_triangles};
+  if (fits_to_compare(a.vertex_count() + b.vertex_count(), a.triangle_count() + b.triangle_count(), tiles))
+    return answer_without_trees(question, loaded(a), loaded(b), arguments.method);
+  return answer_without_trees(question, a, b, arguments.method);
+}
+
 /// As `searched_answer`, tile by tile.
 Answer answer_by_tiles(const Question& question, const StoredMesh& a, const StoredMesh& b, const Arguments& arguments,
                        const Stopwatch& watch) {
@@ -342,8 +352,7 @@ Answer answer_to(const Question& question, const Meshes& meshes, const Arguments
     if (!found) found = searched_answer(question, meshes.a, meshes.b, arguments, watch, build_seconds);
   } else {
     const StoredMesh &a = *meshes.stored_a, &b = *meshes.stored_b;
-    if (a.triangle_count() == b.triangle_count())
-      found = answer_without_trees(question, loaded(a), loaded(b), arguments.method);
+    if (a.triangle_count() == b.triangle_count()) found = answer_without_tiles(question, a, b, arguments);
     if (!found) found = answer_by_tiles(question, a, b, arguments, watch);
   }
   conclude(*found, question);
