@@ -184,6 +184,26 @@ TEST(DeviationStatistics, OfAMeshWithoutAreaAreNoNumbers) {
   EXPECT_TRUE(std::isnan(found.mean) && std::isnan(found.root_mean_square) && std::isnan(found.percentile_95));
 }
 
+/// Coordinates are multiples of 0.125 there, so most points inside of triangles are rounded to places beside the
+/// surface, by more than the scale.
+TEST(DeviationStatistics, TakeNoRoundingOfTheirPointsForDeviations) {
+  const TriangleMesh mesh = moved(icosphere(2), {1e15, 1e15, 1e15});
+  const Bvh same(mesh);
+  DeviationSampling sampling;
+  sampling.samples = 2000;
+  sampling.scale = 0.01;
+  const DeviationStatistics found = deviation_statistics(mesh, same, sampling);
+  EXPECT_EQ(found.beyond_scale, 0u);
+  EXPECT_LE(found.largest_sample, sampling.scale);
+  sampling.scale = 100;
+  EXPECT_GT(deviation_statistics(mesh, same, sampling).largest_sample, 0.05) << "the rounding is part of what is known";
+  sampling.max_distance = 0;
+  const DeviationStatistics known = deviation_statistics(mesh, same, sampling);
+  EXPECT_EQ(known.mean, 0);
+  EXPECT_EQ(known.largest_sample, 0);
+  EXPECT_EQ(known.histogram[0], sampling.samples);
+}
+
 /// Squares of such lengths are beyond the range of doubles.
 TEST(DeviationStatistics, HoldAtTheEndsOfTheRange) {
   for (const double size : {1e-160, 1e155}) {
@@ -230,6 +250,8 @@ TEST(Deviations, RefuseWhatHasNoMeaning) {
   }
   EXPECT_THROW((void)face_deviations(mesh, other, {}, 0.1), InvalidInput);
   EXPECT_THROW((void)deviation_statistics(mesh, other, {.samples = 0}), InvalidInput);
+  EXPECT_THROW((void)deviation_statistics(mesh, other, {.max_distance = -1}), InvalidInput);
+  EXPECT_THROW((void)deviation_statistics(mesh, other, {.max_distance = std::nan("")}), InvalidInput);
   EXPECT_THROW((void)deviation_statistics(mesh, other, {.bins = 0}), InvalidInput);
   EXPECT_THROW((void)vertex_deviations(TriangleMesh{{}, {{0, 1, 2}}}, other), InvalidInput);
 }

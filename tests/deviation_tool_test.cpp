@@ -15,6 +15,8 @@
 #include "deviation/base64.h"
 #include "deviation/checkerboard.h"
 #include "deviation/colour_map.h"
+#include "deviation/deviation_outputs.h"
+#include "deviation/deviation_request.h"
 #include "deviation/display_mesh.h"
 #include "json_claims.h"
 #include "meshbound/io.h"
@@ -287,6 +289,15 @@ TEST_F(DeviationTool, PictureHasThreePanelsOfWhichTheLastIsInColours) {
   }
 }
 
+/// Pixels in the shades of the colour for what is beyond the scale, but for those of the legend.
+std::size_t pixels_beyond(const Pixels& pixels) {
+  constexpr std::size_t footer = 40;  // rows
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i + 2 < pixels.rgb.size() - 3 * footer * pixels.image.width; i += 3)
+    if (pixels.rgb[i] > 130 && pixels.rgb[i + 1] < 10 && pixels.rgb[i + 2] > 70) ++beyond;
+  return beyond;
+}
+
 /// A needle of the original that the result has lost is seen only where the original is in colours.
 TEST_F(DeviationTool, PictureColoursTheMeshThatIsFurtherAway) {
   write_mesh(in("spikes.off"), datasets::spiked_plane(1, 0.2, 20, 5));
@@ -295,11 +306,26 @@ TEST_F(DeviationTool, PictureColoursTheMeshThatIsFurtherAway) {
       run_tool(HAUSDORFF_DISTANCE, {in("spikes.off"), in("flat.off"), "--tolerance", "0.1", "--image", in("i.png")})
           .exit_code,
       1);
-  const Pixels pixels = decoded_png(content_of(in("i.png")));
-  std::size_t beyond = 0;
-  for (std::size_t i = 0; i + 2 < pixels.rgb.size() - 3 * 1200 * 40; i += 3)
-    if (pixels.rgb[i] > 130 && pixels.rgb[i + 1] < 10 && pixels.rgb[i + 2] > 70) ++beyond;
-  EXPECT_GT(beyond, 100u);
+  EXPECT_GT(pixels_beyond(decoded_png(content_of(in("i.png")))), 100u);
+}
+
+/// A copy of a mesh whose coordinates are multiples of 0.125, so that points inside of triangles are rounded to places
+/// beside them: the picture, the statistics and the view of the report showed these roundings.
+TEST_F(DeviationTool, NothingIsShownBeyondTheProvenDistanceOfAMeshFarAway) {
+  write_mesh(in("far.off"), reference::moved(datasets::torus(1, 0.3, 40, 16), {1e15, 1e15, 1e15}));
+  const ToolRun run = run_tool(HAUSDORFF_DISTANCE, {in("far.off"), in("far.off"), "--tolerance", "0.01", "--image",
+                                                    in("i.png"), "--heatmap", in("h.ply"), "--json", in("r.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = checked_document(content_of(in("r.json")));
+  ASSERT_EQ(json["distance"]["upper"], 0);
+  for (const char* const direction : {"a_to_b", "b_to_a"}) {
+    const Json& found = json["deviation"][direction];
+    EXPECT_EQ(found["beyond_scale"], 0) << direction;
+    for (const char* const value : {"mean", "root_mean_square", "percentile_95", "largest_sample"})
+      EXPECT_EQ(found[value], 0) << direction << ' ' << value;
+  }
+  for (const HeatmapVertex& v : read_heatmap(in("h.ply")).vertices) EXPECT_EQ(v.quality, 0);
+  EXPECT_EQ(pixels_beyond(decoded_png(content_of(in("i.png")))), 0u);
 }
 
 TEST_F(DeviationTool, OutputsAreTheSameForAnyNumberOfThreads) {
@@ -342,6 +368,17 @@ TEST_F(DeviationTool, WithoutTimeTheResultIsThereButNoDeviation) {
   EXPECT_FALSE(fs::exists(in("h.ply")));
 }
 
+/// Triangles that share no vertices, of which a report holds 2.5 times as much.
+TriangleMesh scattered_triangles(std::uint32_t count) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double x = i % 250, y = i / 250;
+    mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0}, {x + 0.9, y, 0}, {x, y + 0.9, 0}});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
 /// What stands between the tags of a block of the page.
 Json block(const std::string& page, const std::string& id) {
   const std::string begin = "<script type=\"application/json\" id=\"" + id + "\">";
@@ -367,6 +404,26 @@ TEST_F(DeviationTool, ReportIsOneFileThatHoldsTheDocument) {
   EXPECT_LT(page.size(), 20u << 20);
 }
 
+/// As many levels as the view shows, of an original whose triangles share no vertices: the deviations of its vertices
+/// from each level alone would take 12 MB.
+TEST_F(DeviationTool, ReportOfManyLevelsStaysBelow20MB) {
+  if (!has_report_page()) GTEST_SKIP() << "this build has no report page: npm was missing";
+  const TriangleMesh original = scattered_triangles(60'000), result = reference::unit_square(1);
+  tools::DeviationRequest request;
+  request.report = in("r.html");
+  tools::DeviationSubject subject;
+  subject.original = &original;
+  subject.result = &result;
+  subject.levels.resize(24, {reference::unit_square(1), {}});
+  subject.scale.end = 1000;
+  subject.measurement.obstacle = "of a test";
+  tools::DeviationOutputs outputs(request);
+  outputs.measure(subject, {});
+  outputs.write("{}");
+  EXPECT_EQ(block(content_of(in("r.html")), "scene")["meshes"].size(), 26u);
+  EXPECT_LT(fs::file_size(in("r.html")), 15'000'000u) << "of 20, with room for the engine and the document";
+}
+
 TEST_F(DeviationTool, BuildsWithoutThePageSaySo) {
   const ToolRun run = run_tool(HAUSDORFF_WITHOUT_REPORT_PAGE, {in("in.off"), in("in.off"), "--report", in("r.html")});
   EXPECT_EQ(run.exit_code, 2);
@@ -381,7 +438,7 @@ TEST(DisplayMesh, OfALargeMeshIsSmallAndKeepsItsPeak) {
   const TriangleMesh large = datasets::spiked_plane(1, 0.2, 200, 40), flat = reference::unit_square(1);
   const Bvh other(flat);
   const std::vector<Bounds> vertices = vertex_deviations(large, other);
-  const tools::DisplayMesh display = tools::display_mesh(large, vertices, other, 2000, {});
+  const tools::DisplayMesh display = tools::display_mesh(large, vertices, other, {2000}, {});
   EXPECT_TRUE(display.is_reduced);
   EXPECT_EQ(display.faces, large.triangles.size());
   EXPECT_LE(display.mesh.triangles.size(), 2000u);
@@ -401,7 +458,7 @@ TEST(DisplayMesh, OfASmallMeshShowsTheInsideOfItsTriangles) {
     if (p.x() == 0.5 && p.y() == 0.5) p.z() = 0.3;
   const TriangleMesh square = reference::unit_square(1);
   const Bvh other(tent);
-  const tools::DisplayMesh display = tools::display_mesh(square, vertex_deviations(square, other), other, 1000, {});
+  const tools::DisplayMesh display = tools::display_mesh(square, vertex_deviations(square, other), other, {1000}, {});
   EXPECT_FALSE(display.is_reduced);
   EXPECT_LE(display.mesh.triangles.size(), 1000u);
   EXPECT_GT(display.mesh.triangles.size(), 500u);
@@ -415,6 +472,30 @@ TEST(DisplayMesh, OfASmallMeshShowsTheInsideOfItsTriangles) {
   for (const Bounds& deviation : display.deviations) highest = std::max(highest, deviation.upper);
   EXPECT_NEAR(area, 1, 1e-12);
   EXPECT_GT(highest, 0.15);
+}
+
+TEST(DisplayMesh, OfTrianglesThatShareNoVerticesStaysWithinItsBytes) {
+  const TriangleMesh mesh = scattered_triangles(6'000), flat = reference::unit_square(1);
+  const Bvh other(flat);
+  const std::vector<Bounds> vertices = vertex_deviations(mesh, other);
+  const tools::DisplayMesh large = tools::display_mesh(mesh, vertices, other, {6'000}, {});
+  EXPECT_FALSE(large.is_reduced);
+  tools::DisplayLimits limits{6'000, tools::packed_size(large, 1) / 3};
+  limits.deviation_sets = 26;
+  const tools::DisplayMesh small = tools::display_mesh(mesh, vertices, other, limits, {});
+  EXPECT_TRUE(small.is_reduced);
+  EXPECT_LE(tools::packed_size(small, 26), limits.max_size);
+  EXPECT_GT(tools::packed_size(small, 26), limits.max_size / 3);
+}
+
+/// Points inside of triangles are rounded, and the view must not show by how much.
+TEST(DisplayMesh, TakesNoRoundingOfItsPointsForDeviations) {
+  const TriangleMesh mesh = reference::moved(datasets::torus(1, 0.3, 20, 8), {1e15, 1e15, 1e15});
+  const Bvh same(mesh);
+  const tools::DisplayMesh display = tools::display_mesh(mesh, vertex_deviations(mesh, same), same, {5000}, {});
+  ASSERT_GT(display.mesh.vertices.size(), mesh.vertices.size());
+  for (const Bounds& deviation : display.deviations) EXPECT_EQ(deviation.lower, 0);
+  for (const Bounds& deviation : tools::display_deviations(display, same, {})) EXPECT_EQ(deviation.lower, 0);
 }
 
 TEST(ColourMap, RunsFromVioletToYellow) {

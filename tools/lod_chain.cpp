@@ -348,7 +348,9 @@ void Run::measure_deviation() {
   subject.result_name = "level " + std::to_string(outputs_.size() - 1);
   subject.scale = scale_for(tolerances_.back(), coarsest.distance().bounds, diagonal_);
   subject.measurement = repeated(tolerances_.back(), report_.levels.back().decided_by);
-  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) subject.levels.push_back(outputs_[i].written_mesh());
+  subject.maxima = maxima_of(coarsest.distance());
+  for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
+    subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
   try {
     deviation_->measure(subject, {threads(), stop()});
     report_.deviation = deviation_->report();

@@ -5,6 +5,7 @@
 /// last bit for any number of threads.
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "meshbound/bounds.h"
@@ -42,10 +43,13 @@ struct DeviationSampling {
   std::size_t samples = std::size_t{1} << 17;  ///< points on the mesh, each representing an equal share of the area
   std::size_t bins = 100;                      ///< of the histogram, of equal width, from 0 to `scale`
   double scale = 1;                            ///< model units, more than 0 and finite
+  /// An upper bound of the distance of every point of the mesh, where it is known: no sample counts as further away.
+  /// Model units, at least 0.
+  double max_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Distances of points that are spread evenly over the area of a mesh. Estimates, not bounds: a narrow peak may stand
-/// between the points.
+/// Distances of points that are spread evenly over the area of a mesh, each rounded up by what rounding the point to
+/// doubles may have changed. Estimates, not bounds: a narrow peak may stand between the points.
 struct DeviationStatistics {
   std::size_t samples = 0;             ///< 0 where the mesh has no area; the lengths below are then not numbers
   double mean = 0;                     ///< of the distances, model units

@@ -4,9 +4,11 @@
 #include <limits>
 
 #include "deviation/measure_points.h"
+#include "deviation/rounded_point.h"
 #include "meshbound/deviation_map.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/transform.h"
 
 namespace meshbound {
 namespace {
@@ -27,7 +29,7 @@ std::vector<double> relative_areas(const MeshView& mesh) {
 }
 
 /// Point `i` of the R2 sequence, folded into the triangle of barycentric coordinates.
-Eigen::Vector3d point_inside(const MeshView& mesh, const Triangle& t, std::size_t i) {
+RoundedPoint point_inside(const MeshView& mesh, const Triangle& t, std::size_t i) {
   constexpr double plastic = 1.32471795724474602596;  // the real root of x^3 = x + 1
   const auto fraction = [&](double step) {
     const double x = 0.5 + static_cast<double>(i) * step;
@@ -38,25 +40,37 @@ Eigen::Vector3d point_inside(const MeshView& mesh, const Triangle& t, std::size_
     u = 1 - u;
     v = 1 - v;
   }
-  return (1 - u - v) * mesh.vertex(t[0]) + u * mesh.vertex(t[1]) + v * mesh.vertex(t[2]);
+  return rounded_point({mesh.vertex(t[0]), mesh.vertex(t[1]), mesh.vertex(t[2])}, u, v);
 }
 
-/// `count` points at equal steps of area along the list of triangles; empty if the mesh has no area.
-std::vector<Eigen::Vector3d> points_on(const MeshView& mesh, std::size_t count) {
+/// Points as doubles hold them, and how far each is from the surface at most.
+struct Samples {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> errors;
+
+  void add(const RoundedPoint& point) {
+    points.push_back(point.position);
+    errors.push_back(point.error);
+  }
+};
+
+/// `count` points at equal steps of area along the list of triangles; none if the mesh has no area.
+Samples points_on(const MeshView& mesh, std::size_t count) {
   const std::vector<double> areas = relative_areas(mesh);
   double total = 0;
   for (const double area : areas) total += area;
-  std::vector<Eigen::Vector3d> points;
-  if (!(total > 0)) return points;
-  points.reserve(count);
+  Samples samples;
+  if (!(total > 0)) return samples;
+  samples.points.reserve(count);
+  samples.errors.reserve(count);
   double passed = 0;
   for (std::size_t f = 0; f < areas.size(); ++f) {
     passed += areas[f];
-    const auto wanted = [&] { return (static_cast<double>(points.size()) + 0.5) / static_cast<double>(count) * total; };
-    while (points.size() < count && wanted() < passed)
-      points.push_back(point_inside(mesh, mesh.triangle(f), points.size()));
+    const auto found = [&] { return samples.points.size(); };
+    const auto wanted = [&] { return (static_cast<double>(found()) + 0.5) / static_cast<double>(count) * total; };
+    while (found() < count && wanted() < passed) samples.add(point_inside(mesh, mesh.triangle(f), found()));
   }
-  return points;
+  return samples;
 }
 
 /// Sums are taken of distances divided by the largest one, whose squares neither overflow nor underflow.
@@ -103,11 +117,14 @@ DeviationStatistics deviation_statistics(const MeshView& mesh, const Bvh& other,
   validate(mesh);
   if (sampling.samples == 0 || sampling.bins == 0 || !(sampling.scale > 0) || !std::isfinite(sampling.scale))
     throw InvalidInput("statistics of deviations need at least one sample and one bin, and a scale of more than 0");
-  const std::vector<Eigen::Vector3d> points = points_on(mesh, sampling.samples);
-  std::vector<double> distances(points.size());
-  measure_points(points, other, options, [&](std::size_t i, const ClosestPoint& found) {
-    const bool is_beyond = found.distance.lower > sampling.scale;
-    distances[i] = is_beyond ? found.distance.upper : std::min(found.distance.upper, sampling.scale);
+  if (!(sampling.max_distance >= 0)) throw InvalidInput("the largest distance of a deviation is at least 0");
+  const Samples samples = points_on(mesh, sampling.samples);
+  std::vector<double> distances(samples.points.size());
+  measure_points(samples.points, other, options, [&](std::size_t i, const ClosestPoint& found) {
+    const Bounds distance = widened(found.distance, samples.errors[i]);
+    const bool is_beyond = distance.lower > sampling.scale;
+    const double upper = std::min(distance.upper, sampling.max_distance);
+    distances[i] = is_beyond ? upper : std::min(upper, sampling.scale);
   });
   DeviationStatistics statistics;
   statistics.scale = sampling.scale;

@@ -8,6 +8,7 @@
 #include "deviation/legend.h"
 #include "deviation/surface_image.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/transform.h"
 #include "numeric/no_index.h"
 
 namespace meshbound::tools {
@@ -59,14 +60,22 @@ void draw_surface(Picture& picture, int left, const TriangleMesh& mesh, const Co
 void draw_deviation(Picture& picture, int left, const DeviationScene& scene, const SurfaceImage& image,
                     const Camera& camera, const DeviationOptions& options) {
   std::vector<Eigen::Vector3d> points;
-  for_each_pixel(image, [&](int x, int y, std::uint32_t) { points.push_back(image.point(x, y)); });
+  std::vector<double> errors;
+  for_each_pixel(image, [&](int x, int y, std::uint32_t) {
+    const RoundedPoint point = image.point(x, y);
+    points.push_back(point.position);
+    errors.push_back(point.error);
+  });
   options.stop.check();
   const std::vector<ClosestPoint> found = closest_points(*scene.other, points, {options.threads});
-  auto next = found.begin();
+  std::size_t next = 0;
   for_each_pixel(image, [&](int x, int y, std::uint32_t triangle) {
     constexpr double flat = 0.55;  // share of the colour that no light changes, so that it can be read
     const double light = flat + (1 - flat) * light_on(*scene.coloured, triangle, camera);
-    picture.set(left + x, header + y, shaded(scene.scale.colour((next++)->distance), light));
+    Bounds deviation = widened(found[next].distance, errors[next]);
+    deviation.upper = std::min(deviation.upper, scene.max_deviation);
+    picture.set(left + x, header + y, shaded(scene.scale.colour(deviation), light));
+    ++next;
   });
 }
 

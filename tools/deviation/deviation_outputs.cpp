@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "deviation/deviation_outputs.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/distance_text.h"
@@ -12,21 +13,49 @@
 namespace meshbound::tools {
 namespace {
 
-/// Triangles in the view of a report for each of the two meshes, and for all levels together: some 2.5 MB each as text,
-/// 7 MB for triangles that share no vertices.
+/// Triangles in the view of a report for each of the two meshes, and for all levels together: some 2.5 MB each as text.
 constexpr std::size_t max_display_triangles = 60'000;
+
+/// Bytes of text of these at most, each: triangles that share no vertices take 6 MB, and the original has deviations
+/// for each level. Three of them leave 5 MB of the 20 MB of a report for the page, its engine and the document.
+constexpr std::size_t max_display_size = 5'000'000;
 
 /// With more levels than this the view shows the result alone.
 constexpr std::size_t max_display_levels = 24;
 
 DeviationStatistics statistics_of(const TriangleMesh& mesh, const Bvh& other, const DeviationScale& scale,
-                                  const DeviationOptions& options) {
+                                  double max_distance, const DeviationOptions& options) {
   DeviationSampling sampling;
   sampling.scale = scale.end;
+  sampling.max_distance = max_distance;
   return deviation_statistics(mesh, other, sampling, options);
 }
 
+/// Deviations of a mesh of which no point is further than `max_distance`.
+std::vector<Bounds> at_most(std::vector<Bounds> deviations, double max_distance) {
+  for (Bounds& deviation : deviations) deviation.upper = std::min(deviation.upper, max_distance);
+  return deviations;
+}
+
+/// What a report shows of a mesh of which no point is further than `max_distance`.
+DisplayMesh shown(const TriangleMesh& mesh, const std::vector<Bounds>& vertices, const Bvh& other, double max_distance,
+                  const DisplayLimits& limits, const DeviationOptions& options) {
+  DisplayMesh display = display_mesh(mesh, vertices, other, limits, options);
+  display.deviations = at_most(std::move(display.deviations), max_distance);
+  return display;
+}
+
 }  // namespace
+
+ProvenMaxima proven_maxima(const Bounds& distance, const OneSidedDistance& original_to_result,
+                           const OneSidedDistance* result_to_original) {
+  ProvenMaxima maxima;
+  maxima.of_original = original_to_result.bounds.upper;
+  if (result_to_original == nullptr) return maxima;
+  maxima.of_original = std::min(maxima.of_original, distance.upper);
+  maxima.of_result = std::min(result_to_original->bounds.upper, distance.upper);
+  return maxima;
+}
 
 /// Both trees and the deviations of the vertices of both meshes.
 struct DeviationOutputs::Measured {
@@ -35,8 +64,8 @@ struct DeviationOutputs::Measured {
 
   Measured(const DeviationSubject& subject, const DeviationOptions& options)
       : trees(build_trees(*subject.original, *subject.result, {options.threads, options.stop})),
-        original(vertex_deviations(*subject.original, trees.second, options)),
-        result(vertex_deviations(*subject.result, trees.first, options)) {}
+        original(at_most(vertex_deviations(*subject.original, trees.second, options), subject.maxima.of_original)),
+        result(at_most(vertex_deviations(*subject.result, trees.first, options), subject.maxima.of_result)) {}
 };
 
 void DeviationOutputs::measure(const DeviationSubject& subject, const DeviationOptions& options) {
@@ -44,8 +73,10 @@ void DeviationOutputs::measure(const DeviationSubject& subject, const DeviationO
   report_.scale = subject.scale.end;
   report_.scale_meaning = subject.scale.meaning;
   report_.unit = request_.units;
-  report_.a_to_b = statistics_of(*subject.original, measured.trees.second, subject.scale, options);
-  report_.b_to_a = statistics_of(*subject.result, measured.trees.first, subject.scale, options);
+  report_.a_to_b =
+      statistics_of(*subject.original, measured.trees.second, subject.scale, subject.maxima.of_original, options);
+  report_.b_to_a =
+      statistics_of(*subject.result, measured.trees.first, subject.scale, subject.maxima.of_result, options);
   stage(request_.heatmap, *subject.result, measured.result, subject,
         subject.result_name + ", coloured by its distance to " + subject.original_name);
   stage(request_.original_heatmap, *subject.original, measured.original, subject,
@@ -73,6 +104,7 @@ void DeviationOutputs::make_picture(const DeviationSubject& subject, const Measu
   const bool first = subject.worst_is_on_original;
   scene.coloured = first ? subject.original : subject.result;
   scene.other = first ? &measured.trees.second : &measured.trees.first;
+  scene.max_deviation = first ? subject.maxima.of_original : subject.maxima.of_result;
   scene.coloured_title = "distance of " + (first ? subject.original_name : subject.result_name);
   scene.unit = request_.units;
   scene.scale = subject.scale;
@@ -88,20 +120,24 @@ void DeviationOutputs::make_scene(const DeviationSubject& subject, const Measure
   scene_.up = request_.up.value_or(UpAxis::Z);
   scene_.unit = request_.units;
   scene_.measure_here = measure_here(subject.measurement, *subject.original, *subject.result);
+  const std::size_t levels = subject.levels.size() <= max_display_levels ? subject.levels.size() : 0;
+  DisplayLimits limits{max_display_triangles, max_display_size};
+  const Bvh& tree_of_original = measured.trees.first;
+  ReportLevel result;
+  result.display = shown(*subject.result, measured.result, tree_of_original, subject.maxima.of_result, limits, options);
+  limits.deviation_sets = 2 + levels;  // its own, those from the result and those from each level
   scene_.original =
-      display_mesh(*subject.original, measured.original, measured.trees.second, max_display_triangles, options);
-  if (subject.levels.size() <= max_display_levels) {
-    for (const TriangleMesh& mesh : subject.levels) {
-      const Bvh tree(mesh, BvhOptions{options.threads, options.stop});
-      ReportLevel& level = scene_.levels.emplace_back();
-      level.display = display_mesh(mesh, vertex_deviations(mesh, measured.trees.first, options), measured.trees.first,
-                                   max_display_triangles / subject.levels.size(), options);
-      level.first = vertex_deviations(scene_.original.mesh, tree, options);
-    }
-  }
-  ReportLevel& result = scene_.levels.emplace_back();
-  result.display = display_mesh(*subject.result, measured.result, measured.trees.first, max_display_triangles, options);
+      shown(*subject.original, measured.original, measured.trees.second, subject.maxima.of_original, limits, options);
   result.first = scene_.original.deviations;
+  for (std::size_t i = 0; i < levels; ++i) {
+    const auto& [mesh, maxima] = subject.levels[i];
+    const Bvh tree(mesh, BvhOptions{options.threads, options.stop});
+    ReportLevel& level = scene_.levels.emplace_back();
+    level.display = shown(mesh, vertex_deviations(mesh, tree_of_original, options), tree_of_original, maxima.of_result,
+                          {max_display_triangles / levels, max_display_size / levels}, options);
+    level.first = at_most(display_deviations(scene_.original, tree, options), maxima.of_original);
+  }
+  scene_.levels.push_back(std::move(result));
 }
 
 void DeviationOutputs::write(const std::string& document) {

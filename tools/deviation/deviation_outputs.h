@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,11 +11,34 @@
 #include "deviation/report_file.h"
 #include "mesh/atomic_file.h"
 #include "meshbound/attributes.h"
+#include "meshbound/bounds.h"
 #include "meshbound/deviation_map.h"
+#include "meshbound/distance.h"
 #include "meshbound/report.h"
 #include "meshbound/triangle_mesh.h"
 
 namespace meshbound::tools {
+
+/// Proven upper bounds of the one-sided distances between an original and a result, model units; infinite where nothing
+/// is known. No deviation that is shown exceeds them, however its point was rounded.
+struct ProvenMaxima {
+  double of_original = std::numeric_limits<double>::infinity();  ///< of points of the original from the result
+  double of_result = std::numeric_limits<double>::infinity();    ///< of points of the result from the original
+};
+
+/// From the bounds of both directions, of which the second may be null. Only with both does `distance` bound both.
+[[nodiscard]] ProvenMaxima proven_maxima(const Bounds& distance, const OneSidedDistance& original_to_result,
+                                         const OneSidedDistance* result_to_original);
+
+[[nodiscard]] inline ProvenMaxima maxima_of(const HausdorffDistance& distance) {
+  return proven_maxima(distance.bounds, distance.a_to_b, &distance.b_to_a);
+}
+
+/// A result that is shown beside the one that a `DeviationSubject` is about.
+struct ShownLevel {
+  TriangleMesh mesh;
+  ProvenMaxima maxima;
+};
 
 /// The meshes whose deviation is shown; all must outlive the call that gets them.
 struct DeviationSubject {
@@ -23,7 +47,8 @@ struct DeviationSubject {
   /// Their texture coordinates, for the picture; null: not shown.
   const CornerAttribute *original_texture = nullptr, *result_texture = nullptr;
   std::string original_name, result_name;  ///< such as "original", "simplified"
-  std::vector<TriangleMesh> levels;        ///< finer results than `result`, from the finest on
+  std::vector<ShownLevel> levels;          ///< finer results than `result`, from the finest on
+  ProvenMaxima maxima;                     ///< of `original` and `result`
   DeviationScale scale;
   RepeatedMeasurement measurement;   ///< of the distance between `original` and `result`
   bool worst_is_on_original = true;  ///< the mesh that the picture shows in colours: where the worst spot is

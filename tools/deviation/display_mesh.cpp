@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "deviation/rounded_point.h"
 #include "mesh/first_use.h"
 #include "meshbound/mesh_summary.h"
+#include "meshbound/transform.h"
 
 namespace meshbound::tools {
 namespace {
@@ -71,6 +73,7 @@ void take_used(const TriangleMesh& mesh, const std::vector<Bounds>& vertices, Di
   for (const std::uint32_t v : number.used()) {
     display.mesh.vertices.push_back(mesh.vertices[v]);
     display.deviations.push_back(vertices[v]);
+    display.errors.push_back(0);
   }
 }
 
@@ -133,8 +136,9 @@ std::size_t triangles_after(const std::vector<std::uint32_t>& cuts) {
 
 /// Adds a triangle cut into n * n equal ones. Its corners are shared with neighbouring triangles, points between
 /// corners are not.
-void add_cut(TriangleMesh& mesh, const Triangle& t, std::uint32_t n) {
-  const Vector3d a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+void add_cut(DisplayMesh& display, const Triangle& t, std::uint32_t n) {
+  TriangleMesh& mesh = display.mesh;
+  const std::array<Vector3d, 3> corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
   std::vector<std::uint32_t> number;  // row by row, from `a` to the edge b c
   for (std::uint32_t i = 0; i <= n; ++i) {
     for (std::uint32_t j = 0; j <= i; ++j) {
@@ -144,7 +148,9 @@ void add_cut(TriangleMesh& mesh, const Triangle& t, std::uint32_t n) {
       }
       const double u = static_cast<double>(i - j) / n, v = static_cast<double>(j) / n;
       number.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
-      mesh.vertices.push_back((1 - u - v) * a + u * b + v * c);
+      const RoundedPoint point = rounded_point(corners, u, v);
+      mesh.vertices.push_back(point.position);
+      display.errors.push_back(point.error);
     }
   }
   const auto at = [&](std::uint32_t i, std::uint32_t j) { return number[i * (i + 1) / 2 + j]; };
@@ -177,20 +183,49 @@ DisplayMesh refined(const TriangleMesh& whole, const std::vector<Bounds>& vertic
     }
   }
   display.mesh.vertices = mesh.vertices;
-  for (std::size_t t = 0; t < parts.size(); ++t) add_cut(display.mesh, mesh.triangles[t], parts[t]);
+  display.errors = used.errors;
+  for (std::size_t t = 0; t < parts.size(); ++t) add_cut(display, mesh.triangles[t], parts[t]);
   display.edges = edges_of(mesh.triangles);
-  display.deviations = vertex_deviations(display.mesh, other, options);
+  display.deviations = display_deviations(display, other, options);
+  return display;
+}
+
+/// As `display_mesh`, with a limit of triangles alone.
+DisplayMesh of_at_most(std::size_t max_triangles, const TriangleMesh& mesh, const std::vector<Bounds>& vertices,
+                       const Bvh& other, const DeviationOptions& options) {
+  DisplayMesh display = mesh.triangles.size() > max_triangles ? reduced(mesh, vertices, max_triangles, options)
+                                                              : refined(mesh, vertices, other, max_triangles, options);
+  display.faces = mesh.triangles.size();
   return display;
 }
 
 }  // namespace
 
+std::size_t packed_size(const DisplayMesh& display, std::size_t deviation_sets) {
+  const std::size_t of_vertex = 3 * sizeof(float) + deviation_sets * sizeof(std::uint16_t);
+  const std::size_t bytes = display.mesh.vertices.size() * of_vertex +
+                            display.mesh.triangles.size() * sizeof(Triangle) + display.edges.size() * sizeof(Edge);
+  return bytes / 3 * 4;  // in base64
+}
+
 DisplayMesh display_mesh(const TriangleMesh& mesh, const std::vector<Bounds>& vertices, const Bvh& other,
-                         std::size_t max_triangles, const DeviationOptions& options) {
-  DisplayMesh display = mesh.triangles.size() > max_triangles ? reduced(mesh, vertices, max_triangles, options)
-                                                              : refined(mesh, vertices, other, max_triangles, options);
-  display.faces = mesh.triangles.size();
-  return display;
+                         const DisplayLimits& limits, const DeviationOptions& options) {
+  std::size_t max_triangles = limits.max_triangles;
+  for (;;) {
+    DisplayMesh display = of_at_most(max_triangles, mesh, vertices, other, options);
+    const std::size_t size = packed_size(display, limits.deviation_sets);
+    if (size <= limits.max_size || max_triangles == 0) return display;
+    // Sizes do not shrink in proportion: a reduced mesh has as many edges as it shows, a refined one those of `mesh`.
+    constexpr double margin = 0.95;
+    const double share = margin * static_cast<double>(limits.max_size) / static_cast<double>(size);
+    max_triangles = static_cast<std::size_t>(share * static_cast<double>(max_triangles));
+  }
+}
+
+std::vector<Bounds> display_deviations(const DisplayMesh& display, const Bvh& other, const DeviationOptions& options) {
+  std::vector<Bounds> deviations = vertex_deviations(display.mesh, other, options);
+  for (std::size_t v = 0; v < deviations.size(); ++v) deviations[v] = widened(deviations[v], display.errors[v]);
+  return deviations;
 }
 
 }  // namespace meshbound::tools

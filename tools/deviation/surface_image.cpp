@@ -87,10 +87,10 @@ Vector3d SurfaceImage::weights(int x, int y) const {
   return Projected(mesh_, triangle(x, y), camera_).weights(x + 0.5, y + 0.5);
 }
 
-Vector3d SurfaceImage::point(int x, int y) const {
+RoundedPoint SurfaceImage::point(int x, int y) const {
   const Triangle& t = mesh_.triangles[triangle(x, y)];
-  const Vector3d w = weights(x, y);
-  return w[0] * mesh_.vertices[t[0]] + w[1] * mesh_.vertices[t[1]] + w[2] * mesh_.vertices[t[2]];
+  const Vector3d w = weights(x, y);  // none is below 0, see `draw`
+  return rounded_point({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}, w[1], w[2]);
 }
 
 bool SurfaceImage::is_edge(int x, int y) const {

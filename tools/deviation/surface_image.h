@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deviation/camera.h"
+#include "deviation/rounded_point.h"
 #include "meshbound/mesh_view.h"
 
 namespace meshbound::tools {
@@ -23,7 +24,7 @@ class SurfaceImage {
   /// The barycentric coordinates, in its triangle, of the point at the middle of a pixel that has a triangle.
   [[nodiscard]] Eigen::Vector3d weights(int x, int y) const;
   /// That point, model units.
-  [[nodiscard]] Eigen::Vector3d point(int x, int y) const;
+  [[nodiscard]] RoundedPoint point(int x, int y) const;
   /// Whether a pixel is at the border between two triangles, or at that of the surface.
   [[nodiscard]] bool is_edge(int x, int y) const;
   /// Number of pixels that have a triangle.

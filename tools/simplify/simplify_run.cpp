@@ -314,9 +314,11 @@ void Run::measure_deviation() {
   subject.scale = scale_for(tolerances_.back(), distance.bounds, diagonal_);
   const auto worst = worst_spot(distance.bounds, distance.a_to_b, &distance.b_to_a);
   subject.worst_is_on_original = !worst || worst->on_a;
+  subject.maxima = maxima_of(distance);
   subject.measurement = repeated(tolerances_.back(), decided_by_.back());
   if (!options_.deviation.report.empty())
-    for (std::size_t i = 0; i + 1 < outputs_.size(); ++i) subject.levels.push_back(outputs_[i].written_mesh());
+    for (std::size_t i = 0; i + 1 < outputs_.size(); ++i)
+      subject.levels.push_back({outputs_[i].written_mesh(), maxima_of(outputs_[i].distance())});
   try {
     deviation_->measure(subject, {options_.common.threads, stop()});
     report_.deviation = deviation_->report();
