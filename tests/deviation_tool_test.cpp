@@ -368,11 +368,12 @@ TEST_F(DeviationTool, WithoutTimeTheResultIsThereButNoDeviation) {
   EXPECT_FALSE(fs::exists(in("h.ply")));
 }
 
-/// Triangles that share no vertices, of which a report holds 2.5 times as much.
+/// Triangles in a square that share no vertices, of which a report holds 2.5 times as much.
 TriangleMesh scattered_triangles(std::uint32_t count) {
   TriangleMesh mesh;
+  const auto row = static_cast<std::uint32_t>(std::sqrt(count));
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double x = i % 250, y = i / 250;
+    const double x = i % row + 0.4 * std::sin(i), y = i / row + 0.4 * std::sin(3 * i);
     mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0}, {x + 0.9, y, 0}, {x, y + 0.9, 0}});
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
