@@ -348,6 +348,27 @@ TEST(SimplifyInTiles, EndsByRoundingOnlyWhereNoTileCanCollapse) {
   EXPECT_LT(result.last().faces(), both.triangles.size());
 }
 
+TEST(DistanceInTiles, TellsItsProgressAndEndsWhenItIsAskedTo) {
+  const TriangleMesh a = datasets::terrain(1, 40, 5), b = datasets::terrain(1, 40, 6);
+  DistanceOptions options;
+  options.threads = 1;
+  std::vector<double> shares;
+  options.progress = [&](double share) { shares.push_back(share); };
+  const Bounds truth = hausdorff_distance_in_tiles(a, b, options, {100}).bounds;
+  EXPECT_GT(shares.size(), 20U);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1);
+  std::atomic<bool> cancel = false;
+  options.cancel = &cancel;
+  options.progress = [&](double share) { cancel = share > 0.2; };
+  shares.clear();
+  const HausdorffDistance ended = hausdorff_distance_in_tiles(a, b, options, {100});
+  EXPECT_EQ(ended.a_to_b.outcome, Outcome::BudgetExhausted);
+  EXPECT_LE(ended.bounds.lower, truth.upper);
+  EXPECT_EQ(ended.bounds.upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(ended.b_to_a.stats.closest_point_queries, 0U);
+}
+
 TEST(SimplifyInTiles, RefusesWhatTilesCannotDo) {
   const TriangleMesh cube = datasets::cube(1, 2);
   const auto refuses = [&](const auto& change) {

@@ -53,7 +53,7 @@ class TiledSearch {
         start_(start),
         tiles_(tiles_beside(a, b, reach.first, max_triangles)) {
     options_.threads = 1;
-    options_.progress = {};
+    progress_ = std::exchange(options_.progress, {});
   }
 
   /// `known_lower`: of the quantity that is wanted.
@@ -88,7 +88,11 @@ class TiledSearch {
     [[nodiscard]] bool is_complete(std::size_t job) const override {
       return found_[job].outcome != Outcome::BudgetExhausted;
     }
-    void progress(double) override {}
+    void progress(double share) override {
+      if (!search_.progress_) return;
+      const double done = static_cast<double>(first_) + share * static_cast<double>(size());
+      search_.progress_(done / static_cast<double>(search_.tiles_.size()));
+    }
     [[nodiscard]] const std::vector<OneSidedDistance>& found() const { return found_; }
 
    private:
@@ -98,7 +102,20 @@ class TiledSearch {
     std::vector<OneSidedDistance> found_;
   };
 
+  [[nodiscard]] bool is_stopped() const {
+    return StopToken{.cancel = options_.cancel}.until(start_, options_.budget.seconds).stopped();
+  }
+
+  /// Of a tile for which no time is left nothing is known.
+  static OneSidedDistance unknown(std::size_t triangles) {
+    OneSidedDistance result;
+    result.outcome = Outcome::BudgetExhausted;
+    result.stats.triangles = triangles;
+    return result;
+  }
+
   OneSidedDistance search(std::span<const std::uint32_t> tile, double known_lower) const {
+    if (is_stopped()) return unknown(tile.size());
     const MeshPart part = part_of(a_, tile);
     const Eigen::AlignedBox3d box = box_of(part.mesh);
     const Bvh tree(part.mesh, BvhOptions{1});
@@ -148,6 +165,7 @@ class TiledSearch {
   const StoredMesh& a_;
   const Clusters& b_;
   DistanceOptions options_;
+  std::function<void(double)> progress_;  ///< of this direction
   SearchReach reach_;
   StopToken::Clock::time_point start_;
   StoredLists tiles_;
@@ -174,13 +192,27 @@ class TiledMeasurement {
     });
   }
 
-  [[nodiscard]] OneSidedDistance a_to_b(double known_lower) const { return search(*a_, *b_, known_lower); }
-  [[nodiscard]] OneSidedDistance b_to_a(double known_lower) const { return search(*b_, *a_, known_lower); }
+  /// `end`: the share of the whole measurement that is done after this direction.
+  [[nodiscard]] OneSidedDistance a_to_b(double known_lower, double end) const {
+    return search(*a_, *b_, known_lower, {0, end});
+  }
+  [[nodiscard]] OneSidedDistance b_to_a(double known_lower, double begin) const {
+    return search(*b_, *a_, known_lower, {begin, 1});
+  }
 
  private:
-  [[nodiscard]] OneSidedDistance search(const Clusters& from, const Clusters& to, double known_lower) const {
+  /// Shares of the whole measurement.
+  struct Share {
+    double begin, end;
+  };
+
+  [[nodiscard]] OneSidedDistance search(const Clusters& from, const Clusters& to, double known_lower,
+                                        const Share& share) const {
+    DistanceOptions options = options_;
+    if (options.progress)
+      options.progress = [&](double done) { options_.progress(share.begin + done * (share.end - share.begin)); };
     std::optional<TiledSearch> search;
-    runner_.do_together([&] { search.emplace(from, to, options_, tiles_.max_triangles, reach_, start_); });
+    runner_.do_together([&] { search.emplace(from, to, options, tiles_.max_triangles, reach_, start_); });
     return search->run(known_lower, runner_);
   }
 
@@ -201,15 +233,16 @@ double default_error_bound(const StoredMesh& a, const StoredMesh& b, double diag
 
 OneSidedDistance measure_one_side_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
                                            const TileOptions& tiles, JobRunner& runner) {
-  return TiledMeasurement(a, b, options, tiles, runner).a_to_b(0);
+  return TiledMeasurement(a, b, options, tiles, runner).a_to_b(0, 1);
 }
 
 HausdorffDistance measure_in_tiles(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options,
                                    const TileOptions& tiles, JobRunner& runner) {
   const TiledMeasurement measurement(a, b, options, tiles, runner);
   HausdorffDistance result;
-  result.a_to_b = measurement.a_to_b(0);
-  result.b_to_a = measurement.b_to_a(result.a_to_b.bounds.lower);
+  constexpr double share_of_first = 0.5;
+  result.a_to_b = measurement.a_to_b(0, share_of_first);
+  result.b_to_a = measurement.b_to_a(result.a_to_b.bounds.lower, share_of_first);
   result.bounds = {std::max(result.a_to_b.bounds.lower, result.b_to_a.bounds.lower),
                    std::max(result.a_to_b.bounds.upper, result.b_to_a.bounds.upper)};
   return result;
