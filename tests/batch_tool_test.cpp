@@ -3,9 +3,12 @@
 // was killed goes on, shards make a whole.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -40,6 +43,32 @@ class BatchTool : public testing::Test {
   ToolRun run(std::vector<std::string> options, const std::string& environment = "") const {
     options.insert(options.begin(), {"--batch", in("models"), "--output-dir", in("out"), "--tolerance", "1%"});
     return run_shell(environment + " " + command_line(SIMPLIFY_WITH_BOUND, options).substr(5));  // without "exec "
+  }
+  ToolRun run_at(const std::string& tolerance, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> all{"--batch", in("models"), "--output-dir", in("out"), "--tolerance", tolerance};
+    all.insert(all.end(), options.begin(), options.end());
+    return run_tool(SIMPLIFY_WITH_BOUND, all);
+  }
+  /// The row of a mesh in the table of all reports.
+  [[nodiscard]] std::string merged_row(const std::string& name) const {
+    const ToolRun merged = run_tool(SIMPLIFY_WITH_BOUND, {"--batch-merge", in("out")});
+    EXPECT_EQ(merged.exit_code, 0) << merged.err;
+    std::ifstream table(in("out/batch.csv"));
+    for (std::string row; std::getline(table, row);)
+      if (row.starts_with(name + ",")) return row;
+    return "";
+  }
+  /// A glTF of one triangle whose buffer is the file face.bin.
+  void write_gltf(double scale) const {
+    std::string bytes;
+    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, static_cast<float>(scale), 0.0F})
+      bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+    std::ofstream(in("models/face.bin"), std::ios::binary) << bytes;
+    std::ofstream(in("models/face.gltf")) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+      "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "buffers": [{"byteLength": 36, "uri": "face.bin"}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                     "min": [0, 0, 0], "max": [1, 9, 0]}]})";
   }
   /// The records of a report, by name; those of one name must be one.
   [[nodiscard]] std::map<std::string, json> records(const std::string& report = "batch.jsonl") const {
@@ -110,17 +139,6 @@ TEST_F(BatchTool, DoesAnewWhatHasChanged) {
 
 /// The buffers of a glTF are files of their own, and part of its content.
 TEST_F(BatchTool, DoesAnewWhatHasOtherBuffers) {
-  const auto write_gltf = [&](double scale) {
-    std::string bytes;
-    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, static_cast<float>(scale), 0.0F})
-      bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-    std::ofstream(in("models/face.bin"), std::ios::binary) << bytes;
-    std::ofstream(in("models/face.gltf")) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-      "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-      "buffers": [{"byteLength": 36, "uri": "face.bin"}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
-      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                     "min": [0, 0, 0], "max": [1, 9, 0]}]})";
-  };
   write_gltf(1);
   ASSERT_EQ(run({}).exit_code, 0);
   EXPECT_NE(run({}).out.find("4 from an earlier run"), std::string::npos);
@@ -205,6 +223,41 @@ TEST_F(BatchTool, ShardsMakeAWhole) {
   const ToolRun merged = run_tool(SIMPLIFY_WITH_BOUND, {"--batch-merge", in("out")});
   EXPECT_EQ(merged.exit_code, 0) << merged.err;
   EXPECT_EQ(line_count(content_of(in("out/batch.csv"))), 4);
+}
+
+/// What a batch writes may replace the results of its earlier runs, and nothing else that it reads or writes.
+TEST_F(BatchTool, RefusesToReplaceWhatItReads) {
+  write_gltf(1);
+  const auto refused = [&](const std::string& source, const std::string& output_dir, const std::string& why) {
+    const ToolRun result = run_shell("cd " + shell_quoted(in("")) + " && " +
+                                     command_line(SIMPLIFY_WITH_BOUND, {"--batch", source, "--output-dir", output_dir,
+                                                                        "--tolerance", "1%", "--jobs", "1"}));
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_EQ(line_count(result.err), 1) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(in(output_dir + "/batch.jsonl")));
+  };
+  refused("models", "models", "models/cube.off is the file that is read as mesh models/cube.off of --batch");
+
+  fs::create_directories(in("small"));
+  write_mesh(in("small/cube.off"), datasets::icosphere(1, 2));
+  const std::string sphere = content_of(in("small/cube.off"));
+  fs::copy_file(in("models/cube.off"), in("cube.off"));
+  std::ofstream(in("list.txt")) << "cube.off\nsmall/cube.off\n";
+  refused("list.txt", "small",
+          "--output-dir for cube.off: small/cube.off is the file that is read as mesh small/cube.off");
+  EXPECT_EQ(content_of(in("small/cube.off")), sphere);
+
+  const auto with_output = [&](const std::string& name, const std::string& target, const std::string& why) {
+    fs::remove_all(in("linked"));
+    fs::create_directories(in("linked"));
+    fs::create_symlink(target, in("linked/" + name));
+    refused("models", "linked", why);
+  };
+  with_output("cube.off", "../models/torus.ply", "is read as mesh models/torus.ply");
+  with_output("cube.off", "torus.ply", "is written as --output-dir for models/cube.off");
+  with_output("cube.off", "../models/face.bin", "is read as mesh models/face.gltf");
+  with_output("batch.csv", "../models/cube.off", "linked/batch.csv is the file that is read as mesh models/cube.off");
 }
 
 TEST_F(BatchTool, TakesAListOfFiles) {

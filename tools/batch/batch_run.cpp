@@ -13,6 +13,7 @@
 
 #include "batch/assets.h"
 #include "batch/child.h"
+#include "batch/distinct_results.h"
 #include "batch/merge.h"
 #include "batch/record.h"
 #include "common/distance_text.h"
@@ -59,9 +60,10 @@ class BatchRun {
   }
 
   int operator()() {
-    std::vector<Asset> assets = find_assets(options_.source, output_dir_);
+    const std::vector<Asset> assets = find_assets(options_.source, output_dir_);
     for (std::size_t i = 0; i < assets.size(); ++i)
-      if (i % shard_.count == shard_.index) open_.push_back(std::move(assets[i]));
+      if (i % shard_.count == shard_.index) open_.push_back(assets[i]);
+    require_distinct_results({options_.source, assets, open_, output_dir_, report_paths()});
     const OutputFolder folder(output_dir_);
     earlier_ = read_records(output_dir_);
     RecordFile report(report_path());
@@ -87,6 +89,11 @@ class BatchRun {
   }
 
   void work(RecordFile& report) {
+  [[nodiscard]] std::vector<fs::path> report_paths() const {
+    if (!options_.shard.empty()) return {report_path()};
+    return {report_path(), output_dir_ / "batch.csv", output_dir_ / "batch.html"};
+  }
+
     ProgressBar bar("simplifying " + std::to_string(open_.size()) + " meshes", common_.quiet);
     std::vector<Job> jobs;
     for (std::size_t next = 0; (next < open_.size() || !jobs.empty()) && !interrupted();) {

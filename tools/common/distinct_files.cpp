@@ -4,71 +4,79 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <optional>
+#include <functional>
 
 #include "mesh/gltf_document.h"
 #include "mesh/output_target.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
-namespace {
 
-/// What identifies the file behind a path.
-struct Identity {
-  dev_t device = 0;
-  ino_t inode = 0;             ///< 0 where nothing is there yet
-  std::filesystem::path path;  ///< folder, links resolved, and name of what is not there yet
+namespace fs = std::filesystem;
 
-  bool operator==(const Identity&) const = default;
-};
+std::size_t DistinctFiles::Hash::operator()(const Identity& identity) const {
+  const std::size_t file = std::hash<ino_t>()(identity.inode) ^ std::hash<dev_t>()(identity.device << 1);
+  return file ^ std::hash<std::string>()(identity.path);
+}
 
-/// Absent for devices and other paths that writing does not replace.
-std::optional<Identity> identity_of(const std::filesystem::path& path) {
+/// Kept for the next file in the same folder.
+const fs::path& DistinctFiles::resolved(const fs::path& folder) {
+  const auto [known, is_new] = resolved_.try_emplace(folder.native());
+  if (is_new) {
+    std::error_code error;
+    known->second = fs::weakly_canonical(fs::absolute(folder, error), error);
+    if (error) known->second = folder;
+  }
+  return known->second;
+}
+
+std::optional<DistinctFiles::Identity> DistinctFiles::identity_of(const fs::path& path) {
   if (path.empty() || path == "-") return std::nullopt;
-  const std::filesystem::path target = follow_links(path);
+  const fs::path target = follow_links(path);
   struct stat status {};
   if (::stat(target.c_str(), &status) == 0) {
     if (!S_ISREG(status.st_mode)) return std::nullopt;
     return Identity{status.st_dev, status.st_ino, {}};
   }
-  std::error_code error;
-  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  std::filesystem::path resolved = std::filesystem::weakly_canonical(std::filesystem::absolute(folder, error), error);
-  if (error) resolved = folder;
-  return Identity{0, 0, resolved / target.filename()};
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  return Identity{0, 0, (resolved(folder) / target.filename()).native()};
 }
 
-}  // namespace
+bool DistinctFiles::replaces_a_file(const fs::path& path) {
+  const std::optional<Identity> identity = identity_of(path);
+  return identity && identity->inode != 0;
+}
+
+void DistinctFiles::take(const NamedPath& named, const fs::path& path, const char* use) {
+  if (std::optional<Identity> identity = identity_of(path))
+    uses_.try_emplace(*std::move(identity), std::string(use) + " as " + named.role);
+}
+
+void DistinctFiles::add_input(const NamedPath& input) { take(input, input.path, "read"); }
+
+void DistinctFiles::add_files_beside(const NamedPath& input) {
+  for (const fs::path& beside : files_beside(input.path)) take(input, beside, "read");
+}
+
+void DistinctFiles::add_output(const NamedPath& output) {
+  std::optional<Identity> identity = identity_of(output.path);
+  if (!identity) return;
+  const auto [other, is_new] = uses_.try_emplace(*std::move(identity), "written as " + output.role);
+  if (!is_new)
+    throw InvalidInput(output.role + ": " + output.path.string() + " is the file that is " + other->second +
+                       "; name another one");
+}
 
 void require_distinct_files(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
-  struct Taken {
-    const NamedPath* named;
-    Identity identity;
-    const char* use;
-  };
-  std::vector<Taken> taken;
-  const auto take = [&](const NamedPath& input, const std::filesystem::path& path) {
-    if (const std::optional<Identity> identity = identity_of(path)) taken.push_back({&input, *identity, "read"});
-  };
+  DistinctFiles files;
   // Only what is there can be replaced: without such an output the inputs need not be read for the files beside them.
-  const bool may_replace = std::any_of(outputs.begin(), outputs.end(), [](const NamedPath& output) {
-    const std::optional<Identity> identity = identity_of(output.path);
-    return identity && identity->inode != 0;
-  });
+  const bool may_replace = std::any_of(
+      outputs.begin(), outputs.end(), [&files](const NamedPath& output) { return files.replaces_a_file(output.path); });
   for (const NamedPath& input : inputs) {
-    take(input, input.path);
-    if (!may_replace) continue;
-    for (const std::filesystem::path& beside : files_beside(input.path)) take(input, beside);
+    files.add_input(input);
+    if (may_replace) files.add_files_beside(input);
   }
-  for (const NamedPath& output : outputs) {
-    const std::optional<Identity> identity = identity_of(output.path);
-    if (!identity) continue;
-    for (const Taken& other : taken)
-      if (other.identity == *identity)
-        throw InvalidInput(output.role + ": " + output.path.string() + " is the file that is " + other.use + " as " +
-                           other.named->role + "; name another one");
-    taken.push_back({&output, *identity, "written"});
-  }
+  for (const NamedPath& output : outputs) files.add_output(output);
 }
 
 }  // namespace meshbound::tools
