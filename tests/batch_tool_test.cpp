@@ -225,6 +225,30 @@ TEST_F(BatchTool, ShardsMakeAWhole) {
   EXPECT_EQ(line_count(content_of(in("out/batch.csv"))), 4);
 }
 
+/// Names that are no UTF-8, as archives of other systems leave them: each has a record of its own.
+TEST_F(BatchTool, TellsNamesApartThatAreNoText) {
+  const std::map<std::string, std::string> names{
+      {"\xFE.off", "\\xFE.off"},
+      {"\xFF.off", "\\xFF.off"},
+      {"\\xFF.off", "\\\\xFF.off"},
+      {"\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80.off", "\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80.off"},
+      {"\xC1\x81.off", "\\xC1\\x81.off"},                    // a long form of "A"
+      {"\xE0\x80\x80.off", "\\xE0\\x80\\x80.off"},           // a long form of 0
+      {"\xED\xA0\x80.off", "\\xED\\xA0\\x80.off"},           // half of a surrogate pair
+      {"\xF4\x90\x80\x80.off", "\\xF4\\x90\\x80\\x80.off"},  // beyond U+10FFFF
+      {"\xE2\x82.off", "\\xE2\\x82.off"},                    // an incomplete character
+  };
+  fs::remove_all(in("models"));
+  fs::create_directories(in("models"));
+  for (const auto& [name, shown] : names) write_mesh(in("models/" + name), datasets::cube(1, 3));
+  EXPECT_EQ(run({}).exit_code, 0);
+  const auto lines = records();
+  for (const auto& [name, shown] : names) EXPECT_EQ(lines.count(shown), 1u) << shown;
+  const ToolRun again = run({});
+  EXPECT_NE(again.out.find("9: 9 within, 0 exceed, 0 undecided, 0 failed; 9 from an earlier run"), std::string::npos)
+      << again.out;
+}
+
 /// What a batch writes may replace the results of its earlier runs, and nothing else that it reads or writes.
 TEST_F(BatchTool, RefusesToReplaceWhatItReads) {
   write_gltf(1);

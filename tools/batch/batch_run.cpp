@@ -16,6 +16,7 @@
 #include "batch/distinct_results.h"
 #include "batch/merge.h"
 #include "batch/record.h"
+#include "batch/record_name.h"
 #include "common/distance_text.h"
 #include "common/memory.h"
 #include "common/output_folder.h"
@@ -108,12 +109,12 @@ class BatchRun {
   void begin(std::size_t index, RecordFile& report, std::vector<Job>& jobs) {
     const Asset& asset = open_[index];
     AssetRecord record;
-    record.input = asset.name;
+    record.input = record_name(asset.name);
     try {
       record.key = key_of(asset);
       if (const AssetRecord* const known = earlier(asset, record.key)) {
         ++reused_;
-        records_.emplace(asset.name, *known);
+        records_.emplace(record.input, *known);
         return;
       }
       fs::create_directories((output_dir_ / asset.name).parent_path());
@@ -122,14 +123,19 @@ class BatchRun {
       if (interrupted()) return;
       record.status = "failed";
       record.message = error.what();
-      report.add(record);
-      records_.emplace(asset.name, record);
+      add(report, std::move(record));
     }
   }
 
   /// Whether any process has ended.
   bool end_some(RecordFile& report, std::vector<Job>& jobs) {
     bool has_ended = false;
+  void add(RecordFile& report, AssetRecord record) {
+    record.message = utf8_text(record.message);
+    report.add(record);
+    records_.emplace(record.input, std::move(record));
+  }
+
     for (std::size_t i = 0; i < jobs.size();) {
       const auto end = jobs[i].child.poll();
       if (!end) {
@@ -139,8 +145,7 @@ class BatchRun {
       has_ended = true;
       if (!interrupted()) {  // otherwise the signal may have ended the process
         fill(*end, jobs[i].asset, jobs[i].record);
-        report.add(jobs[i].record);
-        records_.emplace(jobs[i].record.input, jobs[i].record);
+        add(report, std::move(jobs[i].record));
       }
       jobs.erase(jobs.begin() + static_cast<std::ptrdiff_t>(i));
     }
@@ -159,7 +164,7 @@ class BatchRun {
 
   /// The record of the asset by an earlier run, if it is still valid; null for failures, which are tried again.
   [[nodiscard]] const AssetRecord* earlier(const Asset& asset, const std::string& key) const {
-    const auto known = earlier_.find(asset.name);
+    const auto known = earlier_.find(record_name(asset.name));
     if (known == earlier_.end() || known->second.key != key || known->second.output_checksum.empty()) return nullptr;
     std::error_code error;
     const fs::path output = output_dir_ / asset.name;

@@ -10,7 +10,7 @@ namespace meshbound::tools {
 
 /// The record of an asset after its run: one line of a report, one row of the table.
 struct AssetRecord {
-  std::string input;            ///< its name below the folder of the batch
+  std::string input;            ///< its name below the folder of the batch, as `record_name` has it
   std::string key;              ///< SHA-256 of its content, the options and the version: equal keys have equal results
   std::string status;           ///< "within", "exceeds", "undecided", "failed"
   std::string message;          ///< the last line of standard error
