@@ -249,6 +249,28 @@ TEST_F(BatchTool, TellsNamesApartThatAreNoText) {
       << again.out;
 }
 
+/// A FIFO is not opened, not even to look for the buffers of a glTF that a result of the second run could replace.
+TEST_F(BatchTool, RecordsWhatCannotBeReadAsAFile) {
+  fs::create_symlink("nowhere", in("models/dangling.ply"));
+  fs::create_symlink("nowhere", in("models/\xFF.ply"));
+  fs::create_directory_symlink("..", in("models/folder.ply"));
+  ASSERT_EQ(::mkfifo(in("models/fifo.gltf").c_str(), 0600), 0);
+  const int watch = ::inotify_init1(IN_NONBLOCK);
+  ASSERT_GE(::inotify_add_watch(watch, in("models/fifo.gltf").c_str(), IN_OPEN), 0);
+  EXPECT_EQ(run({}).exit_code, 2);
+  const auto lines = records();
+  EXPECT_EQ(lines.size(), 6u);
+  EXPECT_EQ(content_of(in("out/batch.csv")).find('\xFF'), std::string::npos) << "the table is UTF-8";
+  ASSERT_TRUE(lines.contains("dangling.ply") && lines.contains("fifo.gltf"));
+  EXPECT_EQ(lines.at("dangling.ply")["status"], "failed");
+  EXPECT_NE(lines.at("dangling.ply")["message"].get<std::string>().find("No such file"), std::string::npos);
+  EXPECT_NE(lines.at("fifo.gltf")["message"].get<std::string>().find("not a regular file"), std::string::npos);
+  EXPECT_EQ(run({}).exit_code, 2);
+  std::array<char, 4096> events{};
+  EXPECT_EQ(::read(watch, events.data(), events.size()), -1) << "it was opened";
+  ::close(watch);
+}
+
 /// What a batch writes may replace the results of its earlier runs, and nothing else that it reads or writes.
 TEST_F(BatchTool, RefusesToReplaceWhatItReads) {
   write_gltf(1);

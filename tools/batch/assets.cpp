@@ -23,7 +23,7 @@ std::vector<Asset> below_folder(const std::string& folder, const fs::path& outpu
       it.disable_recursion_pending();
       continue;
     }
-    if (it->is_regular_file(none) && has_mesh_extension(it->path()))
+    if (!it->is_directory(none) && has_mesh_extension(it->path()))
       assets.push_back({it->path(), it->path().lexically_relative(folder).string()});
   }
   if (error) throw IoError("--batch: cannot read " + folder + ": " + error.message());

@@ -13,9 +13,10 @@ struct Asset {
 };
 
 /// The mesh files below a folder, by name and without those in `output_dir`, or those that a list names, a line each,
-/// relative to the working folder; empty lines and lines that begin with # are skipped. A path of a list that is
-/// absolute or leads upwards keeps only its last part as its name. Throws `IoError` for files that cannot be read,
-/// `InvalidInput` if there is no mesh or two would be written to one place.
+/// relative to the working folder; empty lines and lines that begin with # are skipped. Links to folders are not
+/// followed; links that lead nowhere, FIFOs and devices count as mesh files, so that they are reported. A path of a
+/// list that is absolute or leads upwards keeps only its last part as its name. Throws `IoError` for files that cannot
+/// be read, `InvalidInput` if there is no mesh or two would be written to one place.
 [[nodiscard]] std::vector<Asset> find_assets(const std::string& source, const std::filesystem::path& output_dir);
 
 }  // namespace meshbound::tools

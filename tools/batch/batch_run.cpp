@@ -111,6 +111,7 @@ class BatchRun {
     AssetRecord record;
     record.input = record_name(asset.name);
     try {
+      require_regular(asset.input);
       record.key = key_of(asset);
       if (const AssetRecord* const known = earlier(asset, record.key)) {
         ++reused_;
@@ -154,6 +155,14 @@ class BatchRun {
 
   /// A key that is equal for equal content, options, place and version.
   [[nodiscard]] std::string key_of(const Asset& asset) const {
+  /// A FIFO or a device is not even opened: that may wait, or do something to it.
+  static void require_regular(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+      throw InvalidInput(path.string() + ": cannot read: it is not a regular file");
+  }
+
     std::string text = provenance().version + '\n' + checksum_of(asset.input) + '\n' + asset.name + '\n';
     std::error_code error;
     for (const fs::path& beside : files_beside(asset.input))
