@@ -225,6 +225,37 @@ TEST_F(BatchTool, ShardsMakeAWhole) {
   EXPECT_EQ(line_count(content_of(in("out/batch.csv"))), 4);
 }
 
+/// Whatever the reports of the shards are called, the table has the last run of each mesh, and so has a resumed run.
+TEST_F(BatchTool, MergesTheNewestRecords) {
+  ASSERT_EQ(run_at("5%", {"--shard", "0/2"}).exit_code, 0);
+  ASSERT_EQ(run_at("5%", {"--shard", "1/2"}).exit_code, 0);
+  ASSERT_EQ(run_at("1%", {"--shard", "0/1"}).exit_code, 0);
+  for (const char* const name : {"torus.ply", "deep/sphere.stl"}) {
+    const std::string faces = std::to_string(read_mesh(in(std::string("out/") + name)).mesh.triangles.size());
+    EXPECT_NE(merged_row(name).find("," + faces + ","), std::string::npos) << faces << ": " << merged_row(name);
+  }
+  const ToolRun again = run_at("1%", {"--shard", "0/1"});
+  EXPECT_NE(again.out.find("; 3 from an earlier run"), std::string::npos) << again.out;
+
+  json record = records("batch_0_of_1.jsonl").at("torus.ply");  // as an earlier version wrote it
+  record.erase("recorded");
+  record["message"] = "an old record";
+  std::ofstream(in("out/batch_9_of_9.jsonl")) << record << "\n";
+  EXPECT_EQ(merged_row("torus.ply").find("an old record"), std::string::npos) << merged_row("torus.ply");
+}
+
+/// The cube is left with the same triangles at both tolerances, so that its first record holds again in the third run.
+TEST_F(BatchTool, MergesARecordThatHoldsAgainAsTheNewest) {
+  ASSERT_EQ(run_at("1%").exit_code, 0);
+  const std::string row = merged_row("cube.off"), cube = content_of(in("out/cube.off"));
+  ASSERT_EQ(run_at("2%").exit_code, 0);
+  EXPECT_NE(merged_row("cube.off"), row);
+  ASSERT_EQ(content_of(in("out/cube.off")), cube);
+  const ToolRun third = run_at("1%");
+  EXPECT_NE(third.out.find("; 1 from an earlier run"), std::string::npos) << third.out;
+  EXPECT_EQ(merged_row("cube.off"), row);
+}
+
 /// Names that are no UTF-8, as archives of other systems leave them: each has a record of its own.
 TEST_F(BatchTool, TellsNamesApartThatAreNoText) {
   const std::map<std::string, std::string> names{

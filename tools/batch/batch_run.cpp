@@ -89,12 +89,12 @@ class BatchRun {
     return output_dir_ / ("batch" + share + ".jsonl");
   }
 
-  void work(RecordFile& report) {
   [[nodiscard]] std::vector<fs::path> report_paths() const {
     if (!options_.shard.empty()) return {report_path()};
     return {report_path(), output_dir_ / "batch.csv", output_dir_ / "batch.html"};
   }
 
+  void work(RecordFile& report) {
     ProgressBar bar("simplifying " + std::to_string(open_.size()) + " meshes", common_.quiet);
     std::vector<Job> jobs;
     for (std::size_t next = 0; (next < open_.size() || !jobs.empty()) && !interrupted();) {
@@ -113,8 +113,10 @@ class BatchRun {
     try {
       require_regular(asset.input);
       record.key = key_of(asset);
-      if (const AssetRecord* const known = earlier(asset, record.key)) {
+      if (const AssetRecord* const known = earlier(asset, record)) {
         ++reused_;
+        const bool is_newest = known == &earlier_.at(record.input).back();
+        if (!is_newest) report.add(*known);  // now it is, for --batch-merge
         records_.emplace(record.input, *known);
         return;
       }
@@ -128,15 +130,15 @@ class BatchRun {
     }
   }
 
-  /// Whether any process has ended.
-  bool end_some(RecordFile& report, std::vector<Job>& jobs) {
-    bool has_ended = false;
   void add(RecordFile& report, AssetRecord record) {
     record.message = utf8_text(record.message);
     report.add(record);
     records_.emplace(record.input, std::move(record));
   }
 
+  /// Whether any process has ended.
+  bool end_some(RecordFile& report, std::vector<Job>& jobs) {
+    bool has_ended = false;
     for (std::size_t i = 0; i < jobs.size();) {
       const auto end = jobs[i].child.poll();
       if (!end) {
@@ -153,8 +155,6 @@ class BatchRun {
     return has_ended;
   }
 
-  /// A key that is equal for equal content, options, place and version.
-  [[nodiscard]] std::string key_of(const Asset& asset) const {
   /// A FIFO or a device is not even opened: that may wait, or do something to it.
   static void require_regular(const fs::path& path) {
     std::error_code error;
@@ -163,6 +163,8 @@ class BatchRun {
       throw InvalidInput(path.string() + ": cannot read: it is not a regular file");
   }
 
+  /// A key that is equal for equal content, options, place and version.
+  [[nodiscard]] std::string key_of(const Asset& asset) const {
     std::string text = provenance().version + '\n' + checksum_of(asset.input) + '\n' + asset.name + '\n';
     std::error_code error;
     for (const fs::path& beside : files_beside(asset.input))
@@ -171,14 +173,20 @@ class BatchRun {
     return sha256(text);
   }
 
-  /// The record of the asset by an earlier run, if it is still valid; null for failures, which are tried again.
-  [[nodiscard]] const AssetRecord* earlier(const Asset& asset, const std::string& key) const {
-    const auto known = earlier_.find(record_name(asset.name));
-    if (known == earlier_.end() || known->second.key != key || known->second.output_checksum.empty()) return nullptr;
+  /// The newest record by an earlier run with the name and the key of `record` whose result is there unchanged; null if
+  /// there is none. Failures have no result: they are tried again.
+  [[nodiscard]] const AssetRecord* earlier(const Asset& asset, const AssetRecord& record) const {
+    const auto history = earlier_.find(record.input);
+    if (history == earlier_.end()) return nullptr;
+    const auto is_same = [&](const AssetRecord& known) {
+      return known.key == record.key && !known.output_checksum.empty();
+    };
+    const auto known = std::find_if(history->second.rbegin(), history->second.rend(), is_same);
+    if (known == history->second.rend()) return nullptr;
     std::error_code error;
     const fs::path output = output_dir_ / asset.name;
-    const bool stands = fs::is_regular_file(output, error) && checksum_of(output) == known->second.output_checksum;
-    return stands ? &known->second : nullptr;
+    const bool stands = fs::is_regular_file(output, error) && checksum_of(output) == known->output_checksum;
+    return stands ? &*known : nullptr;
   }
 
   [[nodiscard]] std::vector<std::string> command_of(const Asset& asset) const {
@@ -256,12 +264,13 @@ class BatchRun {
   std::uint64_t memory_limit_ = 0;
   int jobs_ = common_.threads;
   std::vector<Asset> open_;  ///< assets of this shard that are not done
-  std::map<std::string, AssetRecord> earlier_, records_;
+  RecordHistory earlier_;
+  std::map<std::string, AssetRecord> records_;
   std::size_t reused_ = 0;
 };
 
 int merge(const std::string& folder, const CommonOptions& common) {
-  const auto records = read_records(folder);
+  const auto records = newest_records(read_records(folder));
   if (records.empty()) throw InvalidInput("--batch-merge: there is no batch*.jsonl with a record in " + folder);
   write_tables(folder, records);
   const BatchCounts counts = count_by_status(records);

@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <utility>
 #include <vector>
@@ -19,10 +22,28 @@ namespace meshbound::tools {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+/// "2026-11-30T19:02:03.123Z": of texts of this form the later one compares greater.
+std::string utc_now() {
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  const auto second = std::chrono::floor<std::chrono::seconds>(now);
+  const std::time_t time = std::chrono::system_clock::to_time_t(second);
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  std::array<char, 32> text{};
+  const std::string whole(text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S.", &parts));
+  const std::string thousandths = std::to_string(1000 + (now - second).count());
+  return whole + thousandths.substr(1) + 'Z';
+}
+
+}  // namespace
+
 std::string AssetRecord::to_line() const {
   const Json line = {{"schema", "meshbound/batch/1"},
                      {"input", input},
                      {"key", key},
+                     {"recorded", recorded},
                      {"status", status},
                      {"message", message},
                      {"exit_code", exit_code},
@@ -39,6 +60,7 @@ AssetRecord AssetRecord::of_line(const std::string& text) {
   AssetRecord record;
   line.at("input").get_to(record.input);
   line.at("key").get_to(record.key);
+  record.recorded = line.value("recorded", "");
   line.at("status").get_to(record.status);
   line.at("message").get_to(record.message);
   line.at("exit_code").get_to(record.exit_code);
@@ -50,27 +72,36 @@ AssetRecord AssetRecord::of_line(const std::string& text) {
   return record;
 }
 
-std::map<std::string, AssetRecord> read_records(const fs::path& folder) {
+RecordHistory read_records(const fs::path& folder) {
   std::vector<fs::path> reports;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".jsonl" && entry.path().filename().string().starts_with("batch"))
       reports.push_back(entry.path());
   std::sort(reports.begin(), reports.end());
-  std::map<std::string, AssetRecord> records;
+  RecordHistory history;
   for (const fs::path& path : reports) {
     std::ifstream file(path);
     if (!file) throw IoError("cannot read " + path.string());
     for (std::string line; std::getline(file, line);) {
       try {
         AssetRecord record = AssetRecord::of_line(line);
-        records.insert_or_assign(record.input, std::move(record));
+        history[record.input].push_back(std::move(record));
       } catch (const Json::exception&) {
         continue;
       }
     }
   }
-  return records;
+  for (auto& [name, records] : history)
+    std::stable_sort(records.begin(), records.end(),
+                     [](const AssetRecord& a, const AssetRecord& b) { return a.recorded < b.recorded; });
+  return history;
+}
+
+std::map<std::string, AssetRecord> newest_records(RecordHistory history) {
+  std::map<std::string, AssetRecord> newest;
+  for (auto& [name, records] : history) newest.emplace(name, std::move(records.back()));
+  return newest;
 }
 
 RecordFile::RecordFile(fs::path path)
@@ -88,7 +119,10 @@ RecordFile::RecordFile(fs::path path)
 
 RecordFile::~RecordFile() { ::close(file_); }
 
-void RecordFile::add(const AssetRecord& record) { append(record.to_line()); }
+void RecordFile::add(AssetRecord record) {
+  record.recorded = utc_now();
+  append(record.to_line());
+}
 
 void RecordFile::append(const std::string& text) {
   if (::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()) || ::fdatasync(file_) != 0)

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace meshbound::tools {
 
@@ -19,15 +20,23 @@ struct AssetRecord {
   double seconds = 0, cpu_seconds = 0;
   std::uint64_t peak_memory = 0;            ///< bytes
   nlohmann::ordered_json result = nullptr;  ///< the document of the tool; null where there is none
+  std::string
+      recorded;  ///< when the line was written, UTC: later texts compare greater; empty in lines of earlier versions
 
   [[nodiscard]] std::string to_line() const;  ///< JSON with the line's end
   /// Throws `nlohmann::json::exception` for text that is no such line.
   [[nodiscard]] static AssetRecord of_line(const std::string& line);
 };
 
-/// The last record of each asset in all reports (batch*.jsonl) of a folder, by name. An incomplete line, such as the
-/// last one of a process that was killed, is skipped. Throws `IoError` for a file that cannot be read.
-[[nodiscard]] std::map<std::string, AssetRecord> read_records(const std::filesystem::path& folder);
+/// All records of each asset, by name, the oldest first.
+using RecordHistory = std::map<std::string, std::vector<AssetRecord>>;
+
+/// The records of all reports (batch*.jsonl) of a folder. An incomplete line, such as the last one of a process that
+/// was killed, is skipped. Throws `IoError` for a file that cannot be read.
+[[nodiscard]] RecordHistory read_records(const std::filesystem::path& folder);
+
+/// The newest record of each asset.
+[[nodiscard]] std::map<std::string, AssetRecord> newest_records(RecordHistory history);
 
 /// A report that gets a line for each asset; each line is on disk, complete, when `add` returns.
 class RecordFile {
@@ -39,7 +48,7 @@ class RecordFile {
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  void add(const AssetRecord& record);  ///< throws `IoError`
+  void add(AssetRecord record);  ///< with the time of now; throws `IoError`
 
  private:
   void append(const std::string& text);
