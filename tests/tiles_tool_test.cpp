@@ -184,7 +184,7 @@ class TileScratch : public testing::Test {
   static std::vector<std::filesystem::path> files(const std::string& scratch) {
     std::vector<std::filesystem::path> found;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch))
-      if (entry.is_regular_file()) found.push_back(entry.path());
+      if (entry.is_regular_file() && entry.path().extension() != ".lock") found.push_back(entry.path());
     return found;
   }
 
@@ -228,6 +228,29 @@ TEST_F(TileScratch, ResumesARunThatWasKilledWithTheSameResult) {
   EXPECT_GE(reused(run), 1u) << run.out;
   EXPECT_EQ(content_of(in("resumed.ply")), content_of(in("whole.ply")));
   EXPECT_TRUE(std::filesystem::is_empty(in("killed")));
+}
+
+/// The first run stands still, with some tiles finished, while the second one is started.
+TEST_F(TileScratch, IsOfOneRunAtATime) {
+  using namespace meshbound::testing_tools;
+  const std::string scratch = in("two runs");
+  const auto command = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"--scratch", scratch, "--quiet"};
+    all.insert(all.end(), more.begin(), more.end());
+    return "(" + command_line(SIMPLIFY_WITH_BOUND, arguments(out, all)) + ")";
+  };
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--resume"}}) {
+    const ToolRun run =
+        run_shell(command("first.ply", {}) + " & run=$!; until [ -e " + shell_quoted(scratch) +
+                  "/*/0-3 ]; do sleep 0.01; kill -0 $run || exit 99; done; kill -STOP $run; " +
+                  command("second.ply", more) + "; code=$?; kill -CONT $run; wait $run || exit 98; exit $code");
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_EQ(line_count(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find("--scratch: another run of the same mesh and options"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(in("second.ply")));
+    EXPECT_TRUE(content_of(in("first.ply")) == content_of(in("whole.ply")));
+    EXPECT_TRUE(std::filesystem::is_empty(scratch));
+  }
 }
 
 TEST_F(TileScratch, ComputesAnewWhatIsDamagedOrOfAnotherRun) {

@@ -122,9 +122,19 @@ std::string decimation_key(const StoredMesh& original, const SimplifyOptions& op
 TileScratch::TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, bool owns)
     : folder_(folder / ("meshbound-" + key.substr(0, 16))), key_(std::move(key)), owns_(owns) {
   std::error_code error;
+  const auto make = [&error](const std::filesystem::path& path) {
+    std::filesystem::create_directories(path, error);
+    if (error) throw IoError("--scratch: cannot make " + path.string() + ": " + error.message());
+  };
+  if (owns_) {
+    make(folder);
+    lock_.emplace(folder_.string() + ".lock");
+    if (!lock_->is_held())
+      throw IoError("--scratch: another run of the same mesh and options works in " + folder_.string() +
+                    "; wait for it, or name another folder");
+  }
   if (!resumes) std::filesystem::remove_all(folder_, error);
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw IoError("--scratch: cannot make " + folder_.string() + ": " + error.message());
+  make(folder_);
   if (owns_) listed_.emplace_back(folder_);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/file_lock.h"
 #include "mesh/stored_mesh.h"
 #include "mesh/temporary_files.h"
 #include "meshbound/simplify.h"
@@ -29,7 +30,8 @@ void pack_tile_options(CompactWriter& to, const SimplifyOptions& options);
 class TileScratch {
  public:
   /// Uses the folder `key` in `folder`, which is made if needed. Unless `resumes`, what an earlier run left there is
-  /// removed first. `owns`: the destructor removes it, unless `keep` was called. Throws `IoError`.
+  /// removed first. `owns`: the destructor removes it, unless `keep` was called, and no other process may own it
+  /// meanwhile. Throws `IoError`, also where another one owns it.
   TileScratch(const std::filesystem::path& folder, std::string key, bool resumes, bool owns);
   ~TileScratch();
   TileScratch(const TileScratch&) = delete;
@@ -49,6 +51,7 @@ class TileScratch {
   std::filesystem::path folder_;
   std::string key_;
   bool owns_;
+  std::optional<FileLock> lock_;  ///< of the owner, beside the folder
   std::mutex mutex_;
   std::deque<TemporaryName> listed_;  ///< what a signal removes: the folder, then the files
 };
