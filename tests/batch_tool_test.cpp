@@ -225,6 +225,16 @@ TEST_F(BatchTool, ShardsMakeAWhole) {
   EXPECT_EQ(line_count(content_of(in("out/batch.csv"))), 4);
 }
 
+/// Indices of a Slurm array may be apart by more than one.
+TEST_F(BatchTool, CountsTheTasksOfAnArrayInItsSteps) {
+  const std::string array = "SLURM_ARRAY_TASK_MIN=7 SLURM_ARRAY_TASK_MAX=9 SLURM_ARRAY_TASK_STEP=2 ";
+  EXPECT_EQ(run({"--shard", "auto"}, array + "SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_ID=9").exit_code, 0);
+  EXPECT_EQ(records("batch_1_of_2.jsonl").size(), 1u);
+  const ToolRun between = run({"--shard", "auto/3"}, array + "SLURM_ARRAY_TASK_ID=8");
+  EXPECT_EQ(between.exit_code, 2);
+  EXPECT_NE(between.err.find("in steps of SLURM_ARRAY_TASK_STEP 2"), std::string::npos) << between.err;
+}
+
 /// Whatever the reports of the shards are called, the table has the last run of each mesh, and so has a resumed run.
 TEST_F(BatchTool, MergesTheNewestRecords) {
   ASSERT_EQ(run_at("5%", {"--shard", "0/2"}).exit_code, 0);

@@ -25,7 +25,12 @@ std::optional<std::uint64_t> from_environment(const char* name) {
 std::uint64_t index_from_environment() {
   if (const auto task = from_environment("SLURM_ARRAY_TASK_ID")) {
     const std::uint64_t first = from_environment("SLURM_ARRAY_TASK_MIN").value_or(0);
-    if (*task >= first) return *task - first;
+    const std::uint64_t step = from_environment("SLURM_ARRAY_TASK_STEP").value_or(1);
+    if (*task < first || step == 0 || (*task - first) % step != 0)
+      throw InvalidInput("--shard auto: SLURM_ARRAY_TASK_ID " + std::to_string(*task) +
+                         " is not reached from SLURM_ARRAY_TASK_MIN " + std::to_string(first) +
+                         " in steps of SLURM_ARRAY_TASK_STEP " + std::to_string(step) + "; say --shard INDEX/COUNT");
+    return (*task - first) / step;
   }
   if (const auto index = from_environment("JOB_COMPLETION_INDEX")) return *index;
   throw InvalidInput(

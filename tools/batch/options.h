@@ -33,8 +33,8 @@ struct Shard {
 };
 
 /// "2/8": the third of eight. "auto/8": the index is that of a Slurm array (SLURM_ARRAY_TASK_ID, counted from
-/// SLURM_ARRAY_TASK_MIN) or of a Kubernetes indexed job (JOB_COMPLETION_INDEX); "auto" also takes the count of a Slurm
-/// array, SLURM_ARRAY_TASK_COUNT. Empty: one shard. Throws `InvalidInput`.
+/// SLURM_ARRAY_TASK_MIN in steps of SLURM_ARRAY_TASK_STEP) or of a Kubernetes indexed job (JOB_COMPLETION_INDEX);
+/// "auto" also takes the count of a Slurm array, SLURM_ARRAY_TASK_COUNT. Empty: one shard. Throws `InvalidInput`.
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
 /// The part of the command line on which the result of a mesh depends: without the program, the options of the batch,
