@@ -166,7 +166,9 @@ TEST_F(BatchTool, KeepsEachMeshToItsLimits) {
   write_mesh(in("models/large.ply"), datasets::torus(1, 0.3, 1200, 600));
   EXPECT_EQ(run({"--memory-limit", "96M"}).exit_code, 2);
   const auto by_memory = records();
-  EXPECT_NE(by_memory.at("large.ply")["message"].get<std::string>().find("out of memory"), std::string::npos)
+  EXPECT_NE(by_memory.at("large.ply")["message"].get<std::string>().find(
+                "out of memory within 96 MiB: allow more (--memory-limit of the batch"),
+            std::string::npos)
       << by_memory.at("large.ply");
   EXPECT_EQ(by_memory.at("cube.off")["status"], "within");
   EXPECT_EQ(run({"--time-limit", "0"}).exit_code, 3);

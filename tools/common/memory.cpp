@@ -28,6 +28,9 @@ double bytes_of_work(std::size_t triangles, const TileOptions& tiles, const Tile
   return cost.whole * static_cast<double>(triangles) + bytes_of_tile(triangles, tiles, cost);
 }
 
+/// Whether the limit is that of --memory; any other one was set before this program was started.
+bool has_own_limit = false;
+
 }  // namespace
 
 std::uint64_t parse_memory(const std::string& option, const std::string& text) {
@@ -42,14 +45,15 @@ std::uint64_t parse_memory(const std::string& option, const std::string& text) {
 
 void limit_memory(std::uint64_t bytes) {
   const rlimit limit{bytes, bytes};
-  ::setrlimit(RLIMIT_DATA, &limit);
+  has_own_limit = ::setrlimit(RLIMIT_DATA, &limit) == 0;
 }
 
 std::string out_of_memory() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "out of memory";
-  return "out of memory within " + in_mebibytes(static_cast<double>(limit.rlim_cur)) +
-         ": allow more (--memory), or a larger tolerance, which leaves fewer triangles";
+  return "out of memory within " + in_mebibytes(static_cast<double>(limit.rlim_cur)) + ": allow more (" +
+         (has_own_limit ? "--memory" : "--memory-limit of the batch, or ulimit -d") +
+         "), or a larger tolerance, which leaves fewer triangles";
 }
 
 std::uint64_t peak_memory() {

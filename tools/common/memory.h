@@ -14,7 +14,7 @@ namespace meshbound::tools {
 /// Limits the memory for data of this process from here on: allocations beyond the limit fail.
 void limit_memory(std::uint64_t bytes);
 
-/// What to say where memory has run out: with the limit, if there is one.
+/// What to say where memory has run out: with the limit, if there is one, and who has set it.
 [[nodiscard]] std::string out_of_memory();
 
 /// The largest number of bytes that this process has held at once.
