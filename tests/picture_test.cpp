@@ -8,7 +8,7 @@
 
 #include "deviation/font.h"
 #include "deviation/legend.h"
-#include "deviation/utf8.h"
+#include "common/utf8.h"
 
 namespace meshbound {
 namespace picture_test {

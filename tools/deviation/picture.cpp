@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "deviation/font.h"
-#include "deviation/utf8.h"
+#include "common/utf8.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
