@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "deviation/font.h"
 #include "common/utf8.h"
+#include "deviation/font.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
