@@ -114,6 +114,27 @@ TEST_F(CInterface, DecidesBothWays) {
   EXPECT_GT(distance.bounds.lower, 0.99 * upper);
 }
 
+/// Both meshes have one large triangle. The small triangle of A lies in it and that of B floats 1 above it, so that
+/// h(A, B) is 0 and H(A, B) is 1. The triangles correspond in order, which decides without trees.
+TEST_F(CInterface, DecidesOneSideByItsOwnBounds) {
+  TriangleMesh flat{{{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}}, {{0, 1, 2}, {3, 4, 5}}};
+  TriangleMesh floating = flat;
+  for (std::size_t v = 3; v < 6; ++v) floating.vertices[v].z() = 1;
+  const mb_mesh a = c_mesh(flat), b = c_mesh(floating);
+  auto options = defaults(mb_distance_options_init);
+  options.one_sided = 1;
+  mb_verdict verdict = MB_UNDECIDED;
+  mb_distance distance{};
+  ASSERT_EQ(mb_check(&a, &b, 1.5, &options, &verdict, &distance), MB_OK) << mb_error_message();
+  EXPECT_EQ(verdict, MB_WITHIN);
+  EXPECT_EQ(distance.bounds.lower, 0);
+  EXPECT_LE(distance.bounds.upper, 1.5);
+  EXPECT_EQ(distance.b_to_a.outcome, MB_NOT_SEARCHED);
+  ASSERT_EQ(mb_check(&a, &b, 1.5, nullptr, &verdict, &distance), MB_OK) << mb_error_message();
+  EXPECT_GT(distance.bounds.lower, 0.99);
+  EXPECT_NE(distance.b_to_a.outcome, MB_NOT_SEARCHED);
+}
+
 /// Floats at a stride, at an odd address, with 16-bit indices.
 TEST_F(CInterface, ReadsBuffersOfEveryKind) {
   std::vector<char> bytes(1 + 20 * sphere_.vertices.size());

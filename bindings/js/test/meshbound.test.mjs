@@ -78,6 +78,17 @@ test('two parallel sheets are as far apart as they were placed', () => {
   assert.equal(oneSided.bToA.outcome, 'not_searched');
 });
 
+test('a decision of one side has its own bounds', () => {
+  // A small triangle of the second mesh floats above the large one that both have, so that only that mesh is far away.
+  const indices = Uint32Array.of(0, 1, 2, 3, 4, 5);
+  const positions = Float32Array.of(0, 0, 0, 10, 0, 0, 0, 10, 0, 1, 1, 0, 2, 1, 0, 1, 2, 0);
+  const floating = positions.map((x, i) => (i > 9 && i % 3 === 2 ? 1 : x));
+  const oneSided = meshbound.check({ positions, indices }, { positions: floating, indices }, 1.5, { oneSided: true });
+  assert.equal(oneSided.verdict, 'within');
+  assert.equal(oneSided.distance.lower, 0);
+  assert.equal(oneSided.distance.bToA.outcome, 'not_searched');
+});
+
 test('facts of a mesh at a stride, with short indices', () => {
   const { positions, indices } = sheet(5, 0);
   const wide = new Float32Array((positions.length / 3) * 8 - 5);

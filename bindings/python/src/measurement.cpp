@@ -59,11 +59,17 @@ HausdorffDistance measure(const MeshView& a, const MeshView& b, bool one_sided, 
                    : hausdorff_distance(tree_a, tree_b, options);
 }
 
+/// The decision on a distance whose upper bound is at most the tolerance; of the one-sided distance, which then is too,
+/// the bounds of that direction alone.
+ToleranceCheck within(double tolerance, const HausdorffDistance& known, bool one_sided) {
+  const HausdorffDistance decided = one_sided ? only_a_to_b(known.a_to_b) : known;
+  return {Verdict::Within, tolerance, decided.bounds, decided.a_to_b, decided.b_to_a};
+}
+
 ToleranceCheck check(const MeshView& a, const MeshView& b, double tolerance, bool one_sided,
                      const DistanceOptions& options) {
   if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
-  if (const auto known = distance_without_trees(a, b, tolerance))
-    return {Verdict::Within, tolerance, known->bounds, known->a_to_b, known->b_to_a};
+  if (const auto known = distance_without_trees(a, b, tolerance)) return within(tolerance, *known, one_sided);
   const auto [tree_a, tree_b] = trees(a, b, options);
   return one_sided ? check_one_sided_tolerance(tree_a, tree_b, tolerance, options)
                    : check_tolerance(tree_a, tree_b, tolerance, options);

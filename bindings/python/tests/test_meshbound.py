@@ -63,6 +63,16 @@ class Distances(unittest.TestCase):
         self.assertEqual(exceeds.verdict, "exceeds")
         self.assertGreater(exceeds.lower, 0.2)
 
+    def test_decision_of_one_side_has_its_own_bounds(self):
+        # A small triangle of b floats above the large one that both have, so that only b is far from a.
+        triangles = np.array([[0, 1, 2], [3, 4, 5]])
+        flat = np.array([[0, 0, 0], [10, 0, 0], [0, 10, 0], [1, 1, 0], [2, 1, 0], [1, 2, 0]], float)
+        floating = flat + np.array([0, 0, 0, 1, 1, 1])[:, None] * [0, 0, 1]
+        check = meshbound.check_tolerance((flat, triangles), (floating, triangles), 1.5, one_sided=True)
+        self.assertTrue(check)
+        self.assertEqual(check.lower, 0)
+        self.assertFalse(check.b_to_a.searched)
+
     def test_checker_of_many_levels(self):
         original = sheet(12, 1)
         checker = meshbound.LevelChecker(original)
