@@ -11,6 +11,7 @@ from ._core import InvalidInput
 
 Arrays = Tuple[np.ndarray, np.ndarray]
 _INDEX_TYPES = (np.uint16, np.int32, np.uint32)
+_ADVICE = "cannot hold exactly: round them, or subtract an origin that is near the mesh"
 
 
 def arrays_of(mesh: Any) -> Arrays:
@@ -75,12 +76,43 @@ def _fans(polygons: np.ndarray) -> np.ndarray:
 
 def _coordinates(values: Any) -> np.ndarray:
     array = np.asarray(values)
+    if isinstance(values, (list, tuple)):
+        _require_unrounded(values, array)
     if array.dtype not in (np.float32, np.float64):
         if array.dtype.kind not in "iuf":
             raise InvalidInput(f"vertices must be numbers, not {array.dtype}")
-        array = array.astype(np.float64)
+        array = _doubles(array)
     has_rows = array.ndim == 2 and array.strides[1] == array.itemsize and array.strides[0] >= 3 * array.itemsize
     return array if has_rows and array.dtype.isnative else np.ascontiguousarray(array, array.dtype.newbyteorder("="))
+
+
+def _require_unrounded(values: Any, array: np.ndarray) -> None:
+    """Refuses sequences of large integers and floats together, of which numpy makes floats."""
+    if array.dtype.kind != "f":
+        return
+    numbers = np.asarray(values, object)
+    if not np.all((numbers == array.astype(object)) | (numbers != numbers)):
+        raise InvalidInput(f"vertices have integers that {array.dtype} {_ADVICE}")
+
+
+def _doubles(numbers: np.ndarray) -> np.ndarray:
+    """The same numbers as float64. Bounds hold for the caller's coordinates, so none may be rounded."""
+    with np.errstate(over="ignore"):
+        doubles = numbers.astype(np.float64)
+    if not _are_equal(doubles, numbers):
+        raise InvalidInput(f"vertices of type {numbers.dtype} have coordinates that float64 {_ADVICE}")
+    return doubles
+
+
+def _are_equal(doubles: np.ndarray, numbers: np.ndarray) -> bool:
+    """Whether all numbers, integers or floats, are the same in both arrays."""
+    if numbers.dtype.kind == "f":
+        back = doubles.astype(numbers.dtype)
+        return bool(np.all((back == numbers) | np.isnan(numbers)))
+    # 2^63 and 2^64 as doubles are beyond the integers of 64 bits, to which converting them back is undefined.
+    limits = np.iinfo(numbers.dtype)
+    back_fits = (doubles >= float(limits.min)) & (doubles < float(int(limits.max) + 1))
+    return bool(np.all(back_fits)) and bool(np.all(doubles.astype(numbers.dtype) == numbers))
 
 
 def _indices(values: Any) -> np.ndarray:

@@ -184,6 +184,26 @@ class Arrays(unittest.TestCase):
             with self.subTest(reason), self.assertRaisesRegex(meshbound.InvalidInput, reason):
                 meshbound.describe(bad)
 
+    def test_coordinates_that_would_be_rounded_are_refused(self):
+        triangle = [[0, 1, 2]]
+        corner = np.array([[0, 0, 0], [0, 1, 0], [0, 0, 1]])
+        for large in (2**53 + 1, -(2**53) - 1, 2**63 - 1):
+            with self.subTest(large), self.assertRaisesRegex(meshbound.InvalidInput, "int64 have .* float64 cannot hold"):
+                meshbound.describe((corner + [large, 0, 0], triangle))
+        wide = corner.astype(np.uint64)
+        wide[0, 0] = 2**64 - 1
+        fine = corner.astype(np.longdouble)
+        fine[0, 0] = 1 + np.longdouble(2) ** -60
+        huge = corner.astype(np.longdouble)
+        huge[0, 0] = np.longdouble(2) ** 2000
+        mixed = [[2**53 + 1, 0.5, 0], [0, 1, 0], [0, 0, 1]]
+        for rounded in (wide, fine, huge, mixed):
+            with self.subTest(rounded), self.assertRaisesRegex(meshbound.InvalidInput, "float64 cannot hold exactly"):
+                meshbound.describe((rounded, triangle))
+        for kept in (corner + [2**53, 0, 0], corner + [-(2**63), 0, 0], corner.astype(np.longdouble) / 3 * 3,
+                     corner.astype(np.uint8), corner.astype(np.float16), [[2**53, 0.5, 0], [0, 1, 0], [0, 0, 1]]):
+            self.assertEqual(meshbound.describe((kept, triangle)).triangles, 1)
+
     def test_errors_are_those_that_python_expects(self):
         self.assertTrue(issubclass(meshbound.InvalidInput, ValueError))
         self.assertTrue(issubclass(meshbound.InvalidInput, meshbound.Error))
