@@ -34,7 +34,7 @@ bool is_default_mode() {
 
 }  // namespace
 
-mb_status guarded(const std::function<void()>& work) noexcept {
+mb_status guarded_call(const std::function<void()>& work) noexcept {
   try {
     std::optional<FloatingPointScope> scope;
     if (!is_default_mode()) scope.emplace();
