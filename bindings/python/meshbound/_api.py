@@ -43,7 +43,8 @@ def hausdorff_distance(
     one_sided: only from ``a`` to ``b``.
     threads: 0 is as many as OpenMP has. Results are the same for every number.
     time_limit: seconds of the search; the bounds that it had by then hold.
-    progress: called with the share that is done, 20 times a second; answering False ends the call with Cancelled.
+    progress: called with the share that is done, 20 times a second; an answer that is false, except None, ends the call
+        with Cancelled.
 
     The arrays must not change during the call. Ctrl-C ends it. Raises InvalidInput for what is no mesh, and for
     options out of range. About O(n log n) where the surfaces are close or far apart for their size.

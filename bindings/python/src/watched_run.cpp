@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "meshbound/error.h"
+#include "meshbound/stop_token.h"
 
 namespace py = pybind11;
 
@@ -54,12 +55,29 @@ class Worker {
   std::thread thread_;  // last: it uses the others
 };
 
+/// Whether an answer of the progress function ends the work: anything false, such as numpy's False, except None, which
+/// is what a function without an answer returns.
+bool ends_work(const py::object& answer) {
+  if (answer.is_none()) return false;
+  const int truth = PyObject_IsTrue(answer.ptr());
+  if (truth < 0) throw py::error_already_set();
+  return truth == 0;
+}
+
 /// Runs pending signal handlers and the progress function. False: the work is to end.
 bool look(const py::object& progress, double fraction) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (progress.is_none()) return true;
-  const py::object answer = progress(fraction);
-  return answer.ptr() != Py_False;
+  return progress.is_none() || !ends_work(progress(fraction));
+}
+
+/// Waits for the end of work that may have been cancelled. Throws `Interrupted` where it was, whatever it had reached.
+void finish(Worker& worker, const Watch& watch) {
+  try {
+    worker.finish();
+  } catch (const Stopped&) {  // from where a computation had no result yet, as while it built its trees
+    if (!watch.cancel) throw;
+  }
+  if (watch.cancel) throw Interrupted("cancelled");
 }
 
 }  // namespace
@@ -81,11 +99,7 @@ void run_watched(const py::object& progress, const std::function<void(Watch&)>& 
       }
     }
   }
-  if (!raised) {
-    worker.finish();
-    if (watch.cancel) throw Interrupted("cancelled");
-    return;
-  }
+  if (!raised) return finish(worker, watch);
   try {
     worker.finish();
   } catch (...) {

@@ -273,8 +273,16 @@ class LongCalls(unittest.TestCase):
         self.assertTrue(all(0 <= fraction <= 1 and thread == threading.get_ident() for fraction, thread in seen))
 
     def test_progress_ends_the_call(self):
-        with self.assertRaises(meshbound.Cancelled):
-            meshbound.simplify(self.large, "0.05%", progress=lambda fraction: False)
+        for answer in (False, np.False_, 0):
+            with self.subTest(answer), self.assertRaises(meshbound.Cancelled):
+                meshbound.simplify(self.large, "0.05%", progress=lambda fraction: answer)
+        meshbound.simplify(self.large, "0.05%", progress=lambda fraction: np.True_)
+
+    def test_progress_ends_the_call_while_trees_are_built(self):
+        a, b = sheet(700, 5), sheet(699, 5)
+        for measure in (meshbound.hausdorff_distance, lambda *meshes, **how: meshbound.check_tolerance(*meshes, 1, **how)):
+            with self.assertRaises(meshbound.Cancelled):
+                measure(a, b, threads=1, progress=lambda fraction: False)
 
     def test_what_progress_raises_comes_out(self):
         def fail(fraction):
