@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The C interface answers as the library does, bit for bit, for buffers of every kind; whatever is wrong becomes a
-// status and one line; a call can be watched and ended.
+// status and one line.
 #include <fenv.h>
 #include <gtest/gtest.h>
 #include <meshbound.h>
@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "c_calls.h"
 #include "datasets/analytic_meshes.h"
 #include "meshbound/meshbound.h"
 #include "temporary_folder.h"
@@ -23,45 +24,7 @@
 namespace {
 
 using meshbound::TriangleMesh;
-
-/// A mesh of the library as a C caller has it.
-mb_mesh c_mesh(const TriangleMesh& mesh) {
-  mb_mesh result{};
-  result.positions = mesh.vertices.data();
-  result.coordinate_type = MB_FLOAT64;
-  result.vertex_count = mesh.vertices.size();
-  result.indices = mesh.triangles.data();
-  result.index_type = MB_UINT32;
-  result.triangle_count = mesh.triangles.size();
-  return result;
-}
-
-template <class Options>
-Options defaults(mb_status (*init)(Options*, size_t)) {
-  Options options;
-  EXPECT_EQ(init(&options, sizeof options), MB_OK);
-  return options;
-}
-
-mb_simplify_options simplify_options(double tolerance) {
-  auto options = defaults(mb_simplify_options_init);
-  options.tolerance = tolerance;
-  return options;
-}
-
-/// A simplification that frees itself.
-struct Simplification {
-  mb_simplification* handle = nullptr;
-  Simplification() = default;
-  Simplification(const Simplification&) = delete;
-  Simplification& operator=(const Simplification&) = delete;
-  ~Simplification() { mb_simplification_free(handle); }
-  [[nodiscard]] mb_level level(std::size_t index) const {
-    mb_level level{};
-    EXPECT_EQ(mb_simplification_level(handle, index, &level), MB_OK) << mb_error_message();
-    return level;
-  }
-};
+using namespace meshbound::test;
 
 class CInterface : public testing::Test {
  protected:
@@ -366,51 +329,6 @@ TEST_F(CInterface, TakesOptionsOfAnOlderHeader) {
   EXPECT_EQ(mb_measure(&a_, &b_, &options, &distance), MB_OK) << mb_error_message();
 }
 
-TEST_F(CInterface, EndsWhenItIsCancelled) {
-  mb_cancel* cancel = mb_cancel_new();
-  mb_cancel_request(cancel);
-  auto distance_options = defaults(mb_distance_options_init);
-  distance_options.cancel = cancel;
-  mb_distance distance{};
-  EXPECT_EQ(mb_measure(&a_, &b_, &distance_options, &distance), MB_CANCELLED);
-  EXPECT_EQ(std::string(mb_error_message()), "cancelled");
-  auto options = simplify_options(0.01);
-  options.cancel = cancel;
-  mb_simplification* result = nullptr;
-  EXPECT_EQ(mb_simplify(&a_, &options, &result), MB_CANCELLED);
-  EXPECT_EQ(result, nullptr);
-  mb_cancel_reset(cancel);
-  EXPECT_EQ(mb_measure(&a_, &b_, &distance_options, &distance), MB_OK);
-  mb_cancel_free(cancel);
-}
-
-TEST_F(CInterface, IsWatchedAndEndedByTheProgressFunction) {
-  struct Seen {
-    int calls = 0;
-    std::thread::id thread;
-    int answer = 0;
-  } seen;
-  auto options = simplify_options(0.01);
-  options.user = &seen;
-  options.progress = [](double fraction, void* user) {
-    EXPECT_GE(fraction, 0);
-    EXPECT_LE(fraction, 1);
-    auto* s = static_cast<Seen*>(user);
-    ++s->calls;
-    s->thread = std::this_thread::get_id();
-    return s->answer;
-  };
-  const TriangleMesh large = meshbound::datasets::terrain(1, 129, 3);
-  const mb_mesh mesh = c_mesh(large);
-  Simplification result;
-  ASSERT_EQ(mb_simplify(&mesh, &options, &result.handle), MB_OK);
-  EXPECT_GT(seen.calls, 0);
-  EXPECT_EQ(seen.thread, std::this_thread::get_id());
-  seen.answer = 1;
-  mb_simplification* none = nullptr;
-  EXPECT_EQ(mb_simplify(&mesh, &options, &none), MB_CANCELLED);
-}
-
 TEST_F(CInterface, KeepsTheMessageOfEachThread) {
   mb_distance distance{};
   EXPECT_EQ(mb_measure(nullptr, &b_, nullptr, &distance), MB_INVALID_INPUT);
@@ -450,7 +368,7 @@ TEST(CFree, TakesNull) {
 }
 
 TEST_F(CInterface, ReadsAndWritesFilesOfEveryFormat) {
-  const meshbound::test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"a.off", "a.obj", "a.ply", "a.stl", "a.glb"}) {
     const std::string path = folder / name;
     ASSERT_EQ(mb_mesh_file_write(path.c_str(), &a_, 0, nullptr), MB_OK) << mb_error_message();
@@ -470,7 +388,7 @@ TEST_F(CInterface, ReadsAndWritesFilesOfEveryFormat) {
 }
 
 TEST_F(CInterface, SaysWhatIsWrongWithAFile) {
-  const meshbound::test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto status_of = [](const std::string& path, const mb_cancel* cancel) {
     mb_mesh_file* file = nullptr;
     const mb_status status = mb_mesh_file_read(path.c_str(), cancel, &file);

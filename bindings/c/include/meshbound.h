@@ -95,8 +95,9 @@ void mb_cancel_request(mb_cancel* cancel);
 void mb_cancel_reset(mb_cancel* cancel);
 void mb_cancel_free(mb_cancel* cancel); /* after the calls that it was passed to have returned */
 
-/* Called from the thread of the call, a few times a second at most, with a guess between 0 and 1. What it returns
- * other than 0 ends the call with MB_CANCELLED. Must not throw or jump out of the call. */
+/* Called from the thread of the call with a guess between 0 and 1: at most ten times a second, and once more before the
+ * call returns. What it returns other than 0 ends the call with MB_CANCELLED, and no other call that has the same
+ * mb_cancel. Must not throw or jump out of the call. */
 typedef int (*mb_progress)(double fraction, void* user);
 
 /* ---- files ---- */

@@ -39,7 +39,7 @@ mb_status mb_certificate_new(const mb_mesh* original, const mb_mesh* simplified,
     std::optional<Certificate> proof =
         build_certificate(view_of(original, "original"), view_of(simplified, "simplified"), tolerance,
                           certificate_options(given, control));
-    control.end_if_cancelled();
+    control.finish();
     if (!proof) throw Error("no certificate was found within the time limit");
     *certificate = new mb_certificate{std::move(*proof)};
   });

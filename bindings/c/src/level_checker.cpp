@@ -46,7 +46,7 @@ mb_status mb_level_checker_check(mb_level_checker* checker, const mb_mesh* level
     RunControl control(given);
     const ToleranceCheck result =
         checker->checker.check(view_of(level, "level"), tolerance, library_options(given, control));
-    control.end_if_cancelled();
+    control.finish();
     *verdict = to_c(result.verdict);
     if (distance != nullptr) *distance = to_c(result);
   });
@@ -60,7 +60,7 @@ mb_status mb_level_checker_measure(mb_level_checker* checker, const mb_mesh* lev
     const mb_distance_options given = two_sided(options);
     RunControl control(given);
     const HausdorffDistance result = checker->checker.measure(view_of(level, "level"), library_options(given, control));
-    control.end_if_cancelled();
+    control.finish();
     *distance = to_c(result);
   });
 }

@@ -111,7 +111,7 @@ mb_status mb_measure(const mb_mesh* a, const mb_mesh* b, const mb_distance_optio
     const DistanceOptions wanted = library_options(given, control);
     const HausdorffDistance result =
         measure(valid_view_of(a, "a"), valid_view_of(b, "b"), wanted, given.one_sided != 0);
-    control.end_if_cancelled();
+    control.finish();
     *distance = to_c(result);
   });
 }
@@ -125,7 +125,7 @@ mb_status mb_check(const mb_mesh* a, const mb_mesh* b, double tolerance, const m
     const DistanceOptions wanted = library_options(given, control);
     const ToleranceCheck result =
         check(valid_view_of(a, "a"), valid_view_of(b, "b"), tolerance, wanted, given.one_sided != 0);
-    control.end_if_cancelled();
+    control.finish();
     *verdict = to_c(result.verdict);
     if (distance != nullptr) *distance = to_c(result);
   });

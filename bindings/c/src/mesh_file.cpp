@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "arguments.h"
+#include "cancel.h"
 #include "guard.h"
 #include "meshbound/io.h"
-#include "run_control.h"
 
 using namespace meshbound;
 using namespace meshbound::c_interface;

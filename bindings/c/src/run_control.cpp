@@ -1,16 +1,50 @@
 // SPDX-License-Identifier: MIT
 #include "run_control.h"
 
-#include <new>
+#include "meshbound/error.h"
 
-mb_cancel* mb_cancel_new() { return new (std::nothrow) mb_cancel; }
+namespace meshbound::c_interface {
+namespace {
 
-void mb_cancel_request(mb_cancel* cancel) {
-  if (cancel != nullptr) cancel->requested = true;
+/// Between two calls of the caller's progress function. The library reports up to a thousand times a second, and the
+/// function may be as slow as drawing a window.
+constexpr std::chrono::milliseconds between_reports{100};
+
+}  // namespace
+
+RunControl::RunControl(mb_cancel* cancel, mb_progress function, void* user) : progress_(function), user_(user) {
+  if (cancel == nullptr) return;
+  flag_ = &cancel->requested;
+  if (function == nullptr) return;
+  taken_ = &cancel->take_flag();
+  flag_ = &taken_->is_set;
 }
 
-void mb_cancel_reset(mb_cancel* cancel) {
-  if (cancel != nullptr) cancel->requested = false;
+RunControl::~RunControl() {
+  if (taken_ != nullptr) taken_->is_taken = false;
 }
 
-void mb_cancel_free(mb_cancel* cancel) { delete cancel; }
+std::function<void(double)> RunControl::progress() {
+  if (progress_ == nullptr) return {};
+  return [this](double fraction) { report(fraction); };
+}
+
+void RunControl::finish() {
+  if (held_back_ && !*flag_) tell(*held_back_);
+  if (*flag_) throw Interrupted("cancelled");
+}
+
+void RunControl::report(double fraction) {
+  if (told_at_ && Clock::now() - *told_at_ < between_reports)
+    held_back_ = fraction;
+  else
+    tell(fraction);
+}
+
+void RunControl::tell(double fraction) {
+  held_back_.reset();
+  if (progress_(fraction, user_) != 0) *flag_ = true;
+  told_at_ = Clock::now();
+}
+
+}  // namespace meshbound::c_interface

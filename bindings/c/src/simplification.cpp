@@ -117,7 +117,7 @@ mb_status mb_simplify(const mb_mesh* original, const mb_simplify_options* option
     const TriangleMesh mesh = to_triangle_mesh(valid_view_of(original, "original"));
     auto simplification = std::make_unique<mb_simplification>();
     simplification->result = simplify_with_bound(mesh, library_options(given, mesh, control));
-    control.end_if_cancelled();
+    control.finish();
     *result = simplification.release();
   });
 }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// A call of the C interface can be watched, and ended by a request or by its progress function.
+#include <gtest/gtest.h>
+#include <meshbound.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "c_calls.h"
+#include "datasets/analytic_meshes.h"
+
+namespace {
+
+using meshbound::TriangleMesh;
+using namespace meshbound::test;
+
+class CRunControl : public testing::Test {
+ protected:
+  TriangleMesh torus_ = meshbound::datasets::torus(1, 0.3, 48, 24);
+  TriangleMesh sphere_ = meshbound::datasets::icosphere(1, 3);
+  TriangleMesh large_ = meshbound::datasets::terrain(1, 129, 3);
+  mb_mesh a_ = c_mesh(torus_), b_ = c_mesh(sphere_), terrain_ = c_mesh(large_);
+
+  /// Of simplifying the terrain, which takes long enough to be watched.
+  [[nodiscard]] mb_status status_of(const mb_simplify_options& options) const {
+    Simplification result;
+    return mb_simplify(&terrain_, &options, &result.handle);
+  }
+};
+
+TEST_F(CRunControl, EndsWhenItIsCancelled) {
+  mb_cancel* cancel = mb_cancel_new();
+  mb_cancel_request(cancel);
+  auto distance_options = defaults(mb_distance_options_init);
+  distance_options.cancel = cancel;
+  mb_distance distance{};
+  EXPECT_EQ(mb_measure(&a_, &b_, &distance_options, &distance), MB_CANCELLED);
+  EXPECT_EQ(std::string(mb_error_message()), "cancelled");
+  auto options = simplify_options(0.01);
+  options.cancel = cancel;
+  mb_simplification* result = nullptr;
+  EXPECT_EQ(mb_simplify(&a_, &options, &result), MB_CANCELLED);
+  EXPECT_EQ(result, nullptr);
+  mb_cancel_reset(cancel);
+  EXPECT_EQ(mb_measure(&a_, &b_, &distance_options, &distance), MB_OK);
+  mb_cancel_free(cancel);
+}
+
+TEST_F(CRunControl, IsWatchedAndEndedByTheProgressFunction) {
+  struct Seen {
+    int calls = 0;
+    std::thread::id thread;
+    int answer = 0;
+  } seen;
+  auto options = simplify_options(0.01);
+  options.user = &seen;
+  options.progress = [](double fraction, void* user) {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+    auto* s = static_cast<Seen*>(user);
+    ++s->calls;
+    s->thread = std::this_thread::get_id();
+    return s->answer;
+  };
+  ASSERT_EQ(status_of(options), MB_OK) << mb_error_message();
+  EXPECT_GT(seen.calls, 0);
+  EXPECT_EQ(seen.thread, std::this_thread::get_id());
+  seen.answer = 1;
+  EXPECT_EQ(status_of(options), MB_CANCELLED);
+}
+
+/// A request that comes while the call runs, here from its own progress function.
+TEST_F(CRunControl, EndsAtARequestWhileItIsWatched) {
+  mb_cancel* cancel = mb_cancel_new();
+  auto options = simplify_options(0.01);
+  options.cancel = cancel;
+  options.user = cancel;
+  options.progress = [](double, void* user) {
+    mb_cancel_request(static_cast<mb_cancel*>(user));
+    return 0;
+  };
+  EXPECT_EQ(status_of(options), MB_CANCELLED);
+  options.progress = [](double, void*) { return 0; };
+  EXPECT_EQ(status_of(options), MB_CANCELLED) << "the request stands until it is taken back";
+  mb_cancel_reset(cancel);
+  EXPECT_EQ(status_of(options), MB_OK) << mb_error_message();
+  mb_cancel_free(cancel);
+}
+
+/// While a call runs that its progress function will end, another one with the same `mb_cancel` starts, and goes on.
+TEST_F(CRunControl, ProgressEndsItsOwnCallOnly) {
+  struct Other {
+    const mb_mesh *a, *b;
+    mb_distance_options options = defaults(mb_distance_options_init);
+    mb_status status = MB_FAILED;
+  } other{&a_, &b_};
+  other.options.cancel = mb_cancel_new();
+  other.options.progress = [](double, void*) { return 0; };
+  auto options = simplify_options(0.01);
+  options.cancel = other.options.cancel;
+  options.user = &other;
+  options.progress = [](double, void* user) {
+    auto* call = static_cast<Other*>(user);
+    mb_distance distance{};
+    call->status = mb_measure(call->a, call->b, &call->options, &distance);
+    return 1;
+  };
+  EXPECT_EQ(status_of(options), MB_CANCELLED);
+  EXPECT_EQ(other.status, MB_OK);
+  options.progress = nullptr;
+  EXPECT_EQ(status_of(options), MB_OK) << "the caller's mb_cancel ended a call after the one that was to end";
+  mb_cancel_free(options.cancel);
+}
+
+/// At most ten times a second, after the first call, and once at the end.
+TEST_F(CRunControl, IsNotWatchedMoreOftenThanPeopleLook) {
+  using Clock = std::chrono::steady_clock;
+  int calls = 0;
+  auto options = simplify_options(0.01);
+  options.user = &calls;
+  options.progress = [](double, void* user) {
+    ++*static_cast<int*>(user);
+    return 0;
+  };
+  const Clock::time_point start = Clock::now();
+  ASSERT_EQ(status_of(options), MB_OK) << mb_error_message();
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  EXPECT_LE(calls, 2 + 10 * seconds);
+  EXPECT_GE(calls, 2);
+}
+
+}  // namespace
