@@ -81,18 +81,17 @@ TEST(FloatingPointModel, FlushToZeroIsRefusedByEveryQuestion) {
   refuses("placement", [&] { (void)checker.admitted_placement(0, 1, mesh.vertices[1]); });
 }
 
-/// On the calling thread and on those of OpenMP; afterwards each has the mode that it had.
-TEST(FloatingPointModel, ScopeGivesTheThreadsOfAnEngineTheModeThatBoundsNeed) {
+/// Flush-to-zero as it is on each thread of an engine: before, within and after a scope.
+template <int threads, class MakeScope>
+void expect_scope_gives_all_threads_the_mode_of_bounds(const MakeScope& make_scope) {
   constexpr unsigned flush_to_zero = 0x8000;
-  constexpr int threads = 3;
-  omp_set_num_threads(threads);
   const unsigned before = _mm_getcsr();
   std::array<unsigned, threads> inside{}, after{};
 #pragma omp parallel num_threads(threads)
   _mm_setcsr(before | flush_to_zero);
   _mm_setcsr(before | flush_to_zero);  // clang's OpenMP gives the caller its mode back after a region
   {
-    const FloatingPointScope scope;
+    const FloatingPointScope scope = make_scope();
     EXPECT_EQ(refusal_of_a_tree(), "");
 #pragma omp parallel num_threads(threads)
     inside[static_cast<std::size_t>(omp_get_thread_num())] = _mm_getcsr() & flush_to_zero;
@@ -105,6 +104,15 @@ TEST(FloatingPointModel, ScopeGivesTheThreadsOfAnEngineTheModeThatBoundsNeed) {
   _mm_setcsr(before);
   for (const unsigned mode : inside) EXPECT_EQ(mode, 0u);
   for (const unsigned mode : after) EXPECT_EQ(mode, flush_to_zero);
+}
+
+TEST(FloatingPointModel, ScopeGivesTheThreadsOfAnEngineTheModeThatBoundsNeed) {
+  const int threads_before = omp_get_max_threads();
+  omp_set_num_threads(3);
+  expect_scope_gives_all_threads_the_mode_of_bounds<3>([] { return FloatingPointScope(); });
+  omp_set_num_threads(1);
+  expect_scope_gives_all_threads_the_mode_of_bounds<3>([] { return FloatingPointScope(3); });
+  omp_set_num_threads(threads_before);
 }
 #endif
 

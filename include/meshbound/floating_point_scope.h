@@ -11,7 +11,8 @@ namespace meshbound {
 /// destroyed by one thread, outside of parallel regions. Does not help code compiled with -ffast-math.
 class FloatingPointScope {
  public:
-  FloatingPointScope();
+  /// For calls that are asked for `threads`, where that is more than OpenMP has by itself.
+  explicit FloatingPointScope(int threads = 0);
   ~FloatingPointScope();
   FloatingPointScope(const FloatingPointScope&) = delete;
   FloatingPointScope& operator=(const FloatingPointScope&) = delete;

@@ -3,6 +3,8 @@
 #pragma once
 #include <meshbound.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <string>
 
@@ -18,6 +20,18 @@ namespace meshbound::c_interface {
 /// A view whose indices and used coordinates are checked as well.
 [[nodiscard]] MeshView valid_view_of(const mb_mesh* mesh, const char* argument);
 
+/// Threads that a call may be asked for: more than machines have, and few enough to be made. Results do not depend on
+/// it.
+constexpr int max_threads = 4096;
+
+/// The threads that `complete` will find in the options; 0 where an older caller's options have none, or wrong ones.
+template <class Options>
+[[nodiscard]] int threads_of(const Options* given) {
+  constexpr size_t end = offsetof(Options, threads) + sizeof given->threads;
+  if (given == nullptr || given->struct_size < end || given->struct_size > sizeof *given) return 0;
+  return std::min(given->threads, max_threads);
+}
+
 /// The options as given by a caller compiled against any version, over the defaults. `init` is the options' ..._init
 /// function. Throws `InvalidInput` for a size that `init` cannot have set.
 template <class Options>
@@ -32,6 +46,7 @@ template <class Options>
                        "header");
   std::memcpy(&options, given, size);
   options.struct_size = sizeof options;
+  options.threads = std::min(options.threads, max_threads);
   return options;
 }
 

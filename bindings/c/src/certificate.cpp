@@ -32,7 +32,7 @@ CertificateOptions certificate_options(const mb_distance_options& given, RunCont
 
 mb_status mb_certificate_new(const mb_mesh* original, const mb_mesh* simplified, double tolerance,
                              const mb_distance_options* options, mb_certificate** certificate) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(certificate, "certificate");
     const mb_distance_options given = complete(options, mb_distance_options_init);
     RunControl control(given);

@@ -34,10 +34,10 @@ bool is_default_mode() {
 
 }  // namespace
 
-mb_status guarded_call(const std::function<void()>& work) noexcept {
+mb_status guarded_call(int threads, const std::function<void()>& work) noexcept {
   try {
     std::optional<FloatingPointScope> scope;
-    if (!is_default_mode()) scope.emplace();
+    if (!is_default_mode()) scope.emplace(threads);
     work();
     return MB_OK;
   } catch (const InvalidInput& error) {

@@ -28,7 +28,7 @@ mb_distance_options two_sided(const mb_distance_options* options) {
 
 mb_status mb_level_checker_new(const mb_mesh* original, const mb_distance_options* options,
                                mb_level_checker** checker) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(checker, "checker");
     const mb_distance_options given = complete(options, mb_distance_options_init);
     const RunControl control(given);
@@ -39,7 +39,7 @@ mb_status mb_level_checker_new(const mb_mesh* original, const mb_distance_option
 
 mb_status mb_level_checker_check(mb_level_checker* checker, const mb_mesh* level, double tolerance,
                                  const mb_distance_options* options, mb_verdict* verdict, mb_distance* distance) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(checker, "checker");
     require(verdict, "verdict");
     const mb_distance_options given = two_sided(options);
@@ -54,7 +54,7 @@ mb_status mb_level_checker_check(mb_level_checker* checker, const mb_mesh* level
 
 mb_status mb_level_checker_measure(mb_level_checker* checker, const mb_mesh* level, const mb_distance_options* options,
                                    mb_distance* distance) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(checker, "checker");
     require(distance, "distance");
     const mb_distance_options given = two_sided(options);

@@ -104,7 +104,7 @@ mb_status mb_describe(const mb_mesh* mesh, mb_mesh_facts* facts) {
 }
 
 mb_status mb_measure(const mb_mesh* a, const mb_mesh* b, const mb_distance_options* options, mb_distance* distance) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(distance, "distance");
     const mb_distance_options given = complete(options, mb_distance_options_init);
     RunControl control(given);
@@ -118,7 +118,7 @@ mb_status mb_measure(const mb_mesh* a, const mb_mesh* b, const mb_distance_optio
 
 mb_status mb_check(const mb_mesh* a, const mb_mesh* b, double tolerance, const mb_distance_options* options,
                    mb_verdict* verdict, mb_distance* distance) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(verdict, "verdict");
     const mb_distance_options given = complete(options, mb_distance_options_init);
     RunControl control(given);

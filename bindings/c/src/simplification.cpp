@@ -109,7 +109,7 @@ mb_status mb_simplify_options_init(mb_simplify_options* options, size_t size) {
 }
 
 mb_status mb_simplify(const mb_mesh* original, const mb_simplify_options* options, mb_simplification** result) {
-  return guarded([&] {
+  return guarded(threads_of(options), [&] {
     require(options, "options");
     require(result, "result");
     const mb_simplify_options given = complete(options, mb_simplify_options_init);
