@@ -259,7 +259,8 @@ class GroupSearch {
 
   [[nodiscard]] PointDistance answer(std::size_t i) const {
     const Best& best = best_[i];
-    const auto& [point, roundings] = queries_[i];
+    const Vec3& point = queries_[i].point;
+    const PointRoundings& roundings = queries_[i].roundings;
     const double distance = std::sqrt(best.nearest.squared), wanted = std::max(0.0, distance - roundings.allowed);
     if (!(distance + group_margin * roundings.primal <= double{limit_[i]}))
       return measure_point(data_, point, roundings, best.nearest.slot);

@@ -136,7 +136,7 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(order_o
 template <class Visit>
 void BoxTree::visit_meeting(const Eigen::AlignedBox3d& box, const Visit& visit) const {
   if (order_.empty()) return;
-  const Wanted wanted(rounded(box));
+  const Wanted wanted{rounded(box)};
   std::array<unsigned, max_levels> open;           // by level above the lowest: lanes of a node that are left
   std::array<std::size_t, max_levels> first_lane;  // and the number of its first lane
   const std::size_t top = levels_.size() - 1;
