@@ -81,7 +81,7 @@ export interface SimplifyOptions {
   /** Largest symmetric Hausdorff distance to the original. */
   tolerance: number;
   /** Smaller tolerances at which the mesh is handed out as well. */
-  levels?: Iterable<number> & { length: number };
+  levels?: Iterable<number>;
   /** Where to end, if the tolerance allows it. */
   targetFaces?: number;
   /** The same as a share of the triangles, 0 to 1. */
@@ -102,7 +102,7 @@ export interface SimplifyOptions {
   featureAngle?: number;
   /** Borders, creases and `featureEdges` stay within it of where they were, both ways. */
   lineTolerance?: number;
-  /** Pairs of vertices whose edges are lines as well. */
+  /** Pairs of vertices whose edges are lines as well, one after the other: [a, b, c, d] are the edges a-b and c-d. */
   featureEdges?: ArrayLike<number>;
   /** Also make the certificate that verify_certificate checks. */
   certificate?: boolean;
@@ -162,8 +162,9 @@ export function writeMesh(mesh: Mesh, format: Format, options?: { precision?: 'd
 
 /**
  * Stands in for MeshoptSimplifier, for instance in simplify() of gltf-transform. The error is a proven bound of the
- * symmetric Hausdorff distance, as a share of the largest extent of the mesh, or absolute. Vertices of the result are
- * vertices of the original; copies of a vertex along a seam stay together.
+ * symmetric Hausdorff distance, as a share of the largest extent of the mesh (rounded up: error * getScale(positions,
+ * stride) is not below the bound), or absolute. Vertices of the result are vertices of the original; copies of a vertex
+ * along a seam stay together.
  */
 export const MeshboundSimplifier: {
   supported: boolean;

@@ -120,32 +120,45 @@ export function describe(mesh) {
   });
 }
 
-export function hausdorffDistance(
-  a, b, { errorBound = -1, tolerance = -1, oneSided = false, timeLimit = Infinity } = {}) {
+/** The number of an option; where it is left out, `none`, which the engine takes for no value. */
+function number(options, name, none, isValid, description) {
+  const value = options[name];
+  if (value === undefined || value === null) return none;
+  if (typeof value === 'number' && isValid(value)) return value;
+  throw new InvalidInput(`${name} must be ${description}, not ${String(value)}`);
+}
+
+const isCount = (x) => Number.isInteger(x) && x >= 0 && x < 2 ** 32 - 1;
+const isNotNegative = (x) => x >= 0;
+const length = (options, name) => number(options, name, -1, isNotNegative, 'a length of 0 or more');
+const timeLimitOf = (options) => number(options, 'timeLimit', Infinity, isNotNegative, 'seconds, 0 or more');
+
+export function hausdorffDistance(a, b, options = {}) {
   return Scratch.with((scratch) => {
     const out = scratch.room(DISTANCE_SIZE * 8);
     requireSuccess(engine._js_measure(
-      scratch.mesh(a), scratch.mesh(b), errorBound, tolerance, timeLimit, oneSided ? 1 : 0, out));
+      scratch.mesh(a), scratch.mesh(b), length(options, 'errorBound'), length(options, 'tolerance'),
+      timeLimitOf(options), options.oneSided ? 1 : 0, out));
     return distanceFrom(doubles(out, DISTANCE_SIZE));
   });
 }
 
-export function check(a, b, tolerance, { oneSided = false, timeLimit = Infinity } = {}) {
+export function check(a, b, tolerance, options = {}) {
   return Scratch.with((scratch) => {
     const out = scratch.room((1 + DISTANCE_SIZE) * 8);
-    requireSuccess(
-      engine._js_check(scratch.mesh(a), scratch.mesh(b), tolerance, timeLimit, oneSided ? 1 : 0, out));
+    requireSuccess(engine._js_check(
+      scratch.mesh(a), scratch.mesh(b), tolerance, timeLimitOf(options), options.oneSided ? 1 : 0, out));
     const values = doubles(out, 1 + DISTANCE_SIZE);
     return { verdict: VERDICTS[values[0]], tolerance, distance: distanceFrom(values.subarray(1)) };
   });
 }
 
-export function buildCertificate(original, simplified, tolerance, { timeLimit = Infinity } = {}) {
+export function buildCertificate(original, simplified, tolerance, options = {}) {
   return Scratch.with((scratch) => {
     const certificate = scratch.room(4);
     const out = scratch.room(2 * 8);
     requireSuccess(engine._js_certify(
-      scratch.mesh(original), scratch.mesh(simplified), tolerance, timeLimit, certificate, out));
+      scratch.mesh(original), scratch.mesh(simplified), tolerance, timeLimitOf(options), certificate, out));
     scratch.freeAtEnd(engine._mb_certificate_free, engine.HEAPU32[certificate / 4]);
     const [address, size] = doubles(out, 2);
     return engine.HEAPU8.slice(address, address + size);
@@ -211,20 +224,31 @@ function chosen(options, name, words) {
   return word === words[1] ? 1 : 0;
 }
 
+/** Pairs of vertices as the engine reads them. */
+function copyEdges(scratch, featureEdges) {
+  const isIndex = (v) => Number.isInteger(v) && v >= 0 && v < 2 ** 32;
+  if (featureEdges.length % 2 !== 0 || !Array.from(featureEdges).every(isIndex))
+    throw new InvalidInput('featureEdges must be indices of vertices, two for each edge, one after the other');
+  return scratch.copy(Uint32Array.from(featureEdges));
+}
+
 function setOptions(scratch, options, target) {
-  const { levels = [], lockedVertices, featureEdges } = options;
+  const { lockedVertices } = options;
+  const featureEdges = options.featureEdges ?? [], levels = Float64Array.from(options.levels ?? []);
   engine._js_set_lengths(
-    target, options.tolerance ?? NaN, options.lineTolerance ?? -1, options.featureAngle ?? -1,
-    options.timeLimit ?? Infinity);
-  engine._js_set_targets(target, options.targetFaces ?? -1, options.targetRatio ?? -1);
+    target, options.tolerance ?? NaN, length(options, 'lineTolerance'),
+    number(options, 'featureAngle', -1, isNotNegative, 'an angle in radians, 0 to pi'), timeLimitOf(options));
+  engine._js_set_targets(
+    target, number(options, 'targetFaces', -1, isCount, 'a whole number, 0 or more'),
+    number(options, 'targetRatio', -1, isNotNegative, 'a share, 0 to 1'));
   engine._js_set_choices(
     target, chosen(options, 'effort', ['normal', 'high']), chosen(options, 'placement', ['optimal', 'subset']),
     chosen(options, 'precision', ['double', 'single']), chosen(options, 'onExceed', ['skip', 'stop']),
     options.prune ? 1 : 0, options.preserveBoundary ? 1 : 0, options.certificate ? 1 : 0);
   engine._js_set_arrays(
-    target, scratch.copy(Float64Array.from(levels)), levels.length,
+    target, scratch.copy(levels), levels.length,
     lockedVertices ? scratch.copy(Uint8Array.from(lockedVertices, (locked) => (locked ? 1 : 0))) : 0,
-    featureEdges ? scratch.copy(Uint32Array.from(featureEdges)) : 0, featureEdges ? featureEdges.length / 2 : 0);
+    copyEdges(scratch, featureEdges), featureEdges.length / 2);
 }
 
 export function simplify(mesh, options) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What stands in for MeshoptSimplifier, for instance in simplify() of gltf-transform: the same arguments, with a bound
 // that is proven.
-import { ready, simplify } from './meshbound.js';
+import { InvalidInput, ready, simplify } from './meshbound.js';
 
 /** Positions where vertices stand, one vertex for each: copies of a vertex along a seam become one. */
 function weld(positions, stride) {
@@ -10,6 +10,9 @@ function weld(positions, stride) {
   const packed = new Float32Array(bits.buffer);
   for (let v = 0; v < count; ++v)
     for (let k = 0; k < 3; ++k) packed[3 * v + k] = positions[v * stride + k] + 0; // -0 is 0
+  const isRounded = (x, i) => !Number.isNaN(x) && x !== positions[Math.floor(i / 3) * stride + (i % 3)];
+  if (packed.some(isRounded))
+    throw new InvalidInput('positions must be numbers that a Float32Array can hold');
   const welded = new Uint32Array(count);
   const first = new Map();
   for (let v = 0; v < count; ++v) {
@@ -18,6 +21,15 @@ function weld(positions, stride) {
     welded[v] = first.get(key);
   }
   return { positions: packed, welded };
+}
+
+/** The indices of the welded vertices. */
+function weldedIndices(indices, welded) {
+  const outside = indices.findIndex((v) => welded[v] === undefined);
+  if (outside !== -1)
+    throw new InvalidInput(
+      `there is no vertex ${indices[outside]} for index ${outside}: there are only ${welded.length}`);
+  return Uint32Array.from(indices, (v) => welded[v]);
 }
 
 /** Pairs of welded vertices whose edge has different copies on its two sides: vertices there move along the seam only. */
@@ -125,6 +137,21 @@ function largestExtent(positions, stride) {
   return extent;
 }
 
+/** The next larger double of a positive one. */
+function nextUp(x) {
+  const bits = new BigUint64Array(1);
+  const value = new Float64Array(bits.buffer);
+  value[0] = x;
+  if (x < Infinity) ++bits[0];
+  return value[0];
+}
+
+/** A share of `scale` that is not below `bound`, in real arithmetic and as a product of doubles. */
+function shareOf(bound, scale) {
+  if (bound === 0 || scale === 1) return bound;
+  return nextUp(bound / scale);
+}
+
 export const MeshboundSimplifier = {
   supported: typeof WebAssembly === 'object',
   get ready() {
@@ -139,10 +166,12 @@ export const MeshboundSimplifier = {
     if (unknown !== undefined) throw new RangeError(`the flag ${unknown} is not known`);
     const scale = flags.includes('ErrorAbsolute') ? 1 : largestExtent(positions, stride);
     const { positions: packed, welded } = weld(positions, stride);
+    const weldedMesh = { positions: packed, indices: weldedIndices(indices, welded) };
     const seams = seamEdges(indices, welded);
-    const tolerance = targetError * scale;
+    // Less by a few units of the last place, so that the share of a bound, rounded up, is not above the target.
+    const tolerance = scale === 1 ? targetError : targetError * scale * (1 - 4 * Number.EPSILON);
     const { level } = simplify(
-      { positions: packed, indices: Uint32Array.from(indices, (v) => welded[v]) },
+      weldedMesh,
       {
         tolerance,
         placement: 'subset',
@@ -153,6 +182,6 @@ export const MeshboundSimplifier = {
         ...(seams.length > 0 ? { featureEdges: seams, lineTolerance: tolerance } : {}),
       });
     const chooser = new CopyChooser(indices, packed, welded);
-    return [originalIndices(level, chooser), scale > 0 ? level.distance.upper / scale : 0];
+    return [originalIndices(level, chooser), shareOf(level.distance.upper, scale)];
   },
 };

@@ -138,6 +138,33 @@ test('what is no mesh and no option is refused', () => {
   assert.throws(() => meshbound.simplify({ positions, indices }, { tolerance: 1, lockedVertices: [1] }), /each vertex/);
 });
 
+test('numbers that an option cannot have are refused, not taken for none', () => {
+  const mesh = sheet(4, 0);
+  const simplifies = (options) => meshbound.simplify(mesh, { tolerance: 1, ...options });
+  const measures = (options) => meshbound.hausdorffDistance(mesh, mesh, options);
+  for (const [call, name, values] of [
+    [simplifies, 'lineTolerance', [-0.1, NaN, '0.1']],
+    [simplifies, 'featureAngle', [-1, NaN]],
+    [simplifies, 'targetRatio', [-0.5, NaN]],
+    [simplifies, 'targetFaces', [-1, NaN, 10.5, Infinity, 2 ** 32]],
+    [simplifies, 'timeLimit', [-1, NaN]],
+    [simplifies, 'featureEdges', [[0, 1, 2], [[0, 1], [1, 2]], [0, -1], [0, 0.5], [0, 2 ** 32 + 1]]],
+    [measures, 'errorBound', [-1, NaN, '1']],
+    [measures, 'tolerance', [-5, NaN]],
+    [measures, 'timeLimit', [-1, NaN]],
+  ]) {
+    for (const value of values) {
+      const isRefusal = (error) =>
+        error instanceof meshbound.InvalidInput && error.message.startsWith(`${name} must be`);
+      assert.throws(() => call({ [name]: value }), isRefusal, `${name}: ${value}`);
+    }
+    for (const none of [undefined, null]) call({ [name]: none });
+  }
+  assert.equal(simplifies({ levels: new Set([0.1, 0.5]) }).levels.length, 3);
+  assert.throws(() => simplifies({ featureEdges: [0, 16] }), meshbound.InvalidInput);
+  assert.equal(simplifies({ featureEdges: [0, 1, 1, 2] }).level.verdict, 'within');
+});
+
 /** A sheet that is cut into two charts: vertices along the cut are there twice. */
 function cutSheet(side) {
   const { positions, indices } = sheet(side, 2);
@@ -190,4 +217,30 @@ test('it stands in for MeshoptSimplifier', async () => {
   const [, absolute] = MeshboundSimplifier.simplify(mesh.indices, mesh.positions, 3, 0, 0.1, ['ErrorAbsolute']);
   assert.ok(absolute > 0.005 && absolute <= 0.1);
   assert.throws(() => MeshboundSimplifier.simplify(mesh.indices, mesh.positions, 3, 0, 0.1, ['Sloppy']), RangeError);
+});
+
+test('the error times the scale is not below what is proven', () => {
+  const { MeshboundSimplifier } = meshbound;
+  const { positions, indices } = sheet(12, 2);
+  for (let i = 0; i < 20; ++i) {
+    const stretched = positions.map((x) => x * (3 + i / 7));
+    const target = 0.01 + i * 0.002;
+    const scale = MeshboundSimplifier.getScale(stretched, 3);
+    const [, error] = MeshboundSimplifier.simplify(indices, stretched, 3, 0, target);
+    // The same run, whose bound is given in the unit of the mesh.
+    const tolerance = target * scale * (1 - 4 * Number.EPSILON);
+    const [, upper] = MeshboundSimplifier.simplify(indices, stretched, 3, 0, tolerance, ['ErrorAbsolute']);
+    assert.ok(error * scale >= upper, `${error} * ${scale} < ${upper}`);
+    assert.ok(error <= target);
+  }
+});
+
+test('what is no mesh is refused in place of MeshoptSimplifier', () => {
+  const { positions, indices } = sheet(6, 1);
+  const refused = (changed, at, reason) => assert.throws(
+    () => meshbound.MeshboundSimplifier.simplify(changed, at, 3, 0, 0.01),
+    (error) => error instanceof meshbound.InvalidInput && reason.test(error.message));
+  refused(indices.map((v, i) => (i === 5 ? 99999 : v)), positions, /no vertex 99999 for index 5: there are only 36/);
+  refused(indices.subarray(1), positions, /multiple of three/);
+  refused(indices, Float64Array.from(positions, (x) => x + 0.1), /Float32Array/);
 });
