@@ -192,10 +192,11 @@ def _length(value: Optional[Length], original: Arrays) -> Optional[float]:
 
 
 def _length_of(value: Optional[Length], diagonal: float) -> Optional[float]:
-    if value is None or not isinstance(value, str):
-        return value if value is None else float(value)
-    text = value.strip()
+    if value is None:
+        return None
     try:
-        return float(text[:-1]) / 100 * diagonal if text.endswith("%") else float(text)
-    except ValueError:
+        if isinstance(value, str) and value.strip().endswith("%"):
+            return float(value.strip()[:-1]) / 100 * diagonal
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
         raise _core.InvalidInput(f"{value!r} is no length: give a number, or a percentage such as '0.1%'") from None

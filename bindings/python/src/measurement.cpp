@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "bind.h"
@@ -91,9 +92,20 @@ auto watched(const Request& request, const Search& search) {
 }
 
 py::dict describe(const py::array& vertices, const py::array& triangles) {
-  const MeshSummary summary = summarise(view_of(vertices, triangles));
+  const MeshView mesh = view_of(vertices, triangles);
+  MeshSummary summary;
+  run_watched(py::none(), [&](Watch&) { summary = summarise(mesh); });
   return py::dict("vertices"_a = summary.vertices, "triangles"_a = summary.faces, "components"_a = summary.components,
                   "closed"_a = summary.closed, "bbox_diagonal"_a = summary.bbox_diagonal);
+}
+
+std::unique_ptr<LevelChecker> level_checker(const py::array& vertices, const py::array& triangles, int threads) {
+  const MeshView original = view_of(vertices, triangles);
+  std::unique_ptr<LevelChecker> checker;
+  run_watched(py::none(), [&](Watch& watch) {
+    checker = std::make_unique<LevelChecker>(original, BvhOptions{threads, {.cancel = &watch.cancel}});
+  });
+  return checker;
 }
 
 py::bytes certificate(const py::array& vertices_a, const py::array& triangles_a, const py::array& vertices_b,
@@ -138,9 +150,7 @@ void bind_measurement(py::module_& module) {
                    [&](const DistanceOptions& options) { return check(a, b, tolerance, wanted.one_sided, options); });
   });
   py::class_<LevelChecker>(module, "LevelChecker")
-      .def(py::init([](const py::array& vertices, const py::array& triangles, int threads) {
-        return LevelChecker(view_of(vertices, triangles), BvhOptions{threads});
-      }))
+      .def(py::init(&level_checker))
       .def("check",
            [](LevelChecker& self, const py::array& vertices, const py::array& triangles, double tolerance,
               const Request& wanted) {

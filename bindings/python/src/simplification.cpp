@@ -17,43 +17,54 @@ namespace py = pybind11;
 namespace meshbound::python {
 namespace {
 
-/// The value of `name` among the keyword arguments, where it is there and not None.
+/// The value of `name` among the keyword arguments as a `Value`; absent where it is None or left out. Throws
+/// `InvalidInput` where it cannot be one: `name` must be `description`.
 template <class Value>
-void take(const py::dict& given, const char* name, Value& value) {
-  if (given.contains(name) && !given[name].is_none()) value = given[name].cast<typename std::remove_cvref_t<Value>>();
+std::optional<Value> taken(const py::dict& given, const char* name, const char* description) {
+  if (!given.contains(name) || given[name].is_none()) return std::nullopt;
+  try {
+    return given[name].cast<Value>();
+  } catch (const py::cast_error&) {
+    throw InvalidInput(std::string(name) + " must be " + description);
+  }
 }
 
 template <class Value>
-void take(const py::dict& given, const char* name, std::optional<Value>& value) {
-  if (given.contains(name) && !given[name].is_none()) value = given[name].cast<Value>();
+void take(const py::dict& given, const char* name, const char* description, Value& value) {
+  if (auto found = taken<Value>(given, name, description)) value = std::move(*found);
+}
+
+template <class Value>
+void take(const py::dict& given, const char* name, const char* description, std::optional<Value>& value) {
+  if (auto found = taken<Value>(given, name, description)) value = found;
 }
 
 /// One of two words; throws `InvalidInput` for others.
 template <class Choice>
 void take_word(const py::dict& given, const char* name, const char* first, const char* second, Choice& choice) {
-  if (!given.contains(name) || given[name].is_none()) return;
-  const std::string word = given[name].cast<std::string>();
-  if (word != first && word != second)
-    throw InvalidInput(std::string(name) + " must be \"" + first + "\" or \"" + second + "\"");
-  choice = static_cast<Choice>(word == second);
+  const std::string description = std::string("\"") + first + "\" or \"" + second + "\"";
+  const auto word = taken<std::string>(given, name, description.c_str());
+  if (!word) return;
+  if (*word != first && *word != second) throw InvalidInput(std::string(name) + " must be " + description);
+  choice = static_cast<Choice>(*word == second);
 }
 
 SimplifyOptions library_options(const py::dict& given) {
   SimplifyOptions options;
-  take(given, "tolerance", options.tolerance);
-  take(given, "levels", options.levels);
-  take(given, "target_faces", options.target_faces);
-  take(given, "target_ratio", options.target_ratio);
-  take(given, "prune", options.prune);
-  take(given, "preserve_boundary", options.preserve_boundary);
-  take(given, "locked_vertices", options.locked_vertices);
-  take(given, "feature_angle", options.feature_angle);
-  take(given, "line_tolerance", options.line_tolerance);
-  take(given, "feature_edges", options.feature_edges);
-  take(given, "face_tolerances", options.face_tolerances);
-  take(given, "certificate", options.certificate);
-  take(given, "time_limit", options.time_limit);
-  take(given, "threads", options.threads);
+  take(given, "tolerance", "a length", options.tolerance);
+  take(given, "levels", "lengths", options.levels);
+  take(given, "target_faces", "a whole number, 0 or more", options.target_faces);
+  take(given, "target_ratio", "a share, 0 to 1", options.target_ratio);
+  take(given, "prune", "True or False", options.prune);
+  take(given, "preserve_boundary", "True or False", options.preserve_boundary);
+  take(given, "locked_vertices", "True or False for each vertex", options.locked_vertices);
+  take(given, "feature_angle", "an angle in radians", options.feature_angle);
+  take(given, "line_tolerance", "a length", options.line_tolerance);
+  take(given, "feature_edges", "pairs of indices of vertices", options.feature_edges);
+  take(given, "face_tolerances", "a length for each triangle", options.face_tolerances);
+  take(given, "certificate", "True or False", options.certificate);
+  take(given, "time_limit", "seconds", options.time_limit);
+  take(given, "threads", "a number of threads", options.threads);
   static_assert(static_cast<int>(OnExceed::Stop) == 1 && static_cast<int>(Effort::High) == 1 &&
                 static_cast<int>(CollapsePlacements::Subset) == 1 && static_cast<int>(Precision::Single) == 1);
   take_word(given, "on_exceed", "skip", "stop", options.on_exceed);

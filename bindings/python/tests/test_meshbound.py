@@ -14,6 +14,7 @@ import unittest
 import numpy as np
 
 import meshbound
+from meshbound import _core
 
 
 def sheet(side, height=0.0, dtype=np.float64):
@@ -221,6 +222,27 @@ class Arrays(unittest.TestCase):
         with self.assertRaisesRegex(meshbound.Error, "triangle"):
             meshbound.build_certificate(sheet(4), lifted(sheet(4), 1), 0.5)
 
+    def test_options_of_the_wrong_type_are_named(self):
+        mesh = sheet(4)
+        for name, values in {
+            "target_faces": (-1, 10.0, 2**70, "many"),
+            "target_ratio": ("half",),
+            "feature_edges": ([[-1, 2]], [[0, 1, 2]], [0, 1], mesh[1], 5),
+            "locked_vertices": (7, [object()]),
+            "face_tolerances": (["1%"] * len(mesh[1]), 1),
+            "feature_angle": ("right",),
+            "time_limit": ("long",),
+            "threads": (2**40, 1.5),
+            "effort": (1,),
+            "levels": ([None],),
+        }.items():
+            for value in values:
+                with self.subTest(name, value=value), self.assertRaisesRegex(meshbound.InvalidInput, f"{name} must be"):
+                    meshbound.simplify(mesh, 1, **{name: value})
+        for length in ([1], object(), 10**400):
+            with self.subTest(length), self.assertRaisesRegex(meshbound.InvalidInput, "is no length"):
+                meshbound.simplify(mesh, length)
+
 
 class ObjectsOfOthers(unittest.TestCase):
     """With stand-ins that have the attributes of the packages; with the packages themselves where they are."""
@@ -244,6 +266,9 @@ class ObjectsOfOthers(unittest.TestCase):
         self.assertEqual(meshbound.describe(types.SimpleNamespace(points=v, cells=[block(type="quad", data=quads)])).triangles, 4)
         mixed = np.array([4, 0, 4, 5, 1, 3, 1, 5, 2])
         self.assertEqual(meshbound.describe(types.SimpleNamespace(points=v, faces=mixed)).triangles, 3)
+        for broken, reason in (([3, 0, 1, 5, 4, 0, 1], "entry 4 .* 4 corners, and 2 "), ([3, 0, 1, 5, -1, 0], "-1 corners")):
+            with self.assertRaisesRegex(meshbound.InvalidInput, reason):
+                meshbound.describe(types.SimpleNamespace(points=v, faces=np.array(broken)))
         with self.assertRaisesRegex(meshbound.InvalidInput, "no block"):
             meshbound.describe(types.SimpleNamespace(points=v, cells=[block(type="line", data=t[:, :2])]))
 
@@ -291,7 +316,7 @@ class LongCalls(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "from progress"):
             meshbound.simplify(self.large, "0.05%", progress=fail)
 
-    def test_other_threads_of_python_go_on(self):
+    def assert_other_threads_go_on(self, call):
         steps, is_done = [], threading.Event()
 
         def count():
@@ -302,11 +327,23 @@ class LongCalls(unittest.TestCase):
         thread.start()
         try:
             before = len(steps)
-            meshbound.simplify(self.large, "0.05%")
+            call()
             self.assertGreater(len(steps) - before, 5)
         finally:
             is_done.set()
             thread.join()
+
+    def test_other_threads_of_python_go_on(self):
+        self.assert_other_threads_go_on(lambda: meshbound.simplify(self.large, "0.05%"))
+
+    def test_other_threads_of_python_go_on_while_a_tree_is_built(self):
+        vertices, triangles = sheet(700, 5)
+        mesh = vertices, triangles.astype(np.uint32)  # read where it is: Python has nothing to do
+        with self.subTest("describe"):
+            self.assert_other_threads_go_on(lambda: meshbound.describe(mesh))
+        checker_of = _core.LevelChecker  # without the description of the mesh that meshbound.LevelChecker makes first
+        with self.subTest("LevelChecker"):
+            self.assert_other_threads_go_on(lambda: checker_of(*mesh, 1))
 
     def test_interrupt_from_the_keyboard(self):
         # The handler runs while threads of the call are still there, and its exception ends the call.
