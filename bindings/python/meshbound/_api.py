@@ -70,7 +70,7 @@ def check_tolerance(
     """
     arrays = arrays_of(a)
     request = _core.Request(None, one_sided, threads, time_limit, progress)
-    return check_from(_core.check(*arrays, *arrays_of(b), _length(tolerance, arrays), request))
+    return check_from(_core.check(*arrays, *arrays_of(b), _required(_length(tolerance, arrays)), request))
 
 
 def simplify(
@@ -140,7 +140,7 @@ def build_certificate(
     """
     arrays = arrays_of(original)
     request = _core.Request(None, False, threads, time_limit, progress)
-    return _core.certificate(*arrays, *arrays_of(simplified), _length(tolerance, arrays), request)
+    return _core.certificate(*arrays, *arrays_of(simplified), _required(_length(tolerance, arrays)), request)
 
 
 class LevelChecker:
@@ -167,8 +167,9 @@ class LevelChecker:
     ) -> ToleranceCheck:
         """Decide whether a level is within ``tolerance`` of the original, as `check_tolerance` does."""
         request = _core.Request(None, False, threads, time_limit, progress)
+        wanted = _required(_length_of(tolerance, self._diagonal))
         with self._lock:
-            return check_from(self._checker.check(*arrays_of(level), _length_of(tolerance, self._diagonal), request))
+            return check_from(self._checker.check(*arrays_of(level), wanted, request))
 
     def measure(
         self,
@@ -189,6 +190,12 @@ def _length(value: Optional[Length], original: Arrays) -> Optional[float]:
     """A length in model units; a text such as "0.1%" is relative to the diagonal of the original."""
     is_percentage = isinstance(value, str) and value.strip().endswith("%")
     return _length_of(value, _core.describe(*original)["bbox_diagonal"] if is_percentage else 0)
+
+
+def _required(tolerance: Optional[float]) -> float:
+    if tolerance is None:
+        raise _core.InvalidInput("the tolerance must be given: a length, or a percentage such as '0.1%'")
+    return tolerance
 
 
 def _length_of(value: Optional[Length], diagonal: float) -> Optional[float]:

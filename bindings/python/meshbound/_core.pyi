@@ -22,7 +22,7 @@ class Request:
 class LevelChecker:
     def __init__(self, vertices: np.ndarray, triangles: np.ndarray, threads: int) -> None: ...
     def check(
-        self, vertices: np.ndarray, triangles: np.ndarray, tolerance: Optional[float], request: Request
+        self, vertices: np.ndarray, triangles: np.ndarray, tolerance: float, request: Request
     ) -> dict[str, Any]: ...
     def measure(self, vertices: np.ndarray, triangles: np.ndarray, request: Request) -> dict[str, Any]: ...
 
@@ -39,7 +39,7 @@ def check(
     triangles_a: np.ndarray,
     vertices_b: np.ndarray,
     triangles_b: np.ndarray,
-    tolerance: Optional[float],
+    tolerance: float,
     request: Request,
 ) -> dict[str, Any]: ...
 def certificate(
@@ -47,7 +47,7 @@ def certificate(
     triangles_a: np.ndarray,
     vertices_b: np.ndarray,
     triangles_b: np.ndarray,
-    tolerance: Optional[float],
+    tolerance: float,
     request: Request,
 ) -> bytes: ...
 def simplify(

@@ -214,6 +214,9 @@ class Arrays(unittest.TestCase):
             lambda: meshbound.simplify(sheet(4), 1, effort="fast"),
             lambda: meshbound.simplify(sheet(4), 1, levels=[2]),
             lambda: meshbound.check_tolerance(sheet(4), sheet(4), math.nan),
+            lambda: meshbound.check_tolerance(sheet(4), sheet(4), None),
+            lambda: meshbound.LevelChecker(sheet(4)).check(sheet(4), None),
+            lambda: meshbound.build_certificate(sheet(4), sheet(4), None),
             lambda: meshbound.hausdorff_distance(sheet(4), sheet(4), error_bound=-1),
             lambda: meshbound.hausdorff_distance(sheet(4), sheet(4), time_limit=-1),
         ):
