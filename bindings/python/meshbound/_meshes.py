@@ -56,7 +56,8 @@ def _triangles_of_faces(faces: np.ndarray) -> np.ndarray:
     while at < faces.size:
         count = int(faces[at])
         if count < 0 or at + 1 + count > faces.size:
-            raise InvalidInput(f"entry {at} of faces announces {count} corners, and {faces.size - at - 1} entries follow")
+            left = faces.size - at - 1
+            raise InvalidInput(f"entry {at} of faces announces {count} corners, and {left} entries follow")
         fans.append(_fans(faces[at + 1 : at + 1 + count].reshape(1, -1)))
         at += 1 + count
     return np.concatenate(fans)
