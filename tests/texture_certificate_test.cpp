@@ -171,6 +171,35 @@ TEST(TextureCertificate, TellsWhatIsNotCovered) {
   EXPECT_EQ(proof.texture->simplified_to_original.uncovered_share, 0);
 }
 
+Case scaled(Case c, double by) {
+  for (Textured* mesh : {&c.a, &c.b})
+    for (Eigen::Vector3d& vertex : mesh->mesh.vertices) vertex *= by;
+  c.tolerance *= by;
+  c.texture_tolerance *= by;
+  return c;
+}
+
+/// Products of edges of 2^-300 underflow in squared areas, products of edges of 2^300 overflow.
+TEST(TextureCertificate, TellsSharesOfTheAreaAtAnySize) {
+  Case c{grid(2, lifted(0)), grid(2, lifted(0), [](double s, double t) { return Eigen::Vector2d(s / 2, t); }), 1, 0.75};
+  add_grid(c.a, 2, lifted(0), [](double s, double) { return Eigen::Vector2d(s, 2.5); });
+  for (const int exponent : {-400, -300, 0, 300}) {
+    const Case at_size = scaled(c, std::ldexp(1, exponent));
+    const auto proof = at_size.check(at_size.certificate().certificate.bytes);
+    EXPECT_EQ(proof.texture->original_to_simplified.uncovered_share, 0.75) << exponent;
+    EXPECT_EQ(proof.texture->simplified_to_original.uncovered_share, 0) << exponent;
+  }
+}
+
+/// Shares of a mesh all of whose triangles are segments: what is not covered or left out is all of it.
+TEST(TextureCertificate, TellsWhatIsNotCoveredOfAMeshWithoutArea) {
+  const Shape segment = [](double s, double t) { return Eigen::Vector3d(s + t, 0, 0); };
+  const Case c{grid(1, segment), grid(1, segment, [](double s, double t) { return Eigen::Vector2d(s + 2, t); }), 1, 1};
+  const auto proof = c.check(c.certificate().certificate.bytes);
+  EXPECT_EQ(proof.texture->original_to_simplified.uncovered_share, 1);
+  EXPECT_EQ(proof.texture->original_to_simplified.left_out_share, 0);
+}
+
 TEST(TextureCertificate, TellsMaterialsApart) {
   Case c = two_squares();
   for (Textured* mesh : {&c.a, &c.b}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/texture_check.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -57,7 +57,8 @@ class TextureCheck {
       is_flat_ = domain.covering(triangle).turn == 0;
       near_.reset();
       if (is_flat_ && !has_proof()) {
-        left_out_area_ += area_of(triangle);
+        has_left_out_ = true;
+        left_out_area_ += triangle.area;
         continue;
       }
       check(domain.whole(), {}, 0);
@@ -67,19 +68,19 @@ class TextureCheck {
     if (!tokens_.at_end()) throw Rejected("the proof about the texture goes on after its last triangle");
     if (result_.pieces != section_.pieces)
       throw Rejected("the number of pieces in the header is not that of the proof about the texture");
-    if (source_.area > 0) {
-      result_.uncovered_share = std::min(1.0, (uncovered_area_ + source_.bare_area) / source_.area);
-      result_.left_out_share = std::min(1.0, left_out_area_ / source_.area);
-    }
+    const bool has_bare = source_.triangles.size() < source_.of_index.size();
+    result_.uncovered_share = share_of(uncovered_area_ + source_.bare_area, has_uncovered_ || has_bare);
+    result_.left_out_share = share_of(left_out_area_, has_left_out_);
     return result_;
   }
 
  private:
   using Levels = std::array<std::int64_t, 3>;  ///< the least weights of a piece, in units of 2^-40
 
-  [[nodiscard]] static double area_of(const TextureSurface::Triangle& triangle) {
-    const auto& p = triangle.corners;
-    return (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+  /// The share of the source's area that `area` is. Where the source has no area, `is_any` decides between 0 and all.
+  [[nodiscard]] double share_of(double area, bool is_any) const {
+    if (source_.area > 0) return std::min(1.0, area / source_.area);
+    return is_any ? 1 : 0;
   }
 
   /// Whether the proof says something of the triangle at hand, which has no area in the texture.
@@ -186,7 +187,8 @@ class TextureCheck {
                  .c_str());
       domain_->forget_lines_from(lines_of_others);
     }
-    for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * area_of(*at_) * rough_area(polygon);
+    has_uncovered_ = true;
+    for (const DomainPolygon& polygon : rest) uncovered_area_ += 2 * at_->area * rough_area(polygon);
   }
 
   /// Whether a triangle covers any point of the piece, its border included.
@@ -231,6 +233,7 @@ class TextureCheck {
   std::int64_t last_ = 0;                                             ///< the target named before
   std::uint64_t work_ = 0;
   double uncovered_area_ = 0, left_out_area_ = 0;
+  bool has_uncovered_ = false, has_left_out_ = false;
   TextureProof result_;
 };
 

@@ -2,7 +2,9 @@
 #include "verify/texture_surface.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -30,6 +32,23 @@ Eigen::Vector2d as_held_by(const TexturedFile& file, const Eigen::Vector2d& uv) 
   return uv;
 }
 
+using EdgeVectors = std::array<Eigen::Vector3d, 2>;
+
+/// Half of the two edge vectors at the first corner of triangle `t`: halves do not overflow.
+EdgeVectors half_edges(const TriangleMesh& mesh, std::size_t t) {
+  const auto half = [&](std::size_t k) -> Eigen::Vector3d { return 0.5 * mesh.vertices[mesh.triangles[t][k]]; };
+  return {half(1) - half(0), half(2) - half(0)};
+}
+
+/// A power of two that takes the longest of the edge vectors to about 1, so that their products neither overflow nor
+/// underflow. Both the power and its inverse are normal doubles.
+double scale_of_areas(const TriangleMesh& mesh) {
+  double size = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const Eigen::Vector3d& edge : half_edges(mesh, t)) size = std::max(size, edge.cwiseAbs().maxCoeff());
+  return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1;
+}
+
 /// The surface of `file`, which is one of the two that are compared.
 TextureSurface surface_of(const TexturedFile& file, const char* name, const TexturedFile& original,
                           const TexturedFile& simplified) {
@@ -40,6 +59,7 @@ TextureSurface surface_of(const TexturedFile& file, const char* name, const Text
     throw Rejected(std::string("the certificate speaks of texture, but the ") + name +
                    " mesh has no texture coordinates");
   TextureSurface surface;
+  const double scale = scale_of_areas(*file.mesh);
   surface.of_index.assign(count, -1);
   for (std::size_t t = 0; t < count; ++t) {
     TextureSurface::Triangle triangle;
@@ -52,11 +72,11 @@ TextureSurface surface_of(const TexturedFile& file, const char* name, const Text
       else
         triangle.coordinates[k] = as_held_by(simplified, as_held_by(original, values[indices[t][k]].head<2>()));
     }
-    const auto& p = triangle.corners;
-    const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-    surface.area += area;
+    const EdgeVectors edges = half_edges(*file.mesh, t);
+    triangle.area = (scale * edges[0]).cross(scale * edges[1]).norm();
+    surface.area += triangle.area;
     if (!is_textured) {
-      surface.bare_area += area;
+      surface.bare_area += triangle.area;
       continue;
     }
     for (const Eigen::Vector2d& uv : triangle.coordinates)

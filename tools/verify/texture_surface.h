@@ -19,11 +19,12 @@ struct TextureSurface {
     std::uint32_t material = 0;
     std::array<Eigen::Vector3d, 3> corners;
     std::array<Eigen::Vector2d, 3> coordinates;
+    double area = 0;  ///< rounded, in a unit that all triangles of the mesh share: for ratios only
   };
   std::vector<Triangle> triangles;     ///< in the order of the mesh
   std::vector<std::int64_t> of_index;  ///< by triangle of the mesh: its place in `triangles`, or -1
-  double area = 0;                     ///< of all triangles of the mesh, rounded
-  double bare_area = 0;                ///< of those without coordinates, rounded
+  double area = 0;                     ///< sum of the areas of all triangles of the mesh
+  double bare_area = 0;                ///< sum of the areas of the triangles without coordinates
 };
 
 /// A mesh and what its file says of its texture; both must outlive the use.
