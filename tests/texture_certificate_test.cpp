@@ -433,5 +433,57 @@ TEST(TextureCertificate, ThatCostsFarMoreThanItsBytesIsRefused) {
   EXPECT_EQ(rejection(14), "the proof about the texture costs too much to check");
 }
 
+/// One leaf names many triangles, each of which is clipped from what all before leave. Products of coordinates of
+/// 2^-300 underflow, so that all signs are left to rationals of thousands of bits.
+TEST(TextureCertificate, ThatAsksForLargeRationalsIsRefused) {
+  constexpr int n = 8;
+  const auto rejection = [&](double size) -> std::string {
+    verify::TextureSurface source, target;
+    source.triangles = {flat_triangle({0, 0}, 2 * size)};
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> length(0.3, 0.9);
+    Bytes tokens{1 + n * n};  // a leaf that names all, in their order
+    for (int i = 0; i < n * n; ++i) {
+      const double leg = length(random) * size / n;
+      target.triangles.push_back(flat_triangle(size / n * Eigen::Vector2d(i % n + length(random), i / n), leg));
+      target.of_index.push_back(i);
+      tokens.push_back(i == 0 ? 0 : 2);
+    }
+    try {
+      (void)verify::check_texture(source, target, 1, {tokens, 1}, "original");
+    } catch (const verify::Rejected& rejected) {
+      return rejected.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(rejection(1), "");
+  EXPECT_EQ(rejection(0x1p-300), "the proof about the texture costs too much to check");
+}
+
+/// Without a scale, all decisions would be left to large rationals, and honest proofs refused.
+TEST(TextureCertificate, OfTinyCoordinatesCostsWhatOthersCost) {
+  const auto at_size = [](int exponent) {
+    const double size = std::ldexp(1, exponent);
+    const Chart chart = [size](double s, double t) { return Eigen::Vector2d(size * s, size * t); };
+    return scaled(Case{grid(24, lifted(0), chart), grid(1, lifted(0), chart), 0.01, 0.01}, size);
+  };
+  const Case usual = at_size(0), tiny = at_size(-400);
+  const auto bytes = usual.certificate().certificate.bytes;
+  EXPECT_EQ(usual.rejection(bytes), "");
+  // The same proof, made out to the tiny meshes.
+  const auto surfaces =
+      verify::texture_surfaces({&tiny.a.mesh, &tiny.a.attributes}, {&tiny.b.mesh, &tiny.b.attributes});
+  const std::array identities = {verify::identity_of(tiny.a.mesh), verify::identity_of(tiny.b.mesh)};
+  Bytes other = bytes;
+  const std::size_t at = texture_at(bytes);
+  for (std::size_t i = 0; i < 2; ++i) {
+    other = with(other, 40 + 24 * i, identities[i].checksum);
+    other = with(other, at + 8 + 8 * i, verify::checksum_of(surfaces[i]));
+  }
+  other = with(other, 16, std::bit_cast<std::uint64_t>(tiny.tolerance));
+  other = with(other, at, std::bit_cast<std::uint64_t>(tiny.texture_tolerance));
+  EXPECT_EQ(tiny.rejection(other), "");
+}
+
 }  // namespace texture_certificate_test
 }  // namespace meshbound

@@ -396,6 +396,33 @@ TEST(Forgery, WithoutBottomIsRejected) {
   EXPECT_EQ(f.rejection(), "triangle 0 of the original mesh is cut too often");
 }
 
+/// Appends cuts down to 2^`depth` pieces, each of which keeps to the triangle named last.
+void append_halves(Bytes& tokens, int depth) {
+  if (depth > 0) tokens.insert(tokens.end(), {17, 129, 0});
+  for (int half = 0; half < 2 && depth > 0; ++half) append_halves(tokens, depth - 1);
+  if (depth == 0) tokens.push_back(0);
+}
+
+/// 110 cuts at random shares of 48 bits make corners of thousands of bits, and each piece behind them has only a byte.
+TEST(Forgery, OfPiecesWithLargeRationalsIsRejected) {
+  Forgery f;
+  f.tolerance = 0;
+  Random random(5);
+  constexpr int cuts = 110, halvings = 8;
+  f.a.vertices = {{0.1, 0.2, 0.3}, {1.7, 0.4, 0.9}, {0.3, 1.1, 2.3}};
+  f.b = f.a;
+  f.forward.clear();
+  for (int i = 0; i < cuts; ++i) {
+    f.forward.push_back(29);
+    for (int byte = 0; byte < 6; ++byte) f.forward.push_back(static_cast<std::uint8_t>(random() | 1));
+    f.forward.insert(f.forward.end(), 6, 0);
+  }
+  append_halves(f.forward, halvings);
+  f.forward.insert(f.forward.end(), cuts, 0);
+  f.forward_pieces = (1 << halvings) + cuts;
+  EXPECT_EQ(f.rejection(), "triangle 0 of the original mesh costs too much to check");
+}
+
 /// The format cannot express a gap. It can only claim of a piece that it lies near a triangle that it is not near.
 TEST(Forgery, OfATriangleThatOnlyPartlyLiesNearIsRejected) {
   Forgery f;

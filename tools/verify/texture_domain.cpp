@@ -68,19 +68,35 @@ Number slack(const std::array<Number, 3>& weights, const std::array<Number, 3>& 
 
 }  // namespace
 
-TextureDomain::TextureDomain(const TextureSurface::Triangle& a) : a_(a) {
+TextureDomain::TextureDomain(const TextureSurface::Triangle& a, Work& work) : a_(a), work_(work) {
   std::array<DomainLine*, 3> edges{};
   for (std::size_t k = 0; k < 3; ++k) edges[k] = level(k, 0, 0);
   for (std::size_t k = 0; k < 3; ++k)
     whole_.push_back({crossing(edges[(k + 1) % 3], edges[(k + 2) % 3]), edges[(k + 2) % 3]});
 }
 
+std::uint64_t TextureDomain::bits_of_line(DomainLine& line) const {
+  const std::array<Exact, 3>& values = exact(line);
+  return bits_of(values[0]) + bits_of(values[1]) + bits_of(values[2]);
+}
+
+std::uint64_t TextureDomain::bits_of_point(const DomainPoint& point) const {
+  return bits_of_line(*point.lines[0]) + bits_of_line(*point.lines[1]);
+}
+
+int TextureDomain::turn_of(const std::array<Eigen::Vector2d, 3>& uv) const {
+  const Interval area = doubled_area<Interval>(uv[0], uv[1], uv[2]);
+  if (surely_positive(area)) return 1;
+  if (surely_negative(area)) return -1;
+  work_.add_exact(bits_of(uv[0]) + bits_of(uv[1]) + bits_of(uv[2]));
+  return sgn(doubled_area<Exact>(uv[0], uv[1], uv[2]));
+}
+
 CoveringTriangle TextureDomain::covering(const TextureSurface::Triangle& b) {
   CoveringTriangle result;
   result.triangle = &b;
   const auto& uv = b.coordinates;
-  const Interval area = doubled_area<Interval>(uv[0], uv[1], uv[2]);
-  result.turn = surely_positive(area) ? 1 : surely_negative(area) ? -1 : sgn(doubled_area<Exact>(uv[0], uv[1], uv[2]));
+  result.turn = turn_of(uv);
   for (std::size_t k = 0; k < 3; ++k) {
     DomainLine& line = lines_.emplace_back();
     line.from = &uv[(k + 1) % 3];
@@ -128,6 +144,7 @@ DomainPoint TextureDomain::crossing(DomainLine* line, DomainLine* other) const {
     point.rough = negated(point.rough);
     return point;
   }
+  work_.add_exact(bits_of_point(point));
   const std::array<Exact, 3> weights = exact_weights(point);
   const Exact total = sum(weights);
   for (std::size_t k = 0; k < 3; ++k) point.rough[k] = Interval::around(weights[k] / total);
@@ -139,11 +156,12 @@ int TextureDomain::sign_at(DomainLine& line, const DomainPoint& point) const {
   if (surely_positive(rough)) return 1;
   if (surely_negative(rough)) return -1;
   if (rough.is_zero() || is_made_of(point, line)) return 0;
+  work_.add_exact(bits_of_point(point) + bits_of_line(line));
   return sgn(value_at(exact(line), exact_weights(point)));
 }
 
 DomainPolygon TextureDomain::clipped(const DomainPolygon& polygon, DomainLine* line, int side, bool& has_area) {
-  ++work_;
+  work_.add_clip();
   DomainPolygon result;
   std::vector<int> sides;
   bool has_inside = false, has_outside = false;
@@ -169,6 +187,10 @@ bool TextureDomain::is_near(const DomainPoint& point, const CoveringTriangle& b,
   const Interval rough_slack = slack(point.rough, rough, a_, *b.triangle, tolerance);
   if (surely_not_negative(rough_slack)) return true;
   if (surely_negative(rough_slack)) return false;
+  std::uint64_t bits = bits_of_point(point);
+  for (std::size_t k = 0; k < 3; ++k)
+    bits += bits_of_line(*b.lines[k]) + bits_of(a_.corners[k]) + bits_of(b.triangle->corners[k]);
+  work_.add_exact(bits);
   const std::array<Exact, 3> weights = exact_weights(point);
   std::array<Exact, 3> shares;
   for (std::size_t k = 0; k < 3; ++k) shares[k] = value_at(exact(*b.lines[k]), weights);

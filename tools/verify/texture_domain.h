@@ -11,6 +11,7 @@
 
 #include "verify/numbers.h"
 #include "verify/texture_surface.h"
+#include "verify/work.h"
 
 namespace meshbound::verify {
 
@@ -49,8 +50,8 @@ struct CoveringTriangle {
 /// Lines, and what is made of them, are valid until they are forgotten.
 class TextureDomain {
  public:
-  /// `a` must outlive this.
-  explicit TextureDomain(const TextureSurface::Triangle& a);
+  /// `a` and `work`, which counts what is done here, must outlive this.
+  TextureDomain(const TextureSurface::Triangle& a, Work& work);
   TextureDomain(const TextureDomain&) = delete;
   TextureDomain& operator=(const TextureDomain&) = delete;
 
@@ -73,10 +74,12 @@ class TextureDomain {
   /// tolerance away from it.
   [[nodiscard]] bool is_near(const DomainPoint& point, const CoveringTriangle& b, double tolerance) const;
 
-  /// The number of clips so far.
-  [[nodiscard]] std::uint64_t work() const { return work_; }
-
  private:
+  /// The bits of the rationals that these are made of.
+  [[nodiscard]] std::uint64_t bits_of_line(DomainLine& line) const;
+  [[nodiscard]] std::uint64_t bits_of_point(const DomainPoint& point) const;
+  /// `CoveringTriangle::turn` of texture coordinates.
+  [[nodiscard]] int turn_of(const std::array<Eigen::Vector2d, 3>& uv) const;
   [[nodiscard]] DomainPoint crossing(DomainLine* line, DomainLine* other) const;
   [[nodiscard]] std::array<Exact, 3> exact_weights(const DomainPoint& point) const;
   [[nodiscard]] const std::array<Exact, 3>& exact(DomainLine& line) const;
@@ -85,7 +88,7 @@ class TextureDomain {
   const TextureSurface::Triangle& a_;
   std::deque<DomainLine> lines_;
   DomainPolygon whole_;
-  std::uint64_t work_ = 0;
+  Work& work_;
 };
 
 }  // namespace meshbound::verify

@@ -10,6 +10,7 @@
 
 #include "verify/certificate_reader.h"
 #include "verify/checksum.h"
+#include "verify/scaling.h"
 
 namespace meshbound::verify {
 namespace {
@@ -40,13 +41,12 @@ EdgeVectors half_edges(const TriangleMesh& mesh, std::size_t t) {
   return {half(1) - half(0), half(2) - half(0)};
 }
 
-/// A power of two that takes the longest of the edge vectors to about 1, so that their products neither overflow nor
-/// underflow. Both the power and its inverse are normal doubles.
-double scale_of_areas(const TriangleMesh& mesh) {
+/// The largest coordinate of all half edges.
+double size_of_edges(const TriangleMesh& mesh) {
   double size = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const Eigen::Vector3d& edge : half_edges(mesh, t)) size = std::max(size, edge.cwiseAbs().maxCoeff());
-  return size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1;
+  return size;
 }
 
 /// The surface of `file`, which is one of the two that are compared.
@@ -59,7 +59,7 @@ TextureSurface surface_of(const TexturedFile& file, const char* name, const Text
     throw Rejected(std::string("the certificate speaks of texture, but the ") + name +
                    " mesh has no texture coordinates");
   TextureSurface surface;
-  const double scale = scale_of_areas(*file.mesh);
+  const double size = size_of_edges(*file.mesh), scale = size > 0 ? power_for(size) : 1;
   surface.of_index.assign(count, -1);
   for (std::size_t t = 0; t < count; ++t) {
     TextureSurface::Triangle triangle;
@@ -101,6 +101,17 @@ std::array<TextureSurface, 2> texture_surfaces(const TexturedFile& original, con
       triangle.material =
           number_of.try_emplace(material_of(*files[i]->attributes, triangle.index), number_of.size()).first->second;
   return surfaces;
+}
+
+void scale_coordinates(std::array<TextureSurface, 2>& surfaces) {
+  const auto for_each = [&](const auto& visit) {
+    for (TextureSurface& surface : surfaces)
+      for (TextureSurface::Triangle& triangle : surface.triangles)
+        for (Eigen::Vector2d& uv : triangle.coordinates)
+          for (double& x : uv) visit(x);
+  };
+  const double scale = common_scale(for_each);
+  for_each([scale](double& x) { x *= scale; });
 }
 
 std::uint64_t checksum_of(const TextureSurface& surface) {

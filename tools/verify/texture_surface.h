@@ -39,6 +39,10 @@ struct TexturedFile {
 [[nodiscard]] std::array<TextureSurface, 2> texture_surfaces(const TexturedFile& original,
                                                              const TexturedFile& simplified);
 
+/// Multiplies the texture coordinates of both by one power of two that makes them about 1, where nothing is rounded:
+/// which of them are equal does not change. O(n).
+void scale_coordinates(std::array<TextureSurface, 2>& surfaces);
+
 /// The checksum of the indices and texture coordinates of all triangles that have them. O(n).
 [[nodiscard]] std::uint64_t checksum_of(const TextureSurface& surface);
 

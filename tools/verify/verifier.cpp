@@ -12,6 +12,8 @@
 #include "verify/near_triangle.h"
 #include "verify/parity_check.h"
 #include "verify/pieces.h"
+#include "verify/scaling.h"
+#include "verify/work.h"
 
 namespace meshbound::verify {
 namespace {
@@ -22,6 +24,11 @@ constexpr int deepest_cut = 128;
 /// What proofs by parity may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
 /// again and again. Real proofs need less than one for each byte and triangle.
 constexpr std::uint64_t min_parity_work = 65536, parity_work_per_unit = 1024;
+
+/// Work that decisions by rationals about distances may cost for each byte and triangle: some 13 us. Proofs for models
+/// of games and for grids need less than 1. A piece that keeps to one triangle and all corners of which, exactly at the
+/// tolerance, must be decided by rationals needs about 20 for each, or 30 behind eight cuts with bytes of their own.
+constexpr std::uint64_t decision_work_per_unit = 128;
 
 Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
   const Triangle& t = mesh.triangles[triangle];
@@ -40,6 +47,7 @@ class DirectionCheck {
         source_name_(source_name),
         element_(element),
         tokens_(section.tokens),
+        work_(decision_work_per_unit, section.tokens.size() + source.triangles.size() + target.triangles.size()),
         last_at_(source.vertices.size(), 0) {}
 
   Proof::Direction run() {
@@ -105,7 +113,10 @@ class DirectionCheck {
     if (given != nullptr && (*given == near[0] || *given == near[1] || *given == near[2])) return true;
     if (surely_near(corners_.rough(corner), near, tolerance_)) return true;
     ++result_.exact_decisions;
-    return is_near(corners_.exact(corner), near, tolerance_);
+    const Vec<Exact>& exact = corners_.exact(corner);
+    work_.add_exact(bits_of(exact) + bits_of(near[0]) + bits_of(near[1]) + bits_of(near[2]));
+    if (work_.is_too_much()) fail("costs too much to check");
+    return is_near(exact, near, tolerance_);
   }
 
   [[noreturn]] void fail(const char* why) const {
@@ -120,6 +131,7 @@ class DirectionCheck {
   const char* source_name_;
   const char* element_;  ///< what a triangle of the source is called
   TokenReader tokens_;
+  Work work_;
   std::vector<std::uint32_t> last_at_;  ///< by source vertex: the triangle used last there
   std::uint32_t last_ = 0;
   std::size_t triangle_ = 0;
@@ -153,13 +165,32 @@ void require_ieee_doubles() {
     throw std::runtime_error("this build or processor mode does not round doubles as IEEE 754 says");
 }
 
-Proof::Lines check_lines(const TriangleMesh& original, const TriangleMesh& simplified, const LinePart& part) {
+/// A scale for the corners of both meshes and the tolerances.
+double scale_for(const TriangleMesh& original, const TriangleMesh& simplified, const Certificate& certificate) {
+  return common_scale([&](const auto& visit) {
+    for (const TriangleMesh* mesh : {&original, &simplified})
+      for (const Triangle& t : mesh->triangles)
+        for (const std::uint32_t vertex : t)
+          for (const double x : mesh->vertices[vertex]) visit(x);
+    visit(certificate.tolerance);
+    if (certificate.lines) visit(certificate.lines->tolerance);
+    if (certificate.texture) visit(certificate.texture->tolerance);
+  });
+}
+
+TriangleMesh scaled(TriangleMesh mesh, double scale) {
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= scale;
+  return mesh;
+}
+
+Proof::Lines check_lines(const TriangleMesh& original, const TriangleMesh& simplified, const LinePart& part,
+                         double scale) {
   const MeshEdges original_edges(original), simplified_edges(simplified);
   const TriangleMesh original_lines = original_edges.lines(part.original, "original");
   const TriangleMesh simplified_lines = simplified_edges.lines(part.simplified, "simplified");
   const auto check = [&](const TriangleMesh& source, const TriangleMesh& target, const Section& section,
                          const char* name) {
-    return DirectionCheck(source, target, part.tolerance, section, name, "line").run();
+    return DirectionCheck(source, target, scale * part.tolerance, section, name, "line").run();
   };
   Proof::Lines proof{part.tolerance, part.original.size(), part.simplified.size(), false, {}, {}};
   proof.has_all_borders =
@@ -169,16 +200,33 @@ Proof::Lines check_lines(const TriangleMesh& original, const TriangleMesh& simpl
   return proof;
 }
 
-Proof::Texture check_texture_part(const TexturedFile& original, const TexturedFile& simplified,
-                                  const TexturePart& part) {
+Proof::Texture check_texture_part(const TexturedFile& original, const TexturedFile& simplified, const TexturePart& part,
+                                  double scale) {
   if (original.attributes == nullptr || simplified.attributes == nullptr)
     throw Rejected("the certificate speaks of texture, but no texture coordinates were given");
-  const auto surfaces = texture_surfaces(original, simplified);
+  auto surfaces = texture_surfaces(original, simplified);
   if (checksum_of(surfaces[0]) != part.original_checksum || checksum_of(surfaces[1]) != part.simplified_checksum)
     throw Rejected("the texture coordinates are not those that the certificate was made for");
-  return {part.tolerance,
-          check_texture(surfaces[0], surfaces[1], part.tolerance, part.original_to_simplified, "original"),
-          check_texture(surfaces[1], surfaces[0], part.tolerance, part.simplified_to_original, "simplified")};
+  scale_coordinates(surfaces);
+  const double tolerance = scale * part.tolerance;
+  return {part.tolerance, check_texture(surfaces[0], surfaces[1], tolerance, part.original_to_simplified, "original"),
+          check_texture(surfaces[1], surfaces[0], tolerance, part.simplified_to_original, "simplified")};
+}
+
+/// What the certificate proves of meshes that were multiplied by `scale`.
+Proof check(const Certificate& certificate, const TexturedFile& original, const TexturedFile& simplified,
+            double scale) {
+  const auto direction = [&](const TexturedFile& source, const TexturedFile& target, const Section& section,
+                             const char* name) {
+    return DirectionCheck(*source.mesh, *target.mesh, scale * certificate.tolerance, section, name).run();
+  };
+  Proof proof;
+  proof.tolerance = certificate.tolerance;
+  proof.original_to_simplified = direction(original, simplified, certificate.original_to_simplified, "original");
+  proof.simplified_to_original = direction(simplified, original, certificate.simplified_to_original, "simplified");
+  if (certificate.lines) proof.lines = check_lines(*original.mesh, *simplified.mesh, *certificate.lines, scale);
+  if (certificate.texture) proof.texture = check_texture_part(original, simplified, *certificate.texture, scale);
+  return proof;
 }
 
 }  // namespace
@@ -201,17 +249,12 @@ Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simpli
   require_mesh(simplified, "simplified");
   require_identity(original, certificate.original, "original");
   require_identity(simplified, certificate.simplified, "simplified");
-  Proof proof;
-  proof.tolerance = certificate.tolerance;
-  proof.original_to_simplified =
-      DirectionCheck(original, simplified, proof.tolerance, certificate.original_to_simplified, "original").run();
-  proof.simplified_to_original =
-      DirectionCheck(simplified, original, proof.tolerance, certificate.simplified_to_original, "simplified").run();
-  if (certificate.lines) proof.lines = check_lines(original, simplified, *certificate.lines);
-  if (certificate.texture)
-    proof.texture = check_texture_part({&original, original_attributes}, {&simplified, simplified_attributes},
-                                       *certificate.texture);
-  return proof;
+  const double scale = scale_for(original, simplified, certificate);
+  if (scale == 1)
+    return check(certificate, {&original, original_attributes}, {&simplified, simplified_attributes}, scale);
+  const TriangleMesh scaled_original = scaled(original, scale), scaled_simplified = scaled(simplified, scale);
+  return check(certificate, {&scaled_original, original_attributes}, {&scaled_simplified, simplified_attributes},
+               scale);
 }
 
 }  // namespace meshbound::verify

@@ -44,7 +44,8 @@ struct Proof {
 
 /// Returns what the certificate proves of these two meshes; throws `Rejected`, with one line that says why, when it
 /// proves nothing. O(certificate + meshes): proofs by parity cost the triangles
-/// they use, and too many of them are refused. Deterministic. Attributes are needed where the certificate speaks of
+/// they use, and decisions by rationals the bits of their operands; proofs that need too many of them are refused.
+/// Deterministic. Attributes are needed where the certificate speaks of
 /// textures; without them it is rejected then.
 [[nodiscard]] Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
                                       std::span<const std::uint8_t> certificate,
