@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/verifier.h"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <memory>
@@ -165,13 +166,12 @@ void require_ieee_doubles() {
     throw std::runtime_error("this build or processor mode does not round doubles as IEEE 754 says");
 }
 
-/// A scale for the corners of both meshes and the tolerances.
+/// A scale for all vertices of both meshes with finite coordinates and the tolerances: no two vertices become equal.
 double scale_for(const TriangleMesh& original, const TriangleMesh& simplified, const Certificate& certificate) {
   return common_scale([&](const auto& visit) {
     for (const TriangleMesh* mesh : {&original, &simplified})
-      for (const Triangle& t : mesh->triangles)
-        for (const std::uint32_t vertex : t)
-          for (const double x : mesh->vertices[vertex]) visit(x);
+      for (const Eigen::Vector3d& vertex : mesh->vertices)
+        if (vertex.allFinite()) std::for_each(vertex.begin(), vertex.end(), visit);
     visit(certificate.tolerance);
     if (certificate.lines) visit(certificate.lines->tolerance);
     if (certificate.texture) visit(certificate.texture->tolerance);
