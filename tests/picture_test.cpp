@@ -6,9 +6,9 @@
 
 #include <string>
 
+#include "common/utf8.h"
 #include "deviation/font.h"
 #include "deviation/legend.h"
-#include "common/utf8.h"
 
 namespace meshbound {
 namespace picture_test {
