@@ -41,7 +41,25 @@ TEST(Examples, EngineBuffersGetLevelsThatHold) {
   EXPECT_EQ(testing_tools::line_count(small.out), 3) << small.out;
   const ToolRun large = run_tool(ENGINE_LODS, {folder / "large.ply"});
   EXPECT_EQ(large.exit_code, 0) << large.out << large.err;
-  EXPECT_NE(large.out.find("4-byte indices"), std::string::npos) << large.out;
+  EXPECT_EQ(large.out.find("4-byte indices"), std::string::npos) << "levels have fewer vertices: " << large.out;
+  // Tetrahedra with a vertex in common: cut into manifolds, each has its own.
+  TriangleMesh tetrahedra{{{0, 0, 0}}, {}};
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    const double angle = 2.4 * i, z = 1 - (i + 0.5) / 10000, r = std::sqrt(1 - z * z);
+    const Eigen::Vector3d out(r * std::cos(angle), r * std::sin(angle), z);
+    const Eigen::Vector3d side = 100 * out.unitOrthogonal();
+    const auto first = static_cast<std::uint32_t>(tetrahedra.vertices.size());
+    for (const Eigen::Vector3d& p : {Eigen::Vector3d(1000 * out), Eigen::Vector3d(1000 * out + side),
+                                     Eigen::Vector3d(1000 * out + out.cross(side))})
+      tetrahedra.vertices.push_back(p);
+    tetrahedra.triangles.insert(
+        tetrahedra.triangles.end(),
+        {{first, first + 1, first + 2}, {0, first + 1, first}, {0, first + 2, first + 1}, {0, first, first + 2}});
+  }
+  write_mesh(folder / "tetrahedra.ply", tetrahedra);
+  const ToolRun many = run_tool(ENGINE_LODS, {folder / "tetrahedra.ply"});
+  EXPECT_EQ(many.exit_code, 0) << many.out << many.err;
+  EXPECT_NE(many.out.find("80000 of 80000 faces, 4-byte indices"), std::string::npos) << many.out;
 }
 
 #ifdef SIMPLIFY_IN_C
