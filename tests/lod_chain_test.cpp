@@ -182,6 +182,7 @@ TEST(LodChain, RefusesTolerancesThatDoNotGrowAndOptionsThatAreNotItsOwn) {
   options.target_faces = 10;
   EXPECT_THROW(build({0.1}, options), InvalidInput);
   EXPECT_EQ(build_lod_chain(sphere, {}, one_thread(), nullptr), 0u);
+  EXPECT_THROW(build_lod_chain(sphere, std::vector<double>{0.1}, one_thread(), nullptr), InvalidInput);
   LodChain chain(sphere, one_thread());
   (void)chain.next(0.1);
   EXPECT_THROW((void)chain.next(0.05), InvalidInput);

@@ -266,6 +266,9 @@ TEST(Scene, RefusesWhatIsNoPoseOrNoBody) {
   EXPECT_THROW(solids.add(solid, mirrored), InvalidInput);
   solids.add(solid);
   EXPECT_THROW(solids.move(0, mirrored), InvalidInput);
+  PenetrationOptions options;
+  options.error_bound = std::nan("");
+  EXPECT_THROW((void)solids.contacts(options), InvalidInput);
   EXPECT_THROW((void)scene.check_tolerance(-1), InvalidInput);
   EXPECT_EQ(scene.size(), 1u);
   EXPECT_TRUE(scene.model(0).pose.matrix().isIdentity(0));

@@ -10,9 +10,17 @@
 #include <stdexcept>
 #include <vector>
 
+#include "numeric/thread_count.h"
+
 namespace tasks_test {
 
 using namespace meshbound;
+
+TEST(ThreadCount, IsThatOfTheOptionWithinReason) {
+  EXPECT_EQ(thread_count(3), 3);
+  EXPECT_EQ(thread_count(1000000), max_threads);
+  EXPECT_EQ(thread_count(0), omp_get_max_threads());
+}
 
 TEST(Tasks, VisitEachNumberOnceByThreadsOfTheTeam) {
   for (const int threads : {1, 2, 5}) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshbound/bvh.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -18,6 +16,7 @@
 #include "meshbound/mesh_summary.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 
 namespace meshbound {
 namespace {
@@ -181,7 +180,7 @@ std::size_t bytes(const Vector& v) {
 }  // namespace
 
 std::size_t useful_threads(int wanted, std::size_t triangles) {
-  const auto max_threads = static_cast<std::size_t>(wanted > 0 ? wanted : omp_get_max_threads());
+  const auto max_threads = static_cast<std::size_t>(thread_count(wanted));
   return std::min(max_threads, 1 + triangles / triangles_per_thread);
 }
 

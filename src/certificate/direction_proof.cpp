@@ -16,6 +16,7 @@
 #include "meshbound/error.h"
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
+#include "numeric/thread_count.h"
 #include "proof/edge_neighbours.h"
 
 namespace meshbound {
@@ -111,7 +112,7 @@ std::optional<ProofTrees> DirectionProof::run(std::size_t max_patch,
   const std::size_t count = (source_.mesh.triangle_count() + triangles_per_run - 1) / triangles_per_run;
   ProofTrees trees;
   trees.runs.resize(count);
-  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+  const int threads = thread_count(options_.threads);
   std::vector<Failure> failures(count);
   std::atomic<std::size_t> done = 0;
   std::uint64_t& parity_work = trees.parity_work;

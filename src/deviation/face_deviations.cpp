@@ -12,6 +12,7 @@
 #include "meshbound/proximity.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 
 namespace meshbound {
 namespace {
@@ -120,7 +121,7 @@ std::vector<Bounds> face_deviations(const MeshView& mesh, const Bvh& other, cons
     throw InvalidInput("face deviations need the deviation of every vertex: " + std::to_string(vertices.size()) +
                        " for " + std::to_string(mesh.vertex_count()) + " vertices");
   std::vector<FaceSearch> faces = first_bounds(mesh, other, vertices, error_bound, options);
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const int threads = thread_count(options.threads);
   std::vector<Proximity> proximity;
   for (int i = 0; i < threads; ++i) proximity.emplace_back(other);
   with_team(threads, [&] {

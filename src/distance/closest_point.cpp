@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +16,7 @@
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 
 namespace meshbound {
 namespace {
@@ -205,7 +204,7 @@ std::vector<ClosestPoint> closest_points(const Bvh& bvh, std::span<const Eigen::
   check_floating_point_model();
   std::vector<ClosestPoint> answers(queries.size());
   const std::vector<std::uint32_t> order = order_of_queries(queries);
-  const auto wanted = static_cast<std::size_t>(options.threads > 0 ? options.threads : omp_get_max_threads());
+  const auto wanted = static_cast<std::size_t>(thread_count(options.threads));
   const std::size_t useful = 1 + queries.size() / queries_per_task;
   with_team(static_cast<int>(std::min(wanted, useful)), [&] {
     for_each_range(queries.size(), queries_per_task, [&](std::size_t begin, std::size_t end) {

@@ -90,6 +90,7 @@ std::size_t build_lod_chain(const MeshView& original, std::span<const double> to
     before = tolerance;
   }
   if (tolerances.empty()) return 0;
+  if (!sink) throw InvalidInput("the levels of a chain need a function that takes them");
   LodChain chain(original, options);
   for (std::size_t i = 0; i < tolerances.size(); ++i) {
     if (!sink(i, chain.next(tolerances[i]))) return i + 1;

@@ -13,6 +13,7 @@
 #include "numeric/first_error.h"
 #include "numeric/no_index.h"
 #include "numeric/numbers_below.h"
+#include "numeric/thread_count.h"
 #include "simplify/ended_by.h"
 
 namespace meshbound {
@@ -58,7 +59,7 @@ SceneRun::SceneRun(const TriangleMesh& original, const MeshAttributes& attribute
 /// Small groups run side by side, each on one thread, and large ones one after the other on all threads. The levels do
 /// not depend on it.
 void SceneRun::share_threads() {
-  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+  const int threads = thread_count(options_.threads);
   // Those that one thread would be left alone with at the end take a quarter of its share at most.
   const std::size_t max_small = all_faces_ / (4 * static_cast<std::size_t>(threads));
   for (Group& group : groups_) {
@@ -90,7 +91,7 @@ void SceneRun::for_each_group(const Work& work) {
   };
   for (Group* const group : large_) timed(*group);
   FirstError error;
-  const int threads = options_.threads > 0 ? options_.threads : omp_get_max_threads();
+  const int threads = thread_count(options_.threads);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (!small_.empty())
   for (std::size_t i = 0; i < small_.size(); ++i) {
     if (error.has_error()) continue;

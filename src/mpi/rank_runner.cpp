@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "numeric/first_error.h"
+#include "numeric/thread_count.h"
 #include "tiles/compact_bytes.h"
 
 namespace meshbound::mpi {
@@ -180,8 +181,7 @@ class Dealer {
 
 }  // namespace
 
-RankRunner::RankRunner(Communicator& ranks, int threads)
-    : ranks_(ranks), threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+RankRunner::RankRunner(Communicator& ranks, int threads) : ranks_(ranks), threads_(thread_count(threads)) {}
 
 void RankRunner::run(TileJobs& jobs) {
   LocalQueue queue(jobs);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshbound/normal_deviation.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "meshbound/error.h"
 #include "normals/normal_comparison.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 
 namespace meshbound {
 namespace {
@@ -35,7 +34,7 @@ NormalDeviation NormalComparison::measure(const MeshView& a, const MeshView& b, 
   validate(b);
   if (options.tolerance && !(*options.tolerance >= 0))
     throw InvalidInput("the normal tolerance must be an angle in degrees, 0 or more");
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const int threads = thread_count(options.threads);
   auto stand_ins = std::make_unique<const StandIns>(b, tie_of(a), threads);
   near_.resize(a.triangle_count());
   if (before_) forget_changed(a, *stand_ins, threads);

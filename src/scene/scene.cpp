@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshbound/scene.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +13,7 @@
 #include "meshbound/stop_token.h"
 #include "numeric/numbers_below.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 #include "scene/world_box.h"
 
 namespace meshbound {
@@ -89,7 +88,7 @@ std::vector<BodyPair> sweep_and_prune(const std::vector<Body>& bodies, Reach&& r
 template <class Options, class Work>
 void for_open_pairs(const std::vector<std::size_t>& open, const Options& options, const Work& work) {
   const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.budget.seconds);
-  with_team(options.threads > 0 ? options.threads : omp_get_max_threads(), [&] {
+  with_team(thread_count(options.threads), [&] {
     for_each_task(open.size(), [&](std::size_t k) {
       Options own = options;
       own.threads = 1;
@@ -235,6 +234,7 @@ SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& optio
 }
 
 SceneContacts Scene::contacts(const PenetrationOptions& options) {
+  if (!(options.error_bound.value_or(0) >= 0)) throw InvalidInput("the error bound must be a length of 0 or more");
   const std::vector<Body>& bodies = impl_->bodies;
   std::vector<BodyPair> pairs = pairs_near();
   SceneContacts result;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "simplify/decimation.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +16,7 @@
 #include "meshbound/mesh_summary.h"
 #include "numeric/no_index.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 #include "simplify/mesh/edge_queue.h"
 #include "simplify/mesh/manifold_soup.h"
 #include "simplify/option_sizes.h"
@@ -315,7 +314,7 @@ bool Decimation::is_seam(Corner edge) const {
   return (left > 0 && right > 0) || (left < 0 && right < 0);
 }
 
-int Decimation::threads() const { return options_.threads > 0 ? options_.threads : omp_get_max_threads(); }
+int Decimation::threads() const { return thread_count(options_.threads); }
 
 void Decimation::set_turns() {
   const double reach = frame_.length_to_frame(options_.tolerance);

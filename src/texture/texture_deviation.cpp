@@ -12,6 +12,7 @@
 #include "meshbound/error.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 #include "texture/charts.h"
 #include "texture/line_cover.h"
 #include "texture/near_cover.h"
@@ -45,7 +46,7 @@ class Direction {
         upper_(bounds.upper),
         shares_(bounds.uncovered),
         is_refined_(a.triangles().size(), 0) {
-    const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+    const int threads = thread_count(options.threads);
     for (int k = 0; k < threads; ++k) workspaces_.emplace_back(units);
     goal_.error_bound = error_bound;
     goal_.precision = precision_share * error_bound;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshbound/texture_certificate.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "certificate/checksum.h"
 #include "meshbound/error.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 #include "texture/charts.h"
 #include "texture_proof/texture_search.h"
 
@@ -31,7 +30,7 @@ Trees prove(const Charts& source, const Charts& target, const ExactUnits& units,
             const StopToken& stop, const std::string& name) {
   Trees trees(source.triangles().size());
   std::vector<std::uint8_t> is_proven(trees.size(), 0);
-  with_team(threads > 0 ? threads : omp_get_max_threads(), [&] {
+  with_team(thread_count(threads), [&] {
     for_each_range(trees.size(), grain, [&](std::size_t begin, std::size_t end) {
       stop.check();
       TextureSearch search(target, units, tolerance);

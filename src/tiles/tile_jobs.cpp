@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "numeric/first_error.h"
+#include "numeric/thread_count.h"
 
 namespace meshbound {
 
@@ -20,7 +21,7 @@ std::vector<std::size_t> heaviest_first(const TileJobs& jobs) {
   return order;
 }
 
-ThreadRunner::ThreadRunner(int threads) : threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+ThreadRunner::ThreadRunner(int threads) : threads_(thread_count(threads)) {}
 
 void ThreadRunner::run(TileJobs& jobs) {
   const std::vector<std::size_t> order = heaviest_first(jobs);

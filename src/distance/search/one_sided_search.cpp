@@ -9,6 +9,7 @@
 #include "distance/shortcuts/identical.h"
 #include "numeric/rounding.h"
 #include "numeric/tasks.h"
+#include "numeric/thread_count.h"
 
 namespace meshbound {
 namespace {
@@ -33,8 +34,8 @@ Goal make_goal(const OneSidedTask& task, const Mapping& map) {
 /// Where both models are small a search is over before another thread has woken up.
 constexpr std::size_t triangles_per_thread = 1024;
 
-int thread_count(const OneSidedTask& task) {
-  const int max_threads = task.options.threads > 0 ? task.options.threads : omp_get_max_threads();
+int useful_threads(const OneSidedTask& task) {
+  const int max_threads = thread_count(task.options.threads);
   const std::size_t larger = std::max(task.a.bvh->triangle_count(), task.b.bvh->triangle_count());
   return static_cast<int>(
       std::min<std::size_t>(static_cast<std::size_t>(max_threads), 1 + larger / triangles_per_thread));
@@ -52,7 +53,7 @@ OneSidedSearch::OneSidedSearch(const OneSidedTask& task, const Mapping& map)
       has_hints_(task.memory != nullptr),
       cuts_left_(task.options.budget.subdivisions),
       last_progress_(task.start) {
-  for (int i = 0; i < thread_count(task); ++i) kernels_.push_back(make_search_kernel(b_, goal_));
+  for (int i = 0; i < useful_threads(task); ++i) kernels_.push_back(make_search_kernel(b_, goal_));
   if (task.memory != nullptr) task.memory->front.is_new = false;
   raise_known_lower(task.known_lower);
   stats_.triangles = a_.triangle_count();
