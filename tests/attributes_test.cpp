@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "datasets.h"
+#include "mesh_files.h"
 #include "mesh/atomic_file.h"
 #include "mesh/writers.h"
 #include "meshbound/error.h"
@@ -173,6 +174,25 @@ TEST(ObjAttributes, NamesStayOnTheirLine) {
   const MeshFile again = read_with_attributes(folder / "out.obj");
   EXPECT_EQ(again.mesh.triangles.size(), textured.mesh.triangles.size());
   EXPECT_EQ(again.attributes.materials.names, (std::vector<std::string>{"left f 1 2 3", "C:\\right"}));
+}
+
+/// Means of bytes are bytes, so that a file keeps the type of its colours.
+TEST(Attributes, ColoursInBytesStayBytes) {
+  Textured textured = two_charts(12);
+  NamedAttribute colours{.name = "COLOR_0", .width = 3};
+  for (std::size_t v = 0; v < textured.mesh.vertices.size(); ++v)
+    for (const std::size_t factor : {7, 31, 101}) colours.values.push_back(static_cast<double>(factor * v % 256) / 255);
+  colours.has_seams = false;
+  colours.index = textured.mesh.triangles;
+  textured.attributes = {};
+  textured.attributes.named = {colours};
+  const SimplifiedLevel level = level_of(textured, 0.05);
+  ASSERT_LT(level.faces(), textured.mesh.triangles.size() / 2);
+  const MeshAttributes result = transferred_attributes(textured.mesh, textured.attributes, level);
+  for (const double value : result.named.at(0).values) EXPECT_NEAR(255 * value, std::round(255 * value), 1e-9);
+  const test::TemporaryFolder folder;
+  write_with_attributes(folder / "out.ply", level.mesh, result);
+  EXPECT_NE(test::content_of(folder / "out.ply").find("property uchar red"), std::string::npos);
 }
 
 TEST(Attributes, OfAnotherMeshAreRefused) {

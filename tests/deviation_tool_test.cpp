@@ -350,6 +350,9 @@ TEST_F(DeviationTool, RefusesBeforeAnyWorkWhatItCannotWrite) {
   expect_refused(simplify({"--heatmap", in("out.ply")}), "is the file that is written");
   expect_refused(simplify({"--image", in("in.off")}), "is the file that is read as IN");
   expect_refused(simplify({"--up", "w"}), "--up");
+  expect_refused(simplify({"--image", in("i.jpg")}), "must be a .png file");
+  expect_refused(simplify({"--json", in("precious.ply")}), "has the name of a mesh");
+  expect_refused(simplify({"--certificate", in("precious.ply")}), "has the name of a mesh");
   expect_refused(simplify({"--units", "mm"}), "--units names the unit of deviations");
   expect_refused(simplify({"--up", "y", "--heatmap", in("h.ply")}), "--up is for reports and pictures");
   std::ofstream(in("poses")) << "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n";

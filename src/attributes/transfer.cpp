@@ -10,6 +10,7 @@
 #include "mesh/attribute_check.h"
 #include "mesh/first_use.h"
 #include "mesh/no_value.h"
+#include "mesh/split_vertices.h"
 #include "meshbound/error.h"
 #include "meshbound/simplify.h"
 #include "numeric/no_index.h"
@@ -75,6 +76,12 @@ bool append_value(const NamedAttribute& attribute, const WeightedPoint& at, std:
   return true;
 }
 
+/// Means of colours that a file holds as bytes are bytes again, which all formats then keep.
+void round_to_bytes(NamedAttribute& colours) {
+  constexpr double max_byte = 255;
+  for (double& value : colours.values) value = std::round(max_byte * value) / max_byte;
+}
+
 /// The unit normal of a triangle; not a unit vector where it has no area.
 Eigen::Vector3d direction(const std::array<Eigen::Vector3d, 3>& corners) {
   const Eigen::Vector3d u = (corners[1] - corners[0]).stableNormalized();
@@ -127,6 +134,8 @@ class Transfer {
     result.smoothing_groups = labels(from_.smoothing_groups);
     result.part = by_source_triangle(from_.part);
     if (!from_.texture_coordinates.empty() || !from_.named.empty()) take_values_of_sectors(result);
+    for (std::size_t i = 0; i < result.named.size(); ++i)
+      if (from_.named[i].name == "COLOR_0" && holds_bytes(from_.named[i])) round_to_bytes(result.named[i]);
     if (!from_.normals.empty()) result.normals = normals();
     return result;
   }

@@ -13,7 +13,7 @@ namespace meshbound {
 void check_options(const SimplifyOptions& options) {
   const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
   if (!is_length(options.tolerance))
-    throw InvalidInput("the tolerance must be given: a length in model units, 0 or more");
+    throw InvalidInput("the tolerance must be a length in model units, 0 or more");
   for (const double level : options.levels) {
     if (!is_length(level)) throw InvalidInput("a level must be a length in model units, 0 or more");
     if (level > options.tolerance)
@@ -28,7 +28,7 @@ void check_options(const SimplifyOptions& options) {
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
   if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))
-    throw InvalidInput("the feature angle must lie between 0 and 180 degrees");
+    throw InvalidInput("the feature angle must lie between 0 and pi radians, which are 180 degrees");
   if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
 }
 

@@ -15,6 +15,7 @@
 
 #include "common/completion.h"
 #include "common/memory.h"
+#include "common/mesh_input.h"
 #include "common/omp_spin.h"
 #include "common/progress.h"
 #include "common/provenance.h"
@@ -109,6 +110,12 @@ ExitCode exit_code(Verdict verdict) {
   return ExitUndecided;
 }
 
+std::string no_mesh_name(const std::string& path) {
+  if (!has_mesh_extension(path)) return "";
+  return path +
+         " has the name of a mesh, which it would replace; give it another name, or put the option behind the files";
+}
+
 void add_write_options(CLI::App& app, WriteOptions& options) {
   app.add_flag("--ascii", options.ascii, "Write PLY and STL as text (OFF and OBJ always are)");
   app.add_flag("--single-precision", options.single_precision,
@@ -134,6 +141,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
   app.add_option_function<std::string>(
          "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")
+      ->check(no_mesh_name)
       ->type_name("[FILE]")
       ->expected(0, 1);
   app.final_callback([&options] {

@@ -26,6 +26,9 @@ struct CommonOptions {
   std::string json;  ///< file for the JSON document, "-" for stdout, empty for none
 };
 
+/// For options that name documents: what is wrong with the name of a mesh, which is likely to be one; else empty.
+[[nodiscard]] std::string no_mesh_name(const std::string& path);
+
 /// Adds --ascii and --single-precision.
 void add_write_options(CLI::App& app, WriteOptions& options);
 

@@ -2,7 +2,9 @@
 #include "deviation/deviation_request.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "deviation/report_file.h"
 #include "mesh/output_target.h"
@@ -10,6 +12,17 @@
 #include "meshbound/io.h"
 
 namespace meshbound::tools {
+
+namespace {
+
+/// A name without one is none of another kind of file.
+void require_extension(const NamedPath& output, const std::vector<std::string>& extensions) {
+  const std::string extension = CLI::detail::to_lower(output.path.extension().string());
+  if (!extension.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    throw InvalidInput(output.role + ": " + output.path.string() + " must be a " + extensions.front() + " file");
+}
+
+}  // namespace
 
 std::vector<NamedPath> DeviationRequest::outputs() const {
   std::vector<NamedPath> all{
@@ -28,6 +41,8 @@ void DeviationRequest::check() const {
     if (output.role.starts_with("--heatmap") && format_of(output.path) != FileFormat::Ply)
       throw InvalidInput(output.role + ": " + output.path.string() +
                          " must be a .ply file: of the formats here only PLY holds numbers and colours of vertices");
+    if (output.role == "--image") require_extension(output, {".png"});
+    if (output.role == "--report") require_extension(output, {".html", ".htm"});
     (void)output_target(output.path);
   }
 }

@@ -70,7 +70,8 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
       ->check(CLI::PositiveNumber);
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate; with "
-                 "--texture-tolerance also that of the texture");
+                 "--texture-tolerance also that of the texture")
+      ->check(no_mesh_name);
   app.add_option_function<std::string>(
          "--method",
          [&arguments](const std::string& name) {

@@ -64,7 +64,8 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   app.add_option("--certificate", arguments.certificate,
                  "Write the proof that OUT is within the tolerance, and the texture within its own, for "
                  "verify_certificate; of levels beside it, as "
-                 "FILE_level_0 and so on");
+                 "FILE_level_0 and so on")
+      ->check(no_mesh_name);
   app.add_option("--effort", arguments.effort,
                  "How long to look for fewer faces at the same bound: high also moves vertices and flips edges")
       ->check(is_effort)
