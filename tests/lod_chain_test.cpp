@@ -179,6 +179,10 @@ TEST(LodChain, RefusesTolerancesThatDoNotGrowAndOptionsThatAreNotItsOwn) {
   options.tolerance = 0.1;
   EXPECT_THROW(build({0.1}, options), InvalidInput);
   options = one_thread();
+  options.time_limit = 0;
+  options.locked_vertices = {true};
+  EXPECT_THROW(build({0.1}, options), InvalidInput) << "also where no time is left";
+  options = one_thread();
   options.target_faces = 10;
   EXPECT_THROW(build({0.1}, options), InvalidInput);
   EXPECT_EQ(build_lod_chain(sphere, {}, one_thread(), nullptr), 0u);

@@ -348,6 +348,33 @@ TEST(SimplifyInTiles, EndsByRoundingOnlyWhereNoTileCanCollapse) {
   EXPECT_LT(result.last().faces(), both.triangles.size());
 }
 
+/// Each triangle has vertices of its own, and any of those at a position may be the one that is locked.
+TEST(SimplifyInTiles, KeepsLockedVerticesOfTrianglesThatShareNone) {
+  const TriangleMesh grid = datasets::terrain(1, 24, 5);
+  TriangleMesh apart;
+  SimplifyOptions options = share_of_diagonal(grid, 0.05);
+  for (const Triangle& t : grid.triangles) {
+    for (const std::uint32_t v : t) {
+      options.locked_vertices.push_back(apart.vertices.size() % 97 == 95);
+      apart.vertices.push_back(grid.vertices[v]);
+    }
+    const auto end = static_cast<std::uint32_t>(apart.vertices.size());
+    apart.triangles.push_back({end - 3, end - 2, end - 1});
+  }
+  const SimplifiedLevel level = simplify_in_tiles(apart, options, {100}).last();
+  EXPECT_LT(level.faces(), apart.triangles.size() / 4);
+  for (std::size_t v = 0; v < apart.vertices.size(); ++v)
+    EXPECT_TRUE(!options.locked_vertices[v] || std::find(level.mesh.vertices.begin(), level.mesh.vertices.end(),
+                                                         apart.vertices[v]) != level.mesh.vertices.end())
+        << v;
+}
+
+TEST(SimplifyInTiles, TakesTilesOfAnySize) {
+  const TriangleMesh cube = datasets::cube(1, 3);
+  for (const std::size_t triangles : {0, 1, 2, 5})
+    EXPECT_EQ(simplify_in_tiles(cube, share_of_diagonal(cube, 0.01), {triangles}).last().verdict, Verdict::Within);
+}
+
 TEST(DistanceInTiles, TellsItsProgressAndEndsWhenItIsAskedTo) {
   const TriangleMesh a = datasets::terrain(1, 40, 5), b = datasets::terrain(1, 40, 6);
   DistanceOptions options;

@@ -2,11 +2,13 @@
 #include "levels/level_run.h"
 
 #include "numeric/numbers_below.h"
+#include "simplify/option_sizes.h"
 
 namespace meshbound {
 
 LevelRun::LevelRun(const TriangleMesh& original, const SimplifyOptions& options)
     : original_(original), options_(options) {
+  check_sizes(options, original.vertices.size(), original.triangles.size());  // also where there is no time for more
   const Clock::time_point start = Clock::now();
   until_stopped([&] {
     decimation_.emplace(original, options, stop());

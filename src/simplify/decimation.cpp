@@ -317,7 +317,8 @@ bool Decimation::is_seam(Corner edge) const {
 int Decimation::threads() const { return thread_count(options_.threads); }
 
 void Decimation::set_turns() {
-  const double reach = frame_.length_to_frame(options_.tolerance);
+  const bool is_chain = std::isnan(options_.tolerance);  // whose tolerances are asked for one by one
+  const double reach = is_chain ? std::numeric_limits<double>::infinity() : frame_.length_to_frame(options_.tolerance);
   state_->turns.emplace(state_->mesh, is_turned_over_, FaceTurns::Limits{*options_.normal_tolerance, reach, threads()});
 }
 
@@ -393,7 +394,7 @@ EndedBy Decimation::run(double tolerance, std::size_t target_faces, const StopTo
   if (below_rounding_) return EndedBy::Rounding;
   DecimationGoal goal;
   goal.tolerance = framed - room();
-  goal.target_faces = target_faces;
+  goal.target_faces = target_faces - std::min(target_faces, state_->kept.size());  // those kept count as well
   goal.on_exceed = options_.on_exceed;
   goal.effort = options_.effort;
   goal.stop = stop;

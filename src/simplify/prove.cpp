@@ -39,7 +39,7 @@ void Proof::run(const StopToken& stop) {
   if (!unproven_.faces.empty()) return;
   if (!is_changed_.empty()) reopen_originals();
   cover(stop);
-  cover_anywhere();
+  cover_anywhere(stop);
   for (std::size_t i = 0; i < open_count(); ++i)
     if (drafts_[open_original(i)].empty()) unproven_.originals.push_back(originals_[open_original(i)]);
 }
@@ -78,7 +78,7 @@ void Proof::cover(const StopToken& stop) {
 }
 
 /// Covers the originals that samples have not led to a cover.
-void Proof::cover_anywhere() {
+void Proof::cover_anywhere(const StopToken& stop) {
   std::vector<std::uint32_t> lost;
   std::vector<Eigen::AlignedBox3d> reaches;
   for (std::size_t i = 0; i < open_count(); ++i) {
@@ -89,7 +89,7 @@ void Proof::cover_anywhere() {
   }
   if (lost.empty()) return;
   const FaceBoxes boxes(state_.mesh, BoxTree(reaches));
-  for_each(lost.size(), 1, {}, [&](ProofWorkers::Worker& worker, std::size_t i) {
+  for_each(lost.size(), 1, stop, [&](ProofWorkers::Worker& worker, std::size_t i) {
     drafts_[lost[i]].assign(worker.cover_anywhere(originals_[lost[i]], boxes));
   });
 }

@@ -47,7 +47,7 @@ class Proof {
   [[nodiscard]] std::vector<std::uint32_t> find_far_faces(const StopToken& stop);
   void reopen_originals();
   void cover(const StopToken& stop);
-  void cover_anywhere();
+  void cover_anywhere(const StopToken& stop);
   [[nodiscard]] std::size_t open_count() const { return has_all_open_ ? originals_.size() : open_originals_.size(); }
   [[nodiscard]] std::uint32_t open_original(std::size_t i) const {
     return has_all_open_ ? static_cast<std::uint32_t>(i) : open_originals_[i];

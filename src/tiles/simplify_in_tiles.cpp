@@ -45,6 +45,9 @@ constexpr double min_gain_of_pass = 0.01;
 /// original whose own triangle has gone takes a quarter of what it took in the first pass.
 constexpr std::size_t growth_of_later_tiles = 4;
 
+/// Smaller tiles would hold less than the faces around a vertex.
+constexpr std::size_t min_triangles_of_tile = 8;
+
 /// Rings of triangles around a seam that the second pass goes over, and each later one: the seams of the first are
 /// small triangles among large ones. What lies further away was simplified as far as possible.
 constexpr int rings_of_second_pass = 4, rings_of_later_pass = 2;
@@ -94,7 +97,7 @@ class TiledRun {
   std::size_t pass(std::size_t k) {
     if (k > 0) of_tile_.effort = Effort::Normal;  // flips would change triangles whose vertices stay
     TiledMesh::Pass how{cuts[k],
-                        (k > 0 ? growth_of_later_tiles : 1) * tiles_.max_triangles,
+                        (k > 0 ? growth_of_later_tiles : 1) * std::max(tiles_.max_triangles, min_triangles_of_tile),
                         k > 1 ? rings_of_later_pass : rings_of_second_pass,
                         options_.tolerance,
                         [&](const TileInput& input) { return simplify_tile(input, of_tile_, stop_); },

@@ -209,8 +209,18 @@ void TiledMesh::cut_near_seams(const Pass& how, std::span<const std::uint32_t> w
   cut_into_tiles(std::move(items), how.max_weight, how.cut, original_.space(), use);
 }
 
+/// Tiles join vertices at one position, and any of them may be the one that is locked.
+void TiledMesh::spread_locks() {
+  for (std::uint32_t v = 0; v < locked_.size(); ++v)
+    if (locked_[v]) locked_[position_[v]] = true;
+  for (std::uint32_t v = 0; v < locked_.size(); ++v) locked_[v] = locked_[position_[v]];
+}
+
 void TiledMesh::find_owners(const Pass& how) {
-  if (is_original_) position_ = first_at_positions(original_);
+  if (is_original_) {
+    position_ = first_at_positions(original_);
+    spread_locks();
+  }
   const std::vector<std::uint32_t> weights = this->weights();
   std::vector<std::uint32_t> owner;
   std::uint32_t tiles = 0;

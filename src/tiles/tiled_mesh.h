@@ -94,6 +94,7 @@ class TiledMesh {
   [[nodiscard]] std::uint32_t tile_of_cover(std::span<const std::uint32_t> cover) const;
   [[nodiscard]] std::vector<std::uint8_t> vertices_near_seams(int rings) const;
   [[nodiscard]] std::vector<std::uint32_t> weights() const;
+  void spread_locks();
   void find_owners(const Pass& how);
   void cut_original(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
   void cut_near_seams(const Pass& how, std::span<const std::uint32_t> weights, const UseTile& use) const;
@@ -119,9 +120,9 @@ class TiledMesh {
   void for_each_cover(const Use& use) const;
 
   const StoredMesh& original_;
-  const std::vector<bool>& locked_;
-  bool is_original_ = true;  ///< nothing has been simplified: the members below are empty
-  ProvenMesh proven_;        ///< against the whole original, without its cover
+  std::vector<bool> locked_;  ///< by vertex of the original: whether one at its position is locked; empty: none is
+  bool is_original_ = true;   ///< nothing has been simplified: the members below are empty
+  ProvenMesh proven_;         ///< against the whole original, without its cover
   const MeshInMemory proven_mesh_{proven_.mesh};
   const StoredMesh* now_ = &original_;          ///< the mesh as it is
   StoredLists cover_;                           ///< of `proven_`

@@ -37,7 +37,7 @@ class SubTriangleCover {
   [[nodiscard]] bool covers_all(double limit, std::vector<std::uint32_t>& covering);
   void halve(const SubTriangle& sub_triangle);
   void choose_around(SubTriangle& sub_triangle, double limit);
-  void choose_candidates(const Corners& corners, double limit);
+  [[nodiscard]] bool choose_candidates(const Corners& corners, double limit);
 
   const ArrayMesh& mesh_;
   ForwardCover& cover_;
