@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "datasets.h"
-#include "mesh_files.h"
 #include "mesh/atomic_file.h"
 #include "mesh/writers.h"
+#include "mesh_files.h"
 #include "meshbound/error.h"
 #include "meshbound/io.h"
 #include "meshbound/mesh_summary.h"
@@ -174,6 +174,20 @@ TEST(ObjAttributes, NamesStayOnTheirLine) {
   const MeshFile again = read_with_attributes(folder / "out.obj");
   EXPECT_EQ(again.mesh.triangles.size(), textured.mesh.triangles.size());
   EXPECT_EQ(again.attributes.materials.names, (std::vector<std::string>{"left f 1 2 3", "C:\\right"}));
+}
+
+TEST(Attributes, OfTrianglesWithoutAreaAreThoseOfTheirCorners) {
+  SimplifiedLevel level;
+  level.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {8, 3, 0}, {6, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}};
+  level.source_vertex = {0, 1, 2, 3, 4, 5};
+  level.source_triangle = {0, 1};
+  MeshAttributes attributes;
+  attributes.named = {{.name = "heat", .values = {0, 1, 2, 3, 4, 5}, .index = level.mesh.triangles}};
+  TriangleMesh moved = level.mesh;
+  moved.vertices[0].z() = 0.5;  // so that vertices are not all those of the original
+  const MeshAttributes result = transferred_attributes(moved, attributes, level);
+  const NamedAttribute& heat = result.named.at(0);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(heat.values[heat.index[1][k]], static_cast<double>(3 + k), 1e-9) << k;
 }
 
 /// Means of bytes are bytes, so that a file keeps the type of its colours.

@@ -2,6 +2,7 @@
 #include "attributes/chart_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mesh/mesh_arrays.h"
@@ -10,16 +11,37 @@
 namespace meshbound {
 namespace {
 
-/// Barycentric coordinates of a point in the plane of a triangle; the first corner if the triangle has no area.
+/// Barycentric coordinates of a point on a triangle whose corners lie on a line: those between the corners before and
+/// behind it.
+Eigen::Vector3d weights_on_line(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
+  const auto far_from_first = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return (a - corners[0]).stableNorm() < (b - corners[0]).stableNorm();
+  };
+  const Eigen::Vector3d end = std::max(corners[1], corners[2], far_from_first);
+  const Eigen::Vector3d line = (end - corners[0]).stableNormalized();
+  const auto place = [&](const Eigen::Vector3d& q) { return (q - corners[0]).dot(line); };
+  Eigen::Index before = 0, behind = 0;
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double at = place(corners[static_cast<std::size_t>(k)]);
+    if (at <= place(p) && at > low) low = at, before = k;
+    if (at >= place(p) && at < high) high = at, behind = k;
+  }
+  if (low == -HUGE_VAL) before = behind;
+  const double share = low > -HUGE_VAL && high < HUGE_VAL && high > low ? (place(p) - low) / (high - low) : 0;
+  return (1 - share) * Eigen::Vector3d::Unit(before) + share * Eigen::Vector3d::Unit(behind);
+}
+
+/// Barycentric coordinates of a point in the plane of a triangle.
 /// Products are of lengths divided by the longest side, so that they neither overflow nor underflow.
 Eigen::Vector3d barycentric(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
   Eigen::Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], w = p - corners[0];
   const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
-  if (!(size > 0)) return {1, 0, 0};
+  if (!(size > 0)) return {1, 0, 0};  // all corners at one place
   u /= size, v /= size, w /= size;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), uw = u.dot(w), vw = v.dot(w);
   const double determinant = uu * vv - uv * uv;
-  if (!(determinant > 0)) return {1, 0, 0};
+  if (!(determinant > 0)) return weights_on_line(corners, p);
   const double second = std::clamp((vv * uw - uv * vw) / determinant, 0.0, 1.0);
   const double third = std::clamp((uu * vw - uv * uw) / determinant, 0.0, 1.0 - second);
   return {1 - second - third, second, third};

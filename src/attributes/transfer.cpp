@@ -126,6 +126,7 @@ class Transfer {
 
   MeshAttributes run() {
     MeshAttributes result;
+    result.texture_precision = from_.texture_precision;
     result.material_libraries = from_.material_libraries;
     result.document = from_.document;
     result.materials = labels(from_.materials);

@@ -6,6 +6,7 @@
 #include "mesh/gltf_document.h"
 #include "mesh/gltf_references.h"
 #include "mesh/opacity.h"
+#include "meshbound/error.h"
 #include "meshbound/io.h"
 
 namespace meshbound {
@@ -62,9 +63,14 @@ void drop(TriangleLabels& labels, std::size_t& lost) {
   labels = {};
 }
 
+/// First as their own file holds them, then as the other one does: so are both compared with each other.
 void round_texture_coordinates(MeshAttributes& attributes, TexturePrecision precision) {
-  for (Eigen::Vector3d& value : attributes.texture_coordinates.values)
-    value.head<2>() = rounded_to(precision, value.head<2>());
+  for (Eigen::Vector3d& value : attributes.texture_coordinates.values) {
+    const Eigen::Vector2d rounded = rounded_to(precision, rounded_to(attributes.texture_precision, value.head<2>()));
+    if (value.head<2>().allFinite() && !rounded.allFinite())
+      throw InvalidInput("a texture coordinate is beyond the range of single precision: write OBJ, which has doubles");
+    value.head<2>() = rounded;
+  }
   attributes.texture_precision = precision;
 }
 

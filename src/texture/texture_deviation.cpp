@@ -52,6 +52,7 @@ class Direction {
     goal_.precision = precision_share * error_bound;
     goal_.max_pieces = options.max_pieces;
     goal_.reach = reach;
+    goal_.stop = options.stop;
   }
 
   OneSidedTextureDeviation run() {

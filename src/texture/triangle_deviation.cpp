@@ -214,6 +214,7 @@ class PieceSearch {
   void search(Piece piece) {
     stack_.push_back(std::move(piece));
     while (!stack_.empty()) {
+      goal_.stop.check();
       Piece top = std::move(stack_.back());
       stack_.pop_back();
       bound(top);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "meshbound/stop_token.h"
 #include "texture/covering.h"
 #include "texture/overlay.h"
 
@@ -39,6 +40,7 @@ struct DeviationGoal {
   std::uint64_t max_pieces = 0;
   /// Where A has no area in the texture: the others are farther than this from every point of A.
   double reach = 0;
+  StopToken stop;  ///< looked at between pieces; the search throws as it says
 };
 
 /// Finds all triangles that may have texture coordinates of A, beside the likely candidates.

@@ -79,7 +79,12 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
     original_ = read_input(shared_.input, with_checksum, report, stop, carries ? &attributes_ : nullptr);
     validate(original_);
   }
+  if (!shared_.texture_tolerance.empty()) {
+    texture_as_read_.texture_coordinates = attributes_.texture_coordinates;
+    texture_as_read_.texture_precision = attributes_.texture_precision;
+  }
   if (carries) attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
+  if (!shared_.texture_tolerance.empty()) texture_as_read_.materials = attributes_.materials;
   if (shared_.strict && *report.dropped != DroppedAttributes{})
     throw InvalidInput(shared_.input + ": " + output.string() + " would not carry " + listed(*report.dropped) +
                        "; choose another format, or leave out --strict");
@@ -207,7 +212,7 @@ void DecimationRun::set_requirements(GatedOutput& output, double tolerance) {
   if (original_lines_) output.require_lines(&*original_lines_);
   if (bounds_texture()) {
     const double of_texture = texture_tolerance_of(tolerance);
-    output.require_texture(OriginalTexture{&original_, &attributes_, of_texture, narrow_enough(of_texture)});
+    output.require_texture(OriginalTexture{&original_, &texture_as_read_, of_texture, narrow_enough(of_texture)});
   }
   if (shared_.normal_tolerance)
     output.require_normals(OriginalNormals{&original_of_normals(output), *shared_.normal_tolerance});

@@ -95,7 +95,10 @@ class DecimationRun {
   std::unique_ptr<StoredMesh> stored_original_;  ///< for these
   double diagonal_ = 0;
   std::vector<double> tolerances_;
-  MeshAttributes attributes_;        ///< of the original, where outputs carry them
+  MeshAttributes attributes_;  ///< of the original, as outputs carry them
+  /// Texture coordinates and materials as IN has them, which what was written is compared with: where its texture is
+  /// bounded.
+  MeshAttributes texture_as_read_;
   double rounding_ = 0;              ///< what the frames of nodes may move vertices by, model units
   std::vector<Edge> feature_edges_;  ///< seams of these, and the edges of --feature-edges
   std::vector<Edge> lines_;          ///< of the original

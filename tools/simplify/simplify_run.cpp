@@ -259,7 +259,7 @@ std::optional<Certificate> Run::certificate_of(const GatedOutput& output, double
   if (!certificate || !bounds_texture()) return certificate;
   options.seconds -= watch.seconds();
   auto with_texture =
-      with_texture_proof(*certificate, textured_meshes(original_, attributes_, written, file.attributes),
+      with_texture_proof(*certificate, textured_meshes(original_, texture_as_read_, written, file.attributes),
                          texture_tolerance_of(tolerance), options);
   if (!with_texture) return std::nullopt;
   return std::move(with_texture->certificate);
