@@ -2,7 +2,7 @@
 // Levels made by another simplifier (meshoptimizer), each checked both ways and made again with a smaller error until
 // its tolerance holds. Needs only the MIT core.
 // Usage: check_other_simplifier IN TOLERANCE...    TOLERANCE in model units, or 0.1% of the bounding-box diagonal
-// Prints for each: tolerance, faces, attempts, proven upper bound. Exits 2 with one line for what it cannot read.
+// Prints for each: tolerance, faces, proven upper bound, attempts. Exits 2 with one line for what it cannot read.
 #include <meshbound/error.h>
 #include <meshbound/io.h>
 #include <meshbound/level_checker.h>
@@ -67,7 +67,8 @@ int main(int argc, char** argv) try {
       upper = check.bounds.upper;
       break;
     }
-    std::printf("%.9g %zu %d %.9g\n", tolerance, level.size() / 3, attempts, upper);
+    std::printf("tolerance %.9g: %zu of %zu faces, at most %.17g, attempts %d\n", tolerance, level.size() / 3,
+                original.triangles.size(), upper, attempts);
   }
   return 0;
 } catch (const meshbound::Error& error) {
