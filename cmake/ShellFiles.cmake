@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # meshbound_shell_files(tool purpose [component]): completion scripts and a manual page, made by the tool itself once it is
 # built, from its --help, and installed where shells and man look. `purpose` is what whatis says of it. Without help2man
-# there are no manual pages.
+# there are no manual pages. It runs the lines of an indented block (.IP), such as the examples, into one paragraph: sed
+# puts a line break after each.
 include(GNUInstallDirs)
 find_program(HELP2MAN help2man)
 
@@ -18,7 +19,8 @@ function(meshbound_shell_files tool purpose)
   endforeach()
   if(HELP2MAN)
     add_custom_command(TARGET ${tool} POST_BUILD
-      COMMAND ${HELP2MAN} --no-info --name=${purpose} --output=${folder}/${tool}.1 $<TARGET_FILE:${tool}> VERBATIM)
+      COMMAND ${HELP2MAN} --no-info --name=${purpose} --output=${folder}/${tool}.1 $<TARGET_FILE:${tool}>
+      COMMAND sed -i "/^\\.IP$/,/^\\.[^I]/{/^[^.]/s/$/\\n.br/}" ${folder}/${tool}.1 VERBATIM)
   endif()
   if(MESHBOUND_INSTALL)
     install(FILES ${folder}/${tool}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${tool}

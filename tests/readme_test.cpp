@@ -70,8 +70,8 @@ TEST(Documents, ShowOnlyProgramsThatTheTestsCompile) {
 std::vector<std::string> commands(const std::string& text) {
   std::vector<std::string> found;
   const std::regex line(
-      "(^|\n)(    |  )?((simplify_with_bound|lod_chain|verify_certificate|hausdorff_distance|penetration_depth) "
-      "[^\n#]*)");
+      "(^|\n)(    |  )?((simplify_with_bound|lod_chain|verify_certificate|hausdorff_distance|penetration_depth|"
+      "generate_mesh) [^\n#]*)");
   for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) found.push_back((*it)[3]);
   return found;
 }
@@ -90,8 +90,8 @@ TEST(Documents, CommandsRunAsTheyAreWritten) {
   const auto run_all = [&](const std::string& source, const std::string& text) {
     const std::vector<std::string> found = commands(text);
     for (const std::string& command : found) {
-      const ToolRun run =
-          run_shell("cd '" + folder.path().string() + "' && PATH='" TOOLS_FOLDER "':$PATH && " + command);
+      const ToolRun run = run_shell("cd '" + folder.path().string() +
+                                    "' && PATH='" TOOLS_FOLDER ":" BUILD_FOLDER "/datasets':$PATH && " + command);
       const bool has_no_page = run.err.find("npm") != std::string::npos;  // this build, for --report
       EXPECT_TRUE(run.exit_code == 0 || has_no_page) << source << ": " << command << run.err;
     }
@@ -103,6 +103,23 @@ TEST(Documents, CommandsRunAsTheyAreWritten) {
        {"simplify_with_bound", "lod_chain", "hausdorff_distance", "penetration_depth", "verify_certificate"})
     EXPECT_GE(run_all(tool, run_tool(std::string(TOOLS_FOLDER "/") + tool, {"--help"}).out), 1u) << tool;
   EXPECT_GE(count, 20u);
+}
+
+/// Of pages made by help2man, which runs such lines into one paragraph.
+TEST(ManualPages, BreakLinesAfterEachExampleAndKind) {
+  const fs::path folder = fs::path(BUILD_FOLDER) / "shell";
+  if (!fs::exists(folder / "lod_chain.1")) GTEST_SKIP() << "the build has no manual pages, since help2man is missing";
+  const auto expect_breaks = [&](const std::string& page, const std::vector<std::string>& beginnings) {
+    const std::string text = content_of(folder / page);
+    for (const std::string& beginning : beginnings) {
+      const std::size_t line = text.find("\n" + beginning);
+      ASSERT_NE(line, std::string::npos) << page << ": " << beginning << "\n" << text;
+      EXPECT_EQ(text.compare(text.find('\n', line + 1), 5, "\n.br\n"), 0) << page << ": " << beginning;
+    }
+  };
+  expect_breaks("simplify_with_bound.1", {"simplify_with_bound bunny.ply small", "simplify_with_bound bunny.ply part"});
+  expect_breaks("lod_chain.1", {"lod_chain bunny.ply lods \\-\\-levels", "lod_chain bunny.ply lods \\-\\-pixels"});
+  expect_breaks("generate_mesh.1", {"icosphere: ", "torus: ", "terrain: "});
 }
 
 /// The commands of the README's first steps in a folder like a checkout that has been built. Programs that show a file,
@@ -257,7 +274,11 @@ TEST_F(Programs, TellACubeFromALargerOne) {
   EXPECT_EQ(run_tool(MEASURE_TWO_MESHES, {in("cube.off"), in("fine.off")}).exit_code, 0);
   EXPECT_EQ(run_tool(MEASURE_TWO_MESHES, {in("cube.off"), in("large.off")}).exit_code, 1);
   EXPECT_EQ(run_tool(CHECK_LEVELS, {in("cube.off"), in("fine.off"), in("cube.off")}).exit_code, 0);
-  EXPECT_EQ(run_tool(CHECK_LEVELS, {in("cube.off"), in("fine.off"), in("large.off")}).exit_code, 1);
+  const ToolRun levels = run_tool(CHECK_LEVELS, {in("cube.off"), in("fine.off"), in("large.off")});
+  EXPECT_EQ(levels.exit_code, 1);
+  EXPECT_NE(levels.out.find("fine.off: at most "), std::string::npos) << levels.out;
+  EXPECT_NE(levels.out.find("large.off: at least 0."), std::string::npos) << levels.out;
+  EXPECT_EQ(levels.out.find("inf"), std::string::npos) << levels.out;
   EXPECT_EQ(run_tool(DEFORM, {in("cube.off")}).exit_code, 0);
 }
 
