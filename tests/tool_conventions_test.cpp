@@ -58,6 +58,15 @@ TEST_F(ToolConventions, HelpOfEveryToolListsItsExitCodes) {
     EXPECT_NE(run_tool(tool, {"--help"}).out.find("Exit codes: 0 "), std::string::npos) << tool;
 }
 
+TEST_F(ToolConventions, HelpOfEveryToolListsTheCompletion) {
+  for (const std::string& tool : all_tools) {
+    EXPECT_NE(run_tool(tool, {"--help"}).out.find("--completion {bash,zsh,fish}"), std::string::npos) << tool;
+    const ToolRun fish = run_tool(tool, {"--completion", "fish"});
+    EXPECT_EQ(fish.exit_code, 0) << fish.err;
+    EXPECT_NE(fish.out.find(" -l completion "), std::string::npos) << fish.out;
+  }
+}
+
 /// From the line "distance" to the next one that begins with a word.
 std::string distance_lines(const std::string& text) {
   const std::regex lines("(^|\n)(distance [^\n]*\n([ ][^\n]*\n)+)");

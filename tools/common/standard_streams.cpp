@@ -23,7 +23,7 @@ constexpr const char* output_device = "/dev/stdout";
 std::vector<std::string> mesh_formats() { return {"ply", "obj", "off", "stl", "glb", "gltf"}; }
 
 void add_stream_format(CLI::App& app, const std::string& name, std::string& format, const std::string& meshes) {
-  app.add_option(name, format, "Format of a mesh on standard " + meshes + ", which - stands for")
+  app.add_option(name, format, "Format of a mesh given as '-', on standard " + meshes)
       ->check(CLI::IsMember(mesh_formats()));
 }
 

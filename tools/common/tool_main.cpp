@@ -91,6 +91,18 @@ std::string suggestion(const CLI::App& app) {
   return "";
 }
 
+/// Like --version it needs no other argument, as callbacks run before required options are missed.
+void add_completion_option(CLI::App& app) {
+  app.add_option_function<std::string>(
+         "--completion",
+         [&app](const std::string& shell) {
+           std::fputs(completion_script(app, shell).c_str(), stdout);
+           throw CLI::Success();
+         },
+         "Print a script by which this shell completes the options, and exit")
+      ->type_name("{bash,zsh,fish}");
+}
+
 ProgressStyle progress_style(const std::string& name) {
   if (name == "plain") return ProgressStyle::Plain;
   return name == "none" ? ProgressStyle::Off : ProgressStyle::Automatic;
@@ -165,14 +177,11 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
   remember_command_line(app.get_name(), argc, argv);
   ignore_write_signals();
   watch_interrupts(app.get_name());
+  add_completion_option(app);
   try {
-    if (argc == 3 && std::string(argv[1]) == "--completion") {
-      std::fputs(completion_script(app, argv[2]).c_str(), stdout);
-      return ExitDone;
-    }
     app.parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+  } catch (const CLI::Success& printed) {
+    return app.exit(printed);
   } catch (const CLI::ParseError& error) {
     return complain(app, std::string(error.what()) + suggestion(app) + " (see --help)");
   } catch (const InvalidInput& error) {
