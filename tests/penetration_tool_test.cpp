@@ -82,6 +82,9 @@ TEST_F(PenetrationTool, DecidesByExitCode) {
   EXPECT_EQ(exceeds.exit_code, 1);
   EXPECT_EQ(exceeds.err.rfind("FAIL 0.", 0), 0U) << exceeds.err;
   EXPECT_EQ(line_count(exceeds.err), 1);
+  const ToolRun deep = run({unit_, peg_, "--tolerance", "0.4"});
+  EXPECT_NE(deep.out.find("% or more of the diagonal\n"), std::string::npos) << deep.out;
+  EXPECT_EQ(deep.out.find("inf"), std::string::npos) << deep.out;
   const ToolRun undecided = run({unit_, peg_, "--tolerance", "0.5"});
   EXPECT_EQ(undecided.exit_code, 3) << "the depth is the tolerance, up to rounding";
   // 20% of the diagonal of A is 0.346.

@@ -35,6 +35,11 @@ std::string interval(const Bounds& bounds) {
   return "[" + exact_number(bounds.lower) + ", " + exact_number(bounds.upper) + "]";
 }
 
+std::string share_of_diagonal(const Bounds& bounds, double diagonal) {
+  const std::string upper = std::isfinite(bounds.upper) ? " to " + percent(bounds.upper, diagonal) : " or more";
+  return percent(bounds.lower, diagonal) + upper + " of the diagonal";
+}
+
 void print_mesh(const char* name, const MeshReport& mesh) {
   const MeshSummary& s = mesh.summary;
   print_line(name, mesh.path + ": " + std::to_string(s.faces) + " triangles, " + std::to_string(s.vertices) +
@@ -89,9 +94,7 @@ void print_distance(const Bounds& bounds, const OneSidedDistance& a_to_b, const 
                     const DirectionNames& names, double diagonal) {
   print_line("distance", interval(bounds));
   if (diagonal > 0 && std::isfinite(bounds.lower / diagonal * 100)) {
-    const bool has_upper = std::isfinite(bounds.upper);
-    print_line("", percent(bounds.lower, diagonal) + (has_upper ? " to " + percent(bounds.upper, diagonal) : "") +
-                       (has_upper ? "" : " or more") + " of the diagonal");
+    print_line("", share_of_diagonal(bounds, diagonal));
   }
   print_direction(names.a_to_b, a_to_b);
   if (b_to_a != nullptr) print_direction(names.b_to_a, *b_to_a);

@@ -27,7 +27,8 @@ void add_arguments(CLI::App& app, PenetrationArguments& arguments) {
       "Write the parts of both surfaces and the lines between the deepest points as a mesh: OBJ with groups, "
       "or PLY with colours and edges");
   add_common_options(app, arguments.common);
-  add_examples(app, {"penetration_depth bunny.ply bunny.ply --transform-b \"1 0 0 0.5  0 1 0 0  0 0 1 0.2  0 0 0 1\" "
+  add_examples(app, {"generate_mesh icosphere --size 5120 -o sphere.ply",
+                     "penetration_depth sphere.ply sphere.ply --transform-b \"1 0 0 1.5  0 1 0 0  0 0 1 0.2  0 0 0 1\" "
                      "--output parts.obj"});
 }
 

@@ -54,8 +54,7 @@ Json stats_json(const PenetrationStats& stats) {
 
 void print_volume(std::size_t index, const PenetrationVolume& volume, double diagonal) {
   print_line("volume " + std::to_string(index), "depth " + interval(volume.depth));
-  print_line("", short_number(volume.depth.lower / diagonal * 100) + "% to " +
-                     short_number(volume.depth.upper / diagonal * 100) + "% of the diagonal");
+  print_line("", share_of_diagonal(volume.depth, diagonal));
   const auto spot = [](const SurfacePoint& p) {
     return "(" + exact_number(p.position.x()) + " " + exact_number(p.position.y()) + " " +
            exact_number(p.position.z()) + "), triangle " + std::to_string(p.triangle);
