@@ -7,6 +7,7 @@
 
 #include "common/tool_main.h"
 #include "datasets/analytic_meshes.h"
+#include "meshbound/error.h"
 #include "meshbound/io.h"
 
 namespace {
@@ -25,6 +26,12 @@ meshbound::CornerAttribute texture_seen_along_z(const meshbound::TriangleMesh& m
   return texture;
 }
 
+void require_texture_format(const std::string& path) {
+  const meshbound::FileFormat format = meshbound::format_of(path);
+  if (format == meshbound::FileFormat::Off || format == meshbound::FileFormat::Stl)
+    throw meshbound::InvalidInput("--texture: " + path + " carries no texture coordinates; OBJ, PLY and glTF do");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,9 +48,9 @@ int main(int argc, char** argv) {
                  "Largest number of triangles, 1000 to 100000000: the mesh has as many as its grid can, at least half "
                  "(icosphere: a quarter)")
       ->capture_default_str();
-  app.add_option("-o,--output", path, "OFF, OBJ, PLY or STL file to write")->required();
+  app.add_option("-o,--output", path, "OFF, OBJ, PLY, STL, GLB or glTF file to write")->required();
   app.add_flag("--texture", has_texture,
-               "With texture coordinates: the bounding box seen along z, from 0 to 1 in x and y (OBJ and PLY)");
+               "With texture coordinates: the bounding box seen along z, from 0 to 1 in x and y (OBJ, PLY and glTF)");
   meshbound::tools::add_write_options(app, options);
   std::string footer = "Kinds, closed unless said otherwise, in model units:\n";
   for (const datasets::Kind& known : datasets::kinds())
@@ -51,6 +58,7 @@ int main(int argc, char** argv) {
   app.footer(footer + "Exit codes: 0 written, 2 bad usage or a file that cannot be written.");
   app.set_version_flag("--version", "generate_mesh " MESHBOUND_VERSION);
   return meshbound::tools::tool_main(app, argc, argv, [&] {
+    if (has_texture) require_texture_format(path);
     const meshbound::TriangleMesh mesh = datasets::mesh_of_size(kind, faces);
     meshbound::MeshAttributes attributes;
     if (has_texture) attributes.texture_coordinates = texture_seen_along_z(mesh);

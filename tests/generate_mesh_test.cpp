@@ -44,6 +44,8 @@ TEST_F(GenerateMesh, RefusesWhatItCannotMakeAndWritesNothing) {
   expect_refused({"cube", "--size", "3", "-o", in("b.ply")}, "give a size of 1,000 to 100,000,000");
   expect_refused({"cube", "-o", in("c.xyz")}, "c.xyz");
   expect_refused({"cube"}, "--output");
+  for (const char* name : {"d.off", "d.stl"})
+    expect_refused({"cube", "--texture", "-o", in(name)}, std::string(name) + " carries no texture coordinates");
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
@@ -52,12 +54,17 @@ TEST_F(GenerateMesh, HelpDescribesEveryKind) {
   for (const meshbound::datasets::Kind& kind : meshbound::datasets::kinds())
     EXPECT_NE(help.find("  " + std::string(kind.name) + ": " + std::string(kind.description) + "\n"), std::string::npos)
         << help;
+  EXPECT_NE(help.find("PLY, STL, GLB or glTF"), std::string::npos) << help;
 }
 
 TEST_F(GenerateMesh, WritesTextureCoordinatesOfTheBoundingBox) {
   ASSERT_EQ(run({"torus", "--size", "2000", "--texture", "-o", in("torus.obj")}).exit_code, 0);
   meshbound::ReadOptions options;
   options.attributes = true;
+  for (const char* name : {"torus.ply", "torus.glb"}) {
+    ASSERT_EQ(run({"torus", "--size", "2000", "--texture", "-o", in(name)}).exit_code, 0);
+    EXPECT_FALSE(meshbound::read_mesh(in(name), options).attributes.texture_coordinates.index.empty()) << name;
+  }
   const meshbound::MeshFile file = meshbound::read_mesh(in("torus.obj"), options);
   const meshbound::CornerAttribute& texture = file.attributes.texture_coordinates;
   ASSERT_EQ(texture.index.size(), file.mesh.triangles.size());
