@@ -81,5 +81,16 @@ TEST_F(MotionTool, RefusesWhatDoesNotGoWithPoses) {
   for (const char* option : {"--one-sided", "--worst", "--profile"}) expect_refused(run({option}), "--poses goes with");
 }
 
+TEST_F(MotionTool, EndsWithALineForAGateThatFails) {
+  const ToolRun quiet = run({"--tolerance", "0.9", "--quiet"});  // x is 0.875 at step 6, 0.9375 at step 7
+  EXPECT_EQ(quiet.exit_code, 1);
+  EXPECT_EQ(line_count(quiet.err), 1) << quiet.err;
+  EXPECT_EQ(quiet.err.rfind("FAIL step 7: 0.93", 0), 0u) << quiet.err;
+  EXPECT_NE(quiet.err.find(" > 0.9\n"), std::string::npos) << quiet.err;
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_TRUE(run({"--tolerance", "0.9"}).out.ends_with(quiet.err));
+  EXPECT_EQ(run({"--tolerance", "2", "--quiet"}).err, "");
+}
+
 }  // namespace motion_tool_test
 }  // namespace meshbound

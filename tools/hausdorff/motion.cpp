@@ -119,6 +119,21 @@ std::string to_json(const Motion& motion) {
   return text(json);
 }
 
+/// "FAIL step 7: 0.71 > 0.7", of the first step that exceeds the tolerance, or "UNDECIDED ..."; empty for a success.
+std::string closing_line(const Motion& motion) {
+  if (motion.exit_code == ExitDone) return "";
+  const auto step = std::find_if(motion.steps.begin(), motion.steps.end(),
+                                 [&](const Answer& answer) { return answer.exit_code == motion.exit_code; });
+  if (step == motion.steps.end())
+    return "UNDECIDED the time limit came after " + std::to_string(motion.steps.size()) + " of " +
+           std::to_string(motion.poses) + " poses";
+  const std::string name = "step " + std::to_string(step - motion.steps.begin()) + ": ";
+  if (motion.exit_code == ExitUndecided)
+    return "UNDECIDED " + name + interval(step->bounds) + (step->reason.empty() ? "" : ": " + step->reason);
+  const auto [distance, tolerance] = told_apart(step->bounds.lower, *motion.question.tolerance);
+  return "FAIL " + name + distance + " > " + tolerance;
+}
+
 void print(const Motion& motion) {
   print_line("step", "distance, verdict");
   for (std::size_t i = 0; i < motion.steps.size(); ++i)
@@ -130,6 +145,7 @@ void print(const Motion& motion) {
   print_line("queries", std::to_string(motion.queries));
   print_line("seconds",
              "steps " + rounded_seconds(motion.seconds_of_steps) + ", total " + rounded_seconds(motion.seconds));
+  if (const std::string line = closing_line(motion); !line.empty()) std::printf("%s\n", line.c_str());
 }
 
 }  // namespace
@@ -156,6 +172,8 @@ ExitCode run_motion(const Arguments& arguments) {
   motion.seconds_of_steps = watch.lap();
   motion.seconds = watch.seconds();
   if (!arguments.common.json.empty()) write_text(arguments.common.json, to_json(motion));
+  const std::string line = closing_line(motion);
+  if (arguments.common.quiet && !line.empty()) std::fprintf(stderr, "%s\n", line.c_str());
   if (!arguments.common.quiet && arguments.common.json != "-") print(motion);
   return motion.exit_code;
 }
