@@ -105,6 +105,8 @@ TEST_F(Tiles, SayWithinWhichLimitMemoryHasRunOut) {
   };
   says("", {"--memory", "100M"}, "out of memory within 100 MiB: allow more (--memory)");
   says("ulimit -d 65536; ", {}, "out of memory within 64 MiB: allow more (--memory-limit of the batch, or ulimit -d)");
+  const ToolRun measured = run_shell("ulimit -d 65536; " + command_line(HAUSDORFF_DISTANCE, {large, large}));
+  EXPECT_EQ(measured.err, "hausdorff_distance: out of memory within 64 MiB: allow more (ulimit -d)\n");
 }
 
 /// Two copies of this mesh take 84 MB in memory, the plan of the limit 76.

@@ -123,6 +123,19 @@ TEST_F(ToolConventions, LengthsWithAUnitAreRefusedWithAdvice) {
   expect_refused(simplify({"--tolerance", "mm"}), "give a number in model units (0.5)");
 }
 
+TEST_F(ToolConventions, LimitsOfMemoryBelowAMebibyteHaveLostTheirUnit) {
+  const std::string off = in("in.off");
+  for (const auto& [limit, why] :
+       {std::pair{"4", "4 is 4 bytes; did you mean 4G?"}, std::pair{"1000", "1000 is 1000 bytes; did you mean 1000G?"},
+        std::pair{"4K", "less than 1 MiB; did you mean 4G?"}}) {
+    expect_refused(simplify({"--tolerance", "1%", "--memory", limit}), why);
+    expect_refused(run_tool(HAUSDORFF_DISTANCE, {off, off, "--memory", limit}), why);
+    expect_refused(run_tool(SIMPLIFY_WITH_BOUND, {"--batch", folder_.path().string(), "--output-dir", in("small"),
+                                                  "--tolerance", "1%", "--memory-limit", limit}),
+                   why);
+  }
+}
+
 TEST_F(ToolConventions, TargetsAreSharesOrPercentages) {
   const auto faces = [&](const std::string& ratio) {
     EXPECT_EQ(simplify({"--tolerance", "100%", "--target-ratio", ratio, "--quiet"}).exit_code, 0);

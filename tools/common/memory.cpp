@@ -28,6 +28,9 @@ double bytes_of_work(std::size_t triangles, const TileOptions& tiles, const Tile
   return cost.whole * static_cast<double>(triangles) + bytes_of_tile(triangles, tiles, cost);
 }
 
+/// No program runs within less: a limit below it has lost its unit.
+constexpr std::uint64_t min_limit = std::uint64_t{1} << 20;
+
 /// Whether the limit is that of --memory; any other one was set before this program was started.
 bool has_own_limit = false;
 
@@ -40,7 +43,13 @@ std::uint64_t parse_memory(const std::string& option, const std::string& text) {
   const auto value = whole_number(std::string_view(text).substr(0, text.size() - (shift > 0 ? 1 : 0)));
   if (!value || *value == 0 || *value > (std::uint64_t{1} << (62 - shift)))
     throw InvalidInput(option + " " + text + ": give a number of bytes, or one with K, M, G or T, such as 4G");
-  return *value << shift;
+  const std::uint64_t bytes = *value << shift;
+  if (bytes < min_limit)
+    throw InvalidInput(
+        option + " " + text + ": " +
+        (shift == 0 ? text + (bytes == 1 ? " is 1 byte" : " is " + text + " bytes") + "; did you mean " + text + "G?"
+                    : "less than 1 MiB; did you mean " + std::to_string(*value) + "G?"));
+  return bytes;
 }
 
 void limit_memory(std::uint64_t bytes) {
@@ -48,12 +57,15 @@ void limit_memory(std::uint64_t bytes) {
   has_own_limit = ::setrlimit(RLIMIT_DATA, &limit) == 0;
 }
 
-std::string out_of_memory() {
+std::string out_of_memory(const std::string& tool) {
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "out of memory";
+  const bool has_batch = tool == "simplify_with_bound",
+             simplifies = has_batch || tool == "simplify_with_bound_mpi" || tool == "lod_chain";
+  const std::string outer = has_batch ? "--memory-limit of the batch, or ulimit -d" : "ulimit -d";
   return "out of memory within " + in_mebibytes(static_cast<double>(limit.rlim_cur)) + ": allow more (" +
-         (has_own_limit ? "--memory" : "--memory-limit of the batch, or ulimit -d") +
-         "), or a larger tolerance, which leaves fewer triangles";
+         (has_own_limit ? "--memory" : outer) + ")" +
+         (simplifies ? ", or a larger tolerance, which leaves fewer triangles" : "");
 }
 
 std::uint64_t peak_memory() {

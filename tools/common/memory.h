@@ -8,14 +8,16 @@
 
 namespace meshbound::tools {
 
-/// Bytes: a number, or one with K, M, G or T, powers of 1024. Throws `InvalidInput` that names the option.
+/// Bytes: a number, or one with K, M, G or T, powers of 1024. Throws `InvalidInput` that names the option, also
+/// for less than 1 MiB.
 [[nodiscard]] std::uint64_t parse_memory(const std::string& option, const std::string& text);
 
 /// Limits the memory for data of this process from here on: allocations beyond the limit fail.
 void limit_memory(std::uint64_t bytes);
 
-/// What to say where memory has run out: with the limit, if there is one, and who has set it.
-[[nodiscard]] std::string out_of_memory();
+/// What the program named `tool` says where memory has run out: the limit, if there is one, who has set it, and what
+/// helps.
+[[nodiscard]] std::string out_of_memory(const std::string& tool);
 
 /// The largest number of bytes that this process has held at once.
 [[nodiscard]] std::uint64_t peak_memory();

@@ -195,7 +195,7 @@ int tool_main(CLI::App& app, int argc, const char* const* argv, const std::funct
   } catch (const Stopped& stopped) {
     return complain(app, std::string(stopped.what()) + "; nothing was written", ExitUndecided);
   } catch (const std::bad_alloc&) {
-    return complain(app, out_of_memory());
+    return complain(app, out_of_memory(app.get_name()));
   } catch (const std::exception& error) {
     return complain(app, error.what());
   }

@@ -29,7 +29,7 @@ std::optional<int> run_rank(mpi::Communicator& ranks, const std::string& tool,
   try {
     return serve(ranks);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "%s: rank %d: %s\n", tool.c_str(), ranks.rank(), out_of_memory().c_str());
+    std::fprintf(stderr, "%s: rank %d: %s\n", tool.c_str(), ranks.rank(), out_of_memory(tool).c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: rank %d: %s\n", tool.c_str(), ranks.rank(), error.what());
   }
