@@ -123,6 +123,14 @@ TEST_F(ToolConventions, LengthsWithAUnitAreRefusedWithAdvice) {
   expect_refused(simplify({"--tolerance", "mm"}), "give a number in model units (0.5)");
 }
 
+TEST_F(ToolConventions, LengthsThatAreNoneAreRefusedWithoutAWrongNumber) {
+  expect_refused(simplify({"--tolerance", "1,5"}), "'1,5' is not a length; write 1.5");
+  expect_refused(simplify({"--tolerance", "0,1%"}), "'0,1%' is not a length; write 0.1%");
+  expect_refused(simplify({"--tolerance", "1,5mm"}), "give the number in the unit of the file (1.5)");
+  for (const char* length : {"1/2", "1,000,000", "0.1.2", "1-2"})
+    expect_refused(simplify({"--tolerance", length}), "give a number in model units (0.5)");
+}
+
 TEST_F(ToolConventions, LimitsOfMemoryBelowAMebibyteHaveLostTheirUnit) {
   const std::string off = in("in.off");
   for (const auto& [limit, why] :

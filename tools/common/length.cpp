@@ -34,18 +34,34 @@ bool is_word(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
 }
 
+bool is_length(const Quantity& quantity) {
+  return quantity.is_valid && (quantity.unit.empty() || quantity.unit == "%");
+}
+
+/// "1.5" for "1,5": the first comma as a decimal point.
+std::string with_point(std::string text) {
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  return text;
+}
+
+/// What to write in place of text that is no length.
+std::string advice(const std::string& text) {
+  const std::string corrected = with_point(text);
+  const Quantity quantity = parse_quantity(corrected);
+  if (is_length(quantity)) return "write " + corrected + ", with a decimal point";
+  const bool has_unit = quantity.is_valid && is_word(quantity.unit);
+  return (has_unit
+              ? "mesh files carry no unit; give the number in the unit of the file (" + exact_number(quantity.value)
+              : "give a number in model units (0.5") +
+         ") or a percentage of the bounding-box diagonal (0.1%)";
+}
+
 }  // namespace
 
 Length parse_length(const std::string& option, const std::string& text) {
   const Quantity quantity = parse_quantity(text);
-  if (quantity.is_valid && (quantity.unit.empty() || quantity.unit == "%"))
-    return {quantity.value, quantity.unit == "%"};
-  const std::string reason = quantity.is_valid && is_word(quantity.unit)
-                                 ? "mesh files carry no unit; give the number in the unit of the file ("
-                                 : "give a number in model units (";
-  throw InvalidInput(option + ": '" + text + "' is not a length; " + reason +
-                     (quantity.is_valid ? exact_number(quantity.value) : "0.5") +
-                     ") or a percentage of the bounding-box diagonal (0.1%)");
+  if (!is_length(quantity)) throw InvalidInput(option + ": '" + text + "' is not a length; " + advice(text));
+  return {quantity.value, quantity.unit == "%"};
 }
 
 double parse_share(const std::string& option, const std::string& text) {
