@@ -131,6 +131,20 @@ TEST_F(ToolConventions, LengthsThatAreNoneAreRefusedWithoutAWrongNumber) {
     expect_refused(simplify({"--tolerance", length}), "give a number in model units (0.5)");
 }
 
+TEST_F(ToolConventions, NumbersOutOfRangeAreRefusedWithTheirRange) {
+  const auto refused = [&](const std::string& option, const std::string& value, const std::string& wanted) {
+    const ToolRun run = simplify({"--tolerance", "1%", option, value});
+    expect_refused(run, "'" + value + "' is not a number of " + wanted);
+    EXPECT_LT(run.err.size(), 150u) << run.err;
+  };
+  for (const char* const faces : {"-5", "many", "1.5"}) refused("--target-faces", faces, "faces, 0 or more");
+  for (const char* const size : {"0", "-1", "inf", "nan", "1k"}) refused("--texture-size", size, "texels, more than 0");
+  for (const char* const option : {"--feature-angle", "--normal-tolerance"})
+    for (const char* const angle : {"30deg", "-1", "181", "nan"}) refused(option, angle, "degrees from 0 to 180");
+  expect_refused(run_tool(HAUSDORFF_DISTANCE, {in("in.off"), in("in.off"), "--texture", "--texture-size", "0"}),
+                 "'0' is not a number of texels, more than 0");
+}
+
 TEST_F(ToolConventions, LimitsOfMemoryBelowAMebibyteHaveLostTheirUnit) {
   const std::string off = in("in.off");
   for (const auto& [limit, why] :

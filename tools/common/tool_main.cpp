@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/checks.h"
 #include "common/completion.h"
 #include "common/memory.h"
 #include "common/mesh_input.h"
@@ -50,13 +51,6 @@ int complain(const CLI::App& app, std::string message, ExitCode code = ExitBadIn
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
   return code;
-}
-
-/// What is wrong with a text as a number of seconds; empty if it is one.
-std::string seconds(const std::string& text) {
-  double value = -1;
-  const bool is_number = CLI::detail::lexical_cast(text, value);
-  return is_number && value >= 0 ? "" : "'" + text + "' is not a number of seconds, 0 or more";
 }
 
 /// Number of letters to insert, delete or replace to turn `a` into `b`, at least.
@@ -149,7 +143,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
            options.has_time_limit = true;
          },
          "Seconds after which the tool ends with what it has proven (exit 3)")
-      ->check(seconds);
+      ->check(number_of_seconds);
   app.add_option_function<std::string>(
          "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },
          "Write the result as JSON to a file; '-' or nothing: to stdout, and nothing else there")

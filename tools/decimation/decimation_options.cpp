@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/checks.h"
 #include "decimation/drivers.h"
 
 namespace meshbound::tools {
@@ -22,7 +23,7 @@ void add_decimation_options(CLI::App& app, DecimationOptions& options) {
                  "Leave edges as they are where the normals of the faces are further apart than this, in degrees; both "
                  "ends of such an edge are locked, and the output says how many vertices that are. With "
                  "--line-tolerance they are lines instead")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(number_of_degrees);
   app.add_option(
       "--feature-edges", options.feature_edges,
       "File of edges that are feature lines, as borders are then: two vertices of IN a line, counted from 0; "
@@ -57,11 +58,11 @@ void add_appearance_options(CLI::App& app, DecimationOptions& options) {
                  "coordinates, measured on what was written: a length as above, '2texels' with --texture-size, or '1x' "
                  "for as much as the tolerance of each level");
   app.add_option("--texture-size", options.texture_size, "Width of the texture, which counts as square, in texels")
-      ->check(CLI::PositiveNumber);
+      ->check(number_of_texels);
   app.add_option("--normal-tolerance", options.normal_tolerance,
                  "Largest angle by which a face may turn, in degrees: between each face of IN and the face of what is "
                  "written nearest to its centroid")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(number_of_degrees);
 }
 
 }  // namespace meshbound::tools

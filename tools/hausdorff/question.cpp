@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/checks.h"
 #include "common/standard_streams.h"
 #include "meshbound/distance.h"
 #include "meshbound/error.h"
@@ -67,7 +68,7 @@ void add_options(CLI::App& app, Arguments& arguments, bool is_in_tiles) {
   app.add_option("--texture-size", arguments.texture_size,
                  "With --texture: width of the texture, which counts as square, in texels, to print lengths in texels "
                  "of A as well")
-      ->check(CLI::PositiveNumber);
+      ->check(number_of_texels);
   app.add_option("--certificate", arguments.certificate,
                  "With --tolerance: write the proof that the distance is within it, for verify_certificate; with "
                  "--texture-tolerance also that of the texture")

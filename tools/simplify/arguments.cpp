@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <array>
 
+#include "common/checks.h"
+#include "common/length.h"
 #include "common/standard_streams.h"
 #include "meshbound/error.h"
 
@@ -48,7 +50,7 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   app.add_option("--tolerance", arguments.tolerance,
                  "Largest symmetric Hausdorff distance to IN: model units, or 0.1% of the bounding-box diagonal");
   auto* faces = app.add_option("--target-faces", arguments.target_faces, "End at this many faces, tolerance permitting")
-                    ->check(CLI::NonNegativeNumber);
+                    ->check(number_of_faces);
   app.add_option("--target-ratio", arguments.target_ratio, "The same as a share of the faces of IN: 0.1 or 10%")
       ->excludes(faces);
   app.add_option("--on-exceed", arguments.on_exceed,
