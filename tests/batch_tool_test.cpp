@@ -20,7 +20,7 @@
 #include "datasets/analytic_meshes.h"
 #include "meshbound/distance.h"
 #include "meshbound/io.h"
-#include "run_tool.h"
+#include "tool_refusal.h"
 
 namespace meshbound {
 namespace batch_tool_test {
@@ -370,20 +370,57 @@ TEST_F(BatchTool, RefusesBadUsageInOneLine) {
   };
   const std::string models = in("models"), out = in("out");
   refused({"--batch", models, "--tolerance", "1%"}, "--output-dir is missing");
-  refused({"--batch", models, "--output-dir", out, "--shard", "2/2"}, "INDEX from 0 to COUNT - 1");
-  refused({"--batch", models, "--output-dir", out, "--shard", "auto/2"}, "JOB_COMPLETION_INDEX");
-  refused({"--batch", models, "--output-dir", out, "--memory-limit", "4X"}, "such as 4G");
-  refused({"--batch", models, "--output-dir", out, "--json", in("x.json")}, "--json is for a single mesh");
-  refused({"--batch", models, "--output-dir", out, "--units", "mm"}, "--units is for a single mesh");
-  refused({"a.ply", "b.ply", "--batch", models, "--output-dir", out}, "IN is for a single mesh");
-  refused({"--batch", in("nothing"), "--output-dir", out}, "cannot read");
+  refused({"--batch", models, "--output-dir", out, "--tolerance", "1%", "--shard", "2/2"}, "INDEX from 0 to COUNT - 1");
+  refused({"--batch", models, "--output-dir", out, "--tolerance", "1%", "--shard", "auto/2"}, "JOB_COMPLETION_INDEX");
+  refused({"--batch", models, "--output-dir", out, "--tolerance", "1%", "--memory-limit", "4X"}, "such as 4G");
+  refused({"--batch", models, "--output-dir", out, "--tolerance", "1%", "--json", in("x.json")},
+          "--json is for a single mesh");
+  refused({"--batch", models, "--output-dir", out, "--tolerance", "1%", "--units", "mm"},
+          "--units is for a single mesh");
+  refused({"a.ply", "b.ply", "--batch", models, "--output-dir", out, "--tolerance", "1%"}, "IN is for a single mesh");
+  refused({"--batch", in("nothing"), "--output-dir", out, "--tolerance", "1%"}, "cannot read");
   refused({"a.ply", "b.ply", "--tolerance", "1%", "--jobs", "2"}, "goes with --batch only");
   refused({"--tolerance", "1%"}, "IN is required");
   fs::create_directories(in("empty"));
-  refused({"--batch", in("empty"), "--output-dir", out}, "there is no mesh file");
+  refused({"--batch", in("empty"), "--output-dir", out, "--tolerance", "1%"}, "there is no mesh file");
   std::ofstream(in("list.txt")) << in("models/cube.off") << "\n" << in("empty/cube.off") << "\n";
-  refused({"--batch", in("list.txt"), "--output-dir", out}, "would both be written to");
+  refused({"--batch", in("list.txt"), "--output-dir", out, "--tolerance", "1%"}, "would both be written to");
   refused({"--batch-merge", in("empty")}, "there is no batch*.jsonl");
+}
+
+TEST_F(BatchTool, RefusesWhatIsNoListOfFiles) {
+  write_mesh(in("cube.obj"), datasets::cube(1, 1));
+  std::ofstream(in("bytes.txt"), std::ios::binary) << std::string("models/cube.off\n\0\1", 18);
+  for (const auto& [source, why] :
+       {std::pair{"models/torus.ply", "models/torus.ply is a mesh: give it as IN"},
+        std::pair{"cube.obj", "cube.obj is a mesh: give it as IN"}, std::pair{"bytes.txt", "it has bytes of 0"}}) {
+    const ToolRun result =
+        run_tool(SIMPLIFY_WITH_BOUND, {"--batch", in(source), "--output-dir", in("out"), "--tolerance", "1%"});
+    expect_refused(result, why);
+    EXPECT_NE(result.err.find("--batch takes a folder or a list of files; "), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(in("out")));
+  }
+}
+
+/// Once, before the first mesh, and not for each of them.
+TEST_F(BatchTool, ChecksLengthsBeforeTheFirstMesh) {
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& why) {
+    std::vector<std::string> all{"--batch", in("models"), "--output-dir", in("out")};
+    all.insert(all.end(), options.begin(), options.end());
+    expect_refused(run_tool(SIMPLIFY_WITH_BOUND, all), why);
+    EXPECT_FALSE(fs::exists(in("out")));
+  };
+  refused({}, "--tolerance is missing");
+  refused({"--tolerance", "0.1mm"}, "mesh files carry no unit");
+  refused({"--tolerance", "1%", "--line-tolerance", "x"}, "--line-tolerance: 'x' is not a length");
+  refused({"--tolerance", "1%", "--target-ratio", "2"}, "--target-ratio: '2' is no share");
+  refused({"--tolerance", "1%", "--texture-tolerance", "2texels"}, "needs --texture-size");
+}
+
+TEST_F(BatchTool, IsNamedWhereINIsAFolder) {
+  expect_refused(run_tool(SIMPLIFY_WITH_BOUND, {in("models"), in("out.ply"), "--tolerance", "1%"}),
+                 "is a folder; name a mesh in it, or simplify all with --batch ");
+  expect_refused(run_tool(SIMPLIFY_WITH_BOUND, {in("models"), "--tolerance", "1%"}), "is a folder");
 }
 
 /// The example for GNU parallel, as it stands in the document.

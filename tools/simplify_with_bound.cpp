@@ -17,7 +17,9 @@ int main(int argc, char** argv) {
       options.workers = &workers.emplace(tile_setting(options));
       options.drop_attributes = true;
     }
+    refuse_folder(options.input);
     check_batch_usage(app, options.batch);
+    if (!options.batch.source.empty()) check_lengths(options);
     if (options.batch.is_wanted()) return run_batch(options.batch, options.common, options.output_dir);
     resolve_streams(options);
     return run_simplify(options);

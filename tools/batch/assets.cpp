@@ -39,8 +39,11 @@ std::string name_in_list(const fs::path& path) {
 std::vector<Asset> of_list(const std::string& path) {
   std::ifstream list(path);
   if (!list) throw IoError("--batch: cannot read " + path);
+  const std::string takes = "--batch takes a folder or a list of files; ";
+  if (has_mesh_extension(path)) throw InvalidInput(takes + path + " is a mesh: give it as IN");
   std::vector<Asset> assets;
   for (std::string line; std::getline(list, line);) {
+    if (line.find('\0') != std::string::npos) throw InvalidInput(takes + path + " is not text: it has bytes of 0");
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (!line.empty() && line.front() != '#') assets.push_back({line, name_in_list(line)});
   }

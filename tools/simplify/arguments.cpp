@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <filesystem>
 
 #include "common/checks.h"
 #include "common/length.h"
 #include "common/standard_streams.h"
+#include "decimation/texture_tolerance.h"
 #include "meshbound/error.h"
 
 namespace meshbound::tools {
@@ -124,6 +126,23 @@ void add_tile_arguments(CLI::App& app, SimplifyArguments& arguments) {
   for (const char* const name : options_without_use_for_tiles) (void)app.remove_option(app.get_option(name));
   add_examples(app, {"mpirun -n 4 simplify_with_bound_mpi bunny.ply small.ply --tolerance 0.1%",
                      "srun simplify_with_bound_mpi terrain.ply small.ply --tolerance 0.02% --memory 16G --threads 8"});
+}
+
+void refuse_folder(const std::string& input) {
+  std::error_code error;
+  if (std::filesystem::is_directory(input, error))
+    throw InvalidInput("IN: " + input + " is a folder; name a mesh in it, or simplify all with --batch " + input +
+                       " --output-dir FOLDER");
+}
+
+void check_lengths(const SimplifyArguments& arguments) {
+  if (arguments.tolerance.empty()) throw InvalidInput(missing_tolerance);
+  (void)parse_length("--tolerance", arguments.tolerance);
+  if (!arguments.line_tolerance.empty()) (void)parse_length("--line-tolerance", arguments.line_tolerance);
+  if (!arguments.error_bound.empty()) (void)parse_length("--error-bound", arguments.error_bound);
+  if (!arguments.target_ratio.empty()) (void)parse_share("--target-ratio", arguments.target_ratio);
+  if (!arguments.texture_tolerance.empty())
+    (void)parse_texture_tolerance(arguments.texture_tolerance, arguments.texture_size.has_value());
 }
 
 void resolve_streams(SimplifyArguments& arguments) {

@@ -29,8 +29,19 @@ struct SimplifyArguments : DecimationOptions {
   DeviationRequest deviation;
 };
 
+/// What to say where no tolerance is given.
+inline constexpr const char* missing_tolerance =
+    "--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%, or --tolerance 100% "
+    "where only the number of faces counts";
+
 /// Puts what "-" stands for in place of it. Throws `InvalidInput` where it cannot be used, or not without --format.
 void resolve_streams(SimplifyArguments& arguments);
+
+/// Throws `InvalidInput` where IN is a folder.
+void refuse_folder(const std::string& input);
+
+/// Throws `InvalidInput` where the tolerance of OUT is missing, and for lengths and shares that are none.
+void check_lengths(const SimplifyArguments& arguments);
 
 /// Adds all options of simplify_with_bound; `arguments` must outlive the parsing.
 void add_simplify_arguments(CLI::App& app, SimplifyArguments& arguments);

@@ -138,9 +138,7 @@ void Run::choose_tolerances() {
     if (tolerances_.back() < largest_level)
       throw InvalidInput("--levels: a level is larger than --tolerance, which is that of OUT");
   } else if (tolerances_.empty()) {
-    throw InvalidInput(
-        "--tolerance is missing: say how far the result may be from IN, such as --tolerance 0.1%, or "
-        "--tolerance 100% where only the number of faces counts");
+    throw InvalidInput(missing_tolerance);
   }
   sort_tolerances();
   report_.tolerance = tolerances_.back();
