@@ -131,6 +131,17 @@ TEST_F(ToolConventions, LengthsThatAreNoneAreRefusedWithoutAWrongNumber) {
     expect_refused(simplify({"--tolerance", length}), "give a number in model units (0.5)");
 }
 
+TEST_F(ToolConventions, OptionsOfSeveralValuesLeaveTheFilesBehindThem) {
+  EXPECT_EQ(run_tool(SIMPLIFY_WITH_BOUND, {"--tolerance", "1%", "--levels", "0.1%,0.5%", in("in.off"), in("o.ply")})
+                .exit_code,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(in("o_level_1.ply")));
+  EXPECT_EQ(run_tool(LOD_CHAIN, {"--levels", "0.1%", "--levels", "0.5%,1%", in("in.off"), in("a")}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(in("a/lod_2.ply")));
+  EXPECT_EQ(run_tool(LOD_CHAIN, {"--pixels", "1,2", "--distances", "3", in("in.off"), in("b")}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(in("b/lod_1.ply")));
+}
+
 TEST_F(ToolConventions, NumbersOutOfRangeAreRefusedWithTheirRange) {
   const auto refused = [&](const std::string& option, const std::string& value, const std::string& wanted) {
     const ToolRun run = simplify({"--tolerance", "1%", option, value});

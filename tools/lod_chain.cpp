@@ -51,15 +51,18 @@ void declare(CLI::App& app, Options& options) {
       "Instead of IN: a scene of instances and cameras (JSON, GLB or glTF); makes the levels that they need, "
       "and view.json, which says who uses which");
   app.add_option("--levels", options.levels, "Tolerances: model units, or 0.1% of the bounding-box diagonal: T1,T2,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // so that IN may follow
   app.add_option("--pixels", options.pixels,
                  "Instead of --levels: pixels that the error may cover on the screen; P1,P2,... at one of --distances "
                  "makes a level for each")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // so that IN may follow
   app.add_option("--distances", options.distances,
                  "With --pixels: distances from the eye to the model, model units or % of the diagonal; D1,D2,... for "
                  "one of --pixels makes a level for each")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // so that IN may follow
   app.add_option("--screen-height", options.screen_height,
                  "With --pixels: height of the screen in pixels (default 1080)");
   app.add_option("--fov", options.fov, "With --pixels: vertical field of view in degrees (default 60)");

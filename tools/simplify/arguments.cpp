@@ -62,7 +62,8 @@ void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) 
   app.add_option("--levels", arguments.levels,
                  "Smaller tolerances to write levels of detail for as well: T1,T2,...; the finest is OUT_level_0, OUT "
                  "itself the coarsest")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // so that IN may follow
   app.add_option("--output-dir", arguments.output_dir,
                  "Folder for the levels (default: that of OUT), or for the results of --batch");
   app.add_option("--certificate", arguments.certificate,
