@@ -18,6 +18,15 @@ namespace mpi_test {
 
 using namespace meshbound::testing_tools;
 
+TEST(TilesOverRanks, HaveNoOptionsOfBatches) {
+  const std::string help = run_ranks(1, SIMPLIFY_WITH_BOUND_MPI, {"--help"}).out;
+  EXPECT_NE(help.find("--tolerance"), std::string::npos);
+  for (const char* const option : {"--batch", "--jobs", "--shard", "--memory-limit"})
+    EXPECT_EQ(help.find(option), std::string::npos) << option;
+  const ToolRun run = run_ranks(1, SIMPLIFY_WITH_BOUND_MPI, {"in.off", "--tolerance", "1%"});
+  EXPECT_NE(run.err.find("OUT is required"), std::string::npos) << run.err;
+}
+
 TEST(TilesOverRanks, GiveTheSameBitsAsTilesOfOneProcess) {
   for (const int ranks : {1, 2, 3, 4}) {
     const ToolRun run = run_ranks(ranks, TILES_OVER_RANKS, {"simplify"});

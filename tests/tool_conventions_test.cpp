@@ -169,6 +169,11 @@ TEST_F(ToolConventions, LimitsOfMemoryBelowAMebibyteHaveLostTheirUnit) {
   }
 }
 
+TEST_F(ToolConventions, AnEstimateHasNoDocument) {
+  expect_refused(simplify({"--tolerance", "1%", "--dry-run", "--json", in("r.json")}), "--dry-run prints an estimate");
+  EXPECT_FALSE(std::filesystem::exists(in("r.json")));
+}
+
 TEST_F(ToolConventions, TargetsAreSharesOrPercentages) {
   const auto faces = [&](const std::string& ratio) {
     EXPECT_EQ(simplify({"--tolerance", "100%", "--target-ratio", ratio, "--quiet"}).exit_code, 0);

@@ -37,8 +37,9 @@ constexpr std::array options_of_whole_meshes =
                                 "--line-tolerance", "--heatmap", "--heatmap-original", "--image", "--report"});
 
 /// What speaks of one of these, or of an attribute.
-constexpr std::array options_without_use_for_tiles = std::to_array<const char*>(
-    {"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run", "--units", "--up"});
+constexpr std::array options_without_use_for_tiles =
+    std::to_array<const char*>({"--on-exceed", "--output-dir", "--texture-size", "--drop-attributes", "--dry-run",
+                                "--units", "--up", "--batch-merge", "--jobs", "--shard", "--memory-limit"});
 
 /// `is_in_tiles`: with and without --memory.
 void add_options(CLI::App& app, SimplifyArguments& arguments, bool is_in_tiles) {
@@ -125,6 +126,7 @@ void add_tile_arguments(CLI::App& app, SimplifyArguments& arguments) {
   app.description(description);  // without what it says of attributes
   for (const char* const name : options_of_whole_meshes) (void)app.remove_option(app.get_option(name));
   for (const char* const name : options_without_use_for_tiles) (void)app.remove_option(app.get_option(name));
+  for (const char* const name : {"IN", "OUT"}) app.get_option(name)->required();
   add_examples(app, {"mpirun -n 4 simplify_with_bound_mpi bunny.ply small.ply --tolerance 0.1%",
                      "srun simplify_with_bound_mpi terrain.ply small.ply --tolerance 0.02% --memory 16G --threads 8"});
 }
@@ -150,6 +152,8 @@ void resolve_streams(SimplifyArguments& arguments) {
   check_formats(arguments);
   const bool writes = arguments.output == "-";
   if (writes && arguments.common.json == "-") throw InvalidInput("OUT and --json cannot both be standard output");
+  if (arguments.dry_run && !arguments.common.json.empty())
+    throw InvalidInput("--dry-run prints an estimate and has no result for --json; leave out one of them");
   if (writes && !arguments.levels.empty())
     throw InvalidInput("--levels are files named after OUT, which is -; name OUT");
   arguments.input = stream_path("IN", arguments.input, StandardStream::Input,
