@@ -46,6 +46,12 @@ TEST_F(StandardStreams, CarryAMeshThroughAPipe) {
   EXPECT_EQ(json["simplified"]["path"], "-");
 }
 
+TEST_F(StandardStreams, AreNamedInMessages) {
+  expect_refused("echo x | \"$simplify\" - out.off --format ply --tolerance 0.01",
+                 "simplify_with_bound: standard input: ");
+  expect_refused("echo x | \"$measure\" in.off - --format stl", "hausdorff_distance: standard input: ");
+}
+
 TEST_F(StandardStreams, MayDifferInFormat) {
   ASSERT_EQ(shell("\"$simplify\" in.off file.obj --tolerance 0.01").exit_code, 0);
   for (const char* formats : {"--input-format off --output-format obj", "--format obj --input-format off",

@@ -131,6 +131,20 @@ TEST_F(ToolConventions, LengthsThatAreNoneAreRefusedWithoutAWrongNumber) {
     expect_refused(simplify({"--tolerance", length}), "give a number in model units (0.5)");
 }
 
+TEST_F(ToolConventions, TheFormatOfTheOutputIsToBlameForTextureThatIsNotKept) {
+  std::ofstream(in("t.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n";
+  for (const std::string extension : {".stl", ".off"})
+    expect_refused(run_tool(SIMPLIFY_WITH_BOUND,
+                            {in("t.obj"), in("out" + extension), "--tolerance", "1%", "--texture-tolerance", "1x"}),
+                   "the format of the output, " + extension + ", does not carry");
+  expect_refused(
+      run_tool(LOD_CHAIN, {in("t.obj"), in("chain"), "--levels", "1%", "--texture-tolerance", "1x", "--format", "stl"}),
+      "the format of the output, .stl, does not carry");
+  expect_refused(
+      run_tool(SIMPLIFY_WITH_BOUND, {in("t.obj"), in("out.obj"), "--tolerance", "1%", "--memory", "1G", "--strict"}),
+      "--memory and MPI work on bare triangles");
+}
+
 TEST_F(ToolConventions, OptionsOfSeveralValuesLeaveTheFilesBehindThem) {
   EXPECT_EQ(run_tool(SIMPLIFY_WITH_BOUND, {"--tolerance", "1%", "--levels", "0.1%,0.5%", in("in.off"), in("o.ply")})
                 .exit_code,
@@ -172,6 +186,21 @@ TEST_F(ToolConventions, LimitsOfMemoryBelowAMebibyteHaveLostTheirUnit) {
 TEST_F(ToolConventions, AnEstimateHasNoDocument) {
   expect_refused(simplify({"--tolerance", "1%", "--dry-run", "--json", in("r.json")}), "--dry-run prints an estimate");
   EXPECT_FALSE(std::filesystem::exists(in("r.json")));
+}
+
+TEST_F(ToolConventions, SayWhyNothingCollapsed) {
+  std::ofstream(in("one.off")) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const ToolRun run =
+      run_tool(SIMPLIFY_WITH_BOUND, {in("one.off"), in("out.ply"), "--tolerance", "1%", "--preserve-boundary"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("every vertex is locked"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("out.ply, 1 face, "), std::string::npos) << run.out;
+}
+
+TEST_F(ToolConventions, AFileIsNoFolderForResults) {
+  std::ofstream(in("file.ply")) << "ply";
+  expect_refused(run_tool(LOD_CHAIN, {in("in.off"), in("file.ply"), "--levels", "1%"}),
+                 "file.ply is a file; name a folder");
 }
 
 TEST_F(ToolConventions, TargetsAreSharesOrPercentages) {

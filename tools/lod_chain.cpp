@@ -413,9 +413,9 @@ std::vector<std::filesystem::path> Run::stale_files() const {
 }
 
 void Run::print_summary() const {
-  print_line("original", options_.input + ", " + std::to_string(report_.original.summary.faces) + " faces");
+  print_line("original", options_.input + ", " + face_count(report_.original.summary.faces));
   for (const LodReport::Level& level : report_.levels) {
-    print_line(level.file, std::to_string(level.faces) + " faces, tolerance " + both_units(level.tolerance, diagonal_));
+    print_line(level.file, face_count(level.faces) + ", tolerance " + both_units(level.tolerance, diagonal_));
     print_line("", "distance " + interval(level.distance.bounds));
     print_lines(level.lines, diagonal_);
     if (level.normals) print_normals(*level.normals);

@@ -67,6 +67,8 @@ std::string exact_point(const Eigen::Vector3d& p) {
   return "(" + exact_number(p.x()) + " " + exact_number(p.y()) + " " + exact_number(p.z()) + ")";
 }
 
+std::string face_count(std::size_t faces) { return std::to_string(faces) + (faces == 1 ? " face" : " faces"); }
+
 std::string short_point(const Eigen::Vector3d& p) {
   return "(" + short_number(p.x()) + " " + short_number(p.y()) + " " + short_number(p.z()) + ")";
 }

@@ -11,6 +11,9 @@
 
 namespace meshbound::tools {
 
+/// "1 face", "2 faces".
+[[nodiscard]] std::string face_count(std::size_t faces);
+
 /// A line "label       text"; a label that is empty continues the line above.
 void print_line(const std::string& label, const std::string& text);
 

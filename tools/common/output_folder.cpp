@@ -12,6 +12,8 @@ namespace meshbound::tools {
 
 OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code error;
+  if (std::filesystem::exists(path_, error) && !std::filesystem::is_directory(path_, error))
+    throw IoError(path_.string() + " is a file; name a folder");
   if (!std::filesystem::exists(path_, error)) made_.emplace(path_);
   std::filesystem::create_directories(path_, error);
   if (!std::filesystem::is_directory(path_, error))

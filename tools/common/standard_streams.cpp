@@ -18,6 +18,11 @@ namespace {
 constexpr const char* input_device = "/dev/stdin";
 constexpr const char* output_device = "/dev/stdout";
 
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_formats() { return {"ply", "obj", "off", "stl", "glb", "gltf"}; }
@@ -42,6 +47,14 @@ bool is_stream_path(const std::filesystem::path& path) {
 }
 
 std::string as_typed(const std::string& path) { return is_stream_path(path) ? "-" : path; }
+
+std::string with_stream_names(std::string message) {
+  for (const std::string& format : mesh_formats()) {
+    replace_all(message, std::string(input_device) + "/mesh." + format, "standard input");
+    replace_all(message, std::string(output_device) + "/mesh." + format, "standard output");
+  }
+  return message;
+}
 
 std::filesystem::path device_of(const std::filesystem::path& path) {
   return is_stream_path(path) ? path.parent_path() : path;

@@ -32,6 +32,9 @@ void add_stream_format(CLI::App& app, const std::string& name, std::string& form
 /// The argument as typed: "-" for a path that `stream_path` made of it.
 [[nodiscard]] std::string as_typed(const std::string& path);
 
+/// A message in which "standard input" and "standard output" stand for the paths that `stream_path` made of "-".
+[[nodiscard]] std::string with_stream_names(std::string message);
+
 /// The file or device that is written to for `path`.
 [[nodiscard]] std::filesystem::path device_of(const std::filesystem::path& path);
 

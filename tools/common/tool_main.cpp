@@ -21,6 +21,7 @@
 #include "common/progress.h"
 #include "common/provenance.h"
 #include "common/signals.h"
+#include "common/standard_streams.h"
 #include "common/threads.h"
 #include "meshbound/error.h"
 #include "meshbound/stop_token.h"
@@ -48,6 +49,7 @@ std::terminate_handler default_terminate = nullptr;
 [[maybe_unused]] const bool has_handler = (default_terminate = std::set_terminate(end_without_memory), true);
 
 int complain(const CLI::App& app, std::string message, ExitCode code = ExitBadInput) {
+  message = with_stream_names(std::move(message));
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), message.c_str());
   return code;

@@ -13,6 +13,7 @@
 #include "common/mesh_input.h"
 #include "common/provenance.h"
 #include "common/signals.h"
+#include "common/standard_streams.h"
 #include "decimation/drivers.h"
 #include "decimation/dropped_attributes.h"
 #include "decimation/edge_file.h"
@@ -56,6 +57,20 @@ std::vector<Refuted> refuted_by(const GatedOutput& output) {
   return refuted;
 }
 
+bool carries_texture_coordinates(FileFormat format) { return format != FileFormat::Stl && format != FileFormat::Off; }
+
+/// What --strict says of attributes that would not come along, and what to do.
+std::string lost_attributes(const DecimationOptions& options, const std::filesystem::path& output,
+                            const DroppedAttributes& dropped) {
+  const std::string lost =
+      as_typed(options.input) + ": " + as_typed(output.string()) + " would not carry " + listed(dropped);
+  return options.workers == nullptr
+             ? lost + "; choose another format, or leave out --strict"
+             : lost +
+                   ": --memory and MPI work on bare triangles; use simplify_with_bound without --memory, or leave "
+                   "out --strict";
+}
+
 }  // namespace
 
 int internal::undecided_measurements = 0;
@@ -83,11 +98,12 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
     texture_as_read_.texture_coordinates = attributes_.texture_coordinates;
     texture_as_read_.texture_precision = attributes_.texture_precision;
   }
+  output_format_ = output.extension().string();
+  output_carries_texture_ = carries_texture_coordinates(format);
   if (carries) attributes_ = carried_by(format, std::move(attributes_), *report.dropped);
   if (!shared_.texture_tolerance.empty()) texture_as_read_.materials = attributes_.materials;
   if (shared_.strict && *report.dropped != DroppedAttributes{})
-    throw InvalidInput(shared_.input + ": " + output.string() + " would not carry " + listed(*report.dropped) +
-                       "; choose another format, or leave out --strict");
+    throw InvalidInput(lost_attributes(shared_, output, *report.dropped));
   if (!attributes_.empty()) feature_edges_ = seams(original_, attributes_);
   if (!shared_.feature_edges.empty()) {
     const std::vector<Edge> given = read_edges(shared_.feature_edges, original_.vertices.size(), stop);
@@ -112,9 +128,13 @@ void DecimationRun::choose_appearance(const std::string& kind) {
     return;
   }
   texture_tolerance_ = parse_texture_tolerance(shared_.texture_tolerance, shared_.texture_size.has_value());
+  if (!output_carries_texture_)
+    throw InvalidInput("--texture-tolerance needs texture coordinates, which the format of the output, " +
+                       output_format_ + ", does not carry; use .obj, .ply or .glb");
   if (attributes_.texture_coordinates.empty())
     throw InvalidInput("--texture-tolerance needs texture coordinates, and " + kind +
-                       " of a format that carries them (OBJ, PLY, glTF): none were found in " + shared_.input);
+                       " of a format that carries them (OBJ, PLY, glTF): none were found in " +
+                       as_typed(shared_.input));
   warn_of_other_coordinates();
   if (shared_.texture_size)
     texel_length_ = texel_length(textured_meshes(original_, attributes_, original_, attributes_)[0],

@@ -122,6 +122,8 @@ class DecimationRun {
   [[nodiscard]] DecidedBy prove(GatedOutput& output, double tolerance, const OutputSteps& steps);
 
   const DecimationOptions& shared_;
+  std::string output_format_;  ///< the extension
+  bool output_carries_texture_ = true;
   std::optional<TextureTolerance> texture_tolerance_;
   std::optional<TriangleMesh> rounded_original_;
   double texel_length_ = 0;  ///< model units, where there is a texture size

@@ -21,6 +21,9 @@ std::string end_reason(const FinishedRun& run) {
     return "the tolerance is below the rounding of the coordinates: nothing collapsed";
   if (run.is_ended_by_time && ended != EndedBy::TimeLimit)
     return "the time limit came before a smaller mesh was proven";
+  const std::size_t vertices = run.report.original.summary.vertices;
+  if (ended != EndedBy::Target && vertices > 0 && run.result.locked_vertices >= vertices)
+    return "every vertex is locked, for edges that stay as they are";
   if (ended == EndedBy::Target) return "the target was reached first, within the tolerance";
   if (ended == EndedBy::TimeLimit) return "the time limit came first";
   const std::string tolerance = ended == EndedBy::Tolerance ? "the next collapse would exceed the tolerance"
@@ -53,8 +56,8 @@ void print_summary(const FinishedRun& run) {
   if (report.deviation) print_deviation(*report.deviation, "original to simplified", "simplified to original");
   print_locked(run.result.locked_vertices, report.original.summary);
   if (run.options.prune)
-    print_line("pruned", std::to_string(run.result.pruned_components) + " components of " +
-                             std::to_string(run.result.pruned_faces) + " faces");
+    print_line("pruned",
+               std::to_string(run.result.pruned_components) + " components of " + face_count(run.result.pruned_faces));
   if (run.result.split)
     print_line("input", "not an oriented 2-manifold: simplified as one, with edges and vertices doubled where needed");
   if (run.result.dropped_triangles + run.result.kept_triangles > 0)
@@ -69,7 +72,7 @@ void print_summary(const FinishedRun& run) {
     print_line("memory", in_mebibytes(static_cast<double>(peak_memory())) + " at most, of " + run.options.memory);
   if (report.verdict != Verdict::Within) return;
   for (const GatedOutput& output : run.outputs)
-    print_line("wrote", output.path().string() + ", " + std::to_string(output.summary().faces) + " faces, " +
+    print_line("wrote", output.path().string() + ", " + face_count(output.summary().faces) + ", " +
                             interval(output.distance().bounds));
   for (const CertificateReport& certificate : report.certificates)
     print_line("wrote",

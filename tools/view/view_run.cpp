@@ -167,11 +167,9 @@ class ViewRun {
 
   void print() const {
     for (std::size_t model = 0; model < models_.size(); ++model) {
-      print_line("model " + std::to_string(model),
-                 name_of(model) + ", " + std::to_string(models_[model].summary.faces) + " faces");
+      print_line("model " + std::to_string(model), name_of(model) + ", " + face_count(models_[model].summary.faces));
       for (std::size_t level = 1; level < levels_.models[model].size(); ++level)
-        print_line("  level " + std::to_string(level), std::to_string(levels_.models[model][level].faces) +
-                                                           " faces, error " +
+        print_line("  level " + std::to_string(level), face_count(levels_.models[model][level].faces) + ", error " +
                                                            short_number(levels_.models[model][level].error));
     }
     for (std::size_t camera = 0; camera < levels_.cameras.size(); ++camera)
