@@ -331,5 +331,38 @@ TEST(Reading, RefusesAnEmptyFileOfEveryFormat) {
   for (const char* name : {"m.off", "m.obj", "m.ply", "m.stl"}) EXPECT_CONTAINS(refusal(name, ""), "empty");
 }
 
+TEST(Io, NamesTheContentThatContradictsTheExtension) {
+  TriangleMesh mesh = mesh_over({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const TemporaryFolder folder;
+  for (const char* const name : {"m.ply", "m.stl", "m.glb"}) write_mesh(folder / name, mesh);
+  const std::string ply = content_of(folder / "m.ply"), stl = content_of(folder / "m.stl"),
+                    glb = content_of(folder / "m.glb");
+  for (const std::string name : {"m.off", "m.obj", "m.ply", "m.stl", "m.glb", "m.gltf"}) {
+    EXPECT_CONTAINS(refusal(name, "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n"),
+                    "git lfs pull");
+    EXPECT_CONTAINS(refusal(name, std::string("\x1F\x8B\x08\0\0\0\0\0", 8)), "gzip; unpack it");
+    EXPECT_CONTAINS(refusal(name, std::string("PK\x03\x04\x14\0\0\0", 8)), "ZIP archive; unpack it");
+    if (name != "m.ply") {
+      EXPECT_CONTAINS(refusal(name, ply), "it is a PLY file; give it the extension .ply");
+    }
+    if (name != "m.stl") {
+      EXPECT_CONTAINS(refusal(name, stl), "it is an STL file; give it the extension .stl");
+      EXPECT_CONTAINS(refusal(name, "solid x\nendsolid x\n"), "it is an STL file");
+    }
+    if (name != "m.glb" && name != "m.gltf") {
+      EXPECT_CONTAINS(refusal(name, glb), "it is a binary glTF file; give it the extension .glb");
+    }
+  }
+}
+
+/// The header of a binary STL may hold any text, and an OBJ may have statements that nobody knows.
+TEST(Io, ReadsWhatOnlyBeginsLikeAnotherFormat) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "m.stl", mesh_over({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  const std::string stl = content_of(folder / "m.stl");
+  for (const std::string start : {"ply\n", "glTF", "PK\x03\x04", "version https://git-lfs"})
+    EXPECT_EQ(read_content("m.stl", start + stl.substr(start.size())).mesh.triangles.size(), 1u);
+}
+
 }  // namespace io_test
 }  // namespace meshbound::test

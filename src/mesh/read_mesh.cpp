@@ -32,7 +32,34 @@ MeshSource begun(MeshSource source) {
   return source;
 }
 
-MeshFile parsed(const MeshSource& given) {
+/// What a file is by its first bytes, where these contradict its extension, and what to do; else empty.
+std::string other_content(const MeshSource& source) {
+  const FileFormat format = format_of(source.path);
+  const std::string_view bytes = source.bytes;
+  if (bytes.starts_with("version https://git-lfs"))
+    return "it is a pointer of Git LFS in place of the mesh; fetch the mesh with git lfs pull";
+  if (bytes.starts_with("\x1F\x8B")) return "it is compressed with gzip; unpack it first";
+  if (bytes.starts_with("PK\x03\x04")) return "it is a ZIP archive; unpack it first";
+  if (format != FileFormat::Ply && (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")))
+    return "it is a PLY file; give it the extension .ply";
+  if (!is_gltf(format) && bytes.starts_with("glTF")) return "it is a binary glTF file; give it the extension .glb";
+  if (format != FileFormat::Stl && (bytes.starts_with("solid ") || is_binary_stl(bytes, source.size())))
+    return "it is an STL file; give it the extension .stl";
+  return "";
+}
+
+/// What `read` makes of a file. Where it refuses one whose content contradicts its extension, the message says so.
+template <class Read>
+auto blaming_the_name(const MeshSource& source, const Read& read) {
+  try {
+    return read();
+  } catch (const InvalidInput&) {
+    if (const std::string what = other_content(source); !what.empty()) source.fail(what);
+    throw;
+  }
+}
+
+MeshFile parsed_by_extension(const MeshSource& given) {
   const MeshSource source = begun(given);
   switch (format_of(source.path)) {
     case FileFormat::Stl:
@@ -47,6 +74,10 @@ MeshFile parsed(const MeshSource& given) {
     default:
       return read_ply(source);
   }
+}
+
+MeshFile parsed(const MeshSource& source) {
+  return blaming_the_name(source, [&] { return parsed_by_extension(source); });
 }
 
 /// What `read` makes of a file that is read by ranges; nothing for any other file, and where `read` refuses it.
@@ -76,7 +107,8 @@ MeshFile parse_mesh(const std::filesystem::path& path, std::string_view bytes, c
 }
 
 GltfScene parse_gltf_scene(const std::filesystem::path& path, std::string_view bytes, const StopToken& stop) {
-  return read_gltf_scene(begun({path, bytes, 0, stop}));
+  const MeshSource source{path, bytes, 0, stop};
+  return blaming_the_name(source, [&] { return read_gltf_scene(begun(source)); });
 }
 
 MeshFile parse_mesh_into(const std::filesystem::path& path, std::string_view bytes, const StopToken& stop,
