@@ -180,8 +180,8 @@ std::size_t bytes(const Vector& v) {
 }  // namespace
 
 std::size_t useful_threads(int wanted, std::size_t triangles) {
-  const auto max_threads = static_cast<std::size_t>(thread_count(wanted));
-  return std::min(max_threads, 1 + triangles / triangles_per_thread);
+  const auto threads = static_cast<std::size_t>(thread_count(wanted));
+  return std::min(threads, 1 + triangles / triangles_per_thread);
 }
 
 std::vector<std::uint32_t> triangles_along_curve(const MeshView& mesh, const BvhOptions& options) {
