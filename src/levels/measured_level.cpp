@@ -12,8 +12,7 @@
 namespace meshbound {
 void check_options(const SimplifyOptions& options) {
   const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
-  if (!is_length(options.tolerance))
-    throw InvalidInput("the tolerance must be a length in model units, 0 or more");
+  if (!is_length(options.tolerance)) throw InvalidInput("the tolerance must be a length in model units, 0 or more");
   for (const double level : options.levels) {
     if (!is_length(level)) throw InvalidInput("a level must be a length in model units, 0 or more");
     if (level > options.tolerance)

@@ -37,8 +37,7 @@ constexpr std::size_t triangles_per_thread = 1024;
 int useful_threads(const OneSidedTask& task) {
   const int wanted = thread_count(task.options.threads);
   const std::size_t larger = std::max(task.a.bvh->triangle_count(), task.b.bvh->triangle_count());
-  return static_cast<int>(
-      std::min<std::size_t>(static_cast<std::size_t>(wanted), 1 + larger / triangles_per_thread));
+  return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(wanted), 1 + larger / triangles_per_thread));
 }
 
 }  // namespace
