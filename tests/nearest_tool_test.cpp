@@ -103,7 +103,9 @@ TEST_F(NearestTool, CountsWhatLacksItsBuffer) {
 
 TEST_F(NearestTool, WritesOverNoCandidate) {
   const std::string before = content_of(shapes_ + "/twice.off");
-  expect_refused(run({"--json", shapes_ + "/twice.off"}), "is the file that is read as a candidate");
+  expect_refused(run({"--json", shapes_ + "/twice.off"}), "has the name of a mesh");
+  fs::create_symlink(shapes_ + "/twice.off", folder_ / "link.json");
+  expect_refused(run({"--json", folder_ / "link.json"}), "is the file that is read as a candidate");
   EXPECT_EQ(content_of(shapes_ + "/twice.off"), before);
 }
 

@@ -82,7 +82,8 @@ TEST_F(PenetrationTool, DecidesByExitCode) {
   EXPECT_EQ(exceeds.exit_code, 1);
   EXPECT_EQ(exceeds.err.rfind("FAIL 0.", 0), 0U) << exceeds.err;
   EXPECT_EQ(line_count(exceeds.err), 1);
-  const ToolRun deep = run({unit_, peg_, "--tolerance", "0.4"});
+  const ToolRun deep =
+      run({sphere_, sphere_, "--transform-b", "1 0 0 1.5  0 1 0 0  0 0 1 0.2  0 0 0 1", "--tolerance", "0.1"});
   EXPECT_NE(deep.out.find("% or more of the diagonal\n"), std::string::npos) << deep.out;
   EXPECT_EQ(deep.out.find("inf"), std::string::npos) << deep.out;
   const ToolRun undecided = run({unit_, peg_, "--tolerance", "0.5"});

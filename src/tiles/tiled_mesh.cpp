@@ -212,8 +212,8 @@ void TiledMesh::cut_near_seams(const Pass& how, std::span<const std::uint32_t> w
 /// Tiles join vertices at one position, and any of them may be the one that is locked.
 void TiledMesh::spread_locks() {
   for (std::uint32_t v = 0; v < locked_.size(); ++v)
-    if (locked_[v]) locked_[position_[v]] = true;
-  for (std::uint32_t v = 0; v < locked_.size(); ++v) locked_[v] = locked_[position_[v]];
+    if (locked_[v]) locked_[joined(v)] = true;
+  for (std::uint32_t v = 0; v < locked_.size(); ++v) locked_[v] = locked_[joined(v)];
 }
 
 void TiledMesh::find_owners(const Pass& how) {
