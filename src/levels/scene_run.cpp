@@ -42,11 +42,12 @@ std::size_t target_faces(const TriangleMesh& original, const SimplifyOptions& op
 SceneRun::SceneRun(const TriangleMesh& original, const MeshAttributes& attributes, const SimplifyOptions& options)
     : original_(original), attributes_(attributes), options_(options) {
   const auto start = LevelRun::Clock::now();
-  GroupOptions group_options(original, options);
+  std::optional<GroupOptions> of_groups;
   for (SceneGroup& group : scene_groups(original, attributes)) {
     Group& added = groups_.emplace_back();
     added.group = std::move(group);
-    added.options = added.is_all() ? options : group_options.of(added.group);
+    if (!added.is_all() && !of_groups) of_groups.emplace(original, options);
+    added.options = of_groups ? of_groups->of(added.group) : options;
     if (!added.group.is_kept) all_faces_ += added.weight(original_);
   }
   share_threads();
