@@ -22,7 +22,7 @@ class CRunControl : public testing::Test {
   TriangleMesh large_ = meshbound::datasets::terrain(1, 129, 3);
   mb_mesh a_ = c_mesh(torus_), b_ = c_mesh(sphere_), terrain_ = c_mesh(large_);
 
-  /// Of simplifying the terrain, which takes long enough to be watched.
+  /// The status that simplifying the terrain ends with, which takes long enough to be watched.
   [[nodiscard]] mb_status status_of(const mb_simplify_options& options) const {
     Simplification result;
     return mb_simplify(&terrain_, &options, &result.handle);

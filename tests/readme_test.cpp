@@ -105,7 +105,7 @@ TEST(Documents, CommandsRunAsTheyAreWritten) {
   EXPECT_GE(count, 20u);
 }
 
-/// Of pages made by help2man, which runs such lines into one paragraph.
+/// help2man, which makes the manual pages, runs indented lines into one paragraph.
 TEST(ManualPages, BreakLinesAfterEachExampleAndKind) {
   const fs::path folder = fs::path(BUILD_FOLDER) / "shell";
   if (!fs::exists(folder / "lod_chain.1")) GTEST_SKIP() << "the build has no manual pages, since help2man is missing";

@@ -470,7 +470,7 @@ TEST(TextureCertificate, OfTinyCoordinatesCostsWhatOthersCost) {
   const Case usual = at_size(0), tiny = at_size(-400);
   const auto bytes = usual.certificate().certificate.bytes;
   EXPECT_EQ(usual.rejection(bytes), "");
-  // The same proof, made out to the tiny meshes.
+  // The proof of the usual meshes, with the identity of the tiny ones in its header.
   const auto surfaces =
       verify::texture_surfaces({&tiny.a.mesh, &tiny.a.attributes}, {&tiny.b.mesh, &tiny.b.attributes});
   const std::array identities = {verify::identity_of(tiny.a.mesh), verify::identity_of(tiny.b.mesh)};

@@ -24,7 +24,8 @@ class TextCursor {
   /// Goes to the next word of this line; false when the line, or a comment, or the file ends first.
   bool find_word_in_line() { return find_part_of_name() && *at_ != '#'; }
 
-  /// The same where no comment can follow: a word of a name may start with '#'.
+  /// Goes to the next word of this line, which may start with '#' as words of names do; false when the line or the file
+  /// ends first.
   bool find_part_of_name() {
     skip_blanks();
     return at_ != end_ && *at_ != '\n' && *at_ != '\r';

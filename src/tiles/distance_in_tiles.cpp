@@ -106,7 +106,7 @@ class TiledSearch {
     return StopToken{.cancel = options_.cancel}.until(start_, options_.budget.seconds).stopped();
   }
 
-  /// Of a tile for which no time is left nothing is known.
+  /// The distance of a tile for which no time is left: between 0 and infinity.
   static OneSidedDistance unknown(std::size_t triangles) {
     OneSidedDistance result;
     result.outcome = Outcome::BudgetExhausted;

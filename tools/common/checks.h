@@ -6,10 +6,10 @@
 namespace meshbound::tools {
 
 [[nodiscard]] std::string number_of_seconds(const std::string& text);
-/// Of an angle, from 0 to 180.
+/// A number of degrees is that of an angle, from 0 to 180.
 [[nodiscard]] std::string number_of_degrees(const std::string& text);
 [[nodiscard]] std::string number_of_faces(const std::string& text);
-/// Of a side of a texture.
+/// A number of texels is that of a side of a texture, above 0.
 [[nodiscard]] std::string number_of_texels(const std::string& text);
 
 }  // namespace meshbound::tools

@@ -18,8 +18,9 @@ namespace {
 constexpr int max_halvings = 16;
 constexpr std::size_t max_sub_triangles = 4096;
 
-/// The same where halves look at no other faces than the whole, as all near it are candidates. At 1e-6% of the diagonal
-/// of a cube with rounded edges and holes (fandisk) 51 triangles that hardly any cuts could cover took 6.8 of 7.9 s.
+/// Sub-triangles at most where all faces near a triangle are candidates, so that its halves have no others. At 1e-6% of
+/// the diagonal of a cube with rounded edges and holes (fandisk) 51 triangles that hardly any cuts could cover took 6.8
+/// of 7.9 s.
 constexpr std::size_t max_sub_triangles_among_same = 256;
 
 Vec3 middle_of(const SubTriangleCover::Corners& c) { return (1.0 / 3) * (c[0] + c[1] + c[2]); }
