@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <vector>
@@ -246,6 +247,26 @@ TEST(Documents, NameOnlyFilesThatExist) {
       EXPECT_TRUE(fs::exists(document.parent_path() / (*it)[1].str())) << document << ": " << (*it)[1];
   }
   EXPECT_GT(found, 40U);
+}
+
+/// Each field of a schema, at any depth, says what it holds or refers to a part that does.
+void expect_descriptions(const nlohmann::json& part, const std::string& where) {
+  if (!part.is_structured()) return;
+  if (part.is_object() && part.contains("properties")) {
+    for (const auto& [name, field] : part["properties"].items())
+      EXPECT_TRUE(field.contains("description") || field.contains("$ref")) << where << "/" << name;
+  }
+  for (const auto& [name, inner] : part.items()) expect_descriptions(inner, where + "/" + name);
+}
+
+TEST(Schemas, DescribeEachField) {
+  std::size_t schemas = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root / "tools/schema")) {
+    if (entry.path().extension() != ".json") continue;
+    ++schemas;
+    expect_descriptions(nlohmann::json::parse(content_of(entry.path())), entry.path().filename().string());
+  }
+  EXPECT_GE(schemas, 9U);
 }
 
 /// "`Lemma3_...`" stands for every test whose name begins so.
