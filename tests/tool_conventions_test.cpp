@@ -458,6 +458,17 @@ TEST(Progress, TellsTheTimeThatIsLeftOnceItCanBeKnown) {
   EXPECT_EQ(tools::progress_text(40, 60), "40%, 60 s so far, 90 s left");
 }
 
+TEST(Progress, FitsTheTerminal) {
+  EXPECT_EQ(tools::progress_line("proving", 50, 1, 120),
+            "proving [" + std::string(20, '#') + std::string(20, ' ') + "] 50%");
+  EXPECT_EQ(tools::progress_line("proving", 50, 9, 54), "proving [#####     ] 50%, 9 s so far, 9 s left");
+  EXPECT_EQ(tools::progress_line("proving", 50, 9, 40), "proving 50%, 9 s so far, 9 s left");
+  EXPECT_EQ(tools::progress_line("proving", 50, 9, 12), "proving 50%");
+  for (int columns = 0; columns < 130; ++columns)
+    EXPECT_LE(tools::progress_line("measuring deviations", 100, 12345, columns).size(),
+              static_cast<std::size_t>(std::max(columns - 1, 0)));
+}
+
 TEST(Progress, IsALineEveryTenSecondsWherePlainTextIsWanted) {
   tools::set_progress_style(tools::ProgressStyle::Plain);
   testing::internal::CaptureStderr();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double seconds_between_lines = 10;
 constexpr double seconds_until_estimate = 2;
+constexpr int usual_columns = 80;
 
 ProgressStyle chosen_style = ProgressStyle::Automatic;
 
@@ -21,6 +23,12 @@ ProgressStyle style_of(bool quiet) {
   if (quiet) return ProgressStyle::Off;
   const bool would_be_seen = chosen_style != ProgressStyle::Automatic || isatty(STDERR_FILENO) != 0;
   return would_be_seen ? chosen_style : ProgressStyle::Off;
+}
+
+/// Of the terminal that shows stderr.
+int columns_of_terminal() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_columns;
 }
 
 std::string whole_seconds(double seconds) { return std::to_string(static_cast<long long>(seconds)) + " s"; }
@@ -34,6 +42,20 @@ std::string progress_text(int percent, double seconds) {
   if (seconds < seconds_until_estimate || percent < 1) return text;
   return text + ", " + whole_seconds(seconds) + " so far, " + whole_seconds(seconds / percent * (100 - percent)) +
          " left";
+}
+
+std::string progress_line(const std::string& label, int percent, double seconds, int columns) {
+  constexpr int longest_bar = 40;
+  constexpr int room_for_text = sizeof " [] 100%, 9999 s so far, 9999 s left";  // the bar keeps its length meanwhile
+  const int bar = std::clamp(columns - static_cast<int>(label.size()) - room_for_text, 0, longest_bar);
+  const int filled = percent * bar / 100;
+  std::string line = label + " ";
+  if (bar > 0)
+    line += "[" + std::string(static_cast<std::size_t>(filled), '#') +
+            std::string(static_cast<std::size_t>(bar - filled), ' ') + "] ";
+  line += (percent < 10 ? " " : "") + progress_text(percent, seconds);
+  line.resize(std::min(line.size(), static_cast<std::size_t>(std::max(columns - 1, 0))));
+  return line;
 }
 
 ProgressBar::ProgressBar(std::string label, bool quiet, std::function<double()> clock)
@@ -61,12 +83,7 @@ void ProgressBar::show(double fraction) {
 }
 
 void ProgressBar::draw_bar() const {
-  constexpr int width = 40;
-  const int filled = shown_percent_ * width / 100;
-  std::fprintf(stderr, "\r%s [%s%s] %s%s\033[K", label_.c_str(),
-               std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - filled), ' ').c_str(), shown_percent_ < 10 ? " " : "",
-               progress_text(shown_percent_, clock_()).c_str());
+  std::fprintf(stderr, "\r%s\033[K", progress_line(label_, shown_percent_, clock_(), columns_of_terminal()).c_str());
   std::fflush(stderr);
 }
 

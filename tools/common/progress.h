@@ -17,6 +17,10 @@ void set_progress_style(ProgressStyle style);
 /// "42%, 12 s so far, 17 s left"; the time left is given after two seconds and from 1% on.
 [[nodiscard]] std::string progress_text(int percent, double seconds);
 
+/// "simplifying [####    ] 42%, 12 s so far, 17 s left": what fits a terminal of that many columns. The bar is shorter
+/// where it is narrow and left out where nothing is left for it; no line is longer than `columns` - 1 bytes.
+[[nodiscard]] std::string progress_line(const std::string& label, int percent, double seconds, int columns);
+
 /// Shows the progress of a long step on stderr; nothing when `quiet`. A bar is erased by the destructor. It never goes
 /// back: fractions smaller than the largest one so far change nothing.
 class ProgressBar {
