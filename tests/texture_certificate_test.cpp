@@ -256,6 +256,19 @@ TEST(TextureCertificate, HoldsAroundAVertexOfManyTriangles) {
   EXPECT_EQ(c.check(c.certificate().certificate.bytes).texture->original_to_simplified.uncovered_share, 0);
 }
 
+/// Squares of such distances overflow or underflow.
+TEST(TextureCertificate, HoldsForTheSmallestAndLargestCoordinates) {
+  for (const double scale : {1e-300, 1e-160, 1e160, 1e290}) {
+    const auto wavy = [scale](double z) {
+      return [scale, z](double s, double t) -> Eigen::Vector3d {
+        return {scale * s, scale * t, scale * z * std::sin(9 * s + 5 * t)};
+      };
+    };
+    const Case c{grid(5, wavy(0.01)), grid(4, wavy(0)), 0.1 * scale, 0.1 * scale};
+    EXPECT_EQ(c.rejection(c.certificate().certificate.bytes), "") << scale;
+  }
+}
+
 /// What it takes to check a leaf grows with the square of the triangles that it names.
 TEST(TextureCertificate, NamesFewTrianglesInALeaf) {
   constexpr std::uint32_t n = 24;

@@ -104,6 +104,12 @@ Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle) {
   return box;
 }
 
+double distance_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  const Eigen::Vector3d gap = (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0);
+  const double largest = gap.maxCoeff();
+  return largest > 0 ? largest * (gap / largest).norm() : 0;
+}
+
 Charts::Charts(const TexturedMesh& mesh) : mesh_(mesh), units_(units_of(mesh)) {
   triangles_.reserve(mesh.triangles.size());
   for (const TexturedTriangle& t : mesh.triangles) {

@@ -16,6 +16,9 @@ namespace meshbound {
 /// The box of a triangle in space.
 [[nodiscard]] Eigen::AlignedBox3d place_of(const TexturedTriangle& triangle);
 
+/// The distance between boxes, 0 where they meet, up to rounding; also where its square overflows.
+[[nodiscard]] double distance_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);
+
 /// A triangle whose corners have the texture coordinates of the corners of A, which has an area in the texture.
 struct ChartCopy {
   const ChartTriangle* triangle = nullptr;

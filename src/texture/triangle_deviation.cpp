@@ -357,7 +357,7 @@ class PieceSearch {
   /// Whether a candidate is farther than `distance` from all of a piece. Rounding may decide.
   [[nodiscard]] auto is_farther_than(double distance, const Piece& piece) const {
     return [this, distance, place = place_of_piece(piece.polygon)](std::uint32_t c) {
-      return place.exteriorDistance(place_of(*overlay_.candidate(c).source)) > distance;
+      return distance_between(place, place_of(*overlay_.candidate(c).source)) > distance;
     };
   }
 

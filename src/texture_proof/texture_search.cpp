@@ -185,7 +185,7 @@ void TextureSearch::add(const std::vector<const ChartTriangle*>& triangles) {
     if (b->chart != Chart::Area) continue;
     overlay_.add(*b);
     if (overlay_.candidates() > is_far_.size())
-      is_far_.push_back(place.exteriorDistance(place_of(*b->source)) > reach() ? 1 : 0);
+      is_far_.push_back(distance_between(place, place_of(*b->source)) > reach() ? 1 : 0);
   }
 }
 
