@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <optional>
+#include <random>
 #include <set>
 #include <string>
 
@@ -17,6 +20,7 @@
 #include "numeric/no_index.h"
 #include "reference/hard_meshes.h"
 #include "reference/small_meshes.h"
+#include "simplify/mesh/crowded_edge.h"
 
 namespace manifold_soup_test {
 
@@ -256,6 +260,87 @@ TEST(ManifoldSoup, TakesTwoSolidsThatShareAnEdgeApart) {
   const ManifoldSoup result = checked(joined(tetrahedron(0, 1, 2, 3), tetrahedron(0, 1, 4, 5)));
   EXPECT_EQ(borders(result), 0U);
   EXPECT_EQ(result.vertex_of.size(), 8U);
+}
+
+/// A box of unit cubes: the faces between full and empty ones.
+TriangleMesh voxels(const std::function<bool(int, int, int)>& is_full, int size) {
+  TriangleMesh mesh;
+  const auto add = [&](const std::array<Eigen::Vector3d, 4>& corners) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  };
+  const auto full = [&](const Eigen::Vector3i& at) {
+    return at.minCoeff() >= 0 && at.maxCoeff() < size && is_full(at.x(), at.y(), at.z());
+  };
+  for (int cell = 0; cell < size * size * size; ++cell) {
+    const Eigen::Vector3i at(cell % size, cell / size % size, cell / size / size);
+    if (!full(at)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3i along = Eigen::Vector3i::Unit(k), u = Eigen::Vector3i::Unit((k + 1) % 3),
+                            v = Eigen::Vector3i::Unit((k + 2) % 3);
+      const auto p = [&](const Eigen::Vector3i& corner) { return Eigen::Vector3d((at + corner).cast<double>()); };
+      if (!full(at + along)) add({p(along), p(along + u), p(along + u + v), p(along + v)});
+      if (!full(at - along)) add({p(v), p(u + v), p(u), p(Eigen::Vector3i::Zero())});
+    }
+  }
+  return mesh;
+}
+
+TEST(ManifoldSoup, KeepsSolidsClosedThatTouchAlongEdges) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const auto cells = static_cast<std::uint32_t>(random());
+    const TriangleMesh soup =
+        voxels([&](int x, int y, int z) { return (cells >> (9 * x + 3 * y + z) % 32 & 1) != 0; }, 3);
+    if (soup.triangles.empty()) continue;
+    EXPECT_EQ(borders(checked(soup)), 0U) << trial;
+  }
+}
+
+TEST(ManifoldSoup, TakesCubesApartThatTouchAlongAnEdge) {
+  const ManifoldSoup result = checked(voxels([](int x, int y, int z) { return x == y && z == 0; }, 2));
+  EXPECT_EQ(borders(result), 0U);
+  EXPECT_EQ(result.vertex_of.size(), 16U);
+}
+
+/// Two triangles that fold along an edge, and one without area that hangs on it.
+TEST(ManifoldSoup, JoinsTheFacesOfAnEdgeThatASliverHangsOn) {
+  TriangleMesh soup;
+  soup.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 1}, {0.5, 1e-9, 0}};
+  soup.triangles = {{0, 1, 2}, {0, 4, 1}, {1, 0, 3}};
+  const ManifoldSoup result = checked(soup);
+  EXPECT_EQ(twin(result, 0), 6U);
+  EXPECT_EQ(borders(result), 7U);
+}
+
+TEST(CrowdedEdge, OrdersFacesByTheirAnglesAtAnySize) {
+  for (const double size : {1e-300, 1e-9, 1.0, 1e9, 1e300}) {
+    const auto at = [&](double x, double y) { return Eigen::Vector3d(size * Eigen::Vector3d(x, y, 0.3)); };
+    const meshbound::AngleAroundEdge angle(size * Eigen::Vector3d(0, 0, -0.5), size * Eigen::Vector3d(0, 0, 0.5),
+                                           at(1, 0.1));
+    double before = -1;
+    for (const auto& corner : {at(1, 0.1), at(1, 1), at(-0.2, 1), at(-1, 0.3), at(-1, -1), at(0.5, -1), at(1, -0.1)}) {
+      const std::optional<double> found = angle.of(corner);
+      ASSERT_TRUE(found);
+      EXPECT_GT(*found, before) << size;
+      before = *found;
+    }
+    EXPECT_LT(before, 4);
+    EXPECT_FALSE(angle.of(at(1e-8, 1e-8)));
+  }
+}
+
+TEST(CrowdedEdge, PairsFacesAroundMaterialOrAroundWhatIsEmpty) {
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  const std::vector<std::uint8_t> four = {1, 0, 1, 0};  // solids between 1 and 2, and between 3 and 0
+  EXPECT_EQ(meshbound::pairs_around_edge(four, true), (Pairs{{1, 2}, {3, 0}}));
+  EXPECT_EQ(meshbound::pairs_around_edge(four, false), (Pairs{{0, 1}, {2, 3}}));
+  const std::vector<std::uint8_t> nested = {0, 0, 1, 1};
+  EXPECT_EQ(meshbound::pairs_around_edge(nested, true), (Pairs{{1, 2}, {0, 3}}));
+  EXPECT_EQ(meshbound::pairs_around_edge(nested, false), (Pairs{{3, 0}, {2, 1}}));
+  EXPECT_TRUE(meshbound::pairs_around_edge(std::vector<std::uint8_t>{1, 1, 0, 1}, true).empty());
 }
 
 TEST(ManifoldSoup, DuplicatesAVertexWhereTwoConesMeet) {

@@ -13,6 +13,7 @@
 #include "meshbound/error.h"
 #include "numeric/buckets.h"
 #include "numeric/no_index.h"
+#include "simplify/mesh/crowded_edge.h"
 
 namespace meshbound {
 namespace {
@@ -60,6 +61,11 @@ class ManifoldBuilder {
   struct Side {
     std::uint32_t high, corner;
   };
+  /// An edge of more than two faces: `crowds_[begin ... end)`. Those before `flat` come in the order of their angles
+  /// around it, the others have none.
+  struct Crowd {
+    std::uint32_t begin, flat, end;
+  };
 
   [[nodiscard]] Triangle welded(std::uint32_t triangle) const {
     const Triangle corners = soup_.triangle(triangle);
@@ -86,8 +92,13 @@ class ManifoldBuilder {
   void join_neighbours();
   [[nodiscard]] std::uint32_t corner_across(std::uint32_t corner, std::uint32_t face) const;
   void join_edges();
+  [[nodiscard]] Crowd add_crowd(std::span<const Side> faces);
+  bool join_in_pairs(const Crowd& crowd, bool around_material);
+  void cut_all(const Crowd& crowd);
+  [[nodiscard]] bool meets_itself(const Crowd& crowd) const;
   void orient();
   void turn_over(const std::vector<std::uint8_t>& turned);
+  void number_fans();
   void split_vertices();
   void close_slits();
 
@@ -134,6 +145,9 @@ class ManifoldBuilder {
   bool has_shared_ = false;              ///< any is
   bool is_oriented_ = true;              ///< twins run in opposite directions, everywhere
   std::vector<std::uint32_t> first_;     ///< by vertex of the soup: the first one with its coordinates
+  std::vector<Crowd> crowded_;           ///< edges of more than two faces that are joined in pairs
+  std::vector<std::uint32_t> crowds_;    ///< the edges of their faces
+  std::vector<Triangle> fan_;            ///< by face and corner: the vertex for its fan or ring
   ManifoldSoup result_;                  ///< until `split_vertices`, corners are vertices of the soup
 };
 
@@ -231,7 +245,62 @@ void ManifoldBuilder::join_neighbours() {
   }
 }
 
-/// Twins across edges of exactly two faces.
+/// The faces of a crowded edge in the order of their angles around it.
+ManifoldBuilder::Crowd ManifoldBuilder::add_crowd(std::span<const Side> faces) {
+  const auto opposite = [&](const Side& side) { return soup_.vertex(at(result_.faces, previous(side.corner))); };
+  const std::uint32_t from = at(result_.faces, faces[0].corner), to = at(result_.faces, next(faces[0].corner));
+  const AngleAroundEdge angle(soup_.vertex(std::min(from, to)), soup_.vertex(std::max(from, to)), opposite(faces[0]));
+  std::vector<std::pair<double, std::uint32_t>> by_angle;
+  Crowd crowd{static_cast<std::uint32_t>(crowds_.size()), 0, 0};
+  std::vector<std::uint32_t> flat;
+  for (const Side& side : faces) {
+    if (const auto found = angle.of(opposite(side)))
+      by_angle.emplace_back(*found, side.corner);
+    else
+      flat.push_back(side.corner);
+  }
+  std::sort(by_angle.begin(), by_angle.end());
+  for (const auto& [at_angle, corner] : by_angle) crowds_.push_back(corner);
+  crowd.flat = static_cast<std::uint32_t>(crowds_.size());
+  crowds_.insert(crowds_.end(), flat.begin(), flat.end());
+  crowd.end = static_cast<std::uint32_t>(crowds_.size());
+  return crowd;
+}
+
+/// False, and none are joined, where they cannot be paired.
+bool ManifoldBuilder::join_in_pairs(const Crowd& crowd, bool around_material) {
+  const std::span<const std::uint32_t> corners = std::span(crowds_).subspan(crowd.begin, crowd.flat - crowd.begin);
+  if (corners.size() == 2) {
+    join_unoriented(corners[0], corners[1]);
+    return true;
+  }
+  std::vector<std::uint8_t> upward;
+  for (const std::uint32_t corner : corners) upward.push_back(runs_upward(corner) ? 1 : 0);
+  const auto pairs = pairs_around_edge(upward, around_material);
+  for (const auto& [i, j] : pairs) join(corners[i], corners[j]);
+  return !pairs.empty();
+}
+
+void ManifoldBuilder::cut_all(const Crowd& crowd) {
+  for (std::uint32_t i = crowd.begin; i < crowd.end; ++i)
+    if (at(result_.twin, crowds_[i]) != no_index) cut(crowds_[i]);
+}
+
+/// Whether two edges of it that are no twins have the same ends, by `fan_`.
+bool ManifoldBuilder::meets_itself(const Crowd& crowd) const {
+  for (std::uint32_t i = crowd.begin; i < crowd.end; ++i) {
+    const std::uint32_t a = crowds_[i];
+    for (std::uint32_t j = i + 1; j < crowd.end; ++j) {
+      const std::uint32_t b = crowds_[j];
+      if (at(result_.twin, a) != b &&
+          std::minmax(at(fan_, a), at(fan_, next(a))) == std::minmax(at(fan_, b), at(fan_, next(b))))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Twins across edges of exactly two faces, and of more where these can be paired.
 void ManifoldBuilder::join_edges() {
   const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
   result_.twin.assign(result_.faces.size(), {no_index, no_index, no_index});
@@ -254,8 +323,13 @@ void ManifoldBuilder::join_edges() {
     });
     for (std::size_t i = 0, end = 0; i < here.size(); i = end) {
       while (end < here.size() && edge(here[end]) == edge(here[i])) ++end;
-      if (end - i != 2) continue;
-      join_unoriented(here[i].corner, here[i + 1].corner);
+      if (end - i == 2) join_unoriented(here[i].corner, here[i + 1].corner);
+      if (end - i <= 2) continue;
+      const Crowd crowd = add_crowd(here.subspan(i, end - i));
+      if (join_in_pairs(crowd, true))
+        crowded_.push_back(crowd);
+      else
+        crowds_.resize(crowd.begin);
     }
   }
 }
@@ -302,15 +376,18 @@ void ManifoldBuilder::turn_over(const std::vector<std::uint8_t>& turned) {
     std::swap(result_.twin[f][0], result_.twin[f][2]);
     result_.split = true;
   }
+  for (std::uint32_t& corner : crowds_)
+    if (turned[corner / 3] != 0) corner += 2 - 2 * (corner % 3);
 }
 
 /// A vertex for each fan or ring of faces.
-void ManifoldBuilder::split_vertices() {
+void ManifoldBuilder::number_fans() {
   const auto corners = static_cast<std::uint32_t>(3 * result_.faces.size());
-  std::vector<Triangle> vertex(result_.faces.size(), {no_index, no_index, no_index});
+  fan_.assign(result_.faces.size(), {no_index, no_index, no_index});
+  result_.vertex_of.clear();
   std::vector<bool> has_vertex(first_.size(), false);
   for (std::uint32_t first = 0; first < corners; ++first) {
-    if (at(vertex, first) != no_index) continue;
+    if (at(fan_, first) != no_index) continue;
     const auto number = static_cast<std::uint32_t>(result_.vertex_of.size());
     const std::uint32_t of = at(result_.faces, first);
     result_.vertex_of.push_back(of);
@@ -318,13 +395,30 @@ void ManifoldBuilder::split_vertices() {
     has_vertex[of] = true;
     std::uint32_t c = first;
     do {
-      at(vertex, c) = number;
+      at(fan_, c) = number;
       c = across_leaving(c);
     } while (c != no_index && c != first);
     if (c == first) continue;
-    for (c = across_entering(first); c != no_index; c = across_entering(c)) at(vertex, c) = number;
+    for (c = across_entering(first); c != no_index; c = across_entering(c)) at(fan_, c) = number;
   }
-  result_.faces = std::move(vertex);
+}
+
+/// Where the faces of a crowded edge hang together around both of its ends, its pairs would have one edge between them.
+/// They are joined the other way round then, which takes them apart at one end at least in most cases; else they are
+/// cut, which only parts fans, so that one round of cuts suffices.
+void ManifoldBuilder::split_vertices() {
+  number_fans();
+  for (const bool may_join : {true, false}) {
+    bool has_changed = false;
+    for (const Crowd& crowd : crowded_) {
+      if (!meets_itself(crowd)) continue;
+      has_changed = true;
+      cut_all(crowd);
+      if (may_join && is_oriented_) join_in_pairs(crowd, false);
+    }
+    if (has_changed) number_fans();
+  }
+  result_.faces = std::move(fan_);
 }
 
 /// Joins the two ends of a fan where they are one edge that `join_edges` left cut: two of the faces at an edge of more

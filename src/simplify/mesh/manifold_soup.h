@@ -34,11 +34,14 @@ struct ManifoldSoup {
 };
 
 /// Joins the triangles of a soup where they form a surface. Vertices with equal coordinates are one. An edge of exactly
-/// two triangles joins them, whatever their directions; an edge of more is cut, but for triangles that hang together
-/// around both of its ends. Triangles are then turned over until neighbours agree: each component keeps the orientation
-/// of most of its triangles, or that of the first one where there are as many of both, and is cut where none is
-/// possible (Moebius). Last, a vertex is duplicated for each further fan or ring of faces around it. Vertices are
-/// numbered as the corners of the faces come, and a face that is turned over keeps its first corner.
+/// two triangles joins them, whatever their directions. So does an edge of more, where all but two are so flat that
+/// they have no angle around it; where as many of those with an angle run upward as downward, it joins them in pairs
+/// that do not cross (see `pairs_around_edge`), so that closed solids which touch along edges stay closed. Else it is
+/// cut, but for triangles that hang together around both of its ends. Triangles are then turned over until neighbours
+/// agree: each component keeps the orientation of most of its triangles, or that of the first one where there are as
+/// many of both, and is cut where none is possible (Moebius). Last, a vertex is duplicated for each further fan or ring
+/// of faces around it. Vertices are numbered as the corners of the faces come, and a face that is turned over keeps its
+/// first corner.
 ///
 /// `look` is empty or has a number for each triangle: only repetitions with equal numbers that face the same way are
 /// dropped. Those that differ, as a decal does from what it lies on, or the back of a sheet from its front, are kept on
