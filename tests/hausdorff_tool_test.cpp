@@ -346,6 +346,17 @@ TEST_F(HausdorffTool, ShowsTheWitnessOfAPointLikeDirection) {
   expect_nearest(distance["b_to_a"], mesh);
 }
 
+/// The first vertex of such a mesh is not the nearest one.
+TEST(PointLike, HasItsNearestVertexAsWitness) {
+  const TriangleMesh near{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const TriangleMesh far{{{0x1p42, 0, 0}, {0x1p42 + 9, 0, 0}, {0x1p42, 1, 0}}, {{0, 1, 2}}};
+  const HausdorffDistance found = hausdorff_distance(far, near);
+  EXPECT_EQ(found.a_to_b.witness.from.position, far.vertices[1]);
+  EXPECT_EQ(found.a_to_b.witness.nearest.position, near.vertices[1]);
+  EXPECT_LE(found.a_to_b.witness.distance, found.bounds.upper);
+  EXPECT_EQ(found.a_to_b.witness.distance, 0x1p42 + 8);
+}
+
 TEST_F(HausdorffTool, PrintsTheFewestDigitsThatReadBack) {
   const std::string text = run({sphere_, soup_}).out;
   const std::regex line("(distance +|[AB] to [AB] |witness )[\\[(].*"), number("-?\\d[0-9.e+-]*");

@@ -58,10 +58,11 @@ struct Certificate {
 /// triangles as they are in memory, so a certificate for files needs the meshes as `read_mesh` gives them back.
 /// Expected O(n log n) time; O(n) memory. Safe to call from several threads.
 ///
-/// Throws `InvalidInput` for meshes that `validate` refuses, a tolerance that is not finite or negative, and lines that
-/// are no edges of triangles or of which one of the meshes has none; `Error`,
-/// with one line that names the triangle, when no proof was found: the distance exceeds the tolerance or is closer to
-/// it than double arithmetic can tell. Nothing when it was cancelled or ran out of time.
+/// Throws `InvalidInput` for meshes that `validate` refuses, a tolerance that is not finite or negative, lines that are
+/// no edges of triangles or of which one of the meshes has none, and meshes whose sizes, or whose distance and a size,
+/// differ by more than 2^40 times. Throws `Error`, with one line that names the triangle, when no proof was found: the
+/// distance exceeds the tolerance or is closer to it than double arithmetic can tell. Nothing when it was cancelled or
+/// ran out of time.
 [[nodiscard]] std::optional<Certificate> build_certificate(const MeshView& original, const MeshView& simplified,
                                                            double tolerance, const CertificateOptions& options = {});
 

@@ -146,8 +146,9 @@ struct ToleranceCheck {
 [[nodiscard]] HausdorffDistance hausdorff_distance(const MeshView& a, const MeshView& b,
                                                    const DistanceOptions& options = {});
 
-/// Whether two meshes have the same triangles, bit for bit, however they number, order, turn and repeat them; -0 and 0
-/// are one coordinate. Throws as `Bvh`. O(n), and hardly more than a look where the meshes differ in size.
+/// Whether two meshes have the same triangles, bit for bit, however they number, order and turn them; -0 and 0 are one
+/// coordinate. Not where they have different numbers of triangles, even if only by repetition. Throws as `Bvh`. O(n),
+/// and hardly more than a look where the meshes differ in size.
 [[nodiscard]] bool same_surface(const MeshView& a, const MeshView& b);
 
 /// Decides H(A, B) <= tolerance (model units): stops at the first point known to be further, refines nothing below it.

@@ -30,7 +30,7 @@ struct NormalDeviation {
 };
 
 /// The largest angle between a face of A and the face of B that stands for it: the one nearest to its centroid. Where
-/// several are that near, up to 1e-9 of the diagonal of A's bounding box or the rounding of its coordinates, as around
+/// several are that near, up to 1e-9 of the diagonal of A's bounding box or 2^-40 of its largest coordinate, as around
 /// an edge that the nearest point lies on, the one that turns least counts. Faces without area are left out on both
 /// sides.
 ///

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bvh/bvh_data.h"
 #include "distance/shortcuts/identical.h"
@@ -24,6 +25,20 @@ struct WorldPoint {
   Eigen::Vector3d at;
   double reach = 0;
 };
+
+/// The vertex of B that is nearest to a point. O(n).
+std::uint32_t nearest_vertex(const PlacedModel& b, const Eigen::Vector3d& to) {
+  const auto& vertices = b.bvh->data().vertices;
+  std::uint32_t nearest = 0;
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    const double d = safe_length(WorldPoint(b, vertices[v]).at - to);
+    if (!(d < distance)) continue;
+    distance = d;
+    nearest = v;
+  }
+  return nearest;
+}
 
 }  // namespace
 
@@ -48,10 +63,12 @@ OneSidedDistance distance_to_point_like(const PlacedModel& placed_a, const Place
   const double size_of_b = b.diagonal * (1 + 0x1p-28);
   const double slack = 64 * unit_roundoff * reach + size_of_b + 0x1p-1070;  // 9 products of a pose may underflow
   result.bounds = {std::max(0.0, next_down(distance - slack)), next_up(distance + slack)};
-  result.witness.from = {WorldPoint(placed_a, a.vertices[farthest]).at,
-                         a.triangle_of_slot[slot_using_vertex(a, farthest)]};
-  result.witness.nearest = {centre, b.triangle_of_slot[0]};
-  result.witness.distance = distance;
+  const Eigen::Vector3d from = WorldPoint(placed_a, a.vertices[farthest]).at;
+  const std::uint32_t nearest = nearest_vertex(placed_b, from);
+  const Eigen::Vector3d to = WorldPoint(placed_b, b.vertices[nearest]).at;
+  result.witness.from = {from, a.triangle_of_slot[slot_using_vertex(a, farthest)]};
+  result.witness.nearest = {to, b.triangle_of_slot[slot_using_vertex(b, nearest)]};
+  result.witness.distance = safe_length(from - to);
   result.stats.triangles = a.triangle_count();
   result.stats.culled_on_a_percent = 100;
   return result;
