@@ -271,12 +271,12 @@ TEST(Certificate, OfAStackOverAFineSheetAsksForLittleWorkAByte) {
   ASSERT_TRUE(certificate);
   const verify::Proof::Direction proof =
       verify::check_certificate(stack, sheet, certificate->bytes).original_to_simplified;
-  EXPECT_LT(proof.parity_work, 512 * proof.bytes);
+  EXPECT_LT(proof.work, 128 * proof.bytes);
   const auto single = build_certificate(reference::unit_square(1), sheet, 0.01);
   ASSERT_TRUE(single);
   const verify::Proof::Direction whole =
       verify::check_certificate(reference::unit_square(1), sheet, single->bytes).original_to_simplified;
-  EXPECT_GT(whole.parity_work, 512 * whole.bytes) << "what is rare may still be proven by few bytes";
+  EXPECT_GT(whole.work, 512 * whole.bytes) << "what is rare may still be proven by few bytes";
 }
 
 /// A tolerance that is the distance itself leaves no room for rounding; the message names one that does.

@@ -101,6 +101,9 @@ TEST_F(CertificateTools, ProveTheTextureWithinItsTolerance) {
   const Json json = checked_document(verify("wave.obj", "small.obj", "c", {"--json"}).out);
   EXPECT_EQ(json["texture"]["tolerance"], 0.01);
   EXPECT_GE(json["texture"]["original_to_simplified"]["pieces"], 2 * 24 * 24);
+  EXPECT_EQ(verify("wave.obj", "small.obj", "c", {"--texture-tolerance", "0.01"}).exit_code, 0);
+  expect_one_line(verify("wave.obj", "small.obj", "c", {"--texture-tolerance", "0.0099"}), 1,
+                  "it proves a tolerance of 0.01 about the texture, more than the wanted 0.0099");
 
   const auto distance = [&](const std::string& texture_tolerance) {
     return run_tool(HAUSDORFF_DISTANCE, {in("wave.obj"), in("small.obj"), "--tolerance", "0.02", "--texture",
@@ -142,6 +145,11 @@ TEST_F(CertificateTools, VerifierRejectsOtherMeshesDamageAndLargerTolerances) {
   ASSERT_EQ(simplify("torus.off", "small.ply", {"--tolerance", "1%", "--certificate", in("c")}).exit_code, 0);
   EXPECT_EQ(verify("torus.off", "small.ply", "c", {"--tolerance", "1%"}).exit_code, 0);
   expect_one_line(verify("torus.off", "small.ply", "c", {"--tolerance", "0.99%"}), 1, "more than the wanted");
+  expect_one_line(verify("torus.off", "small.ply", "c", {"--line-tolerance", "10%"}), 1,
+                  "it proves nothing about feature lines");
+  expect_one_line(verify("torus.off", "small.ply", "c", {"--texture-tolerance", "10%"}), 1,
+                  "it proves nothing about the texture");
+  expect_one_line(verify("torus.off", "small.ply", "c", {"--line-tolerance", "thin"}), 2, "--line-tolerance");
   expect_one_line(verify("coarse.off", "small.ply", "c"), 1, "the original mesh is not the one");
   expect_one_line(verify("torus.off", "coarse.off", "c"), 1, "the simplified mesh is not the one");
   expect_one_line(verify("torus.off", "small.ply", "small.ply"), 1, "not a meshbound certificate");

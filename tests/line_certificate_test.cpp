@@ -121,6 +121,29 @@ TEST(LineCertificate, SaysWhetherABorderIsMissing) {
   EXPECT_FALSE(verify::check_certificate(c.a, c.b, made.bytes).lines->has_all_borders);
 }
 
+/// A triangle with two corners at one position has one edge twice, and no border.
+TEST(LineCertificate, TakesSegmentsForNoTriangles) {
+  const TriangleMesh mesh = rectangle(2, 1);
+  TriangleMesh with_segments = mesh;
+  const std::vector<Edge> lines = borders(mesh);
+  const auto away = static_cast<std::uint32_t>(with_segments.vertices.size());
+  with_segments.vertices.emplace_back(1.5, 0.0, 0.0);
+  with_segments.triangles.push_back({lines[0][0], away, away});
+  with_segments.triangles.push_back({lines[1][0], lines[1][1], lines[1][1]});
+  const auto has_all = [&](const std::vector<Edge>& listed) {
+    CertificateOptions options;
+    options.lines = CertifiedLines{listed, listed, 1};
+    const Certificate made = *build_certificate(with_segments, with_segments, 0.1, options);
+    return verify::check_certificate(with_segments, with_segments, made.bytes).lines->has_all_borders;
+  };
+  EXPECT_TRUE(has_all(lines));
+  for (std::size_t left_out = 0; left_out < lines.size(); ++left_out) {
+    std::vector<Edge> listed = lines;
+    listed.erase(listed.begin() + static_cast<std::ptrdiff_t>(left_out));
+    EXPECT_FALSE(has_all(listed)) << left_out;
+  }
+}
+
 TEST(LineCertificate, TakesVerticesAtOnePositionForOne) {
   const TriangleMesh mesh = rectangle(4, 1);
   TriangleMesh soup;

@@ -3,6 +3,9 @@
 #include "meshbound/texture_certificate.h"
 
 #include <gtest/gtest.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <bit>
 #include <cmath>
@@ -444,6 +447,28 @@ TEST(TextureCertificate, ThatCostsFarMoreThanItsBytesIsRefused) {
   };
   EXPECT_EQ(rejection(3), "");
   EXPECT_EQ(rejection(14), "the proof about the texture costs too much to check");
+}
+
+/// What the C library has taken so far; 0 where it does not tell.
+std::size_t bytes_from_system() {
+#ifdef __GLIBC__
+  const auto info = mallinfo2();
+  return info.arena + info.hblkhd;
+#else
+  return 0;
+#endif
+}
+
+/// The lines of cuts are forgotten once both halves are done: 4 MB of a proof took 800 MB.
+TEST(TextureCertificate, OfManyCutsTakesNoMemoryForEach) {
+  verify::TextureSurface source, target;
+  source.triangles = {flat_triangle({0, 0}, 1)};
+  Bytes tokens;
+  std::uint64_t pieces = 0;
+  append_cuts(tokens, pieces, {0, 0, 0}, 0, 18);
+  const std::size_t before = bytes_from_system();
+  (void)verify::check_texture(source, target, 1, {tokens, pieces}, "original");
+  EXPECT_LT(bytes_from_system(), before + 20 * tokens.size());
 }
 
 /// One leaf names many triangles, each of which is clipped from what all before leave. Products of coordinates of

@@ -159,7 +159,8 @@ TEST(PieceCorners, RefuseChordsThatTheirPieceDoesNotHave) {
 bool proves(const TriangleMesh& mesh, double tolerance, std::uint32_t seed, const Corners& face) {
   PieceCorners corners;
   corners.start(face);
-  ParityCheck proof(mesh, tolerance);
+  Work work(1'000'000'000, 1);
+  ParityCheck proof(mesh, tolerance, work);
   return proof.proves(face, corners, {0, 1, 2}, seed);
 }
 
@@ -262,17 +263,19 @@ TEST(ParityCheck, EndsWhereItCostsTooMuch) {
   const std::uint32_t seed = below_middle(sheet);
   PieceCorners corners;
   corners.start(face);
-  const auto cost = [&](std::uint64_t max_work, int times) {
-    ParityCheck proof(sheet, 0.021, max_work);
-    for (int i = 0; i < times; ++i)
+  constexpr std::uint64_t free_work = 65536;
+  const auto cost = [&](std::uint64_t limit, std::uint64_t times) {
+    Work work(1, limit - free_work);
+    ParityCheck proof(sheet, 0.021, work);
+    for (std::uint64_t i = 0; i < times; ++i)
       if (!proof.proves(face, corners, {0, 1, 2}, seed)) return std::uint64_t{0};
-    return proof.work();
+    return work.done();
   };
-  const std::uint64_t once = cost(1'000'000, 1);
+  const std::uint64_t once = cost(1'000'000, 1), times = free_work / once + 2;
   EXPECT_GT(once, 10u);
-  EXPECT_EQ(cost(1'000'000, 3), 3 * once);
-  EXPECT_EQ(cost(3 * once, 3), 3 * once);
-  EXPECT_EQ(cost(3 * once - 1, 3), 0u);
+  EXPECT_EQ(cost(1'000'000, times), times * once);
+  EXPECT_EQ(cost(times * once, times), times * once);
+  EXPECT_EQ(cost(times * once - 1, times), 0u);
 }
 
 /// Many triangles at one edge are all looked at, and counted.
@@ -282,16 +285,17 @@ TEST(ParityCheck, CountsAllTrianglesAtAnEdge) {
   const std::uint32_t seed = below_middle(sheet);
   PieceCorners corners;
   corners.start(face);
-  const auto work = [&] {
-    ParityCheck proof(sheet, 0.021, 100'000'000);
+  const auto cost = [&] {
+    Work work(1'000'000'000, 1);
+    ParityCheck proof(sheet, 0.021, work);
     (void)proof.proves(face, corners, {0, 1, 2}, seed);
-    return proof.work();
+    return work.done();
   };
-  const std::uint64_t once = work();
+  const std::uint64_t looked_at = cost() / 12;
   constexpr std::uint64_t copies = 101;  // odd: the sheet counts as before
   for (std::uint64_t k = 1; k < copies; ++k)
     for (std::size_t t = 0; t < triangles; ++t) sheet.triangles.push_back(sheet.triangles[t]);
-  EXPECT_GT(work(), copies * copies * once);
+  EXPECT_GT(cost(), copies * copies * looked_at);
 }
 
 /// A certificate put together byte by byte: one triangle against one triangle.
@@ -396,30 +400,49 @@ TEST(Forgery, WithoutBottomIsRejected) {
   EXPECT_EQ(f.rejection(), "triangle 0 of the original mesh is cut too often");
 }
 
-/// Appends cuts down to 2^`depth` pieces, each of which keeps to the triangle named last.
-void append_halves(Bytes& tokens, int depth) {
+/// Appends cuts down to 2^`depth` pieces, each with the same leaf.
+void append_halves(Bytes& tokens, int depth, std::uint8_t leaf) {
   if (depth > 0) tokens.insert(tokens.end(), {17, 129, 0});
-  for (int half = 0; half < 2 && depth > 0; ++half) append_halves(tokens, depth - 1);
-  if (depth == 0) tokens.push_back(0);
+  for (int half = 0; half < 2 && depth > 0; ++half) append_halves(tokens, depth - 1, leaf);
+  if (depth == 0) tokens.push_back(leaf);
 }
 
+constexpr std::uint8_t near_leaf = 0, parity_leaf = 2;
+
 /// 110 cuts at random shares of 48 bits make corners of thousands of bits, and each piece behind them has only a byte.
-TEST(Forgery, OfPiecesWithLargeRationalsIsRejected) {
-  Forgery f;
-  f.tolerance = 0;
+void append_pieces_with_large_rationals(Forgery& f, int halvings, std::uint8_t leaf) {
   Random random(5);
-  constexpr int cuts = 110, halvings = 8;
-  f.a.vertices = {{0.1, 0.2, 0.3}, {1.7, 0.4, 0.9}, {0.3, 1.1, 2.3}};
-  f.b = f.a;
+  constexpr int cuts = 110;
   f.forward.clear();
   for (int i = 0; i < cuts; ++i) {
     f.forward.push_back(29);
     for (int byte = 0; byte < 6; ++byte) f.forward.push_back(static_cast<std::uint8_t>(random() | 1));
     f.forward.insert(f.forward.end(), 6, 0);
   }
-  append_halves(f.forward, halvings);
-  f.forward.insert(f.forward.end(), cuts, 0);
-  f.forward_pieces = (1 << halvings) + cuts;
+  append_halves(f.forward, halvings, leaf);
+  f.forward.insert(f.forward.end(), cuts, near_leaf);
+  f.forward_pieces = (1U << halvings) + cuts;
+}
+
+TEST(Forgery, OfPiecesWithLargeRationalsIsRejected) {
+  Forgery f;
+  f.tolerance = 0;
+  f.a.vertices = {{0.1, 0.2, 0.3}, {1.7, 0.4, 0.9}, {0.3, 1.1, 2.3}};
+  f.b = f.a;
+  append_pieces_with_large_rationals(f, 10, near_leaf);
+  EXPECT_EQ(f.rejection(), "triangle 0 of the original mesh costs too much to check");
+}
+
+/// Proofs by parity whose heights are exactly the largest allowed ones: only rationals tell that they hold.
+TEST(Forgery, OfProofsByParityWithLargeRationalsIsRejected) {
+  Forgery f;
+  f.tolerance = 1;
+  f.b = reference::single_triangle({-3, -3, 1023.0 / 1024}, {9, -3, 1023.0 / 1024}, {-3, 9, 1023.0 / 1024});
+  f.forward = {parity_leaf};
+  EXPECT_EQ(f.rejection(),
+            "triangle 0 of the simplified mesh has a piece that is not within the tolerance of its triangle")
+      << "the proof by parity holds";
+  append_pieces_with_large_rationals(f, 10, parity_leaf);
   EXPECT_EQ(f.rejection(), "triangle 0 of the original mesh costs too much to check");
 }
 

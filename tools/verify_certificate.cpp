@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  std::string original, simplified, certificate, tolerance, json;
+  std::string original, simplified, certificate, tolerance, line_tolerance, texture_tolerance, json;
   bool quiet = false;
 };
 
@@ -66,13 +66,26 @@ double diagonal_of(const TriangleMesh& mesh) {
   return std::hypot(size.x(), size.y(), size.z());
 }
 
-/// Rejects a certificate for a larger tolerance than the one asked for.
-void require_tolerance(const verify::Proof& proof, const Options& options, const TriangleMesh& original) {
-  if (options.tolerance.empty()) return;
-  const double wanted = parse_length("--tolerance", options.tolerance).in_model_units(diagonal_of(original));
-  if (proof.tolerance > wanted)
-    throw verify::Rejected("it proves a tolerance of " + exact_number(proof.tolerance) + ", more than the wanted " +
+/// Rejects what proves a larger tolerance than `option` asks for, or nothing where it asks for something.
+void require_tolerance(std::optional<double> proven, const std::string& option, const std::string& typed,
+                       const std::string& of_what, const TriangleMesh& original) {
+  if (typed.empty()) return;
+  const double wanted = parse_length(option, typed).in_model_units(diagonal_of(original));
+  if (!proven) throw verify::Rejected("it proves nothing" + of_what);
+  if (*proven > wanted)
+    throw verify::Rejected("it proves a tolerance of " + exact_number(*proven) + of_what + ", more than the wanted " +
                            exact_number(wanted));
+}
+
+void require_tolerances(const verify::Proof& proof, const Options& options, const TriangleMesh& original) {
+  const auto tolerance_of = [](const auto& part) {
+    return part ? std::optional<double>(part->tolerance) : std::nullopt;
+  };
+  require_tolerance(proof.tolerance, "--tolerance", options.tolerance, "", original);
+  require_tolerance(tolerance_of(proof.lines), "--line-tolerance", options.line_tolerance, " about feature lines",
+                    original);
+  require_tolerance(tolerance_of(proof.texture), "--texture-tolerance", options.texture_tolerance, " about the texture",
+                    original);
 }
 
 Json to_json(const verify::Proof::Direction& direction) {
@@ -201,7 +214,7 @@ int run(const Options& options) {
   try {
     outcome.proof = verify::check_certificate(inputs.original, inputs.simplified, inputs.certificate,
                                               &inputs.original_attributes, &inputs.simplified_attributes);
-    require_tolerance(*outcome.proof, options, inputs.original);
+    require_tolerances(*outcome.proof, options, inputs.original);
   } catch (const verify::Rejected& rejected) {
     outcome.proof.reset();
     outcome.reason = rejected.what();
@@ -222,8 +235,16 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("CERTIFICATE", options.certificate,
                  "File written by --certificate of simplify_with_bound or hausdorff_distance")
       ->required();
-  app.add_option("--tolerance", options.tolerance,
-                 "Reject certificates of larger tolerances: model units, or 0.1% of the original's diagonal");
+  app.add_option(
+      "--tolerance", options.tolerance,
+      "Reject certificates of larger tolerances of the surface: model units, or 0.1% of the original's diagonal");
+  app.add_option(
+      "--line-tolerance", options.line_tolerance,
+      "Reject certificates that prove nothing about feature lines, or a larger tolerance: units as --tolerance");
+  app.add_option(
+      "--texture-tolerance", options.texture_tolerance,
+      "Reject certificates that prove nothing about the texture, or a larger tolerance: units as --tolerance. "
+      "What the other mesh does not cover in the texture does not count; how much that is, is printed");
   app.add_flag("--quiet", options.quiet, "Nothing on stdout; the exit code tells");
   app.add_option_function<std::string>(
          "--json", [&options](const std::string& file) { options.json = file.empty() ? "-" : file; },

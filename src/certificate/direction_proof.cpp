@@ -24,9 +24,9 @@ namespace {
 
 constexpr std::size_t triangles_per_run = 256;  ///< hints are handed on inside a run
 
-/// Triangles of patches for each triangle of both meshes, beyond which patches are made small. A reader may refuse what
-/// costs 1024 times this.
-constexpr std::uint64_t parity_work_per_triangle = 16;
+/// What patches may cost a reader for each triangle of both meshes, and in all proofs, before they are made small: half
+/// of what it accepts. Proofs for real models cost up to 25 for each triangle.
+constexpr std::uint64_t parity_work_per_triangle = 128, min_parity_work = 32768;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ DirectionProof::DirectionProof(const ProofMesh& source, const ProofMesh& target,
 }
 
 bool DirectionProof::costs_too_much(std::uint64_t parity_work, std::uint64_t triangles) {
-  return parity_work > parity_work_per_triangle * triangles + large_patch;
+  return parity_work > parity_work_per_triangle * triangles + min_parity_work;
 }
 
 void DirectionProof::load_vertices() {

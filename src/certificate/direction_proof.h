@@ -49,8 +49,9 @@ class DirectionProof {
   [[nodiscard]] std::optional<ProofTrees> run(std::size_t max_patch, const std::function<void(double)>& progress) const;
 
   /// The patches to begin with, and those of a proof whose patches would cost a reader too much otherwise: such are
-  /// stacks of large triangles over fine ones.
-  static constexpr std::size_t large_patch = ParitySearch::max_patch, small_patch = 256;
+  /// stacks of large triangles over fine ones. A small patch for each leaf, which takes about four bytes with its cut,
+  /// costs half of what a reader accepts.
+  static constexpr std::size_t large_patch = ParitySearch::max_patch, small_patch = 32;
   /// Whether that is so, of a whole direction. `triangles`: of both meshes.
   [[nodiscard]] static bool costs_too_much(std::uint64_t parity_work, std::uint64_t triangles);
 

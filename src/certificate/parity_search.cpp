@@ -95,7 +95,7 @@ bool ParitySearch::proves(const std::array<Vec3, 3>& triangle, const Piece& piec
   patch_.clear();
   const auto neighbour = [&](std::uint32_t t, std::size_t k) { return neighbours_[t][k]; };
   if (!set_view(triangle, piece) || !patch_.covers(neighbour, seed, Sight{*this, {}})) return false;
-  work_ += patch_.size();
+  work_ += work_of_side * piece.count * patch_.size();
   return true;
 }
 

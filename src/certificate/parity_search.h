@@ -28,13 +28,15 @@ class ParitySearch {
   /// Whether `proves` gave up last because the patch grew too large: parts of the piece may do.
   [[nodiscard]] bool patch_was_too_large() const { return patch_.is_full(); }
 
-  /// Triangles of all patches that proved a piece: what they cost a reader.
+  /// What the patches that proved a piece cost a reader, as the format counts it, without decisions by rationals.
   [[nodiscard]] std::uint64_t work() const { return work_; }
 
   /// Half of what a reader must accept.
   static constexpr std::size_t max_patch = 32768;
 
  private:
+  static constexpr std::uint64_t work_of_side = 4;  ///< of a triangle of a patch, for each corner of the piece
+
   struct Sight;
   [[nodiscard]] bool set_view(const std::array<Vec3, 3>& triangle, const Piece& piece);
   [[nodiscard]] bool set_window(const Piece& piece);

@@ -19,6 +19,7 @@
 #include "texture/single_coordinates.h"
 #include "texture/surface_area.h"
 #include "texture/texture_comparison.h"
+#include "texture/tiny_meshes.h"
 #include "texture/triangle_deviation.h"
 
 namespace meshbound {
@@ -343,6 +344,7 @@ TextureDeviation measured(const Charts& charts_a, const Charts& charts_b, const 
 TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
                                    const TextureDeviationOptions& options) {
   check_input(a, b);
+  if (are_tiny(a, b)) return deviation_of_tiny(a, b, options);
   std::array<TriangleBounds, 2> known{bounds_of_equal(a, b), bounds_of_equal(b, a)};
   return measured(Charts(a), Charts(b), options, known);
 }
@@ -350,6 +352,10 @@ TextureDeviation texture_deviation(const TexturedMesh& a, const TexturedMesh& b,
 TextureDeviation TextureComparison::measure(std::array<TexturedMesh, 2> meshes,
                                             const TextureDeviationOptions& options) {
   check_input(meshes[0], meshes[1]);
+  if (are_tiny(meshes[0], meshes[1])) {
+    first_.reset();  // nothing is known of these bounds by triangle
+    return deviation_of_tiny(meshes[0], meshes[1], options);
+  }
   const bool keeps_first = first_ && meshes[0] == *first_;
   if (keeps_first && meshes[1] == second_) return deviation_;
   std::array<TriangleBounds, 2> known;

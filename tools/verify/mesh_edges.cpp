@@ -33,9 +33,20 @@ std::vector<std::uint32_t> position_ranks(const TriangleMesh& mesh) {
 }  // namespace
 
 MeshEdges::MeshEdges(const TriangleMesh& mesh) : mesh_(mesh), position_(position_ranks(mesh)) {
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) edges_.push_back(key(t[k], t[(k + 1) % 3]));
+  std::vector<Key> with_width;  // the edges of triangles with three different positions
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Key, 3> edges = {key(t[0], t[1]), key(t[1], t[2]), key(t[2], t[0])};
+    edges_.insert(edges_.end(), edges.begin(), edges.end());
+    if (std::all_of(edges.begin(), edges.end(), [](const Key& edge) { return edge[0] != edge[1]; }))
+      with_width.insert(with_width.end(), edges.begin(), edges.end());
+  }
   std::sort(edges_.begin(), edges_.end());
+  std::sort(with_width.begin(), with_width.end());
+  for (auto edge = with_width.begin(); edge != with_width.end();) {
+    const auto end = std::upper_bound(edge, with_width.end(), *edge);
+    if (end - edge == 1) borders_.push_back(*edge);
+    edge = end;
+  }
 }
 
 MeshEdges::Key MeshEdges::key(std::uint32_t a, std::uint32_t b) const {
@@ -59,13 +70,8 @@ bool MeshEdges::has_all_borders(const EdgeList& edges) const {
   std::vector<Key> listed;
   for (std::size_t i = 0; i < edges.size(); ++i) listed.push_back(key(edges.edge(i)[0], edges.edge(i)[1]));
   std::sort(listed.begin(), listed.end());
-  for (auto edge = edges_.begin(); edge != edges_.end();) {
-    const auto end = std::upper_bound(edge, edges_.end(), *edge);
-    const bool is_border = end - edge == 1 && (*edge)[0] != (*edge)[1];
-    if (is_border && !std::binary_search(listed.begin(), listed.end(), *edge)) return false;
-    edge = end;
-  }
-  return true;
+  return std::all_of(borders_.begin(), borders_.end(),
+                     [&](const Key& border) { return std::binary_search(listed.begin(), listed.end(), border); });
 }
 
 }  // namespace meshbound::verify

@@ -18,7 +18,8 @@ class MeshEdges {
   /// The edges of the list, each as a triangle without area whose last two corners are its second vertex. Throws
   /// `Rejected`, with `name` for the mesh, if a triangle has no such edge or the list is empty. O(edges log n).
   [[nodiscard]] TriangleMesh lines(const EdgeList& edges, const char* name) const;
-  /// Whether the list has every edge that only one triangle has. O(edges log edges).
+  /// Whether the list has every border: each edge that exactly one triangle with three different positions has. A
+  /// triangle with two corners at one position is a segment or a point, and has no border. O(edges log edges).
   [[nodiscard]] bool has_all_borders(const EdgeList& edges) const;
 
  private:
@@ -27,7 +28,8 @@ class MeshEdges {
 
   const TriangleMesh& mesh_;
   std::vector<std::uint32_t> position_;  ///< by vertex: the same number at the same coordinates
-  std::vector<Key> edges_;               ///< of all triangles, ascending; once for each triangle
+  std::vector<Key> edges_;               ///< of all triangles, ascending
+  std::vector<Key> borders_;             ///< ascending
 };
 
 }  // namespace meshbound::verify

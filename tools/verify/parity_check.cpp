@@ -50,8 +50,8 @@ double scale_of(const Corners& triangle) {
 
 }  // namespace
 
-ParityCheck::ParityCheck(const TriangleMesh& mesh, double tolerance, std::uint64_t max_work)
-    : mesh_(mesh), tolerance_(tolerance), max_work_(max_work), visited_(mesh.triangles.size(), 0) {
+ParityCheck::ParityCheck(const TriangleMesh& mesh, double tolerance, Work& work)
+    : mesh_(mesh), tolerance_(tolerance), work_(work), visited_(mesh.triangles.size(), 0) {
   find_edges();
 }
 
@@ -122,11 +122,34 @@ bool ParityCheck::drawn_in_enough(const CornerAt& corner_at) const {
   return true;
 }
 
+/// The numbers of a decision are products and quotients of those of all corners of the piece, and each side of the
+/// window takes such.
+void ParityCheck::count_exact(std::uint64_t bits) {
+  if (piece_bits_ == 0) {
+    for (const std::uint32_t corner : *piece_) piece_bits_ += bits_of(corners_->exact(corner));
+    for (const Eigen::Vector3d& corner : *triangle_) piece_bits_ += bits_of(corner);
+  }
+  work_.add_exact(piece_->size() * (piece_bits_ + bits));
+}
+
 const ParityCheck::View<Exact>& ParityCheck::exact_view() {
-  work_ += exact_cost;
-  if (!exact_)
+  if (!exact_) {
+    count_exact(0);
     exact_ = make_view<Exact>([&](std::size_t i) { return corners_->exact((*piece_)[i]) - corners_->exact(0); });
+  }
   return *exact_;
+}
+
+const ParityCheck::View<Exact>& ParityCheck::exact_view(const Edge& edge) {
+  count_exact(bits_of(mesh_.vertices[edge.low]) + bits_of(mesh_.vertices[edge.high]));
+  return exact_view();
+}
+
+const ParityCheck::View<Exact>& ParityCheck::exact_view(std::uint32_t triangle) {
+  std::uint64_t bits = 0;
+  for (const std::uint32_t vertex : mesh_.triangles[triangle]) bits += bits_of(mesh_.vertices[vertex]);
+  count_exact(bits);
+  return exact_view();
 }
 
 /// Chooses the share by doubles, then proves it.
@@ -141,8 +164,9 @@ bool ParityCheck::draw_in(const PieceCorners& corners, const Piece& piece) {
   const double wanted = 0.999 * drawn_in_share * tolerance_ / reach;
   if (!(wanted > 0x1p-60)) return false;  // with the smallest scale still a normal double: nothing is rounded
   drawn_in_ = std::min(0.5, std::ldexp(1.0, std::ilogb(wanted)));
-  return drawn_in_enough<Interval>(rough) ||
-         drawn_in_enough<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
+  if (drawn_in_enough<Interval>(rough)) return true;
+  count_exact(0);
+  return drawn_in_enough<Exact>([&](std::size_t i) -> const Vec<Exact>& { return corners_->exact((*piece_)[i]); });
 }
 
 /// What the triangle has above and below the window, by clipping.
@@ -228,19 +252,20 @@ bool ParityCheck::grow(std::uint32_t seed) {
   bool odd = false;
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const std::uint32_t triangle = patch_[i];
-    if (++work_ > max_work_) return false;
+    work_.add_seen_triangle(piece_->size());
+    if (work_.is_too_much()) return false;
     if (edges_of_[triangle][0] == no_edge) return false;
-    if (!heights_hold(rough_, triangle) && !heights_hold(exact_view(), triangle)) return false;
+    if (!heights_hold(rough_, triangle) && !heights_hold(exact_view(triangle), triangle)) return false;
     for (const std::uint32_t index : edges_of_[triangle]) {
       const Edge& edge = edges_[index];
       std::optional<bool> crosses = crosses_ray(rough_, edge);
-      if (!crosses) crosses = crosses_ray(exact_view(), edge);
+      if (!crosses) crosses = crosses_ray(exact_view(edge), edge);
       odd = odd != *crosses;
       if (is_clear(rough_, edge)) continue;
       const std::uint32_t users = edge.end - edge.begin;
-      if (users % 2 != 0 && !is_clear(exact_view(), edge)) return false;
+      if (users % 2 != 0 && !is_clear(exact_view(edge), edge)) return false;
       if (users % 2 != 0) continue;
-      work_ += users - 2;  // as few as two are part of the work for their triangles
+      work_.add_known_triangles(users - 2);  // as few as two are part of the work for their triangles
       for (std::uint32_t k = edge.begin; k < edge.end; ++k) {
         if (visited_[users_[k]] == round_) continue;
         if (patch_.size() == largest_patch) return false;
@@ -257,6 +282,7 @@ bool ParityCheck::proves(const Corners& triangle, PieceCorners& corners, const P
   corners_ = &corners;
   piece_ = &piece;
   exact_.reset();
+  piece_bits_ = 0;
   scale_ = scale_of(triangle);
   if (piece.size() < 3 || !draw_in(corners, piece)) return false;
   rough_ = make_view<Interval>([&](std::size_t i) -> const Vec<Interval>& { return corners.way(piece[i]); });

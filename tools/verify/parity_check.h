@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "meshbound/triangle_mesh.h"
 #include "verify/numbers.h"
 #include "verify/pieces.h"
+#include "verify/work.h"
 
 namespace meshbound::verify {
 
@@ -26,16 +26,11 @@ namespace meshbound::verify {
 /// that are not clear of Q; any P is as good, as all three conditions are checked for what has grown.
 class ParityCheck {
  public:
-  /// `mesh` must outlive this. What comes after `max_work` is no proof.
-  ParityCheck(const TriangleMesh& mesh, double tolerance,
-              std::uint64_t max_work = std::numeric_limits<std::uint64_t>::max());
+  /// `mesh` and `work`, which counts what is done here, must outlive this. What costs too much is no proof.
+  ParityCheck(const TriangleMesh& mesh, double tolerance, Work& work);
 
   /// Whether P, grown from `seed`, proves that the piece of `triangle` is within the tolerance.
   [[nodiscard]] bool proves(const Corners& triangle, PieceCorners& corners, const Piece& piece, std::uint32_t seed);
-
-  /// What all proofs so far have cost: triangles of P, those that took rational numbers counted `exact_cost` times.
-  [[nodiscard]] std::uint64_t work() const { return work_; }
-  static constexpr std::uint64_t exact_cost = 64;
 
  private:
   static constexpr std::uint32_t no_edge = 0xffffffff;
@@ -56,7 +51,11 @@ class ParityCheck {
   };
 
   void find_edges();
-  /// For a decision that intervals cannot make.
+  /// Counts a decision by rationals about the piece and something else of so many `bits`.
+  void count_exact(std::uint64_t bits);
+  /// For decisions that intervals cannot make: about an edge, a triangle, or the window alone.
+  [[nodiscard]] const View<Exact>& exact_view(const Edge& edge);
+  [[nodiscard]] const View<Exact>& exact_view(std::uint32_t triangle);
   [[nodiscard]] const View<Exact>& exact_view();
   template <class Number, class CornerAt>
   [[nodiscard]] View<Number> make_view(const CornerAt& corner_at) const;
@@ -75,7 +74,7 @@ class ParityCheck {
 
   const TriangleMesh& mesh_;
   double tolerance_;
-  std::uint64_t max_work_;
+  Work& work_;
   std::vector<std::array<std::uint32_t, 3>> edges_of_;  ///< by triangle; `no_edge` where two of its corners coincide
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> users_;
@@ -88,9 +87,9 @@ class ParityCheck {
   double drawn_in_ = 0;  ///< share of the way to the middle, a power of two
   View<Interval> rough_;
   std::optional<View<Exact>> exact_;
+  std::uint64_t piece_bits_ = 0;  ///< of its corners and those of the source triangle; 0: not asked for yet
   std::vector<std::uint32_t> patch_, visited_;
   std::uint32_t round_ = 0;
-  std::uint64_t work_ = 0;
 };
 
 }  // namespace meshbound::verify

@@ -103,6 +103,7 @@ class TextureCheck {
     ++result_.cuts;
     const auto corner = static_cast<std::size_t>(depth % 3);
     const std::int64_t middle = low[corner] + (std::int64_t{1} << (weight_bits - 1 - depth / 3));
+    const std::size_t lines_before = domain_->line_count();
     DomainLine* const line = domain_->level(corner, middle, weight_bits);
     for (const int side : {-1, 1}) {
       bool has_area = false;
@@ -112,6 +113,7 @@ class TextureCheck {
       if (side > 0) part_low[corner] = middle;
       check(part, part_low, depth + 1);
     }
+    domain_->forget_lines_from(lines_before);
   }
 
   /// What the named triangles cover of the piece must be near; what they do not cover, no triangle may cover.
@@ -185,7 +187,8 @@ class TextureCheck {
                        return !covered(polygon, b).empty();
                      });
       if (touches)
-        fail(("is not shown to be near triangle " + std::to_string(triangle->index) + ", which covers a part of it")
+        fail(("is not shown to be near triangle " + std::to_string(triangle->index) +
+              (b.turn == 0 ? ", which may have a point of it" : ", which covers a part of it"))
                  .c_str());
       domain_->forget_lines_from(lines_of_others);
     }

@@ -22,14 +22,11 @@ namespace {
 /// Cuts on the way to a piece: enough to halve the sides of a triangle forty times each.
 constexpr int deepest_cut = 128;
 
-/// What proofs by parity may cost, in triangles of P: a byte names such a proof, and could ask for 65536 triangles
-/// again and again. Real proofs need less than one for each byte and triangle.
-constexpr std::uint64_t min_parity_work = 65536, parity_work_per_unit = 1024;
-
-/// Work that decisions by rationals about distances may cost for each byte and triangle: some 13 us. Proofs for models
-/// of games and for grids need less than 1. A piece that keeps to one triangle and all corners of which, exactly at the
-/// tolerance, must be decided by rationals needs about 20 for each, or 30 behind eight cuts with bytes of their own.
-constexpr std::uint64_t decision_work_per_unit = 128;
+/// Work that proofs about surfaces and lines may cost for each byte and triangle: some 25 us. Proofs for 25 models, at
+/// 0.01% to 3% of their diagonals, need up to 14, nearly all of it for proofs by parity. A piece that keeps to one
+/// triangle and all corners of which, exactly at the tolerance, must be decided by rationals needs about 20 for each,
+/// or 30 behind eight cuts with bytes of their own.
+constexpr std::uint64_t surface_work_per_unit = 256;
 
 Corners corners_of(const TriangleMesh& mesh, std::size_t triangle) {
   const Triangle& t = mesh.triangles[triangle];
@@ -48,7 +45,7 @@ class DirectionCheck {
         source_name_(source_name),
         element_(element),
         tokens_(section.tokens),
-        work_(decision_work_per_unit, section.tokens.size() + source.triangles.size() + target.triangles.size()),
+        work_(surface_work_per_unit, section.tokens.size() + source.triangles.size() + target.triangles.size()),
         last_at_(source.vertices.size(), 0) {}
 
   Proof::Direction run() {
@@ -62,6 +59,7 @@ class DirectionCheck {
     if (!tokens_.at_end()) throw Rejected("the proof goes on after its last triangle");
     if (result_.pieces != section_.pieces)
       throw Rejected("the number of pieces in the header is not that of the proof");
+    result_.work = work_.done();
     return result_;
   }
 
@@ -83,22 +81,15 @@ class DirectionCheck {
     last_ = target_of(token);
     if (token.kind == Token::Kind::Parity) {
       ++result_.by_parity;
-      if (!parity_) parity_ = std::make_unique<ParityCheck>(target_, tolerance_, max_parity_work());
+      if (!parity_) parity_ = std::make_unique<ParityCheck>(target_, tolerance_, work_);
       const bool holds = parity_->proves(shape_, corners_, piece, last_);
-      result_.parity_work = parity_->work();
-      if (!holds)
-        fail(result_.parity_work > max_parity_work() ? "is proven by parity at too great a cost"
-                                                     : "has a piece whose proof by parity does not hold");
+      require_work();
+      if (!holds) fail("has a piece whose proof by parity does not hold");
       return;
     }
     const Corners near = corners_of(target_, last_);
     for (const std::uint32_t corner : piece)
       if (!corner_is_near(corner, near)) fail("has a piece that is not within the tolerance of its triangle");
-  }
-
-  [[nodiscard]] std::uint64_t max_parity_work() const {
-    return min_parity_work +
-           parity_work_per_unit * (section_.tokens.size() + source_.triangles.size() + target_.triangles.size());
   }
 
   std::uint32_t target_of(const Token& token) const {
@@ -116,8 +107,12 @@ class DirectionCheck {
     ++result_.exact_decisions;
     const Vec<Exact>& exact = corners_.exact(corner);
     work_.add_exact(bits_of(exact) + bits_of(near[0]) + bits_of(near[1]) + bits_of(near[2]));
-    if (work_.is_too_much()) fail("costs too much to check");
+    require_work();
     return is_near(exact, near, tolerance_);
+  }
+
+  void require_work() const {
+    if (work_.is_too_much()) fail("costs too much to check");
   }
 
   [[noreturn]] void fail(const char* why) const {

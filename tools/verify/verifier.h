@@ -19,7 +19,7 @@ struct Proof {
   double tolerance = 0;  ///< model units
   struct Direction {
     std::uint64_t pieces = 0, by_parity = 0, cuts = 0, bytes = 0;
-    std::uint64_t parity_work = 0;      ///< see `ParityCheck::work`
+    std::uint64_t work = 0;             ///< what checking it cost, see `Work`
     std::uint64_t exact_decisions = 0;  ///< distances that intervals of doubles could not decide
   };
   Direction original_to_simplified, simplified_to_original;
@@ -27,7 +27,7 @@ struct Proof {
   struct Lines {
     double tolerance = 0;  ///< of the symmetric Hausdorff distance between them
     std::uint64_t original_edges = 0, simplified_edges = 0;
-    bool has_all_borders = false;  ///< every edge that only one triangle has is a line, in both meshes
+    bool has_all_borders = false;  ///< every border is a line, see `MeshEdges`, in both meshes
     Direction original_to_simplified, simplified_to_original;
   };
   std::optional<Lines> lines;  ///< absent: the certificate does not speak of lines
@@ -45,8 +45,7 @@ struct Proof {
 /// Returns what the certificate proves of these two meshes; throws `Rejected`, with one line that says why, when it
 /// proves nothing. O(certificate + meshes): proofs by parity cost the triangles
 /// they use, and decisions by rationals the bits of their operands; proofs that need too many of them are refused.
-/// Deterministic. Attributes are needed where the certificate speaks of
-/// textures; without them it is rejected then.
+/// Deterministic. Attributes are needed where the certificate speaks of textures; without them it is rejected then.
 [[nodiscard]] Proof check_certificate(const TriangleMesh& original, const TriangleMesh& simplified,
                                       std::span<const std::uint8_t> certificate,
                                       const MeshAttributes* original_attributes = nullptr,

@@ -28,14 +28,20 @@ class Work {
   Work(std::uint64_t limit_per_unit, std::uint64_t size) : limit_(min_limit + limit_per_unit * size) {}
 
   void add_clip() { ++done_; }
+  /// Counts a triangle that a parity proof looks at through a window of so many `sides`, decided by intervals.
+  void add_seen_triangle(std::uint64_t sides) { done_ += seen_side * sides; }
+  /// Counts triangles that are only asked whether they were seen already.
+  void add_known_triangles(std::uint64_t count) { done_ += count; }
   /// Counts a decision by rationals that together have `bits`.
   void add_exact(std::uint64_t bits) { done_ += 1 + bits / bits_per_unit; }
   [[nodiscard]] bool is_too_much() const { return done_ > limit_; }
+  [[nodiscard]] std::uint64_t done() const { return done_; }
 
  private:
   static constexpr std::uint64_t min_limit = 65536;  ///< small proofs may cost some milliseconds, whatever their size
   /// Decisions about points in a texture take about 0.05 us for 64 bits: 10 us with 12,200 bits of operands.
   static constexpr std::uint64_t bits_per_unit = 64;
+  static constexpr std::uint64_t seen_side = 4;  ///< a triangle and its edges take about 2 us with four sides
   std::uint64_t done_ = 0, limit_;
 };
 
