@@ -70,18 +70,18 @@ std::vector<SceneGroup> scene_groups(const TriangleMesh& original, const MeshAtt
   std::vector<std::uint32_t> number(original.vertices.size(), no_index);
   SceneGroup kept;
   kept.is_kept = true;
-  // Copies of each mesh; the first one has an invertible placement.
+  const std::vector<std::uint32_t> written = layout.written_copies();
+  // Copies of each mesh; the one that is written comes first.
   std::map<std::uint32_t, std::vector<std::uint32_t>> placed_of;
   for (std::uint32_t p = 0; p < layout.placed.size(); ++p)
     if (!triangles[p].empty()) placed_of[layout.placed[p].mesh].push_back(p);
   for (auto& [mesh, placed] : placed_of) {
-    const auto invertible = std::find_if(placed.begin(), placed.end(),
-                                         [&](std::uint32_t p) { return layout.placed[p].placement.is_invertible(); });
-    if (placed.size() > 1 && invertible != placed.end()) {
-      std::rotate(placed.begin(), invertible, invertible + 1);
+    const auto first = std::find(placed.begin(), placed.end(), written[placed.front()]);
+    if (placed.size() > 1 && first != placed.end()) {
+      std::rotate(placed.begin(), first, first + 1);
       groups.push_back(group_of_copies(original, layout, placed, triangles, number));
     } else {
-      std::vector<std::uint32_t>& to = invertible != placed.end() ? groups.front().triangles : kept.triangles;
+      std::vector<std::uint32_t>& to = first != placed.end() ? groups.front().triangles : kept.triangles;
       for (const std::uint32_t p : placed) to.insert(to.end(), triangles[p].begin(), triangles[p].end());
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0 and GLB (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html): the triangles of the default scene.
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -111,7 +112,7 @@ class GltfReader {
     for (Triangle t : triangles_of(corners_of(primitive, positions.count), mode)) {
       if (is_mirrored) std::swap(t[1], t[2]);
       Triangle corners;
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(where, accessor, positions, placement, t[k]);
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(where, accessor, positions, placed, t[k]);
       assembler_.add_polygon(corners);
       if (attributes_) attributes_->add_triangle(t);
     }
@@ -138,7 +139,7 @@ class GltfReader {
 
   /// The vertex of the mesh for a vertex of the primitive; vertices of one node at equal positions become one.
   std::uint32_t vertex(const GltfValue& where, std::size_t accessor, const GltfAccessor& positions,
-                       const NodePlacement& placement, std::uint32_t number) {
+                       std::uint32_t placed, std::uint32_t number) {
     std::vector<std::uint32_t>& known = vertex_of_[accessor];
     if (known.empty()) known.assign(positions.count, no_index);
     if (known[number] != no_index) return known[number];
@@ -146,7 +147,9 @@ class GltfReader {
     // Viewers round the quotient of a normalised integer to a float; all other components are floats already.
     const Eigen::Vector3d local = rounded_to_float(Eigen::Vector3d(from[0], from[1], from[2]));
     if (!local.allFinite()) where.fail("the position of vertex " + std::to_string(number) + " is not finite");
-    const Eigen::Vector3d p = placement.to_scene(local);
+    PlacedMesh& shown = document_->placed[placed];
+    shown.reach = std::max(shown.reach, local.cwiseAbs().maxCoeff());
+    const Eigen::Vector3d p = shown.placement.to_scene(local);
     const std::uint32_t welded = first_vertex_ + welder_.index_of(p);
     if (welded == assembler_.vertex_count()) assembler_.add_vertex(p, source_.bytes.size());
     return known[number] = welded;

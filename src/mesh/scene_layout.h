@@ -17,8 +17,8 @@ struct NodePlacement {
   [[nodiscard]] bool is_identity() const { return linear.isIdentity(0) && translation.isZero(0); }
   /// A viewer turns the triangles of a mirrored mesh over, so that they still face outwards.
   [[nodiscard]] bool is_mirrored() const;
-  /// False where the placement flattens the mesh, also for a scale of 0, which some files use to hide a mesh: the
-  /// position in the node's frame cannot be recovered.
+  /// False where the placement flattens the mesh, nearly or altogether, also for a scale of 0, which some files use to
+  /// hide a mesh: the position in the node's frame cannot be recovered.
   [[nodiscard]] bool is_invertible() const;
   [[nodiscard]] Eigen::Vector3d to_scene(const Eigen::Vector3d& p) const;
   [[nodiscard]] Eigen::Vector3d to_node(const Eigen::Vector3d& p) const;  ///< needs `is_invertible`
@@ -32,6 +32,7 @@ struct PlacedMesh {
   std::uint32_t node = 0;
   NodePlacement placement;
   bool has_skin = false;  ///< joints move it; it is read in the pose of the node alone
+  double reach = 0;       ///< largest absolute coordinate of its triangles in the frame of the node
 };
 
 /// A primitive of a placed mesh; `MeshAttributes::part` holds indices of `SceneLayout::parts`.
@@ -46,6 +47,11 @@ struct SceneLayout {
   std::vector<GltfPart> parts;
 
   [[nodiscard]] const PlacedMesh& placed_of(std::uint32_t part) const { return placed[parts[part].placed]; }
+
+  /// For each placed mesh, the copy of its mesh that is simplified and written: the first one whose placement is
+  /// inverted with less error than floats have, else the one with the least. `no_index` where no node shows the mesh
+  /// with an extent.
+  [[nodiscard]] std::vector<std::uint32_t> written_copies() const;
 };
 
 /// The layout of the document that `attributes` were read from; null where there is none.

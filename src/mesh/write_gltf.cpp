@@ -77,16 +77,11 @@ class DocumentEdit {
     return json_["meshes"][from_.placed_of(part).mesh]["primitives"][from_.parts[part].primitive];
   }
 
-  /// Chooses the parts whose primitives are replaced. A mesh that several nodes show is taken from the first node that
-  /// does not flatten it.
+  /// Chooses the parts whose primitives are replaced: those of written copies.
   void choose_parts() {
-    std::map<std::uint32_t, std::uint32_t> placed_of_mesh;
-    for (std::uint32_t i = 0; i < from_.placed.size(); ++i)
-      if (from_.placed[i].placement.is_invertible()) placed_of_mesh.try_emplace(from_.placed[i].mesh, i);
-    for (std::uint32_t part = 0; part < from_.parts.size(); ++part) {
-      const auto chosen = placed_of_mesh.find(from_.placed_of(part).mesh);
-      if (chosen != placed_of_mesh.end() && chosen->second == from_.parts[part].placed) replaced_.push_back(part);
-    }
+    const std::vector<std::uint32_t> written = from_.written_copies();
+    for (std::uint32_t part = 0; part < from_.parts.size(); ++part)
+      if (const std::uint32_t placed = from_.parts[part].placed; written[placed] == placed) replaced_.push_back(part);
   }
 
   /// Accessors to which only the replaced primitives refer.
