@@ -71,6 +71,7 @@ class Gltf : public testing::Test {
     SimplifyOptions options;
     options.tolerance = tolerance - placement_rounding(from.mesh, from.attributes);
     options.feature_edges = seams(from.mesh, from.attributes);
+    options.looks = looks(from.mesh, from.attributes);
     options.precision = Precision::Single;
     if (placement_rounding(from.mesh, from.attributes) > 0) options.precision = Precision::Double;
     const SimplifiedLevel level = decimate_levels(from.mesh, options, from.attributes).last();

@@ -104,6 +104,10 @@ struct SimplifyOptions {
   std::vector<std::array<Eigen::Vector2d, 3>> texture_coordinates;
   /// By triangle of the original: coordinates of different materials are different. Empty: all have the same one.
   std::vector<std::uint32_t> materials;
+  /// By triangle of the original: triangles with the same corners but different numbers are layers that are simplified
+  /// each, as a decal and what it lies on, or both sides of a sheet; of those with equal numbers that show the same
+  /// side one stays. Empty: one stays of all, unless texture coordinates or normals tell them apart.
+  std::vector<std::uint32_t> looks;
   /// How far the texture may move on the surface (`texture_deviation`), model units: collapses that move samples of the
   /// original further are refused. This is no proof, and the verdict of a level does not include it.
   double texture_tolerance = std::numeric_limits<double>::infinity();

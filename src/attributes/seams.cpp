@@ -129,6 +129,8 @@ ChartPartition charts(const TriangleMesh& mesh, const MeshAttributes& attributes
   const std::vector<Vec3> positions = positions_of(mesh);
   result.first = first_at_position(positions);
   result.neighbours = edge_neighbours(positions, mesh.triangles);
+  result.layers = layers(mesh, attributes, result.first, result.neighbours);
+  if (!result.layers.empty()) result.neighbours = neighbours_in_layers(mesh, result.layers);
   result.is_seam.resize(triangles, {0, 0, 0});
   (void)add_seams(mesh, result, [&](const Neighbours& at) { return is_seam(attributes, at); });
   number_charts(result);
@@ -141,13 +143,21 @@ bool cut_at_normals(const TriangleMesh& mesh, const CornerAttribute& normals, Ch
   return true;
 }
 
+std::vector<std::uint32_t> looks(const TriangleMesh& mesh, const MeshAttributes& attributes) {
+  return charts(mesh, attributes).layers.look;
+}
+
 std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes) {
-  const ChartPartition all = charts(mesh, attributes);
+  return seams(mesh, attributes, charts(mesh, attributes));
+}
+
+std::vector<Edge> seams(const TriangleMesh& mesh, const MeshAttributes& attributes, const ChartPartition& all) {
   std::vector<Edge> edges;
   const bool has_borders = has_chart_borders(attributes);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto at = [&](std::size_t k) { return all.first[mesh.triangles[t][k]]; };
     if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;  // a point or a segment has no border
+    if (!all.layers.empty() && all.layers.sheet[t] == no_index) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = all.neighbours[t][k];
       const bool is_line = other == no_index ? has_borders : all.is_seam[t][k] != 0 && t < other;

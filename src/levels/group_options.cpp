@@ -15,6 +15,7 @@ SimplifyOptions without_places(SimplifyOptions options) {
   options.face_tolerances = {};
   options.texture_coordinates = {};
   options.materials = {};
+  options.looks = {};
   return options;
 }
 
@@ -56,6 +57,7 @@ SimplifyOptions GroupOptions::of(const SceneGroup& group) {
   add_face_tolerances(result, group);
   result.texture_coordinates = taken(options_.texture_coordinates, group.triangles);
   result.materials = taken(options_.materials, group.triangles);
+  result.looks = taken(options_.looks, group.triangles);
   for (const std::uint32_t v : numbered_) number_[v] = no_index;
   numbered_.clear();
   return result;

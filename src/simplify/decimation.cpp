@@ -94,18 +94,22 @@ Decimation::Decimation(const TriangleMesh& original, const ProvenMesh* start, co
 
 namespace {
 
-/// A number for each triangle, taken in this order: equal where the material and the texture coordinates of the
-/// corners, in any order, are. Empty where neither texture nor normals count.
+/// A number for each triangle, taken in this order: equal where the look that the caller gives, the material and the
+/// texture coordinates of the corners, in any order, are. Empty where neither looks nor texture nor normals count.
 std::vector<std::uint32_t> looks_of(const SimplifyOptions& options, std::span<const std::uint32_t> order) {
-  using Look = std::tuple<std::uint32_t, std::array<std::array<double, 2>, 3>>;
+  using Look = std::tuple<std::uint32_t, std::uint32_t, std::array<std::array<double, 2>, 3>>;
   std::map<Look, std::uint32_t> number_of;
   std::vector<std::uint32_t> looks;
   if (options.normal_tolerance) looks.assign(order.size(), 0);
+  if (!options.looks.empty()) {
+    looks.clear();
+    for (const std::uint32_t t : order) looks.push_back(options.looks[t]);
+  }
   if (options.texture_coordinates.empty()) return looks;
   looks.clear();
   for (const std::uint32_t t : order) {
-    Look look{options.materials.empty() ? 0 : options.materials[t], {}};
-    auto& corners = std::get<1>(look);
+    Look look{options.looks.empty() ? 0 : options.looks[t], options.materials.empty() ? 0 : options.materials[t], {}};
+    auto& corners = std::get<2>(look);
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector2d& uv = options.texture_coordinates[t][k];
       if (uv.allFinite()) corners[k] = {uv.x(), uv.y()};  // missing ones are not a number, which has no order

@@ -21,6 +21,7 @@ void check_sizes(const SimplifyOptions& options, std::size_t vertices, std::size
   check_size(options.face_tolerances.size(), triangles, "tolerances of triangles", "triangle");
   check_size(options.texture_coordinates.size(), triangles, "texture coordinates", "triangle");
   check_size(options.materials.size(), triangles, "materials", "triangle");
+  check_size(options.looks.size(), triangles, "looks", "triangle");
   for (const auto& [a, b] : options.feature_edges)
     if (std::max(a, b) >= vertices)
       throw InvalidInput("a feature edge refers to vertex " + std::to_string(std::max(a, b)) + ", but there are only " +

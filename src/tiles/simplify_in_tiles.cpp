@@ -30,6 +30,7 @@ void check_for_tiles(const SimplifyOptions& options) {
   refuse(options.line_tolerance || !options.feature_edges.empty() || options.feature_angle, "feature lines or angles");
   refuse(!options.face_tolerances.empty(), "tolerances of triangles");
   refuse(!options.texture_coordinates.empty(), "texture coordinates");
+  refuse(!options.looks.empty(), "looks of triangles");
   refuse(options.normal_tolerance.has_value(), "a normal tolerance");
   refuse(options.certificate, "a certificate");
 }

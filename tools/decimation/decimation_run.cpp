@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "attributes/seams.h"
 #include "common/distance_text.h"
 #include "common/length.h"
 #include "common/mesh_input.h"
@@ -104,7 +106,11 @@ void DecimationRun::read_original(MeshReport& report, bool with_checksum, const 
   if (!shared_.texture_tolerance.empty()) texture_as_read_.materials = attributes_.materials;
   if (shared_.strict && *report.dropped != DroppedAttributes{})
     throw InvalidInput(lost_attributes(shared_, output, *report.dropped));
-  if (!attributes_.empty()) feature_edges_ = seams(original_, attributes_);
+  if (!attributes_.empty()) {
+    ChartPartition all = charts(original_, attributes_);
+    feature_edges_ = seams(original_, attributes_, all);
+    looks_ = std::move(all.layers.look);
+  }
   if (!shared_.feature_edges.empty()) {
     const std::vector<Edge> given = read_edges(shared_.feature_edges, original_.vertices.size(), stop);
     feature_edges_.insert(feature_edges_.end(), given.begin(), given.end());
@@ -162,6 +168,7 @@ SimplifyOptions DecimationRun::decimation(const GatedOutput& output, double tole
   if (!shared_.line_tolerance.empty())
     options.line_tolerance = parse_length("--line-tolerance", shared_.line_tolerance).in_model_units(diagonal_);
   options.feature_edges = feature_edges_;
+  options.looks = looks_;
   if (shared_.placement == "subset") options.placements = CollapsePlacements::Subset;
   options.normal_tolerance = shared_.normal_tolerance;
   if (bounds_texture()) guard_texture(texture_tolerance_of(tolerance), options);

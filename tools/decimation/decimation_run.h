@@ -99,9 +99,10 @@ class DecimationRun {
   /// Texture coordinates and materials as IN has them, which what was written is compared with: where its texture is
   /// bounded.
   MeshAttributes texture_as_read_;
-  double rounding_ = 0;              ///< what the frames of nodes may move vertices by, model units
-  std::vector<Edge> feature_edges_;  ///< seams of these, and the edges of --feature-edges
-  std::vector<Edge> lines_;          ///< of the original
+  double rounding_ = 0;               ///< what the frames of nodes may move vertices by, model units
+  std::vector<Edge> feature_edges_;   ///< seams of these, and the edges of --feature-edges
+  std::vector<std::uint32_t> looks_;  ///< by triangle of the original, see `SimplifyOptions::looks`
+  std::vector<Edge> lines_;           ///< of the original
   std::optional<OriginalLines> original_lines_;
   /// Why the last output that was made does not hold, a sentence without an end. Empty: it holds, or a proof was wrong.
   std::string obstacle_;
