@@ -47,7 +47,7 @@ class AccessorReader {
       result.values.resize(result.count * result.numbers.width);
       for (std::size_t i = 0; i < result.count; ++i) load(from, i, result.numbers, element(result, i));
     } else {
-      if (result.count > source_.bytes.size())
+      if (result.count > bytes_of_file())
         accessor.fail("declares " + std::to_string(result.count) + " elements without any data");
       result.values.resize(result.count * result.numbers.width);
     }
@@ -56,6 +56,13 @@ class AccessorReader {
   }
 
  private:
+  /// Bytes that justify elements without any of their own: those of the file and of all files that belong to it.
+  [[nodiscard]] std::size_t bytes_of_file() const {
+    std::size_t bytes = source_.bytes.size();
+    for (const std::string& buffer : document_.buffers) bytes += buffer.size();
+    return bytes;
+  }
+
   static double* element(GltfAccessor& accessor, std::size_t i) {
     return accessor.values.data() + i * accessor.numbers.width;
   }

@@ -24,9 +24,25 @@ constexpr std::size_t header_size = 12, chunk_header_size = 8;  // bytes
 constexpr std::size_t max_depth = 256;
 
 /// Beginnings of the names of extensions that may be required and yet leave triangles as they are.
-constexpr std::array<std::string_view, 9> harmless_extensions = {
-    "KHR_materials_", "KHR_texture_", "EXT_texture_",  "MSFT_texture_",        "KHR_lights_",
-    "EXT_lights_",    "KHR_xmp",      "MSFT_packing_", "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 19> harmless_extensions = {"KHR_materials_",
+                                                                  "KHR_texture_",
+                                                                  "EXT_texture_",
+                                                                  "MSFT_texture_",
+                                                                  "KHR_lights_",
+                                                                  "EXT_lights_",
+                                                                  "KHR_xmp",
+                                                                  "MSFT_packing_",
+                                                                  "KHR_mesh_quantization",
+                                                                  "KHR_animation_pointer",
+                                                                  "KHR_node_visibility",
+                                                                  "KHR_node_hoverability",
+                                                                  "KHR_interactivity",
+                                                                  "KHR_audio_emitter",
+                                                                  "EXT_structural_metadata",
+                                                                  "EXT_instance_features",
+                                                                  "AGI_articulations",
+                                                                  "VRMC_vrm",
+                                                                  "MSFT_lod"};
 
 std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
   std::uint32_t word = 0;

@@ -3,11 +3,14 @@
 #include "mesh/gltf_levels.h"
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -200,11 +203,67 @@ bool retarget(GltfJson& json, std::size_t node, std::optional<std::size_t> mesh_
   return is_animated;
 }
 
-/// The node that gets the levels: the node itself or, where it has children or an animation that must apply to every
-/// level, a new child that shows its mesh.
-std::size_t node_of_levels(LevelMerger& merger, std::size_t node) {
+/// The nodes to which texts of the document point, as those of KHR_animation_pointer do ("/nodes/1/translation").
+struct PointedNodes {
+  std::set<std::size_t> numbers;
+  bool may_be_any = false;  ///< a number is computed, as KHR_interactivity allows ("/nodes/{node}/translation")
+
+  [[nodiscard]] bool contains(std::size_t node) const { return may_be_any || numbers.contains(node); }
+};
+
+constexpr std::string_view pointer_to_node = "/nodes/";
+
+/// The number of the node to which a text points.
+std::optional<std::size_t> pointed_node(std::string_view text) {
+  if (!text.starts_with(pointer_to_node)) return std::nullopt;
+  const char* const end = text.data() + text.size();
+  std::size_t number = 0;
+  const auto parsed = std::from_chars(text.data() + pointer_to_node.size(), end, number);
+  if (parsed.ec != std::errc() || (parsed.ptr != end && *parsed.ptr != '/')) return std::nullopt;
+  return number;
+}
+
+/// Calls visit(text) for each text in a value.
+template <class Visit>
+void visit_texts(GltfJson& value, const Visit& visit) {
+  if (value.is_string()) visit(value);
+  if (value.is_structured())
+    for (GltfJson& item : value) visit_texts(item, visit);
+}
+
+PointedNodes pointed_nodes(GltfJson& json) {
+  PointedNodes result;
+  visit_texts(json, [&](const GltfJson& value) {
+    const auto& text = value.get_ref<const std::string&>();
+    if (const auto node = pointed_node(text)) result.numbers.insert(*node);
+    if (text.starts_with("/nodes/{")) result.may_be_any = true;
+  });
+  return result;
+}
+
+/// Redirects texts that point to the morph weights of a node to another one.
+void redirect_weights(GltfJson& json, std::size_t node, std::size_t to) {
+  const std::string weights = std::string(pointer_to_node) + std::to_string(node) + "/weights";
+  visit_texts(json, [&](GltfJson& value) {
+    const auto& text = value.get_ref<const std::string&>();
+    if (text == weights || text.starts_with(weights + '/'))
+      value = std::string(pointer_to_node) + std::to_string(to) + "/weights" + text.substr(weights.size());
+  });
+}
+
+/// Whether levels must not take the place of the node itself, as they would lack what else the node is: children, a
+/// camera, extensions such as lights or further levels, or the aim of an animation, which must apply to every level.
+bool is_more_than_a_mesh(GltfJson& json, std::size_t number, const PointedNodes& pointed) {
+  const GltfJson& node = json["nodes"][number];
+  return node.contains("children") || node.contains("camera") || node.contains("extensions") ||
+         (node.contains("extras") && !node["extras"].is_object()) || retarget(json, number, std::nullopt) ||
+         pointed.contains(number);
+}
+
+/// The node that gets the levels: the node itself or, where it is more than a mesh, a new child that shows its mesh.
+std::size_t node_of_levels(LevelMerger& merger, std::size_t node, const PointedNodes& pointed) {
   GltfJson& json = merger.json();
-  if (!json["nodes"][node].contains("children") && !retarget(json, node, std::nullopt)) return node;
+  if (!is_more_than_a_mesh(json, node, pointed)) return node;
   GltfJson child = GltfJson::object();
   for (const char* const key : {"mesh", "skin", "weights"}) {
     if (!json["nodes"][node].contains(key)) continue;
@@ -214,6 +273,7 @@ std::size_t node_of_levels(LevelMerger& merger, std::size_t node) {
   const std::size_t added = merger.add_node(std::move(child));
   json["nodes"][node]["children"].push_back(added);
   retarget(json, node, added);
+  if (pointed.numbers.contains(node)) redirect_weights(json, node, added);
   return added;
 }
 
@@ -228,11 +288,12 @@ GltfContent merged(const std::vector<GltfLevel>& levels, const std::vector<NodeC
     if (is_new) at->second = merger.mesh(level, number, finest);
     return at->second;
   };
+  const PointedNodes pointed = pointed_nodes(merger.json());
   for (const NodeCoverage& covered : nodes) {
     const auto finest = number_in(levels.front().document.json["nodes"][covered.node], "mesh");
     if (!finest) continue;
     mesh_at(0, *finest, *finest);
-    const std::size_t node = node_of_levels(merger, covered.node);
+    const std::size_t node = node_of_levels(merger, covered.node, pointed);
     GltfJson ids = GltfJson::array();
     for (std::size_t level = 1; level < levels.size(); ++level) {
       GltfJson coarser = merger.json()["nodes"][node];
@@ -246,8 +307,7 @@ GltfContent merged(const std::vector<GltfLevel>& levels, const std::vector<NodeC
     }
     GltfJson& shown = merger.json()["nodes"][node];
     shown["extensions"]["MSFT_lod"] = {{"ids", std::move(ids)}};
-    if (!shown.contains("extras") || shown["extras"].is_object())
-      shown["extras"]["MSFT_screencoverage"] = covered.shares;
+    shown["extras"]["MSFT_screencoverage"] = covered.shares;
   }
   return merger.finish();
 }

@@ -30,7 +30,8 @@ struct GltfLevel {
 
 /// Merges the documents of all levels into one: that of the finest level, whose nodes refer to the coarser ones by the
 /// extension MSFT_lod, with the shares of `nodes` as MSFT_screencoverage. The documents must be levels of one model;
-/// textures and everything else is stored once. A node with children or an animation gets a child that shows its mesh.
+/// textures and everything else is stored once. A node with children, a
+/// camera, extensions or an animation gets a child that shows its mesh.
 [[nodiscard]] GltfContent with_levels(const std::vector<GltfLevel>& levels, const std::vector<NodeCoverage>& nodes,
                                       LevelVertices vertices);
 

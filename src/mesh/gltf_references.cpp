@@ -20,19 +20,53 @@ void visit_accessors(const GltfJson& primitive, const Visit& visit) {
   });
 }
 
+/// Calls visit(accessor) for each accessor of "attributes" of the node's extensions, as EXT_mesh_gpu_instancing has
+/// them.
+template <class Visit>
+void visit_accessors_of_instances(const GltfJson& node, const Visit& visit) {
+  if (!node.is_object() || !node.contains("extensions") || !node["extensions"].is_object()) return;
+  for (const GltfJson& extension : node["extensions"]) {
+    if (!extension.is_object() || !extension.contains("attributes") || !extension["attributes"].is_object()) continue;
+    for (const auto& item : extension["attributes"].items())
+      visit(number_in(extension["attributes"], item.key().c_str()));
+  }
+}
+
+/// Extensions of primitives and meshes that say something of the triangles or vertices by their numbers or order:
 /// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor
-constexpr std::array<const char*, 3> lists_of_vertices{"CESIUM_primitive_outline", "EXT_mesh_manifold",
-                                                       "EXT_mesh_primitive_edge_visibility"};
+constexpr std::array<const char*, 4> lists_of_vertices{"CESIUM_primitive_outline", "EXT_mesh_manifold",
+                                                       "EXT_mesh_primitive_edge_visibility", "FB_ngon_encoding"};
+
+/// Whether features are the vertices themselves, by their numbers (EXT_mesh_features).
+bool is_implicit(const GltfJson& feature_ids) {
+  return feature_ids.is_object() && !feature_ids.contains("attribute") && !feature_ids.contains("texture");
+}
 
 std::size_t count_in(const GltfJson& object) {
   if (!object.is_object() || !object.contains("extensions") || !object["extensions"].is_object()) return 0;
-  return static_cast<std::size_t>(std::count_if(lists_of_vertices.begin(), lists_of_vertices.end(),
-                                                [&](const char* name) { return object["extensions"].contains(name); }));
+  const GltfJson& extensions = object["extensions"];
+  const auto listed = std::count_if(lists_of_vertices.begin(), lists_of_vertices.end(),
+                                    [&](const char* name) { return extensions.contains(name); });
+  if (!extensions.contains("EXT_mesh_features")) return static_cast<std::size_t>(listed);
+  const GltfJson& features = items_of(extensions["EXT_mesh_features"], "featureIds");
+  return static_cast<std::size_t>(listed + std::count_if(features.begin(), features.end(), is_implicit));
+}
+
+void remove_implicit_features(GltfJson& extensions) {
+  if (!extensions.contains("EXT_mesh_features")) return;
+  GltfJson kept = GltfJson::array();
+  for (const GltfJson& feature_ids : items_of(extensions["EXT_mesh_features"], "featureIds"))
+    if (!is_implicit(feature_ids)) kept.push_back(feature_ids);
+  if (kept.empty())
+    extensions.erase("EXT_mesh_features");
+  else
+    extensions["EXT_mesh_features"]["featureIds"] = std::move(kept);
 }
 
 void remove_from(GltfJson& object) {
   if (count_in(object) == 0) return;
   for (const char* const name : lists_of_vertices) object["extensions"].erase(name);
+  remove_implicit_features(object["extensions"]);
   if (object["extensions"].empty()) object.erase("extensions");
 }
 
@@ -95,6 +129,7 @@ std::vector<std::size_t> accessors_used_only_by(const std::vector<const GltfJson
     for (const GltfJson& sampler : items_of(animation, "samplers"))
       keep(number_in(sampler, "input")), keep(number_in(sampler, "output"));
   for (const GltfJson& skin : items_of(document, "skins")) keep(number_in(skin, "inverseBindMatrices"));
+  for (const GltfJson& node : items_of(document, "nodes")) visit_accessors_of_instances(node, keep);
   return {found.begin(), found.end()};
 }
 

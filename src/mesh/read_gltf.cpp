@@ -100,7 +100,7 @@ class GltfReader {
     const GltfAccessor& positions = accessors_.at(accessor);
     if (positions.numbers.width != 3) where.fail("the positions are not of three numbers");
     const NodePlacement placement = document_->placed[placed].placement;
-    document_->parts.push_back({placed, number});
+    document_->parts.push_back({placed, number, no_index});
     if (attributes_)
       attributes_->begin_primitive(primitive, placement, static_cast<std::uint32_t>(document_->parts.size() - 1),
                                    object, positions.count);
@@ -110,6 +110,7 @@ class GltfReader {
     if (mode != GltfMode::triangles) ++decoded_strips_;
     const bool is_mirrored = placement.is_mirrored();
     for (Triangle t : triangles_of(corners_of(primitive, positions.count), mode)) {
+      if (document_->parts.back().first_vertex == no_index) document_->parts.back().first_vertex = t[0];
       if (is_mirrored) std::swap(t[1], t[2]);
       Triangle corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(where, accessor, positions, placed, t[k]);

@@ -5,8 +5,6 @@
 #include <Eigen/SVD>
 #include <map>
 
-#include "numeric/no_index.h"
-
 namespace meshbound {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meshbound/attributes.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 
@@ -39,6 +40,7 @@ struct PlacedMesh {
 struct GltfPart {
   std::uint32_t placed = 0;  ///< of `SceneLayout::placed`
   std::uint32_t primitive = 0;
+  std::uint32_t first_vertex = no_index;  ///< of the primitive, in its first triangle; `no_index`: it has no triangle
 };
 
 /// The placed meshes of a document and their parts.

@@ -22,6 +22,7 @@
 #include "mesh/no_value.h"
 #include "mesh/split_vertices.h"
 #include "mesh/writers.h"
+#include "numeric/no_index.h"
 
 namespace meshbound {
 namespace {
@@ -61,12 +62,14 @@ class DocumentEdit {
     buffer_.free_accessors(accessors_to_free());
     for (std::size_t i = 0; i < replaced_.size(); ++i) {
       const std::uint32_t part = replaced_[i];
-      if (!triangles_of_[part].empty())
-        write_primitive(buffer_, primitive(part), mesh_, attributes_, triangles_of_[part],
-                        from_.placed_of(part).placement, layouts[i]);
+      write_primitive(buffer_, primitive(part), mesh_, attributes_, triangles_of_[part],
+                      from_.placed_of(part).placement, layouts[i]);
       remove_lists_of_vertices(json_, from_.placed_of(part).mesh, primitive(part));
     }
-    remove_empty_primitives();
+    for (const std::uint32_t part : emptied_) {
+      leave_a_point(part);
+      remove_lists_of_vertices(json_, from_.placed_of(part).mesh, primitive(part));
+    }
     embed_images();
     std::string bytes = buffer_.finish();
     return {std::move(json_), std::move(bytes)};
@@ -77,11 +80,14 @@ class DocumentEdit {
     return json_["meshes"][from_.placed_of(part).mesh]["primitives"][from_.parts[part].primitive];
   }
 
-  /// Chooses the parts whose primitives are replaced: those of written copies.
+  /// Chooses the parts whose primitives are replaced or emptied: those of written copies that have triangles.
   void choose_parts() {
     const std::vector<std::uint32_t> written = from_.written_copies();
-    for (std::uint32_t part = 0; part < from_.parts.size(); ++part)
-      if (const std::uint32_t placed = from_.parts[part].placed; written[placed] == placed) replaced_.push_back(part);
+    for (std::uint32_t part = 0; part < from_.parts.size(); ++part) {
+      const std::uint32_t placed = from_.parts[part].placed;
+      if (written[placed] != placed || from_.parts[part].first_vertex == no_index) continue;
+      (triangles_of_[part].empty() ? emptied_ : replaced_).push_back(part);
+    }
   }
 
   /// Accessors to which only the replaced primitives refer.
@@ -91,31 +97,13 @@ class DocumentEdit {
     return accessors_used_only_by(replaced, json_);
   }
 
-  /// A primitive without triangles and a mesh without primitives are not valid: both are removed.
-  void remove_empty_primitives() {
-    std::vector<std::pair<std::size_t, std::size_t>> empty;  // mesh and primitive
-    for (const std::uint32_t part : replaced_)
-      if (triangles_of_[part].empty()) empty.emplace_back(from_.placed_of(part).mesh, from_.parts[part].primitive);
-    std::sort(empty.rbegin(), empty.rend());
-    for (const auto& [mesh, primitive] : empty) {
-      GltfJson& primitives = json_["meshes"][mesh]["primitives"];
-      primitives.erase(primitive);
-      if (primitives.empty()) remove_mesh(mesh);
-    }
-  }
-
-  void remove_mesh(std::size_t mesh) {
-    json_["meshes"].erase(mesh);
-    if (json_["meshes"].empty()) json_.erase("meshes");
-    for (GltfJson& node : json_["nodes"]) {
-      const auto shown = number_in(node, "mesh");
-      if (!shown || *shown < mesh) continue;
-      if (*shown > mesh) {
-        node["mesh"] = *shown - 1;
-      } else {
-        for (const char* const key : {"mesh", "skin", "weights"}) node.erase(key);
-      }
-    }
+  /// Makes a primitive of which nothing is left one triangle without extent, at a vertex that it had. Primitives
+  /// without triangles and meshes without primitives are not valid, and others keep their numbers, by which animations
+  /// and extensions refer to them.
+  void leave_a_point(std::uint32_t part) {
+    const std::uint32_t v = from_.parts[part].first_vertex;
+    primitive(part)["indices"] = buffer_.add_indices({{v, v, v}}, std::size_t{v} + 1);
+    primitive(part).erase("mode");
   }
 
   /// Embeds images from files of their own, unchanged, so that the written file is complete wherever it is moved.
@@ -160,7 +148,7 @@ class DocumentEdit {
   GltfJson json_;
   GltfBuffer buffer_;
   std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< by part
-  std::vector<std::uint32_t> replaced_;                   ///< parts
+  std::vector<std::uint32_t> replaced_, emptied_;         ///< parts
 };
 
 /// Attributes of other formats under names that glTF allows: "COLOR_0", or an underscore and capitals, each once.
