@@ -20,8 +20,8 @@ namespace meshbound {
 void visit_properties(const GltfJson& primitive,
                       const std::function<void(const std::string& name, const GltfJson& accessor)>& visit);
 
-/// The number of statements in extensions of meshes and their primitives that are about the vertices or triangles of the
-/// primitives by their numbers or order, as outlines, polygons and implicit features are: they say nothing of others.
+/// The number of statements in extensions of meshes and their primitives that are about vertices or triangles by their
+/// numbers or order, as outlines, polygons and implicit features are: they say nothing of others.
 [[nodiscard]] std::size_t count_lists_of_vertices(const GltfJson& document);
 
 /// Removes them from a mesh and one of its primitives. A name stays in "extensionsUsed", which is no error.
