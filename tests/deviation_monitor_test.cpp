@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 #include "datasets/analytic_meshes.h"
 #include "meshbound/cgal/simplify_with_bound.h"
@@ -25,6 +26,16 @@ namespace deviation_monitor_test {
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 using Place = std::array<double, 3>;
+
+/// Collapses edges in an order of its own.
+struct LastEdgeFirst {
+  template <class Profile, class OptionalPoint>
+  auto operator()(const Profile& profile, const OptionalPoint& placement) const {
+    auto cost = SMS::Edge_length_cost<SurfaceMesh>()(profile, placement);
+    if (cost) *cost = -static_cast<double>(static_cast<std::size_t>(profile.v0_v1()));
+    return cost;
+  }
+};
 
 std::set<Place> places(const TriangleMesh& mesh) {
   std::set<Place> all;
@@ -169,6 +180,43 @@ TEST(DeviationMonitor, RefusesAFilterWithoutItsVisitor) {
                                CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor())),
             0);
   EXPECT_THROW(without_visitor(), InvalidInput) << "the visitor of an earlier run does not count";
+  monitor.should_stop = [](std::size_t) -> bool { throw std::runtime_error("stopped by its user"); };
+  EXPECT_THROW(SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                                  CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor())),
+               std::runtime_error);
+  monitor.should_stop = nullptr;
+  const std::size_t faces = mesh.number_of_faces();
+  const auto other_order = [&] {
+    return SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                              CGAL::parameters::get_cost(LastEdgeFirst())
+                                  .get_placement(SMS::Midpoint_placement<SurfaceMesh>())
+                                  .filter(monitor.filter()));
+  };
+  monitor.grow_tolerance(0.5);
+  EXPECT_THROW(other_order(), InvalidInput) << "nor that of a run that ended by an exception";
+  EXPECT_EQ(mesh.number_of_faces(), faces);
+}
+
+/// The edge with which a run ended by an exception may be the first one of a run without the visitor: its collapse is
+/// proven, but none after it would be.
+TEST(DeviationMonitor, RefusesAMeshThatWasCollapsedWithoutIt) {
+  SurfaceMesh mesh = to_surface_mesh(datasets::icosphere(1, 2));
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.1);
+  CGAL::Euler::collapse_edge(*edges(mesh).begin(), mesh);
+  EXPECT_THROW(SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                                  CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor())),
+               InvalidInput);
+  EXPECT_EQ(mesh.number_of_faces(), 318u);
+}
+
+TEST(DeviationMonitor, TakesLocksOfVerticesThatNoFaceHas) {
+  SurfaceMesh mesh = to_surface_mesh(datasets::icosphere(1, 1));
+  mesh.add_vertex({2, 2, 2});
+  DeviationMonitor<SurfaceMesh> monitor(mesh, 0.1);
+  monitor.lock_vertices(CGAL::Constant_property_map<SurfaceMesh::Vertex_index, bool>(true));
+  EXPECT_EQ(SMS::edge_collapse(mesh, monitor.stop_predicate(),
+                               CGAL::parameters::filter(monitor.filter()).visitor(monitor.visitor())),
+            0);
 }
 
 TEST(DeviationMonitor, RefusesAVisitorWithoutItsFilter) {

@@ -18,9 +18,14 @@
 /// `Bounded_normal_change_filter` does with a filter; a visitor's wrapper passes every call on), and both are copyable
 /// handles on the monitor, which must outlive them. `monitor.placement(base)` wraps a placement so that others are
 /// tried where the one of `base` breaks the bound; it gives fewer faces. CGAL 5 and 6.
+///
+/// Kernels: those whose coordinates are doubles (`Simple_cartesian<double>`, inexact constructions). With exact
+/// constructions the proof is of `CGAL::to_double` of each point: the distance of the meshes themselves differs by no
+/// more than what that rounds at their vertices.
 #pragma once
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -76,7 +81,7 @@ class DeviationMonitor {
   template <class LockMap>
   void lock_vertices(const LockMap& is_locked) {
     for (const Vertex v : vertices(mesh_))
-      if (get(is_locked, v)) checker_.lock(get(numbers_, v));
+      if (get(is_locked, v) && halfedge(v, mesh_) != Graph::null_halfedge()) checker_.lock(get(numbers_, v));
   }
   /// A tolerance for each face, by a property map, beside the one for all: see `CollapseChecker::limit_triangles`.
   /// Before the first collapse.
@@ -106,6 +111,22 @@ class DeviationMonitor {
         throw InvalidInput("an edge has length zero, which CGAL collapses without asking; weld equal vertices first");
     }
   }
+  /// Throws unless the visitor has announced the edge, and has committed all collapses before: an `edge_collapse` that
+  /// ended by an exception leaves its last edge announced to one that lacks the visitor, but one edge only.
+  template <class Profile>
+  void require_visitor(const Profile& profile) const {
+    if (announced_ != profile.v0_v1())
+      throw InvalidInput("edge_collapse was given the filter of the deviation monitor only: pass its visitor too");
+    if (const auto left = faces_of_mesh(); left && *left != faces())
+      throw InvalidInput("the mesh was changed without the deviation monitor: it has " + std::to_string(*left) +
+                         " faces instead of " + std::to_string(faces()));
+  }
+  /// Without those that CGAL has removed but not yet freed; none for a mesh that cannot count them in O(1).
+  [[nodiscard]] std::optional<std::size_t> faces_of_mesh() const {
+    if constexpr (requires { mesh_.number_of_faces(); }) return mesh_.number_of_faces();
+    if constexpr (requires { mesh_.size_of_facets(); }) return mesh_.size_of_facets();
+    return std::nullopt;
+  }
   template <class Profile>
   [[nodiscard]] bool admits(const Profile& profile, const Point& point) {
     admitted_.reset();
@@ -119,15 +140,16 @@ class DeviationMonitor {
   CollapseChecker checker_;
   typename boost::property_map<Mesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::type numbers_;  ///< there
   std::optional<Halfedge> selected_;                    ///< popped from the queue, its placement not yet asked for
+  std::optional<Halfedge> announced_;                   ///< by the visitor: the edge for which the filter may be asked
   std::optional<std::pair<Halfedge, Point>> admitted_;  ///< by the filter
-  bool visited_ = false;                                ///< an `edge_collapse` runs that has the visitor
   bool collapsing_ = false;
   std::uint32_t kept_ = 0;  ///< the number of the vertex of this collapse
 };
 
 /// Takes a profile and an optional placement of CGAL (boost:: or std::optional), returns it, or none to refuse. Throws
-/// `InvalidInput` in an `edge_collapse` that was not given the visitor: without it, collapses that were admitted are
-/// never committed, and the next proof starts from a mesh that is no longer there.
+/// `InvalidInput` where the visitor has not announced the edge: in an `edge_collapse` without the visitor, collapses
+/// that were admitted are never committed, and the next proof would start from a mesh that is no longer there. Throws
+/// it, too, where the mesh has another number of faces than the monitor knows of.
 template <class Mesh, class VertexPointMap>
 class DeviationMonitor<Mesh, VertexPointMap>::Filter {
  public:
@@ -136,8 +158,7 @@ class DeviationMonitor<Mesh, VertexPointMap>::Filter {
   /// The placement if the collapse keeps the bound there, else none.
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const {
-    if (!monitor_->visited_)
-      throw InvalidInput("edge_collapse was given the filter of the deviation monitor only: pass its visitor too");
+    monitor_->require_visitor(profile);
     if (!placement || !monitor_->admits(profile, *placement)) return OptionalPoint();
     return placement;
   }
@@ -196,15 +217,15 @@ class DeviationMonitor<Mesh, VertexPointMap>::Visitor {
  public:
   explicit Visitor(DeviationMonitor& monitor) : monitor_(&monitor) {}  ///< a handle; `monitor` must outlive it
 
-  /// The filter may be asked from now on.
+  /// Forgets the last edge of a run that ended by an exception.
   template <class AnyMesh>
   void OnStarted(AnyMesh&) const {
-    monitor_->visited_ = true;
+    monitor_->announced_.reset();
   }
   /// The filter may not be asked any more.
   template <class AnyMesh>
   void OnFinished(AnyMesh&) const {
-    monitor_->visited_ = false;
+    monitor_->announced_.reset();
   }
   /// Nothing is to be done here.
   template <class Profile>
@@ -212,10 +233,10 @@ class DeviationMonitor<Mesh, VertexPointMap>::Visitor {
   /// Nothing is to be done here.
   template <class Profile, class OptionalCost>
   void OnCollected(const Profile&, const OptionalCost&) const {}
-  /// The edge whose placement is asked for next, for `Placement`.
+  /// The edge for which `Placement` and the filter are asked next.
   template <class Profile, class OptionalCost, class Size>
   void OnSelected(const Profile& profile, const OptionalCost&, Size, Size) const {
-    monitor_->selected_ = profile.v0_v1();
+    monitor_->selected_ = monitor_->announced_ = profile.v0_v1();
   }
   /// Nothing is to be done here.
   template <class Profile>
@@ -228,6 +249,7 @@ class DeviationMonitor<Mesh, VertexPointMap>::Visitor {
     if (!admitted || !placement || admitted->first != profile.v0_v1() || admitted->second != *placement)
       throw Error("a collapse that the deviation monitor has not admitted: pass its filter to edge_collapse too");
     admitted.reset();
+    monitor_->announced_.reset();
     monitor_->kept_ = monitor_->checker_.commit();
     monitor_->collapsing_ = true;
   }

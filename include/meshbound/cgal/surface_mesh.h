@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Between CGAL's face graphs and the core's triangle soups.
+/// Between CGAL's face graphs and the core's triangle soups. Points of any kernel go through `CGAL::to_double`, which
+/// is exact where coordinates are doubles (`Simple_cartesian<double>`, inexact constructions) and rounds those of exact
+/// constructions.
 #pragma once
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
