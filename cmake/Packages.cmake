@@ -47,7 +47,7 @@ if(MESHBOUND_HAS_DRACO)
   set(draco_package ", libdraco-dev")
 endif()
 meshbound_package(dev libmeshbound-dev libdevel
-  "This package holds headers and libraries for C++ and C, found by CMake and\npkg-config."
+  "This package holds the headers, the static libraries for C++, found by CMake,\nand what programs in C link to, found by CMake and pkg-config."
   "${c_library}libeigen3-dev, libgmp-dev${draco_package}")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libcgal-dev, libopenmpi-dev")
 if(TARGET meshbound_mpi)
