@@ -268,6 +268,8 @@ TEST(CollapseChecker, KeepsLockedVerticesWhereTheyAre) {
   EXPECT_FALSE(mesh.checker.admitted_placement(40, 49, square.vertices[40]).has_value());
   EXPECT_TRUE(mesh.collapse(41, 40, square.vertices[40]));
   EXPECT_TRUE(mesh.checker.is_locked(41)) << "the lock goes with the point";
+  EXPECT_THROW(mesh.checker.lock(40), InvalidInput) << "the collapse has removed it";
+  EXPECT_THROW((void)mesh.checker.is_locked(40), InvalidInput);
 }
 
 TEST(CollapseChecker, KeepsTolerancesOfTriangles) {

@@ -200,6 +200,8 @@ TEST(WithoutTrees, DecisionOfMeshesIsThatOfTheirTrees) {
   EXPECT_EQ(check_tolerance(mesh, far, 0.4).verdict, check_tolerance(Bvh(mesh), Bvh(far), 0.4).verdict);
   EXPECT_THROW((void)check_tolerance(mesh, near, -1), InvalidInput);
   EXPECT_THROW((void)distance_without_trees(TriangleMesh{}, TriangleMesh{}, 1), InvalidInput);
+  for (const double limit : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW((void)distance_without_trees(mesh, mesh, limit), InvalidInput);
   EXPECT_THROW((void)check_tolerance(mesh, TriangleMesh{}, 1), InvalidInput);
   TriangleMesh astray = mesh;
   astray.triangles[3][1] = 1000000000;

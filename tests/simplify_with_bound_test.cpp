@@ -368,6 +368,9 @@ TEST_P(SimplifyWithBound, RefusesOptionsAndInputThatMakeNoSense) {
   options.target_ratio = 1.5;
   EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput);
   EXPECT_THROW((void)simplify_with_bound(TriangleMesh(), within(0.1)), InvalidInput);
+  options = within(0.1);
+  options.texture_tolerance = 1;
+  EXPECT_THROW((void)simplify_with_bound(sphere, options), InvalidInput) << "without texture coordinates";
 }
 
 /// Below the rounding of coordinates nothing can be proven, not even that a face covers a triangle that was dropped.

@@ -407,6 +407,7 @@ TEST(SimplifyInTiles, RefusesWhatTilesCannotDo) {
   refuses([](SimplifyOptions& o) { o.target_faces = 4; });
   refuses([](SimplifyOptions& o) { o.on_exceed = OnExceed::Stop; });
   refuses([](SimplifyOptions& o) { o.prune = true; });
+  refuses([](SimplifyOptions& o) { o.texture_tolerance = 1; });
   refuses([](SimplifyOptions& o) { o.line_tolerance = 0.1; });
   refuses([&](SimplifyOptions& o) { o.face_tolerances.assign(cube.triangles.size(), 1); });
   refuses([&](SimplifyOptions& o) { o.texture_coordinates.resize(cube.triangles.size()); });
@@ -547,6 +548,12 @@ TEST(DistanceInTiles, RefusesLengthsThatAreNone) {
   options.error_bound.reset();
   options.tolerance = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW((void)hausdorff_distance_in_tiles(cube, cube, options), InvalidInput);
+}
+
+TEST(TileOptions, AreRefusedWhereATileHasNoTriangles) {
+  const TriangleMesh cube = datasets::cube(1, 1);
+  EXPECT_THROW((void)hausdorff_distance_in_tiles(cube, cube, {}, {0}), InvalidInput);
+  EXPECT_THROW((void)simplify_in_tiles(cube, share_of_diagonal(cube, 0.01), {0}), InvalidInput);
 }
 
 }  // namespace tiles_test

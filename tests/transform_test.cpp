@@ -116,6 +116,8 @@ TEST(Widened, ContainsEveryNumberThatNear) {
   EXPECT_EQ(widened({0.1, 0.3}, 0).upper, 0.3);
   const Bounds unknown = widened({}, 1);
   EXPECT_EQ(unknown.upper, std::numeric_limits<double>::infinity());
+  for (const double displacement : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW((void)widened({1, 2}, displacement), InvalidInput);
 }
 
 }  // namespace transform_test

@@ -26,7 +26,9 @@ struct CertificateOptions {
   int threads = 0;  ///< 0: as many as OpenMP has. The bytes are the same for every value.
   /// Steps of the search for the cuts of one triangle, after which that search ends without a proof.
   std::uint64_t steps_per_triangle = 1'000'000;
-  double seconds = std::numeric_limits<double>::infinity();  ///< time after which the search ends without a certificate
+  /// Time after which the search ends without a certificate; `InvalidInput` for a negative one and one that is no
+  /// number.
+  double seconds = std::numeric_limits<double>::infinity();
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread
   std::optional<CertifiedLines> lines = {};       ///< absent: the certificate does not speak of lines

@@ -48,7 +48,7 @@ class CollapseChecker {
   std::uint32_t commit();
 
   /// The vertex stays where it is: collapses of its edges go to its position.
-  /// Throws `InvalidInput` where there is no such vertex.
+  /// Throws `InvalidInput` for a vertex that no triangle has, or that a collapse has removed.
   void lock(std::uint32_t vertex);
   /// Whether it stays where it is; while a collapse is admitted, once that is made. Throws as `lock`.
   [[nodiscard]] bool is_locked(std::uint32_t vertex) const;

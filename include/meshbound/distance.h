@@ -19,7 +19,7 @@ namespace meshbound {
 
 /// Limits after which a computation ends with what it has proven so far.
 struct Budget {
-  /// From the call on; an infinite number is no limit.
+  /// From the call on; an infinite number is no limit. `InvalidInput` for a negative number and one that is none.
   double seconds = std::numeric_limits<double>::infinity();
   /// Cuts of pieces in one direction.
   std::uint64_t subdivisions = std::numeric_limits<std::uint64_t>::max();
@@ -135,8 +135,8 @@ struct ToleranceCheck {
 /// triangles correspond in order, with corners at most `limit` apart (a copy rounded to float, a mesh that has moved a
 /// little), whatever the numbers of vertices and the turns of triangles. Absent where neither holds, which mostly takes
 /// no longer than a look. The upper bound is at most `limit`, model units; statistics are of what was looked at. Throws
-/// as `Bvh`, except that it does not look at meshes of different numbers of triangles. O(n). Any number of threads may
-/// call it.
+/// `InvalidInput` for a limit that is negative or not a number, and as `Bvh`, except that it does not look at meshes of
+/// different numbers of triangles. O(n). Any number of threads may call it.
 [[nodiscard]] std::optional<HausdorffDistance> distance_without_trees(const MeshView& a, const MeshView& b,
                                                                       double limit);
 

@@ -54,9 +54,10 @@ class LodChain {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Makes the levels of the given tolerances, which must grow, and hands each to `sink` as soon as it is there. A level
-/// after the one for which the sink returns false is never computed. Returns how many levels the sink was given. Throws
-/// as `LodChain`, for tolerances before the first level is computed, and passes on what the sink throws.
+/// Makes the levels of the given tolerances, each larger than the one before, and hands each to `sink` as soon as it is
+/// there. A level after the one for which the sink returns false is never computed. Returns how many levels the sink
+/// was given. Throws as `LodChain`, for tolerances before the first level is computed, and passes on what the sink
+/// throws.
 std::size_t build_lod_chain(const MeshView& original, std::span<const double> tolerances, const LodOptions& options,
                             const LodSink& sink);
 

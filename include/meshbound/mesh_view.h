@@ -102,8 +102,8 @@ inline Eigen::Vector3d MeshView::vertex(std::size_t i) const {
   if (!single_precision_)
     return {detail::load<double>(at), detail::load<double>(at + sizeof(double)),
             detail::load<double>(at + 2 * sizeof(double))};
-  return {detail::load<float>(at), detail::load<float>(at + sizeof(float)),
-          detail::load<float>(at + 2 * sizeof(float))};
+  return {static_cast<double>(detail::load<float>(at)), static_cast<double>(detail::load<float>(at + sizeof(float))),
+          static_cast<double>(detail::load<float>(at + 2 * sizeof(float)))};
 }
 
 inline Triangle MeshView::triangle(std::size_t i) const {

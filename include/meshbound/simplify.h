@@ -109,7 +109,8 @@ struct SimplifyOptions {
   /// side one stays. Empty: one stays of all, unless texture coordinates or normals tell them apart.
   std::vector<std::uint32_t> looks;
   /// How far the texture may move on the surface (`texture_deviation`), model units: collapses that move samples of the
-  /// original further are refused. This is no proof, and the verdict of a level does not include it.
+  /// original further are refused. This is no proof, and the verdict of a level does not include it. Needs
+  /// `texture_coordinates` where it is finite.
   double texture_tolerance = std::numeric_limits<double>::infinity();
   /// How far faces may turn (`normal_deviation`), degrees: collapses after which samples of the original turn further
   /// are refused. This is no proof, and the verdict of a level does not include it. `Effort::High` is `Effort::Normal`
@@ -123,7 +124,8 @@ struct SimplifyOptions {
   Precision precision = Precision::Double;  ///< of the result's coordinates
   /// Make the certificate of each level that was measured to be within its tolerance.
   bool certificate = false;
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which decimation ends
+  /// Seconds after which decimation ends; `InvalidInput` for a negative number and one that is none.
+  double time_limit = std::numeric_limits<double>::infinity();
   int threads = 0;                                ///< 0: as many as OpenMP has. The result is the same for every value.
   const std::atomic<bool>* cancel = nullptr;      ///< set to true from another thread or a signal handler to stop early
   std::function<void(double fraction)> progress;  ///< called from the calling thread with an estimate of the share done

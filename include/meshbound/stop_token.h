@@ -38,13 +38,17 @@ struct StopToken {
     if (deadline == Clock::time_point::max()) return std::numeric_limits<double>::infinity();
     return std::max(0.0, std::chrono::duration<double>(deadline - Clock::now()).count());
   }
-  /// A token with this flag and the time that lies `seconds` after `from` as its deadline; infinite: none.
+  /// A token with this flag and the time that lies `seconds` after `from` as its deadline: `from` itself where they are
+  /// negative or not a number, none where they are infinite.
   [[nodiscard]] StopToken until(Clock::time_point from, double seconds) const {
     StopToken token = *this;
     constexpr double no_limit = 1e9;  // seconds; about 30 years, and no overflow
-    token.deadline = seconds < no_limit
-                         ? from + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))
-                         : Clock::time_point::max();
+    if (!(seconds > 0))
+      token.deadline = from;
+    else if (seconds < no_limit)
+      token.deadline = from + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    else
+      token.deadline = Clock::time_point::max();
     return token;
   }
 };

@@ -13,7 +13,8 @@ namespace meshbound {
 struct TileOptions {
   /// A tile has about so many triangles of the original, or twice as many once a first pass has simplified them. A tile
   /// under work takes up to 1.1 kB for each of this number (measured at 0.02% of the diagonal), a thread works on one
-  /// tile at a time. The result depends on this number and not on the threads.
+  /// tile at a time. The result depends on this number and not on the threads. `InvalidInput` for 0; simplification
+  /// takes fewer than 8 for 8.
   std::size_t max_triangles = std::size_t{1} << 18;
 };
 

@@ -23,7 +23,7 @@ struct TransformedMesh {
 [[nodiscard]] TransformedMesh transformed(const MeshView& mesh, const Eigen::Affine3d& map);
 
 /// The interval for a quantity that differs by at most `displacement` from one that lies in `bounds`: rounded outward,
-/// cut off at 0. `displacement` must not be negative.
+/// cut off at 0. Throws `InvalidInput` for a displacement that is negative or not a number.
 [[nodiscard]] Bounds widened(const Bounds& bounds, double displacement);
 
 }  // namespace meshbound

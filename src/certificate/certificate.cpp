@@ -11,6 +11,7 @@
 #include "mesh/mesh_arrays.h"
 #include "meshbound/bvh.h"
 #include "meshbound/error.h"
+#include "numeric/checked_seconds.h"
 #include "numeric/rounding.h"
 
 namespace meshbound {
@@ -128,7 +129,8 @@ std::optional<EncodedLines> prove_lines(const MeshView& original, const MeshView
 std::optional<Certificate> build_certificate(const MeshView& original, const MeshView& simplified, double tolerance,
                                              const CertificateOptions& options) {
   tolerance = checked_tolerance(tolerance);
-  const StopToken stop = StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds);
+  const StopToken stop =
+      StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), checked_seconds(options.seconds));
   const auto surface = prove(original, simplified, tolerance, options, stop, "triangle");
   if (!surface) return std::nullopt;
   std::optional<EncodedLines> lines;

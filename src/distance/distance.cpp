@@ -13,6 +13,7 @@
 #include "distance/unfinished.h"
 #include "meshbound/error.h"
 #include "meshbound/mesh_summary.h"
+#include "numeric/checked_seconds.h"
 
 namespace meshbound {
 namespace {
@@ -37,11 +38,14 @@ Eigen::AlignedBox3d placed_box(const PlacedModel& model) {
   return box;
 }
 
+/// Of a measurement; its limit of time is checked with it.
 double tolerance_of(const DistanceOptions& options) {
+  (void)checked_seconds(options.budget.seconds);
   return checked(options.tolerance.value_or(std::numeric_limits<double>::infinity()), "the tolerance");
 }
 
 OneSidedTask decision(const PlacedModel& a, const PlacedModel& b, double tolerance, const DistanceOptions& options) {
+  (void)checked_seconds(options.budget.seconds);
   OneSidedTask task{.a = a, .b = b, .options = options};
   task.tolerance = checked(tolerance, "the tolerance");
   task.decide_only = true;
@@ -167,6 +171,7 @@ ToleranceCheck check_tolerance(const PlacedModel& a, const PlacedModel& b, doubl
 
 ToleranceCheck check_tolerance(const MeshView& a, const MeshView& b, double tolerance, const DistanceOptions& options) {
   checked(tolerance, "the tolerance");
+  (void)checked_seconds(options.budget.seconds);
   if (options.method == Method::CellWalking) {
     if (const auto distance = distance_without_trees(a, b, tolerance))
       return {Verdict::Within, tolerance, distance->bounds, distance->a_to_b, distance->b_to_a};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "meshbound/distance.h"
+#include "numeric/checked_seconds.h"
 
 namespace meshbound {
 
@@ -17,7 +18,7 @@ namespace meshbound {
 
 /// When building trees for a measurement that begins at `start` ends.
 [[nodiscard]] inline StopToken stop_of_trees(const DistanceOptions& options, StopToken::Clock::time_point start) {
-  return StopToken{.cancel = options.cancel}.until(start, options.budget.seconds);
+  return StopToken{.cancel = options.cancel}.until(start, checked_seconds(options.budget.seconds));
 }
 
 /// The options for what follows the trees: with the time that is left.

@@ -86,7 +86,7 @@ std::size_t build_lod_chain(const MeshView& original, std::span<const double> to
   double before = -1;
   for (const double tolerance : tolerances) {
     if (!std::isfinite(tolerance) || !(tolerance >= 0) || !(tolerance > before))
-      throw InvalidInput("the tolerances of a chain must be lengths, 0 or more, and grow from level to level");
+      throw InvalidInput("the tolerances of a chain must be lengths, 0 or more, each larger than the one before");
     before = tolerance;
   }
   if (tolerances.empty()) return 0;

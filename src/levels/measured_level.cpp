@@ -8,6 +8,7 @@
 #include "meshbound/error.h"
 #include "meshbound/face_tolerances.h"
 #include "meshbound/mesh_view.h"
+#include "numeric/checked_seconds.h"
 
 namespace meshbound {
 void check_options(const SimplifyOptions& options) {
@@ -22,13 +23,15 @@ void check_options(const SimplifyOptions& options) {
     throw InvalidInput("the line tolerance must be a length in model units, 0 or more");
   if (!(options.texture_tolerance >= 0))
     throw InvalidInput("the texture tolerance must be a length in model units, 0 or more");
+  if (std::isfinite(options.texture_tolerance) && options.texture_coordinates.empty())
+    throw InvalidInput("a texture tolerance needs texture coordinates of the triangles");
   if (options.normal_tolerance && !(*options.normal_tolerance >= 0 && *options.normal_tolerance <= 180))
     throw InvalidInput("the normal tolerance must lie between 0 and 180 degrees");
   if (options.target_ratio && !(*options.target_ratio >= 0 && *options.target_ratio <= 1))
     throw InvalidInput("the target ratio must lie between 0 and 1");
   if (options.feature_angle && !(*options.feature_angle >= 0 && *options.feature_angle <= std::numbers::pi))
     throw InvalidInput("the feature angle must lie between 0 and pi radians, which are 180 degrees");
-  if (!(options.time_limit >= 0)) throw InvalidInput("the time limit must be 0 seconds or more");
+  (void)checked_seconds(options.time_limit);
 }
 
 namespace {

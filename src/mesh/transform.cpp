@@ -95,6 +95,7 @@ TransformedMesh transformed(const MeshView& mesh, const Eigen::Affine3d& map) {
 }
 
 Bounds widened(const Bounds& bounds, double displacement) {
+  if (!(displacement >= 0)) throw InvalidInput("a displacement must be a length of 0 or more");
   if (displacement == 0) return bounds;
   return {std::max(0.0, std::nextafter(bounds.lower - displacement, -infinity)),
           std::nextafter(bounds.upper + displacement, infinity)};

@@ -13,6 +13,7 @@
 #include "meshbound/error.h"
 #include "meshbound/stop_token.h"
 #include "meshbound/transform.h"
+#include "numeric/checked_seconds.h"
 #include "numeric/rounding.h"
 #include "penetration/contact.h"
 #include "penetration/parity.h"
@@ -241,7 +242,7 @@ PenetrationDepth penetration_depth(const PlacedClosedModel& a, const PlacedClose
   const double error_bound = options.error_bound ? checked(*options.error_bound, "the error bound")
                                                  : default_error_share * a.model->bounding_box_diagonal();
   if (options.decide) checked(*options.decide, "the depth to decide");
-  const StopToken stop = StopToken{.cancel = options.cancel}.until(start, options.budget.seconds);
+  const StopToken stop = StopToken{.cancel = options.cancel}.until(start, checked_seconds(options.budget.seconds));
   Scratch& memory = scratch();
   memory.pair.place(a.model->data(), a.pose, b.model->data(), b.pose);
   PenetrationDepth result;

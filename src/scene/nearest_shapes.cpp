@@ -8,6 +8,7 @@
 #include "distance/search/one_sided.h"
 #include "meshbound/error.h"
 #include "meshbound/stop_token.h"
+#include "numeric/checked_seconds.h"
 #include "scene/shape.h"
 
 namespace meshbound {
@@ -43,7 +44,7 @@ class ShapeSearch {
         candidates_(candidates),
         options_(options),
         stop_(StopToken{.cancel = options.distance.cancel}.until(StopToken::Clock::now(),
-                                                                 options.distance.budget.seconds)) {}
+                                                                 checked_seconds(options.distance.budget.seconds))) {}
 
   SimilarShapes run() {
     for (std::uint32_t i = 0; i < candidates_.size(); ++i)

@@ -11,6 +11,7 @@
 #include "meshbound/error.h"
 #include "meshbound/motion.h"
 #include "meshbound/stop_token.h"
+#include "numeric/checked_seconds.h"
 #include "numeric/numbers_below.h"
 #include "numeric/tasks.h"
 #include "numeric/thread_count.h"
@@ -200,6 +201,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Scene::pairs_near(double ma
 
 SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& options) {
   if (!(tolerance >= 0)) throw InvalidInput("the tolerance must be a length of 0 or more");
+  (void)checked_seconds(options.budget.seconds);
   impl_->update();
   const double rounding = rounding_of(impl_->bodies);
   const std::vector<BodyPair> pairs = sweep_and_prune(
@@ -235,6 +237,7 @@ SceneCheck Scene::check_tolerance(double tolerance, const DistanceOptions& optio
 
 SceneContacts Scene::contacts(const PenetrationOptions& options) {
   if (!(options.error_bound.value_or(0) >= 0)) throw InvalidInput("the error bound must be a length of 0 or more");
+  (void)checked_seconds(options.budget.seconds);
   const std::vector<Body>& bodies = impl_->bodies;
   std::vector<BodyPair> pairs = pairs_near();
   SceneContacts result;

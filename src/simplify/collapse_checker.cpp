@@ -71,8 +71,8 @@ class CollapseChecker::Impl {
   void take_back();
 
   [[nodiscard]] std::uint32_t checked(std::uint32_t vertex) const {
-    if (vertex < state_.locked.size()) return vertex;
-    throw InvalidInput("there is no vertex " + std::to_string(vertex) + " in the mesh");
+    if (vertex < state_.mesh.vertex_count() && state_.mesh.is_vertex(vertex)) return vertex;
+    throw InvalidInput("there is no vertex " + std::to_string(vertex) + " in the mesh any more, or there never was");
   }
   DecimationState& state() { return state_; }
   [[nodiscard]] const DecimationState& state() const { return state_; }
@@ -119,9 +119,7 @@ class CollapseChecker::Impl {
 /// From u to v, but at a border where only the other way has a face.
 Corner CollapseChecker::Impl::corner_between(std::uint32_t u, std::uint32_t v) const {
   const ArrayMesh& mesh = state_.mesh;
-  for (const std::uint32_t end : {u, v})
-    if (end >= mesh.vertex_count() || !mesh.is_vertex(end))
-      throw InvalidInput("there is no vertex " + std::to_string(end) + " in the mesh any more, or there never was");
+  for (const std::uint32_t end : {u, v}) (void)checked(end);
   Corner found = no_index;
   mesh.for_each_corner(u, [&](Corner c) {
     if (mesh.end(c) == v) found = c;

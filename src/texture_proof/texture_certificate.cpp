@@ -10,6 +10,7 @@
 #include "certificate/bytes.h"
 #include "certificate/checksum.h"
 #include "meshbound/error.h"
+#include "numeric/checked_seconds.h"
 #include "numeric/tasks.h"
 #include "numeric/thread_count.h"
 #include "texture/charts.h"
@@ -117,7 +118,8 @@ std::optional<TextureCertificate> with_texture_proof(const Certificate& certific
                                                      const std::array<TexturedMesh, 2>& meshes, double tolerance,
                                                      const CertificateOptions& options) {
   check(meshes, tolerance);
-  const StopToken stop = StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds);
+  const StopToken stop =
+      StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), checked_seconds(options.seconds));
   const Charts original(meshes[0]), simplified(meshes[1]);
   const ExactUnits units = common_units(original, simplified);
   try {

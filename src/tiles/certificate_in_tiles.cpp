@@ -18,6 +18,8 @@
 #include "certificate/direction_proof.h"
 #include "certificate/encoder.h"
 #include "meshbound/error.h"
+#include "numeric/checked_seconds.h"
+#include "tiles/checked_tiles.h"
 #include "tiles/clusters.h"
 #include "tiles/compact_bytes.h"
 
@@ -233,11 +235,14 @@ std::optional<Certificate> certify_in_tiles(const StoredMesh& original, const St
                                             const CertificateOptions& options, const TileOptions& tiles,
                                             JobRunner& runner) {
   tolerance = checked_tolerance(tolerance);
-  TiledProof::How how{options, StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.seconds), {}};
+  TiledProof::How how{
+      options,
+      StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), checked_seconds(options.seconds)),
+      {}};
   how.options.threads = 1;
   std::optional<Clusters> clusters_of_original, clusters_of_simplified;
   runner.do_together([&] {
-    clusters_of_original.emplace(original, tiles.max_triangles);
+    clusters_of_original.emplace(original, checked(tiles).max_triangles);
     clusters_of_simplified.emplace(simplified, tiles.max_triangles);
   });
   const auto prove = [&](const Clusters& source, const char* source_name, const Clusters& target,

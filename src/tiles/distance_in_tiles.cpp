@@ -21,6 +21,8 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
+#include "numeric/checked_seconds.h"
+#include "tiles/checked_tiles.h"
 #include "tiles/clusters.h"
 #include "tiles/measure_in_tiles.h"
 #include "tiles/tile_bytes.h"
@@ -176,7 +178,8 @@ class TiledMeasurement {
  public:
   TiledMeasurement(const StoredMesh& a, const StoredMesh& b, const DistanceOptions& options, const TileOptions& tiles,
                    JobRunner& runner)
-      : options_(options), tiles_(tiles), runner_(runner) {
+      : options_(options), tiles_(checked(tiles)), runner_(runner) {
+    (void)checked_seconds(options.budget.seconds);
     const auto is_length = [](double length) { return length >= 0; };
     if (!is_length(options.error_bound.value_or(0)))
       throw InvalidInput("the error bound must be a length of 0 or more");

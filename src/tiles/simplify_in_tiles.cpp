@@ -10,6 +10,7 @@
 #include "meshbound/mesh_view.h"
 #include "meshbound/tiles.h"
 #include "simplify/ended_by.h"
+#include "tiles/checked_tiles.h"
 #include "tiles/decimate_in_tiles.h"
 #include "tiles/measure_in_tiles.h"
 #include "tiles/tiled_mesh.h"
@@ -61,7 +62,7 @@ class TiledRun {
  public:
   TiledRun(const StoredMesh& original, const SimplifyOptions& options, const TileOptions& tiles, JobRunner& runner)
       : options_(options),
-        tiles_(tiles),
+        tiles_(checked(tiles)),
         runner_(runner),
         stop_(StopToken{.cancel = options.cancel}.until(StopToken::Clock::now(), options.time_limit)),
         mesh_(original, options.locked_vertices) {

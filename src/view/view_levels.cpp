@@ -11,6 +11,7 @@
 #include "meshbound/mesh_summary.h"
 #include "meshbound/mesh_view.h"
 #include "meshbound/stop_token.h"
+#include "numeric/checked_seconds.h"
 
 namespace meshbound {
 namespace {
@@ -144,7 +145,7 @@ std::vector<double> errors_of_groups(const ViewChoice& choice, std::span<const V
 ViewLevels view_levels(std::span<const TriangleMesh> models, std::span<const ViewInstance> instances,
                        std::span<const ViewCamera> cameras, const ViewOptions& options, const ViewSink& sink) {
   check(options);
-  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), options.lod.time_limit);
+  const StopToken stop = StopToken{}.until(StopToken::Clock::now(), checked_seconds(options.lod.time_limit));
   const Needs needs(models, instances, cameras, options.pixels);
   ViewLevels result;
   for (std::size_t model = 0; model < models.size(); ++model) {

@@ -104,8 +104,11 @@ SimplifyOptions options_for(Source& source, const TriangleMesh& mesh, const Mesh
   if (rest / 16 % 4 == 3)
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) options.locked_vertices.push_back(source.below(4) == 0);
   if (rest / 64 == 3) options.target_faces = source.below(8);
-  if (rest / 64 == 1) add_texture(options, attributes);
-  if (rest / 64 == 1) options.texture_tolerance = length();
+  if (rest / 64 == 1) {
+    add_texture(options, attributes);
+    const double tolerance = length();
+    if (!options.texture_coordinates.empty()) options.texture_tolerance = tolerance;
+  }
   const unsigned normals = source.take<std::uint8_t>();
   if (normals % 4 == 3) options.normal_tolerance = 180.0 * (normals / 4) / 63;
   return options;

@@ -107,6 +107,7 @@ bool same_surface(const MeshView& a, const MeshView& b) {
 }
 
 std::optional<HausdorffDistance> distance_without_trees(const MeshView& a, const MeshView& b, double limit) {
+  if (!(limit >= 0)) throw InvalidInput("the limit of a distance must be a length of 0 or more");
   check_floating_point_model();
   if (a.triangle_count() != b.triangle_count()) return std::nullopt;  // without a look, which would take long
   validate(a);
